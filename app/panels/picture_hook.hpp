@@ -24,9 +24,12 @@ struct StudyPlace {
 
 /// A picture that the window has just shown; valid during the call.
 struct PictureShown {
-    const ViewerState& state;
+    const Settings& settings;
+    const TouchState& touch;
+    const MediaState& media;
     const DepthBlend& surface;
-    const StudyPlace* study{nullptr};  ///< null: it is the viewer
+    const UiState* ui{nullptr};        ///< the viewer's; null: it is a study's window
+    const StudyPlace* study{nullptr};  ///< null: it is the viewer's
 };
 
 /// Called on the window's thread after each picture. The tests' build of the program follows the

@@ -5,6 +5,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/report/report_words.hpp"
 
 namespace dibhr {

@@ -7,6 +7,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 

@@ -16,7 +16,6 @@
 #include "app/settings/keys.hpp"
 #include "app/settings/material.hpp"
 #include "app/settings/settings.hpp"
-#include "app/touching/media_state.hpp"
 #include "app/touching/touch_state.hpp"
 #include "app/window/gui.hpp"
 #include "core/estimate/estimate_watch.hpp"

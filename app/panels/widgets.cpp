@@ -476,12 +476,6 @@ std::string date_text(const std::string& utc) {
     return utc.substr(0, kDate) + " " + utc.substr(kDate + 1, kMinutes - kDate - 1) + " UTC";
 }
 
-std::string clock_text(double seconds) {
-    const long milliseconds = std::lround(std::max(0.0, seconds) * 1000.0);
-    return formatted("%02ld:%02ld.%03ld", milliseconds / 60000, milliseconds / 1000 % 60,
-                     milliseconds % 1000);
-}
-
 void draw_parameters(TouchTopic topic, TouchParameters& parameters, TouchParameters usual) {
     visit_touch_entries([&](const auto& entry) {
         if (entry.topic == topic) draw_entry(entry, parameters, usual);

@@ -192,7 +192,4 @@ std::string capitalised(std::string line);
 /// "2026-05-31T12:00:00Z" as "2026-05-31 12:00 UTC"; another text as it is.
 std::string date_text(const std::string& utc);
 
-/// "01:23.456"
-std::string clock_text(double seconds);
-
 }  // namespace dibhr

@@ -35,15 +35,13 @@ std::optional<ButtonAction> button_action_named(std::string_view name) noexcept 
     return value_named(kButtonJobs, name);
 }
 
-std::vector<Action> TakenPresses::take(const ButtonPresses& presses, const ButtonActions& actions) {
-    std::vector<Action> asked;
+void TakenPresses::take(const ButtonPresses& presses, const ButtonPressTimes& at,
+                        const ButtonActions& actions, std::vector<GripPress>& into) {
     for (std::size_t k = 0; k < taken_.size(); ++k) {
-        const ButtonJob& job = entry_of(kButtonJobs, actions[k]);
-        for (; taken_[k] < presses[k]; ++taken_[k]) {
-            if (job.perform) asked.push_back(*job.perform);
-        }
+        const std::uint32_t times = presses[k] - taken_[k];
+        if (times > 0) into.push_back({static_cast<int>(k), actions[k], times, at[k]});
     }
-    return asked;
+    taken_ = presses;
 }
 
 }  // namespace dibhr

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "app/touching/force_law.hpp"
+#include "app/touching/picture_time.hpp"
+#include "app/touching/scene.hpp"
 #include "app/viewer/picture_time.hpp"
 #include "app/viewer/scene.hpp"
+#include "app/window/display_loss.hpp"
 #include "app/window/x_server.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
@@ -139,7 +142,7 @@ bool StudyWindow::felt() const noexcept {
 void StudyWindow::show_one_picture() {
     const WindowInput input = window_.take_input();
     beat();
-    surface_.take_news(window_.in_front());
+    surface_.poll(window_.in_front());
     if (!entered_ && !view_.before_start) enter_step();
     begin_if_there();
     take(input);
@@ -147,7 +150,7 @@ void StudyWindow::show_one_picture() {
     if (over()) return;
     enter_page();
     draw(input);
-    surface_.hand_over();
+    surface_.publish();
     if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
@@ -175,7 +178,11 @@ void StudyWindow::report_picture() const {
                            .leaving = view_.asks_to_leave,
                            .agrees = !view_.to_agree.empty(),
                            .seen_since = seen_since_};
-    after_picture_({surface_.state(), surface_.shown(), &place});
+    after_picture_({.settings = surface_.settings(),
+                    .touch = surface_.touch(),
+                    .media = surface_.media(),
+                    .surface = surface_.shown(),
+                    .study = &place});
 }
 
 /// What is felt next is entered with the next picture: the loop has then seen the end of this one.
@@ -259,9 +266,9 @@ void StudyWindow::begin_if_there() {
     view_.waits = false;
     since_ = Clock::now();
     if (!turned_since_) turned_since_ = *since_;
-    const MediaDescription& media = surface_.state().media;
+    const MediaDescription& media = surface_.media();
     camera_.frame_relief(media.depth_columns, media.depth_rows,
-                         surface_.state().settings.touch.shape.relief_px);
+                         surface_.settings().touch.shape.relief_px);
     surface_.begin_interval(run_.interval() + 1);
 }
 
@@ -448,7 +455,7 @@ void StudyWindow::draw(const WindowInput& input) {
     if (felt() && !view_.waits) point(camera_.ray_under(pointer.position_px, size), use);
     draw_relief();
     beat();
-    view_.device_words = device_banner(surface_.state().settings, surface_.state().touch);
+    view_.device_words = device_banner(surface_.settings(), surface_.touch());
     view_.by_mouse = surface_.by_mouse();
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);
@@ -459,17 +466,15 @@ void StudyWindow::draw(const WindowInput& input) {
     if (press) take_click(*press);
 }
 
-void StudyWindow::point(const Camera::Ray& ray, const PointerUse& use) {
-    PointerUse touching = use;
-    if (!surface_.by_mouse()) touching.pressed = false;
-    surface_.point(ray, touching);
-    if (surface_.shown().makes_surface())
-        mouse_at_ = pointer_.target(ray, seen_surface(), touching);
+void StudyWindow::point(const Camera::Ray& ray, PointerUse use) {
+    surface_.point(ray, use);
+    use.pressed = use.pressed && surface_.by_mouse();
+    if (surface_.shown().makes_surface()) mouse_at_ = pointer_.target(ray, seen_surface(), use);
 }
 
 /// What is drawn, without what is only felt.
 DepthSurface StudyWindow::seen_surface() const {
-    SurfaceShape shape = surface_.state().shape();
+    SurfaceShape shape = surface_.touch().shape(surface_.settings().touch);
     shape.roughness_px = 0.0;
     return surface_.shown().drawn_surface(shape);
 }
@@ -488,7 +493,8 @@ void StudyWindow::show_hand_only(TouchMarkers& markers) const {
 void StudyWindow::draw_relief() {
     const StudyView view = run_.block().view;
     const bool seen = felt() && !view_.waits && view != StudyView::blank;
-    SceneContent content = scene_content(surface_.state(), surface_.shown());
+    SceneContent content =
+        scene_content(surface_.settings(), surface_.touch(), surface_.shown());
     if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
     hide_condition(content);
     if (content.markers.visible && view == StudyView::relief) show_hand_only(content.markers);

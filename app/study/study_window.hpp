@@ -14,6 +14,7 @@
 #include "app/settings/settings.hpp"
 #include "app/study/study_pages.hpp"
 #include "app/study/study_surface.hpp"
+#include "app/touching/pointer.hpp"
 #include "app/window/ending.hpp"
 #include "app/window/gui.hpp"
 #include "app/window/window.hpp"
@@ -73,7 +74,7 @@ class StudyWindow {
     void answer(const StudyAnswer& answer, Clock::time_point at);
     void draw(const WindowInput& input);
     void draw_relief();
-    void point(const Camera::Ray& ray, const PointerUse& use);
+    void point(const Camera::Ray& ray, PointerUse use);
     void show_hand_only(TouchMarkers& markers) const;
     void load_picture(const StudyPage& page);
     void beat();

@@ -1,5 +1,5 @@
-// What touches and what came of it: plain data, which a TouchSession fills, and panels show and
-// edit.
+// What touches, what is touched, and what came of it: plain data of a window, which a TouchSession
+// fills, and panels show and edit.
 #pragma once
 
 #include <array>
@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "app/settings/material.hpp"
+#include "app/settings/recent_files.hpp"
+#include "app/settings/settings.hpp"
 #include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
 #include "core/haptics/parameters.hpp"
@@ -25,6 +27,8 @@
 #include "core/replay/session_player.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/tick_record.hpp"
+#include "core/video/media.hpp"
+#include "core/video/player.hpp"
 #include "device/falcon/status.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/inverse3/kept_settings.hpp"
@@ -109,7 +113,6 @@ struct Inverse3News {
     bool was_ready{false};  ///< in this run: when it is not now, it was lost
 };
 
-/// The window thread's.
 struct TouchState {
     // What a person chooses.
     bool force_enabled{true};
@@ -142,6 +145,35 @@ struct TouchState {
     [[nodiscard]] const SurfaceShape& shape(const TouchParameters& chosen) const noexcept {
         return haptic.touchable ? haptic.shape : chosen.shape;
     }
+};
+
+/// Files a person wants to see; an empty depth is found beside the colour file.
+struct OpenRequest {
+    std::filesystem::path colour{};
+    std::filesystem::path depth{};
+    bool in_any_order{false};  ///< dropped together: which is which is found out
+    DepthRequest request{usual_depth_request()};
+    bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
+    double at_s{0.0};    ///< where to go on [s]
+    bool paused{false};  ///< and to stand still there
+    bool again{false};   ///< what is live has changed: it is tried until it comes
+};
+
+struct MediaState : MediaDescription {
+    PlaybackStatus playback{};
+    OpenRequest opened{};  ///< how it was opened
+    std::vector<RecentFile> recent{};
+    bool opening{false};
+    bool as_recorded{false};  ///< the depth, while its key is held
+
+    void describe(const MediaDescription& now) { static_cast<MediaDescription&>(*this) = now; }
+};
+
+/// What a TouchSession works on; it is the window's, and outlives the session.
+struct TouchedState {
+    const Settings& settings;
+    TouchState& touch;
+    MediaState& media;
 };
 
 }  // namespace dibhr

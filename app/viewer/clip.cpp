@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "app/panels/widgets.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 

@@ -11,7 +11,7 @@
 #include "app/panels/widgets.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/recent_files.hpp"
-#include "app/viewer/scene.hpp"
+#include "app/touching/scene.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
@@ -132,10 +132,10 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     // Ticks would touch what no file holds. Where nothing is recorded yet, what comes now is.
     const bool live = media->description().live;
     const std::filesystem::path waits =
-        live && request.again ? recording_.waits_with() : std::filesystem::path{};
-    if (live && recording_.asked_for()) {
+        live && request.again ? touch_.recording().waits_with() : std::filesystem::path{};
+    if (live && touch_.recording().asked_for()) {
         const std::string ended =
-            recording_.stop(state_, request.again ? "what is live changed its form" : "");
+            touch_.recording().stop(request.again ? "what is live changed its form" : "");
         if (waits.empty()) tell(ended);  // one that waits goes on to wait
     }
     if (!request.chosen) keep_memory();
@@ -143,8 +143,9 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (!request.chosen) forget_relief();
     const MediaDescription before = state_.media;
     state_.media.describe(media->description());
+    const MediaDescription& now = state_.media;
     state_.media.opened = request;
-    state_.media.opened.request.panel = state_.media.panel;
+    state_.media.opened.request.panel = now.panel;
     state_.media.opened.request.live = media->live();
     state_.media.opened.again = false;
     show_depth_words(state_);
@@ -152,30 +153,30 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (request.chosen) keep_panel(depth_file(before));
     fit_to_media();
     // A person who says else looks on from where they are.
-    const bool same_size = state_.media.depth_columns == before.depth_columns &&
-                           state_.media.depth_rows == before.depth_rows;
+    const bool same_size =
+        now.depth_columns == before.depth_columns && now.depth_rows == before.depth_rows;
     if (!request.chosen || !same_size) frame_relief();
-    show_title(state_.media.colour_path.empty() ? state_.media.depth_path
-                                                : state_.media.colour_path);
+    show_title(now.colour_path.empty() ? now.depth_path : now.colour_path);
     // As it was named, or, dropped, as it was told apart.
     keep_recent(request.in_any_order && !request.depth.empty()
-                    ? RecentFile{state_.media.colour_path, state_.media.depth_path}
+                    ? RecentFile{now.colour_path, now.depth_path}
                     : RecentFile{request.colour, request.depth});
     if (!options_.touch.feels_maps())
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
         state_.ui.message = maps.refusal + "\n\nIt is touched without touch maps.";
-    if (state_.media.live)
+    if (now.live)
         maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
-    media_number_ = recording_.opened(state_.media);
-    player_.play_media(
-        std::move(media), media_number_,
-        painting_.begin(std::move(maps), state_.media, remembered_file(state_.media).empty()));
-    if (!waits.empty()) attempt([&] { recording_.start_live(waits, state_); });
-    if (request.at_s > 0.0) player_.seek(request.at_s);
-    if (request.paused) player_.pause();
+    touch_.play(std::move(media),
+                painting_.begin(std::move(maps), now, remembered_file(now).empty()));
+    if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
+    if (request.at_s > 0.0) touch_.player().seek(request.at_s);
+    if (request.paused) touch_.player().pause();
     if (!request.chosen) take_memory(memory, request);
-    if (!loop_) start_loop();
+    if (touch_.runs()) return;
+    fit_to_media();
+    heart_.beat();
+    touch_.start();
 }
 
 /// Of the file that is shown, when another one comes or the program ends. What cannot be kept is
@@ -194,8 +195,9 @@ void Viewer::keep_memory() try {
     whole.reset();
     if (!(camera_.view() == whole.view())) memory.view = text_of(camera_.view());
     constexpr double kNearEnd_s = 2.0;  // what was seen to its end begins anew
-    const double at_s = player_.status().media_s;
-    const bool goes_on = at_s > 0.0 && at_s < player_.status().duration_s - kNearEnd_s;
+    const PlaybackStatus playback = touch_.player().status();
+    const double at_s = playback.media_s;
+    const bool goes_on = at_s > 0.0 && at_s < playback.duration_s - kNearEnd_s;
     if (goes_on) memory.at_s = at_s;
     lasting_.add([folder = file_memories_path(), file = remembered_, memory] {
         try {
@@ -219,7 +221,7 @@ void Viewer::take_memory(const FileMemory& memory, const OpenRequest& request) {
     relief_shown_ = {settings.fit_relief, settings.touch.shape.relief_px};
     if (const auto view = view_in(memory.view)) camera_.set_view(*view);
     if (settings.resume && memory.at_s > 0.0 && !(request.at_s > 0.0)) {
-        player_.seek(memory.at_s);
+        touch_.player().seek(memory.at_s);
         tell("Goes on where it was left (Home: from the start)");
     }
 }
@@ -233,16 +235,16 @@ void Viewer::forget_relief() {
 }
 
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
-    painting_.hand_over(recording_);
-    if (recording_.asked_for()) tell(recording_.stop(state_));
+    painting_.hand_over(touch_.recording());
+    if (touch_.recording().asked_for()) tell(touch_.recording().stop());
     if (!session->frames.warning().empty()) tell(capitalised(session->frames.warning()));
     explaining_.end(state_, camera_);
     painting_.end(state_);
     keep_memory();
     remembered_.clear();
-    loop_.reset();  // the force goes to zero, and nobody touches
+    touch_.stop();  // the force goes to zero, and nobody touches
     trace_.clear();
-    player_.pause();
+    touch_.player().pause();
     show_title(session->session.file());
     keep_recent({session->session.file()});
     replay_.begin(std::move(session), std::exchange(options_.touch.given, {}), state_);
@@ -295,7 +297,7 @@ void Viewer::open_again(const DepthStatement& panel) {
 void Viewer::follow_live() {
     const auto& live = state_.media.playback.live;
     if (live && !state_.touch.replay) log_.keep_change("live", signal_in_words(*live));
-    if (state_.touch.replay || !live || !live->other_form || live->opened != media_number_ ||
+    if (state_.touch.replay || !live || !live->other_form || live->opened != touch_.media_number() ||
         opening_.under_way())
         return;
     OpenRequest request = state_.media.opened;
@@ -402,27 +404,6 @@ void Viewer::keep_material(const std::string& name) {
     });
 }
 
-void Viewer::start_loop() {
-    hand_over_settings();
-    // What the loop before it did is past.
-    haptic_state_.publish(HapticState{.hand = hand_.device->unread()});
-    standstills_ = 0;
-    heart_.beat();
-    loop_ = std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
-                                                           player_.haptics(),
-                                                           haptic_settings_,
-                                                           haptic_state_,
-                                                           *strips_,
-                                                           *ticks_,
-                                                           {.window = &heart_,
-                                                            .video = &player_.heart(),
-                                                            .recorder = &recording_.heart(),
-                                                            .decoder = &player_.decoder_heart()},
-                                                           &ending_.without_force(),
-                                                           &touch_source_->ticks,
-                                                           walked_.get()});
-}
-
 void Viewer::draw_scene(glm::ivec2 viewport) {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
@@ -435,7 +416,11 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
             if (const auto end = pixel_at(place, state_, shown_))
                 state_.ui.ruler->ends.push_back(*end);
     }
-    SceneContent content = scene_content(state_, shown_);
+    SceneContent content = scene_content(state_.settings, state_.touch, shown_);
+    if (state_.ui.explained) {  // nothing else is drawn of the touch
+        content.markers.visible = false;
+        content.dent = {};
+    }
     if (!state_.touch.replay) content.maps = painting_.drawn();
     if (state_.ui.brush.on) {
         content.look.paint = ReliefPaint::video;

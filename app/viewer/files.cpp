@@ -145,6 +145,12 @@ std::unique_ptr<Media> open_request(const OpenRequest& request) {
     return open_media(colour, depth, request.request);
 }
 
+bool named_firmware(const fs::path& file) {
+    // .h: the image as an installed libnifalcon has it.
+    const std::string ending = file.extension().string();
+    return ending == ".bin" || ending == ".BIN" || ending == ".h";
+}
+
 std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {
     if (files.empty() || files.size() > 2) return {};
     OpenRequest request{files.front(), files.size() == 2 ? files.back() : fs::path{}};

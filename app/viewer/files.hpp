@@ -101,6 +101,9 @@ struct Opened {
 /// grey. Throws InputError.
 [[nodiscard]] std::unique_ptr<Media> open_request(const OpenRequest& request);
 
+/// The file is for a Falcon, not to be looked at.
+[[nodiscard]] bool named_firmware(const std::filesystem::path& file);
+
 /// One or two dropped files as a request; nothing for none or more than two.
 [[nodiscard]] std::optional<OpenRequest> dropped_request(
     const std::vector<std::filesystem::path>& files);

@@ -301,21 +301,21 @@ void ViewerPainting::start_writing() {
     });
 }
 
-void ViewerPainting::take_written(ViewerRecording& recording) {
+void ViewerPainting::take_written(TouchRecording& recording) {
     auto written = writing_.take();
     if (!written) return;
     if (written->version > 0) recording.maps(written->version, std::move(written->encoded));
     if (!written->failure.empty()) failure_ = written->failure;
 }
 
-void ViewerPainting::take_news(ViewerState& state, ViewerRecording& recording) {
+void ViewerPainting::take_news(ViewerState& state, TouchRecording& recording) {
     show_news(state);
     take_written(recording);
     start_writing();
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }
 
-void ViewerPainting::hand_over(ViewerRecording& recording, std::chrono::milliseconds patience) {
+void ViewerPainting::hand_over(TouchRecording& recording, std::chrono::milliseconds patience) {
     const auto latest = std::chrono::steady_clock::now() + patience;
     while (writing_.under_way() || !to_write_.empty()) {
         start_writing();
@@ -325,7 +325,7 @@ void ViewerPainting::hand_over(ViewerRecording& recording, std::chrono::millisec
     }
 }
 
-void ViewerPainting::finish(ViewerRecording& recording, std::chrono::milliseconds patience) {
+void ViewerPainting::finish(TouchRecording& recording, std::chrono::milliseconds patience) {
     hand_over(recording, patience);
     if (writing_.under_way()) failure_ = depth_.string() + ": what was painted could not be saved";
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "app/panels/viewer_state.hpp"
+#include "app/touching/recording.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/map_stroke.hpp"
-#include "app/viewer/recording.hpp"
 #include "core/video/player.hpp"
 
 namespace dibhr {
@@ -53,11 +53,11 @@ class ViewerPainting {
 
     /// Once a picture: how it is, into `state`; what is felt, into the recording. Throws InputError
     /// when the maps could not be saved, once.
-    void take_news(ViewerState& state, ViewerRecording& recording);
+    void take_news(ViewerState& state, TouchRecording& recording);
     /// Before a recording ends: it gets the maps that it refers to. Waits for the disk so long.
-    void hand_over(ViewerRecording& recording, std::chrono::milliseconds patience = kPatience);
+    void hand_over(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
     /// At the end of the program: saves what is not saved. Throws InputError.
-    void finish(ViewerRecording& recording, std::chrono::milliseconds patience = kPatience);
+    void finish(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
 
     /// What is drawn: also a stroke that has not ended. Null: nothing is painted.
     [[nodiscard]] std::shared_ptr<const TouchMaps> drawn() const;
@@ -79,7 +79,7 @@ class ViewerPainting {
     void become(std::shared_ptr<const TouchMaps> maps, ViewerState& state, Player& player);
     void show_news(ViewerState& state) const;
     void start_writing();
-    void take_written(ViewerRecording& recording);
+    void take_written(TouchRecording& recording);
     [[nodiscard]] std::shared_ptr<const TouchMaps> numbered(TouchMaps maps);
 
     std::filesystem::path depth_{};  // of the recording that is open; empty: none

@@ -11,7 +11,9 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/touching/force_law.hpp"
+#include "app/touching/picture_time.hpp"
 #include "app/viewer/picture_time.hpp"
+#include "app/window/display_loss.hpp"
 #include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
@@ -25,17 +27,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kNoticeTime_s = 4.0;
-constexpr double kCatchingUpTime_s = 0.3;  // also of a single tick: else it would flicker
 /// For the sums of large files, when the end is asked for by a signal or there is no display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
-
-std::string text_of(const Standstill& last) {
-    const char* const of = last.of == Standstill::Of::window  ? "The window"
-                           : last.of == Standstill::Of::video ? "Reading the video"
-                                                              : "Writing the recording";
-    return std::string(of) + " stood still for " + number_text(last.seconds, 1) +
-           " s: the force was off";
-}
 
 /// `begin_s`: of what is played, on its own clock.
 template <typename AnyPlayer>
@@ -63,7 +56,6 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     : options_(options),
       ending_(ending),
       log_(log),
-      hand_(std::move(parts.hand)),
       window_(asked_size(options), options.sync, "dibhr"),
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
@@ -71,8 +63,6 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       state_{.settings = options.settings,
              .keys = KeyTable(options.settings.keys),
              .ui = {.doubts = options.doubts}},
-      falcon_(hand_, state_),
-      inverse3_(hand_, state_),
       service_settings_(errands),
       opening_(errands),
       clip_(errands, ending.words()),
@@ -83,15 +73,11 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
       lasting_(errands),
       keeper_(options.in_file, options.settings, options.settings_file, lasting_),
       start_(steady_clock::now()),
-      strips_(std::make_unique<StripRing>()),
-      ticks_(std::make_unique<TickRing>()),
-      walked_(std::make_unique<WalkedTickRing>()),
-      recording_(*ticks_, ending.words(), player_) {
+      touch_(std::move(parts.hand), {heart_, ending.without_force(), ending.words()},
+             {state_.settings, state_.touch, state_.media}) {
     if (software_) let_drawing_give_way();
     window_.on_display_loss([this] { close_without_display(); });
     ending_.watch_display(display_connection());
-    state_.touch.device = hand_.device->specification();
-    state_.touch.haptic.hand = hand_.device->unread();
     state_.touch.bump = std::move(parts.bump);
     state_.touch.bump_file = std::move(parts.bump_file);
     state_.touch.material = std::move(parts.material);
@@ -118,11 +104,11 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     const bool live = state_.media.live;
     if (!options.record.empty() && !live) {
         fit_to_media();  // what is told of a session is what is touched with
-        recording_.start(options.record, state_);
+        touch_.recording().start(options.record);
     }
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
-    if (!options.record.empty() && live) recording_.start_live(options.record, state_);
-    play_as_asked(options, 0.0, player_);
+    if (!options.record.empty() && live) touch_.recording().start_live(options.record);
+    play_as_asked(options, 0.0, touch_.player());
 }
 
 Viewer::~Viewer() {
@@ -151,25 +137,25 @@ void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     desktop_.call_off();
     state_.ui.message.clear();
-    loop_.reset();
+    touch_.stop();
     estimating_.end();
     explaining_.end(state_, camera_);
     keep_memory();
     keeper_.finish(lasting_settings());
     attempt([this] { lasting_.finish(kPatienceAtAnEnd); });
     attempt([this] { screenshots_.finish(); });
-    attempt([this] { painting_.finish(recording_, kPatienceAtAnEnd); });
+    attempt([this] { painting_.finish(touch_.recording(), kPatienceAtAnEnd); });
     attempt([this] { clip_.finish(ClipEnd::at_once); });
-    attempt([this] { recording_.finish(kPatienceAtAnEnd); });
-    hand_.device.reset();
+    attempt([this] { touch_.recording().finish(kPatienceAtAnEnd); });
+    touch_.close_device();
     if (!state_.ui.message.empty()) print_error_line(state_.ui.message);
 }
 
 void Viewer::finish() {
     const auto now = [this](const char* what) { ending_.words().doing(what); };
     now("taking the force off");
-    if (loop_) loop_->stop();  // no force is sent any more when files are written
-    keep_lateness();
+    // No force is sent any more when files are written.
+    if (const auto schedule = touch_.stop()) keep_lateness(*schedule);
     estimating_.end();
     std::string failure;
     const auto try_to = [&failure](auto&& step) {
@@ -193,13 +179,15 @@ void Viewer::finish() {
     try_to([this] { screenshots_.finish(); });
     now("saving what was painted");
     try_to([this] {
-        ending_.asked() ? painting_.finish(recording_, kPatienceAtAnEnd)
-                        : painting_.finish(recording_);
+        ending_.asked() ? painting_.finish(touch_.recording(), kPatienceAtAnEnd)
+                        : painting_.finish(touch_.recording());
     });
     now("finishing the clip");
     try_to([this] { clip_.finish(ending_.asked() ? ClipEnd::at_once : ClipEnd::well); });
     now("closing the recording");
-    try_to([this] { recording_.finish(ending_.asked() ? kPatienceAtAnEnd : Recorder::kPatience); });
+    try_to([this] {
+        touch_.recording().finish(ending_.asked() ? kPatienceAtAnEnd : Recorder::kPatience);
+    });
     now("closing the window");
     if (!failure.empty()) throw InputError(failure);
 }
@@ -216,8 +204,7 @@ void Viewer::show_one_picture() {
     wear_look();
     const WindowInput input = window_.take_input();
     beat();
-    state_.touch.in_front = window_.in_front();
-    take_news();
+    poll();
     take_keys(input);
     take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
@@ -226,14 +213,16 @@ void Viewer::show_one_picture() {
     move_hand(input, viewport);
     draw_picture(input);
     carry_out_requests();
-    hand_over_settings();
+    publish();
     keep_settings();
     keep_told();
     if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
     beat();
-    if (options_.after_picture) options_.after_picture({state_, shown_});
+    if (options_.after_picture)
+        options_.after_picture(
+            {state_.settings, state_.touch, state_.media, shown_, &state_.ui});
 }
 
 /// The relief and all that is over it, for whoever wants to save it, too.
@@ -246,32 +235,14 @@ void Viewer::draw_picture(const WindowInput& input) {
     beat();
 }
 
-void Viewer::take_news() {
-    state_.media.playback = player_.status();
-    if (loop_) state_.touch.haptic = haptic_state_.front();
-    if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
-    follow_others();
-    notice_catching_up();
-    notice_standstill();
-    if (const auto notice = falcon_.take_news(state_)) tell(*notice);
-    if (const auto notice = inverse3_.take_news(state_)) tell(*notice);
-    service_settings_.follow(state_);
-    for (const Action action : falcon_.take_presses(state_)) perform(action);
-    for (const Action action : inverse3_.take_presses(state_)) perform(action);
-    state_.ui.touched = state_.ui.touched || state_.touch.haptic.touch.proxy.contact;
-    if (!state_.touch.grants && loop_) state_.touch.grants = loop_->grants();
-    recording_.take_news(state_);
-    if (const auto notice = recording_.take_finished(state_)) tell(*notice);
-    for (TickStrip strip; strips_->pop(strip);) state_.touch.strips.add(strip);
-    state_.touch.sound = sound_.state();
-    state_.touch.moves_coils = sound_.moves_coils();
-    state_.touch.pads = pads_.news();
+void Viewer::poll() {
+    poll_touch();
     state_.ui.pictures_per_s = pace_.pictures_per_s();
     take_opened();
     take_desktop_answer();
     follow_live();
-    const std::string& failure =
-        state_.touch.replay ? state_.touch.replay->playback.failure : state_.media.playback.failure;
+    const std::string& failure = state_.touch.replay ? state_.touch.replay->playback.failure
+                                                     : state_.media.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
         state_.ui.message = failure;
         print_error_line(failure);
@@ -283,19 +254,27 @@ void Viewer::take_news() {
     attempt([this] {
         if (const auto notice = clip_.take_news(state_)) tell(*notice);
     });
-    attempt([this] { painting_.take_news(state_, recording_); });
+    attempt([this] { painting_.take_news(state_, touch_.recording()); });
     take_report();
     if (const auto made = estimating_.take_news(state_)) open(*made);
 }
 
-void Viewer::follow_others() {
-    if (state_.touch.replay) return;
-    if (handed_.followed) {
-        others_.follow(*walked_, player_.picture(), handed_.bump);
-    } else {
-        others_.forget(*walked_);
+/// What was felt since the last picture, by whom, and what was recorded of it.
+void Viewer::poll_touch() {
+    if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
+    for (const std::string& notice : touch_.poll(window_.in_front())) tell(notice);
+    service_settings_.follow(state_.settings.inverse3, state_.touch.inverse3);
+    for (const GripPress& press : touch_.take_presses()) {
+        const std::optional<Action> action = entry_of(button_jobs(), press.action).perform;
+        for (std::uint32_t k = 0; action && k < press.times; ++k) perform(*action);
     }
-    state_.touch.others = others_.proxies();
+    state_.ui.touched = state_.ui.touched || state_.touch.haptic.touch.proxy.contact;
+    TouchRecording& recording = touch_.recording();
+    recording.poll();
+    if (const auto notice = recording.take_finished()) tell(*notice);
+    if (const std::string trouble = recording.take_trouble(); !trouble.empty())
+        state_.ui.message = trouble + ". The force is off until it is switched on again" +
+                            state_.keys.in_brackets(Action::toggle_force) + ".";
 }
 
 void Viewer::make_report(const std::filesystem::path& session) {
@@ -312,22 +291,6 @@ void Viewer::take_report() {
         tell("Report: " + page->string());
         show_in_browser(*page);
     });
-}
-
-/// Also what happened in the ticks between two pictures.
-void Viewer::notice_catching_up() {
-    const HapticState& haptic = state_.touch.haptic;
-    if (haptic.catching_up() || haptic.bounds_met > bounds_met_) {
-        catching_up_until_s_ = now_s() + kCatchingUpTime_s;
-    }
-    bounds_met_ = haptic.bounds_met;
-    state_.touch.catching_up = now_s() < catching_up_until_s_;
-}
-
-void Viewer::notice_standstill() {
-    const Standstill& last = state_.touch.haptic.standstill;
-    if (last.count > standstills_) tell(text_of(last));
-    standstills_ = last.count;
 }
 
 void Viewer::take_keys(const WindowInput& input) {
@@ -405,38 +368,37 @@ std::optional<Answer> Viewer::perform_with_brush(Action action) {
     if (action == Action::toggle_brush) {
         brush.on = !brush.on;
         if (!brush.on) return Answer{"Brush off"};
-        if (state_.media.playback.playing) player_.pause();
+        if (state_.media.playback.playing) touch_.player().pause();
         state_.ui.show_paint = true;
         return Answer{"Brush: drag over the relief to paint"};
     }
     if (action == Action::undo) {
         if (!brush.can_undo) return Answer{"Nothing is painted that could be taken back"};
-        painting_.undo(state_, player_);
+        painting_.undo(state_, touch_.player());
         return Answer{"Taken back" + state_.keys.told(Action::redo, " paints it again")};
     }
     if (!brush.can_redo) return Answer{"Nothing was taken back"};
-    painting_.redo(state_, player_);
+    painting_.redo(state_, touch_.player());
     return Answer{"Painted again"};
 }
 
 void Viewer::perform(Action action) {
     SessionPlayer* const replay = replay_.player();
+    Player& player = touch_.player();
     std::optional<Answer> answer = perform_with_files(action);
     if (!answer) answer = perform_with_view(action);
     if (!answer) answer = perform_with_brush(action);
-    if (!answer) answer = explaining_.perform(action, state_, player_, replay);
+    if (!answer) answer = explaining_.perform(action, state_, player, replay);
     if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
-    if (!answer) answer = dibhr::perform(action, state_, player_);
-    state_.media.playback = player_.status();  // the next key of this picture goes on from here
+    if (!answer) answer = dibhr::perform(action, state_, player);
+    state_.media.playback = player.status();  // the next key of this picture goes on from here
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);
     state_.ui.notice_of_place = answer->place;
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
-    const FrameWindow& frames = player_.picture().front();
-    shown_ = frames.at(frames.clock.playback_s(steady_clock::now()));
-    if (state_.touch.replay) shown_ = replay_.shown();
+    shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
     Pointer pointer = window_.pointer();
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below them
@@ -457,17 +419,13 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
         state_.ui.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
-    // While a device touches the mouse only points, so that it does not take over pressing.
-    if (hand_.looks_for_device() && !state_.touch.haptic.hand.stand_in) use.pressed = false;
-    if (state_.touch.replay || hand_.mouse == nullptr || !shown_.makes_surface()) return;
-    const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());
-    hand_.mouse->target().publish(pointer_.target(ray, surface, use));
+    touch_.point(ray, shown_, use);
 }
 
 /// What it paints is not touched meanwhile.
 void Viewer::paint(const PointerUse& use) {
     Brush& brush = state_.ui.brush;
-    painting_.use(use.pressed, pointed_at_, shown_, state_, player_);
+    painting_.use(use.pressed, pointed_at_, shown_, state_, touch_.player());
     brush.ring.clear();
     if (!pointed_at_ || !shown_.makes_surface()) return;
     const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
@@ -491,13 +449,14 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
         camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y);
     draw_ruler(state_, clip_from_grid);
     draw_brush(state_, clip_from_grid);
-    if (state_.settings.panels_visible) draw_panel_column(state_, player_, replay_.player());
-    draw_bottom_bar(state_, player_, replay_.player());
+    Player& player = touch_.player();
+    if (state_.settings.panels_visible) draw_panel_column(state_, player, replay_.player());
+    draw_bottom_bar(state_, player, replay_.player());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && hand_.mouse != nullptr &&
-                               (!hand_.looks_for_device() || state_.touch.haptic.hand.stand_in);
+    const bool mouse_touches =
+        shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
     if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
         !state_.ui.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);
@@ -542,21 +501,21 @@ void Viewer::carry_out_requests() {
     if (asked.bump) load_bump(*asked.bump);
     if (asked.material) take_material(*asked.material);
     if (!asked.keep_material.empty()) keep_material(asked.keep_material);
-    if (asked.firmware) attempt([&] { tell(falcon_.use_firmware(*asked.firmware, state_)); });
+    if (asked.firmware) attempt([&] { tell(touch_.use_firmware(*asked.firmware)); });
     if (!asked.report.empty()) make_report(asked.report);
     if (asked.agreed) take_word(*asked.agreed);
     if (asked.depth)
         attempt([&] {
             if (const auto made = estimating_.perform(*asked.depth, state_)) open(*made);
         });
-    if (asked.remove_paint) painting_.remove_all(state_, player_);
+    if (asked.remove_paint) painting_.remove_all(state_, touch_.player());
     if (asked.reset_view) frame_relief();
     if (asked.full_screen) {
         window_.toggle_full_screen();
         tell(window_.full_screen() ? "Full screen" : "Full screen off");
     }
     if (asked.toggle_recording) start_or_stop_recording();
-    for (const auto moment : asked.marks) tell(recording_.mark(state_, moment));
+    for (const auto moment : asked.marks) tell(touch_.recording().mark(state_.keys, moment));
     if (asked.leave_replay) open({state_.media.colour_path, state_.media.depth_path});
     if (asked.action) perform(*asked.action);
     if (asked.screenshot) screenshots_.ask(PictureOf::window);
@@ -566,50 +525,9 @@ void Viewer::carry_out_requests() {
     if (asked.quit) window_.close();
 }
 
-/// To the ear, and to the hands that hold a game pad. A replay is not touched.
-void Viewer::let_touch_out() {
-    const Settings& settings = state_.settings;
-    const bool to_pads = settings.game_pad && !state_.touch.replay;
-    sound_.choose(
-        {state_.touch.material.sound, settings.sound_volume},
-        {.speaker = !settings.mute && !state_.touch.replay, .coils = to_pads && state_.touch.pads.has_coils()});
-    pads_.choose(state_.touch.material.sound, to_pads, sound_.moves_coils());
-}
-
-void Viewer::hand_over_settings() {
-    let_touch_out();
-    if (state_.touch.replay) return;
-    fit_to_media();
-    stretch(state_.touch.bump, state_.media.depth_columns, state_.media.depth_rows,
-            state_.settings.touch.shape.bump_size_px);
-    // As they are wished: the loop holds them to what the hand it reads can stand.
-    HapticSettings asked = asked_settings(state_.settings, state_.touch);
-    const bool same = handed_.version > 0 && same_touch(handed_, asked) &&
-                      !falcon_.tuning_changed(state_) && !inverse3_.tuning_changed(state_);
-    asked.recording = recording_.active();
-    asked.followed = state_.settings.others;
-    if (!same || handed_.recording != asked.recording || handed_.followed != asked.followed) {
-        asked.version = handed_.version + (same ? 0 : 1);
-        handed_ = asked;
-        recording_.hand_over(handed_, state_.touch.bump_file);
-        haptic_settings_.publish(handed_);
-    }
-    // After the above, so that the force is already rising from zero when the goal moves elsewhere.
-    if (falcon_.tuning_changed(state_)) falcon_.hand_over(state_);
-    if (inverse3_.tuning_changed(state_)) inverse3_.hand_over(state_);
-    player_.set_motion(
-        motion_wanted(state_.settings.touch.carry,
-                      state_.media.as_recorded ? InBetweens::off : state_.settings.in_betweens));
-    player_.set_cleaning(wanted_cleaning());
-}
-
-/// As the panel says; as recorded while the key for it is held.
-CleaningOptions Viewer::wanted_cleaning() const {
-    CleaningOptions cleaning = cleaning_on(state_.media, state_.settings.cleaning);
-    if (state_.media.as_recorded) return {.preset = CleaningPreset::raw};
-    const double radius_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
-    if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, state_.settings.touch);
-    return cleaning;
+void Viewer::publish() {
+    if (!state_.touch.replay) fit_to_media();
+    touch_.publish();
 }
 
 void Viewer::keep_settings() {
@@ -634,20 +552,20 @@ void Viewer::take_word(bool agreed) {
 }
 
 void Viewer::start_or_stop_recording() {
+    TouchRecording& recording = touch_.recording();
     if (state_.touch.replay) {
         tell("A replay is not recorded: open a video to touch");
-    } else if (recording_.asked_for()) {
-        painting_.hand_over(recording_);
-        tell(recording_.stop(state_));
-    } else if (recording_.finishing()) {
+    } else if (recording.asked_for()) {
+        painting_.hand_over(recording);
+        tell(recording.stop());
+    } else if (recording.finishing()) {
         tell("Still finishing the last recording");
-    } else if (handed_.recording) {
-        state_.requests.toggle_recording = true;  // when the loop has seen the last one's end
+    } else if (!touch_.may_record()) {
+        state_.requests.toggle_recording = true;  // with the next picture
     } else {
-        attempt([this] {
+        attempt([&] {
             const std::string file = new_file_name("dibhr");
-            state_.media.live ? recording_.start_live(file, state_)
-                              : recording_.start(file, state_);
+            state_.media.live ? recording.start_live(file) : recording.start(file);
             state_.ui.show_session = true;
             tell("Recording into " + file);
         });
@@ -703,10 +621,7 @@ void Viewer::keep_told() {
     attempt([this] { log_.write(); });
 }
 
-/// Of a loop that has ended.
-void Viewer::keep_lateness() {
-    if (!loop_) return;
-    const TickSchedule& schedule = loop_->timer().schedule();
+void Viewer::keep_lateness(const TickSchedule& schedule) {
     const double worst_ms =
         std::chrono::duration<double, std::milli>(schedule.lateness().worst()).count();
     log_.keep("ticks", std::to_string(schedule.ticks()) + ", late " +

@@ -16,32 +16,29 @@
 #include "app/settings/file_memory.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/settings.hpp"
-#include "app/sound/pad_output.hpp"
-#include "app/sound/sound_output.hpp"
-#include "app/sound/touch_source.hpp"
+#include "app/touching/pointer.hpp"
+#include "app/touching/touch_session.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/estimating.hpp"
 #include "app/viewer/explaining.hpp"
-#include "app/viewer/falcon.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
-#include "app/viewer/inverse3.hpp"
 #include "app/viewer/painting.hpp"
 #include "app/viewer/panes.hpp"
-#include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
+#include "app/viewer/service_settings.hpp"
 #include "app/viewer/told_log.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/ending.hpp"
 #include "app/window/gui.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
-#include "core/loop/haptic_tick.hpp"
-#include "core/loop/other_proxies.hpp"
+#include "core/realtime/heartbeat.hpp"
+#include "core/realtime/tick_timer.hpp"
 #include "device/hand_device.hpp"
 #include "render/camera.hpp"
 #include "render/scene_view.hpp"
@@ -116,10 +113,8 @@ class Viewer {
   private:
     void show_one_picture();
     void wear_look();
-    void take_news();
-    void follow_others();
-    void notice_catching_up();
-    void notice_standstill();
+    void poll();
+    void poll_touch();
     void take_opened();
     void follow_live();
     void take_keys(const WindowInput& input);
@@ -138,9 +133,7 @@ class Viewer {
     void draw_panels(std::span<const KeyPress> pressed = {});
     void draw_explained();
     void carry_out_requests();
-    void let_touch_out();
-    void hand_over_settings();
-    [[nodiscard]] CleaningOptions wanted_cleaning() const;
+    void publish();
     void keep_settings();
     void take_word(bool agreed);
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
@@ -151,7 +144,6 @@ class Viewer {
     void replay_session(std::unique_ptr<OpenedSession> session);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
-    void start_loop();
     /// What a person chose, not what a media or a replay did.
     [[nodiscard]] Settings lasting_settings() const;
     void fit_to_media();
@@ -178,7 +170,7 @@ class Viewer {
     void take_report();
     void tell(const std::string& notice);
     void keep_told();
-    void keep_lateness();
+    void keep_lateness(const TickSchedule& schedule);
     /// Takes a step; its failure goes into the message box, and the program goes on.
     template <typename Step>
     void attempt(const Step& step) {
@@ -193,13 +185,11 @@ class Viewer {
     [[nodiscard]] bool played_to_the_end() const;
     [[nodiscard]] glm::ivec2 relief_viewport() const;
 
-    // In order of making; the loop goes first, so that no force is sent while the rest
-    // ends.
+    // In order of making; touching goes first, so that no force is sent while the rest ends.
     ViewOptions options_;
     Ending& ending_;
     ToldLog& log_;
     Heartbeat heart_{};  // of the window's thread and the display
-    HandDevice hand_;
     Window window_;
     Gui gui_;
     SceneView scene_{};
@@ -208,10 +198,7 @@ class Viewer {
     Camera camera_{};
     ReliefMouse mouse_{};
     std::optional<Vec3> pointed_at_{};  // on what is drawn
-    HandPointer pointer_{};
     ViewerState state_{};
-    ViewerFalcon falcon_;
-    ViewerInverse3 inverse3_;
     ServiceSettings service_settings_;
     Errand<Opened> opening_;
     Screenshots screenshots_{};
@@ -225,7 +212,6 @@ class Viewer {
     ViewerPainting painting_;
     ErrandsInOrder lasting_;  // what is remembered
     SettingsKeeper keeper_;
-    HapticSettings handed_{};
     DepthBlend shown_{};  // of the picture being made
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};
@@ -235,24 +221,9 @@ class Viewer {
     OwnRelief relief_shown_{};                  // that it was shown with
     std::optional<OwnRelief> relief_before_{};  // when the file remembers its own
     std::string playback_failure_{};            // as told
-    std::uint32_t media_number_{0};             // of what is shown, as the player carries it
-    std::uint64_t bounds_met_{0};               // as of the last picture
-    std::uint64_t standstills_{0};              // as told
-    double catching_up_until_s_{0.0};
     std::chrono::steady_clock::time_point start_{};
-    Player player_{};
-    TripleBuffer<HapticSettings> haptic_settings_{};
-    TripleBuffer<HapticState> haptic_state_{};
-    std::unique_ptr<StripRing> strips_;
-    std::unique_ptr<TickRing> ticks_;
-    std::unique_ptr<WalkedTickRing> walked_;
-    OtherProxies others_{};
-    std::shared_ptr<TouchSource> touch_source_{std::make_shared<TouchSource>()};
-    SoundOutput sound_{touch_source_};
-    PadOutput pads_{touch_source_};
-    ViewerRecording recording_;
     ViewerReplay replay_{};
-    std::unique_ptr<HapticLoop> loop_;  // null in a replay: no hand is read, no force is sent
+    TouchSession touch_;  // stopped in a replay: no hand is read, no force is sent
 };
 
 }  // namespace dibhr

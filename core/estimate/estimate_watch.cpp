@@ -11,7 +11,7 @@ namespace dibhr {
 namespace {
 
 /// "0:12", "1:02:03"
-std::string clock_text(double seconds) {
+std::string duration_text(double seconds) {
     const auto all = static_cast<long>(std::lround(std::max(seconds, 0.0)));
     char text[32];
     if (all >= 3600)
@@ -30,8 +30,8 @@ std::string in_words(const EstimateProgress& now) {
     if (now.step != EstimateStep::estimating) return words;
     if (now.counted && now.done < now.of)
         words += " frame " + std::to_string(now.done + 1) + " of " + std::to_string(now.of);
-    if (now.left_s) return words + ", " + clock_text(*now.left_s) + " left";
-    return words + ", " + clock_text(now.elapsed_s);
+    if (now.left_s) return words + ", " + duration_text(*now.left_s) + " left";
+    return words + ", " + duration_text(now.elapsed_s);
 }
 
 void EstimateWatch::stop_at_once() noexcept {

@@ -13,6 +13,7 @@ extern "C" {
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <iostream>
 #include <system_error>
 #include <utility>
@@ -195,6 +196,14 @@ std::string number_text(double value) {
 
 std::string number_text(double value, int digits) {
     return written(value, std::chars_format::fixed, digits);
+}
+
+std::string clock_text(double seconds) {
+    const long milliseconds = std::lround(std::max(0.0, seconds) * 1000.0);
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%02ld:%02ld.%03ld", milliseconds / 60000,
+                  milliseconds / 1000 % 60, milliseconds % 1000);
+    return text.data();
 }
 
 std::string short_text(double value, int digits) {

@@ -50,6 +50,9 @@ namespace dibhr {
 /// With so many digits that count, at most 200, and no zeros at the end: 0.123, 12.3, 1.23e-05.
 [[nodiscard]] std::string short_text(double value, int digits = 6);
 
+/// A time from its beginning, "01:23.456".
+[[nodiscard]] std::string clock_text(double seconds);
+
 /// A finite number as these write it, and nothing else before or after it; whatever the locale.
 [[nodiscard]] std::optional<double> number_of_text(std::string_view text);
 

@@ -2,6 +2,7 @@
 // where the test reads it, and hangs when the test asks for that.
 #include <chrono>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 
 #include "app/commands/program.hpp"
@@ -19,99 +20,97 @@ double seconds_of(std::chrono::steady_clock::time_point moment) {
 }
 
 void see_media(const PictureShown& shown, Seen& seen) {
-    const ViewerState& state = shown.state;
-    seen.file.set(state.touch.replay ? state.touch.replay->file.string() : state.media.colour_path.string());
-    seen.replays = state.touch.replay.has_value();
-    seen.open = seen.replays || state.media.playback.open;
-    seen.opening = state.media.opening;
+    const auto& replay = shown.touch.replay;
+    const PlaybackStatus& video = shown.media.playback;
+    const std::filesystem::path& colour = shown.media.colour_path;
+    seen.file.set(replay ? replay->file.string() : colour.string());
+    seen.replays = replay.has_value();
+    seen.open = seen.replays || video.open;
+    seen.opening = shown.media.opening;
     seen.surface = shown.surface.makes_surface();
-    seen.playing = state.media.playback.playing;
-    seen.looping = state.media.playback.looping;
-    const MediaPart part = state.media.playback.part.value_or(MediaPart{-1.0, -1.0});
+    seen.playing = video.playing;
+    seen.looping = video.looping;
+    const MediaPart part = video.part.value_or(MediaPart{-1.0, -1.0});
     seen.part_from_s = part.from_s;
     seen.part_to_s = part.to_s;
-    seen.speed = state.media.playback.speed;
-    seen.media_s = state.media.playback.media_s;
-    seen.duration_s = state.media.playback.duration_s;
+    seen.speed = video.speed;
+    seen.media_s = video.media_s;
+    seen.duration_s = video.duration_s;
     if (seen.surface) {
         const Frame& frame = shown.surface.nearest();
         seen.drawn_s = frame.media_s;
         seen.drawn_frame = frame.index;
         seen.drawn_media = frame.media;
     }
-    if (!state.touch.replay) return;
-    const SessionPlayback& playback = state.touch.replay->playback;
+    if (!replay) return;
+    const SessionPlayback& playback = replay->playback;
     seen.playing = playback.playing;
     seen.looping = playback.looping;
     seen.speed = playback.speed;
     seen.media_s = playback.now_s - playback.begin_s;
     seen.duration_s = playback.end_s - playback.begin_s;
-    seen.tick = state.touch.replay->tick_count;
+    seen.tick = replay->tick_count;
 }
 
-void see_window(const ViewerState& state, Seen& seen) {
-    seen.in_front = state.touch.in_front;
-    seen.columns = static_cast<int>(state.ui.window_width);
-    seen.rows = static_cast<int>(state.ui.window_height);
-    seen.panels = state.settings.panels_visible;
-    seen.help = state.ui.help_open;
-    seen.dialog = state.ui.dialog.shown;
-    seen.dialog_reads = state.ui.dialog.reads;
-    seen.dialog_typing = state.ui.dialog.shown && state.ui.dialog.asks_for_keyboard == 0;
-    seen.dialog_entries = state.ui.dialog.rows.entries.size();
-    seen.statistics = state.ui.statistics;
-    seen.ruler = state.ui.ruler.has_value();
-    seen.ruler_points = state.ui.ruler ? static_cast<int>(state.ui.ruler->places.size()) : 0;
-    seen.brush = state.ui.brush.on;
-    seen.painted = state.ui.brush.has_paint;
-    seen.can_undo = state.ui.brush.can_undo;
-    seen.as_recorded = state.media.as_recorded;
-    seen.explained = state.ui.explained.has_value();
-    seen.explained_steps = state.ui.explained ? state.ui.explained->taken : 0;
-    seen.doubts = state.ui.doubts.size();
-    seen.asks_command = state.ui.depth_offer && !state.ui.depth_offer->asks.empty();
-    seen.depth_offered = state.ui.depth_offer.has_value();
-    seen.depth_made = state.ui.depth_offer && !state.ui.depth_offer->depth.empty();
-    if (state.ui.under_pointer) {
-        seen.pointed_column = static_cast<float>(state.ui.under_pointer->column);
-        seen.pointed_row = static_cast<float>(state.ui.under_pointer->row);
+void see_ui(const UiState& ui, Seen& seen) {
+    seen.columns = static_cast<int>(ui.window_width);
+    seen.rows = static_cast<int>(ui.window_height);
+    seen.help = ui.help_open;
+    seen.dialog = ui.dialog.shown;
+    seen.dialog_reads = ui.dialog.reads;
+    seen.dialog_typing = ui.dialog.shown && ui.dialog.asks_for_keyboard == 0;
+    seen.dialog_entries = ui.dialog.rows.entries.size();
+    seen.statistics = ui.statistics;
+    seen.ruler = ui.ruler.has_value();
+    seen.ruler_points = ui.ruler ? static_cast<int>(ui.ruler->places.size()) : 0;
+    seen.brush = ui.brush.on;
+    seen.painted = ui.brush.has_paint;
+    seen.can_undo = ui.brush.can_undo;
+    seen.explained = ui.explained.has_value();
+    seen.explained_steps = ui.explained ? ui.explained->taken : 0;
+    seen.doubts = ui.doubts.size();
+    seen.asks_command = ui.depth_offer && !ui.depth_offer->asks.empty();
+    seen.depth_offered = ui.depth_offer.has_value();
+    seen.depth_made = ui.depth_offer && !ui.depth_offer->depth.empty();
+    if (ui.under_pointer) {
+        seen.pointed_column = static_cast<float>(ui.under_pointer->column);
+        seen.pointed_row = static_cast<float>(ui.under_pointer->row);
     }
-    seen.message.set(state.ui.message);
-    seen.notice.set(state.ui.notice);
+    seen.clip = ui.clip.has_value();
+    seen.clip_finishing = ui.clip && ui.clip->finishing;
+    seen.clip_s = ui.clip ? ui.clip->time_s : 0.0;
+    seen.message.set(ui.message);
+    seen.notice.set(ui.notice);
 }
 
-void see_touch(const ViewerState& state, Seen& seen) {
-    const HapticState& haptic = state.touch.haptic;
+void see_touch(const TouchState& touch, Seen& seen) {
+    seen.in_front = touch.in_front;
+    const HapticState& haptic = touch.haptic;
     seen.ticks = haptic.ticks;
     seen.touchable = haptic.touchable;
     seen.contact = haptic.touch.proxy.contact;
     seen.ready = haptic.hand.ready;
     seen.mouse_fallback = haptic.hand.stand_in;
-    seen.force_enabled = state.touch.force_enabled;
+    seen.force_enabled = touch.force_enabled;
     seen.buttons = haptic.hand.buttons;
     seen.cut = static_cast<int>(haptic.touch.cut);
     seen.spring_newton = glm::length(haptic.touch.spring_force_newton);
     seen.sent_newton = glm::length(haptic.touch.sent_force_newton);
     seen.standstills = haptic.standstill.count;
-}
-
-void see_outputs(const ViewerState& state, Seen& seen) {
-    seen.records = state.touch.recording.has_value();
-    seen.recorded_rows = state.touch.recording ? state.touch.recording->status.rows : 0;
-    seen.marks = state.touch.recording ? state.touch.recording->marks.size() : 0;
-    seen.clip = state.ui.clip.has_value();
-    seen.clip_finishing = state.ui.clip && state.ui.clip->finishing;
-    seen.clip_s = state.ui.clip ? state.ui.clip->time_s : 0.0;
-    seen.sound = static_cast<int>(state.touch.sound);
+    seen.records = touch.recording.has_value();
+    seen.recorded_rows = touch.recording ? touch.recording->status.rows : 0;
+    seen.marks = touch.recording ? touch.recording->marks.size() : 0;
+    seen.sound = static_cast<int>(touch.sound);
 }
 
 Seen seen_of(const PictureShown& shown, std::uint64_t number) {
     Seen seen;
     seen.picture = number;
     see_media(shown, seen);
-    see_window(shown.state, seen);
-    see_touch(shown.state, seen);
-    see_outputs(shown.state, seen);
+    see_touch(shown.touch, seen);
+    seen.panels = shown.settings.panels_visible;
+    seen.as_recorded = shown.media.as_recorded;
+    if (shown.ui != nullptr) see_ui(*shown.ui, seen);
     if (shown.study == nullptr) return seen;
     seen.study = true;
     seen.study_step = shown.study->step;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/falcon.hpp"
+#include "app/viewer/files.hpp"
 #include "core/haptics/safety.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/touching/pointer.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"

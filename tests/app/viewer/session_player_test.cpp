@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/touching/recording.hpp"
 #include "app/viewer/explaining.hpp"
-#include "app/viewer/recording.hpp"
 #include "app/viewer/replay.hpp"
 #include "core/error.hpp"
 #include "core/replay/session_player.hpp"
@@ -423,16 +423,17 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     const auto ticks = std::make_unique<TickRing>();
     LastWords words;
     Player player;
-    ViewerRecording recording(*ticks, words, player);
     const auto state = std::make_unique<ViewerState>();
+    const KeyTable& keys = state->keys;
+    TouchRecording recording(*ticks, words, player, {state->settings, state->touch, state->media});
     const auto type = [](TextField& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);
     };
-    CHECK(recording.mark(*state).find("Ctrl+R") != std::string::npos);
+    CHECK(recording.mark(keys).find("Ctrl+R") != std::string::npos);
     type(state->touch.session_fields.participant, "P07");
-    recording.start(folder / "mine.dibhr", *state);
+    recording.start(folder / "mine.dibhr");
     REQUIRE(recording.active());
-    recording.hand_over({.recording = true, .version = 1}, {});
+    recording.hand_over({.recording = true, .version = 1});
     for (std::int64_t k = 0; k < 50; ++k) {
         REQUIRE(ticks->push({.tick = k,
                              .t_s = 0.001 * static_cast<double>(k),
@@ -442,13 +443,13 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     }
     type(state->touch.session_fields.note, note);
     type(state->touch.session_fields.tag, note);
-    recording.take_news(*state);
-    CHECK(recording.mark(*state).find(note) != std::string::npos);
+    recording.poll();
+    CHECK(recording.mark(keys).find(note) != std::string::npos);
     type(state->touch.session_fields.tag, "");
-    recording.mark(*state);
+    recording.mark(keys);
     REQUIRE(state->touch.recording);
     CHECK(state->touch.recording->marks.size() == 2);
-    CHECK(recording.stop(*state).find("Recorded 50 ticks") == 0);
+    CHECK(recording.stop().find("Recorded 50 ticks") == 0);
     CHECK_FALSE(recording.active());
     CHECK_FALSE(state->touch.recording);
     const Session session(folder / "mine.dibhr");

@@ -1,4 +1,4 @@
-// Recording from the window: start, stop, marks, and what is told of it.
+// Recording what is touched: start, stop, marks, and what is told of it.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "app/panels/viewer_state.hpp"
+#include "app/settings/keys.hpp"
+#include "app/touching/touch_state.hpp"
 #include "app/window/last_words.hpp"
 #include "core/clip/live_recorder.hpp"
 #include "core/loop/haptic_tick.hpp"
@@ -21,23 +23,23 @@
 
 namespace dibhr {
 
-class ViewerRecording {
+class TouchRecording {
   public:
-    /// `ticks` outlives it: the haptic loop's end; so does the player.
-    ViewerRecording(TickRing& ticks, LastWords& words, Player& player)
-        : ticks_(ticks), words_(words), player_(player) {}
+    /// All outlive it; `ticks` is the haptic loop's end.
+    TouchRecording(TickRing& ticks, LastWords& words, Player& player, const TouchedState& state)
+        : ticks_(ticks), words_(words), player_(player), state_(state) {}
 
     /// A video that ticks will refer to by the number given back.
     [[nodiscard]] std::uint32_t opened(const MediaDescription& media);
 
     /// Throws InputError when the file cannot be made.
-    void start(const std::filesystem::path& file, ViewerState& state);
+    void start(const std::filesystem::path& file);
     /// Of what is live: its video is kept beside the file, and ticks are recorded from the first
     /// frame of that on. Throws InputError.
-    void start_live(const std::filesystem::path& file, ViewerState& state);
+    void start_live(const std::filesystem::path& file);
     /// Closes the file. A short notice, with the reason where nobody asked for it; empty when
     /// writing had broken off. With a video it is finished meanwhile: take_finished() tells.
-    std::string stop(ViewerState& state, const std::string& reason = {});
+    std::string stop(const std::string& reason = {});
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
     /// It is, or waits for the first frame of a video.
     [[nodiscard]] bool asked_for() const { return active() || waiting_; }
@@ -46,25 +48,27 @@ class ViewerRecording {
         return waiting_ ? waiting_->file : std::filesystem::path{};
     }
     [[nodiscard]] bool finishing() const { return finishing_.valid(); }
-    [[nodiscard]] std::optional<std::string> take_finished(ViewerState& state);
+    [[nodiscard]] std::optional<std::string> take_finished();
 
     /// Parameters that the next tick will have; to be called before it gets them.
-    void hand_over(const HapticSettings& settings, const std::filesystem::path& bump_file);
+    void hand_over(const HapticSettings& settings);
 
     /// The touch maps that ticks refer to by that version; to be called once they are known, also
     /// after the ticks.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
 
-    /// Marks `moment` with the tag that was typed. A short notice.
-    std::string mark(ViewerState& state, std::chrono::steady_clock::time_point moment =
-                                             std::chrono::steady_clock::now());
+    /// Marks `moment` with the tag that was typed. A short notice, which names a key of `keys`.
+    std::string mark(const KeyTable& keys, std::chrono::steady_clock::time_point moment =
+                                               std::chrono::steady_clock::now());
 
     /// Marks this moment. Nothing is recorded: does nothing.
     void mark(const std::string& tag);
 
-    /// Once a picture: how it goes, into `state`; what a person typed, into the file. A recording
-    /// that broke off ends.
-    void take_news(ViewerState& state);
+    /// Once a picture: how it goes, into the state; what a person typed, into the file. A recording
+    /// that broke off ends, and takes the force off.
+    void poll();
+    /// Why one has broken off since the last call; empty: none has.
+    [[nodiscard]] std::string take_trouble() { return std::exchange(trouble_, {}); }
 
     /// At the end of the program; waits so long for sums of large files. Throws InputError when a
     /// recording broke off, or still waits.
@@ -85,10 +89,10 @@ class ViewerRecording {
     };
 
     void tell_media(std::uint32_t number, const Opened& opened);
-    void begin_if_there(ViewerState& state);
-    [[nodiscard]] std::string told(const RecorderStatus& recorded, ViewerState& state);
-    void tell_ages(const ViewerState& state);
-    void break_off(ViewerState& state, const std::string& failure);
+    void begin_if_there();
+    [[nodiscard]] std::string told(const RecorderStatus& recorded);
+    void tell_ages();
+    void break_off(const std::string& failure);
     [[nodiscard]] double now_s() const;
 
     /// Lets the recorder go.
@@ -97,6 +101,7 @@ class ViewerRecording {
     TickRing& ticks_;
     LastWords& words_;
     Player& player_;
+    TouchedState state_;
     Heartbeat heart_{};                     // before the recorder, which beats it
     std::vector<Opened> opened_{};          // what the frames' media numbers mean, from 1 on
     std::unique_ptr<Recorder> recorder_{};  // null: not recording
@@ -115,7 +120,8 @@ class ViewerRecording {
     std::uint64_t ages_told_{0};          // how many of them are in the file
     std::string device_{};                // told of the session, where not the one asked for
     std::chrono::steady_clock::time_point start_{};
-    std::string failure_{};  // of the first recording that broke off
+    std::string failure_{};  // of the first recording that broke off,
+    std::string trouble_{};  // and of the last one, to be told
 };
 
 }  // namespace dibhr

@@ -1,5 +1,5 @@
-// The relief with its markers, dent and maps, of the state that panels show.
-#include "app/viewer/scene.hpp"
+// The relief with its markers, dent and maps.
+#include "app/touching/scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,35 +35,34 @@ void add_finger(const DepthBlend& shown, const SurfaceShape& shape, TouchMarkers
         markers.finger_contact = contact_point(shown.drawn_surface(shape), finger, markers.proxy);
 }
 
-TouchMarkers markers_of(const ViewerState& state, const DepthSurface& surface) {
-    const Touch& touch = state.touch.haptic.touch;
-    const Friction& friction = state.settings.touch.friction;
+TouchMarkers markers_of(const Settings& settings, const TouchState& state,
+                        const DepthSurface& surface) {
+    const Touch& touch = state.haptic.touch;
+    const Friction& friction = settings.touch.friction;
     TouchMarkers markers;
-    markers.visible = state.touch.haptic.touchable;
+    markers.visible = state.haptic.touchable;
     markers.contact = touch.proxy.contact;
-    markers.catching_up = state.touch.catching_up;
+    markers.catching_up = state.catching_up;
     markers.goal = touch.goal;
     markers.proxy = touch.proxy.position;
     markers.normal = normal_at(surface, touch.proxy.position);
     markers.friction =
         touch.proxy.slipping ? friction.dynamic_coefficient : friction.static_coefficient;
     markers.force_newton = touch.sent_force_newton;
-    markers.most_newton =
-        std::min(state.settings.max_force_newton, state.touch.device.limits.max_force_newton);
-    if (state.touch.replay && state.touch.replay->computed) markers.recorded_proxy = state.touch.replay->tick.proxy;
-    if (!state.touch.others.empty()) markers.proxy_tint = tint_of(state.settings.touch.algorithm);
-    for (const AlgorithmProxy& other : state.touch.others)
+    markers.most_newton = std::min(settings.max_force_newton, state.device.limits.max_force_newton);
+    if (state.replay && state.replay->computed) markers.recorded_proxy = state.replay->tick.proxy;
+    if (!state.others.empty()) markers.proxy_tint = tint_of(settings.touch.algorithm);
+    for (const AlgorithmProxy& other : state.others)
         markers.others.push_back({other.proxy.position, tint_of(other.algorithm)});
     return markers;
 }
 
-/// Softly, as deep as the goal is pressed in, up to a ball as large as the proxy's; none where the
-/// look has none.
-Dent dent_under(const ViewerState& state, const TouchMarkers& markers, const DepthImage& image) {
+/// Softly, as deep as the goal is pressed in, up to a ball as large as the proxy's.
+Dent dent_under(const TouchMarkers& markers, const DepthImage& image) {
     constexpr double kRadiusPerColumn = 0.02;
     constexpr double kDeepest = 0.45;  // of the radius: nothing is hidden
     constexpr double kShadow = 0.45;
-    if (!state.settings.look.dent || !markers.contact || !is_finite(markers.proxy)) return {};
+    if (!markers.contact || !is_finite(markers.proxy)) return {};
     const double radius_px = kRadiusPerColumn * image.columns;
     const double pressed = glm::length(markers.proxy - markers.goal) / radius_px;
     const double share = 1.0 - std::exp(-pressed);
@@ -72,21 +71,21 @@ Dent dent_under(const ViewerState& state, const TouchMarkers& markers, const Dep
 
 }  // namespace
 
-SceneContent scene_content(const ViewerState& state, const DepthBlend& shown) {
+SceneContent scene_content(const Settings& settings, const TouchState& touch,
+                           const DepthBlend& shown) {
     SceneContent content;
-    content.shape = state.shape();
-    content.bump = state.touch.bump.get();
-    content.look = state.settings.look;
-    content.light_wall = state.settings.theme == Theme::light;
+    content.shape = touch.shape(settings.touch);
+    content.bump = touch.bump.get();
+    content.look = settings.look;
+    content.light_wall = settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
     content.depth = shown.shown();
     content.colour = &shown.coloured();
     content.maps = shown.from->maps;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
-    content.markers = markers_of(state, surface);
-    content.markers.visible = content.markers.visible && !state.ui.explained;
+    content.markers = markers_of(settings, touch, surface);
     add_finger(shown, content.shape, content.markers);
-    if (!state.ui.explained) content.dent = dent_under(state, content.markers, *shown.from->drawn());
+    if (settings.look.dent) content.dent = dent_under(content.markers, *shown.from->drawn());
     return content;
 }
 

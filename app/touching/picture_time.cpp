@@ -1,5 +1,5 @@
 // Times of pictures on displays, and of drawing in software.
-#include "app/viewer/picture_time.hpp"
+#include "app/touching/picture_time.hpp"
 
 #include "render/gl_objects.hpp"
 

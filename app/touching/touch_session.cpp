@@ -1,0 +1,212 @@
+// Touching: what is polled and published once a picture, and the loop's beginning and end.
+#include "app/touching/touch_session.hpp"
+
+#include <utility>
+
+#include "app/settings/command_options.hpp"
+#include "app/touching/force_law.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/haptics/surface.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kCatchingUpTime{300};  // of a single tick: else it would flicker
+
+std::string text_of(const Standstill& last) {
+    const char* const of = last.of == Standstill::Of::window  ? "The window"
+                           : last.of == Standstill::Of::video ? "Reading the video"
+                                                              : "Writing the recording";
+    return std::string(of) + " stood still for " + number_text(last.seconds, 1) +
+           " s: the force was off";
+}
+
+/// As the settings say; as recorded while the key for it is held.
+CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& media) {
+    if (media.as_recorded) return {.preset = CleaningPreset::raw};
+    CleaningOptions cleaning = cleaning_on(media, settings.cleaning);
+    const double radius_mm = finger_mm_on(media, settings.finger_mm);
+    if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, settings.touch);
+    return cleaning;
+}
+
+}  // namespace
+
+TouchSession::TouchSession(HandDevice hand, const TouchTies& ties, const TouchedState& state)
+    : ties_(ties),
+      state_(state),
+      hand_(std::move(hand)),
+      falcon_(hand_, state.settings, state.touch),
+      inverse3_(hand_, state.settings, state.touch),
+      strips_(std::make_unique<StripRing>()),
+      ticks_(std::make_unique<TickRing>()),
+      walked_(std::make_unique<WalkedTickRing>()),
+      recording_(*ticks_, ties.words, player_, state) {
+    state_.touch.device = hand_.device->specification();
+    state_.touch.haptic.hand = hand_.device->unread();
+}
+
+std::vector<std::string> TouchSession::poll(bool window_in_front) {
+    TouchState& touch = state_.touch;
+    std::vector<std::string> notices;
+    touch.in_front = window_in_front;
+    state_.media.playback = player_.status();
+    if (loop_) touch.haptic = haptic_state_.front();
+    follow_others();
+    notice_catching_up();
+    const Standstill& last = touch.haptic.standstill;
+    if (last.count > standstills_) notices.push_back(text_of(last));
+    standstills_ = last.count;
+    if (auto notice = falcon_.poll(touch)) notices.push_back(std::move(*notice));
+    if (auto notice = inverse3_.poll(touch)) notices.push_back(std::move(*notice));
+    if (!touch.grants && loop_) touch.grants = loop_->grants();
+    for (TickStrip strip; strips_->pop(strip);) touch.strips.add(strip);
+    touch.sound = sound_.state();
+    touch.moves_coils = sound_.moves_coils();
+    touch.pads = pads_.news();
+    return notices;
+}
+
+std::vector<GripPress> TouchSession::take_presses() {
+    std::vector<GripPress> presses;
+    falcon_.take_presses(state_.settings, state_.touch, presses);
+    inverse3_.take_presses(state_.settings, state_.touch, presses);
+    return presses;
+}
+
+void TouchSession::follow_others() {
+    if (state_.touch.replay) return;
+    if (published_.followed) {
+        others_.follow(*walked_, player_.picture(), published_.bump);
+    } else {
+        others_.forget(*walked_);
+    }
+    state_.touch.others = others_.proxies();
+}
+
+/// Also what happened in the ticks between two pictures.
+void TouchSession::notice_catching_up() {
+    const HapticState& haptic = state_.touch.haptic;
+    const auto now = steady_clock::now();
+    if (haptic.catching_up() || haptic.bounds_met > bounds_met_)
+        catching_up_until_ = now + kCatchingUpTime;
+    bounds_met_ = haptic.bounds_met;
+    state_.touch.catching_up = now < catching_up_until_;
+}
+
+void TouchSession::publish() {
+    publish_to_outputs();
+    TouchState& touch = state_.touch;
+    if (touch.replay) return;
+    const Settings& settings = state_.settings;
+    const MediaDescription& media = state_.media;
+    stretch(touch.bump, media.depth_columns, media.depth_rows, settings.touch.shape.bump_size_px);
+    // As they are wished: the loop holds them to what the hand it reads can stand.
+    HapticSettings asked = asked_settings(settings, touch);
+    const bool retuned =
+        falcon_.is_retuned(settings, touch) || inverse3_.is_retuned(settings, touch);
+    const bool same = published_.version > 0 && same_touch(published_, asked) && !retuned;
+    asked.recording = recording_.active();
+    asked.followed = settings.others;
+    if (!same || published_.recording != asked.recording || published_.followed != asked.followed) {
+        if (published_.recording && !asked.recording) recording_ended_at_ = touch.haptic.ticks;
+        asked.version = published_.version + (same ? 0 : 1);
+        published_ = asked;
+        recording_.hand_over(published_);
+        haptic_settings_.publish(published_);
+    }
+    // After the above, so that the force is already rising from zero when the goal moves elsewhere.
+    if (falcon_.is_retuned(settings, touch)) falcon_.publish(settings, touch);
+    if (inverse3_.is_retuned(settings, touch)) inverse3_.publish(settings, touch);
+    publish_to_player();
+}
+
+/// To the ear, and to the hands that hold a game pad. A replay is not touched.
+void TouchSession::publish_to_outputs() {
+    const Settings& settings = state_.settings;
+    const TouchState& touch = state_.touch;
+    const bool to_pads = settings.game_pad && !touch.replay;
+    sound_.choose(
+        {touch.material.sound, settings.sound_volume},
+        {.speaker = !settings.mute && !touch.replay, .coils = to_pads && touch.pads.has_coils()});
+    pads_.choose(touch.material.sound, to_pads, sound_.moves_coils());
+}
+
+void TouchSession::publish_to_player() {
+    const Settings& settings = state_.settings;
+    player_.set_motion(motion_wanted(settings.touch.carry, state_.media.as_recorded
+                                                               ? InBetweens::off
+                                                               : settings.in_betweens));
+    player_.set_cleaning(wanted_cleaning(settings, state_.media));
+}
+
+void TouchSession::start() {
+    if (loop_) return;
+    publish();
+    // What the loop before it did is past: ticks are counted anew.
+    state_.touch.haptic = {.hand = hand_.device->unread()};
+    haptic_state_.publish(state_.touch.haptic);
+    standstills_ = 0;
+    recording_ended_at_ = 0;
+    loop_ = std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
+                                                           player_.haptics(),
+                                                           haptic_settings_,
+                                                           haptic_state_,
+                                                           *strips_,
+                                                           *ticks_,
+                                                           {.window = &ties_.window,
+                                                            .video = &player_.heart(),
+                                                            .recorder = &recording_.heart(),
+                                                            .decoder = &player_.decoder_heart()},
+                                                           &ties_.without_force,
+                                                           &touch_source_->ticks,
+                                                           walked_.get()});
+}
+
+std::optional<TickSchedule> TouchSession::stop() noexcept {
+    if (!loop_) return {};
+    loop_->stop();
+    const TickSchedule schedule = loop_->timer().schedule();
+    loop_.reset();
+    return schedule;
+}
+
+void TouchSession::close_device() {
+    static_cast<void>(stop());
+    hand_.device.reset();
+}
+
+void TouchSession::play(std::unique_ptr<Media> media, std::shared_ptr<const TouchMaps> maps) {
+    state_.media.describe(media->description());
+    media_number_ = recording_.opened(state_.media);
+    player_.play_media(std::move(media), media_number_, std::move(maps));
+}
+
+DepthBlend TouchSession::frames_now() {
+    const FrameWindow& frames = player_.picture().front();
+    return frames.at(frames.clock.playback_s(steady_clock::now()));
+}
+
+void TouchSession::point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use) {
+    const TouchState& touch = state_.touch;
+    if (touch.replay || hand_.mouse == nullptr || !shown.makes_surface()) return;
+    use.pressed = use.pressed && by_mouse();
+    const SurfaceShape& shape = touch.shape(state_.settings.touch);
+    const DepthSurface surface = shown.surface(shape, touch.bump.get());
+    hand_.mouse->target().publish(pointer_.target(ray, surface, use));
+}
+
+bool TouchSession::by_mouse() const noexcept {
+    return hand_.mouse != nullptr &&
+           (!hand_.looks_for_device() || state_.touch.haptic.hand.stand_in);
+}
+
+bool TouchSession::may_record() const noexcept {
+    return !published_.recording &&
+           (!loop_ || state_.touch.haptic.ticks > recording_ended_at_ + 1);
+}
+
+}  // namespace dibhr
