@@ -19,7 +19,7 @@ constexpr double kMostScale = 10.0;
 
 /// Asks for other words than the panel's.
 void say(const DepthStatement& said, ViewerState& state) {
-    if (!(said == state.media.opened.request.panel)) state.requests.meaning = said;
+    if (!(said == state.media.opened.request.panel)) state.commands.push(said);
 }
 
 std::string with_origin(const std::string& text, Origin origin) {
@@ -213,7 +213,7 @@ void draw_depth_rows(ViewerState& state) {
                camera_text(known.intrinsics)},
               intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
     if (!state.media.colour_path.empty()) registration_rows(state);
-    if (ImGui::Button("Save as sidecar")) state.requests.save_sidecar = true;
+    if (ImGui::Button("Save as sidecar")) state.commands.push(SaveSidecar{});
     explain("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::EndDisabled();
     ImGui::PopID();

@@ -13,7 +13,7 @@ namespace dibhr {
 namespace {
 
 void ask_for(ViewerState& state, DepthWish wish) {
-    state.requests.depth = wish;
+    state.commands.push(wish);
 }
 
 /// Each line has its place from the beginning, so that the button stays under the pointer.

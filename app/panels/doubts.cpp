@@ -35,11 +35,11 @@ void draw_doubts(ViewerState& state) {
         }
         ImGui::EndTable();
     }
-    if (ImGui::Button("Use those of the file")) state.requests.agreed = true;
+    if (ImGui::Button("Use those of the file")) state.commands.push(AnswerDoubts{true});
     constexpr const char* kKeep = "Keep the usual ones";
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(kKeep).x) ImGui::NewLine();
-    if (ImGui::Button(kKeep)) state.requests.agreed = false;
+    if (ImGui::Button(kKeep)) state.commands.push(AnswerDoubts{false});
     ImGui::End();
 }
 

@@ -259,7 +259,7 @@ void draw_card(ViewerState& state) {
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
     const auto button = [&state](const char* id, Icon icon, std::string help, Action action) {
         help += state.keys.in_brackets(action);
-        if (icon_button(id, icon, help.c_str())) state.requests.action = action;
+        if (icon_button(id, icon, help.c_str())) state.commands.push(action);
     };
     button("back", Icon::step_back, "One step back", Action::step_back);
     ImGui::SameLine(0.0F, 0.0F);
@@ -273,7 +273,7 @@ void draw_card(ViewerState& state) {
         width - ImGui::CalcTextSize(end.c_str()).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
     ImGui::TextUnformatted(title_of(news, end_x - ImGui::GetCursorPosX()).c_str());
     ImGui::SameLine(end_x);
-    if (ImGui::SmallButton(end.c_str())) state.requests.action = Action::explain;
+    if (ImGui::SmallButton(end.c_str())) state.commands.push(Action::explain);
     ImGui::TextWrapped("%s", words_of(state).c_str());
     // As high as for two lines: what is read does not jump.
     const float lines = ImGui::GetCursorPosY();

@@ -204,7 +204,7 @@ void draw_firmware_field(ViewerState& state) {
     const bool named = state.ui.fields.firmware[0] != '\0';
     const bool pressed = button_or_drop("Load", named, "the file");
     if ((entered || pressed) && named) {
-        state.requests.firmware = typed_path(state.ui.fields.firmware.data());
+        state.commands.push(UseFirmware{typed_path(state.ui.fields.firmware.data())});
     }
 }
 

@@ -50,12 +50,12 @@ std::string time_text(const FolderEntry& entry) {
 }
 
 void go_to(ViewerState& state, const fs::path& folder) {
-    state.requests.folder = folder;
+    state.commands.push(ReadFolder{folder});
 }
 
 void open(ViewerState& state, const FolderEntry& entry) {
     if (entry.kind == FileKind::folder) return go_to(state, entry.file);
-    state.requests.open = request_for(entry);
+    state.commands.push(request_for(entry));
     state.ui.dialog.shown = false;
 }
 
@@ -113,7 +113,7 @@ void enter(ViewerState& state) {
         chosen = &entry_in(dialog, 0);
     TypedFile file{typed, {}};
     if (chosen != nullptr) file.chosen = *chosen;
-    state.requests.typed = file;
+    state.commands.push(file);
 }
 
 /// Asks for the completion at Tab, and writes it when it is there, unless more was typed since.
@@ -121,7 +121,7 @@ int complete(ImGuiInputTextCallbackData* data) {
     ViewerState& state = *static_cast<ViewerState*>(data->UserData);
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
     if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) {
-        state.requests.completion = typed;
+        state.commands.push(CompleteTyped{typed});
         return 0;
     }
     const Completion done = std::exchange(state.ui.dialog.completion, {});

@@ -539,7 +539,7 @@ void draw_nothing_open(ViewerState& state) {
     ImGui::TextDisabled("Drop a colour and a depth file here, a folder or a session, or");
     ImGui::Spacing();
     if (ImGui::Button(("Open a recording" + state.keys.in_brackets(Action::open_file)).c_str()))
-        state.requests.action = Action::open_file;
+        state.commands.push(Action::open_file);
     ImGui::End();
 }
 

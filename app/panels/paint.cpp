@@ -74,13 +74,13 @@ void draw_undo_buttons(ViewerState& state) {
     const KeyTable& keys = state.keys;
     if (button("Undo", state.ui.brush.can_undo,
                "Takes back what was painted last" + keys.in_brackets(Action::undo)))
-        state.requests.action = Action::undo;
+        state.commands.push(Action::undo);
     ImGui::SameLine();
     if (button("Redo", state.ui.brush.can_redo, "Paints it again" + keys.in_brackets(Action::redo)))
-        state.requests.action = Action::redo;
+        state.commands.push(Action::redo);
     ImGui::SameLine();
     if (button("Remove all", state.ui.brush.has_paint, "All that is painted on this recording"))
-        state.requests.remove_paint = true;
+        state.commands.push(RemovePaint{});
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ void draw_paint_panel(ViewerState& state) {
     if (!brush.refusal.empty()) return quiet_text(brush.refusal);
     ImGui::PushID("paint");
     bool on = brush.on;
-    if (ImGui::Checkbox("Brush", &on)) state.requests.action = Action::toggle_brush;
+    if (ImGui::Checkbox("Brush", &on)) state.commands.push(Action::toggle_brush);
     explain(("The left mouse button paints on the relief instead of touching it" +
              state.keys.in_brackets(Action::toggle_brush))
                 .c_str());

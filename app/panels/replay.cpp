@@ -67,7 +67,7 @@ void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
     ImGui::PushID("replay");
     const ReplayNews& news = *state.touch.replay;
     draw_about(news);
-    if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.requests.leave_replay = true;
+    if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.commands.push(LeaveReplay{});
     explain("Leaves the replay: the hand touches the video it was recorded over");
     ImGui::SameLine();
     report_button(state, news.file);

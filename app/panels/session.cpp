@@ -30,7 +30,7 @@ void draw_switch(ViewerState& state) {
     const bool on = state.touch.recording.has_value();
     if (on) push_recording_colours();
     if (ImGui::Button(on ? "Stop recording###record" : "Record###record", {half_width(), 0.0F})) {
-        state.requests.toggle_recording = true;
+        state.commands.push(Action::record);
     }
     if (on) ImGui::PopStyleColor(kRecordingColours);
     explain(on ? "Closes the file" : "Every tick goes into a new file in the current folder",
@@ -65,7 +65,7 @@ void draw_marks(ViewerState& state) {
                    ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered)
-        state.requests.marks.push_back(std::chrono::steady_clock::now());
+        state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
     explain("Marks this moment", state.keys, Action::mark);
     const std::vector<SessionMark>& marks = state.touch.recording->marks;
     const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);
@@ -81,7 +81,7 @@ void draw_clip_button(ViewerState& state) {
     if (on) push_recording_colours();
     ImGui::BeginDisabled(state.ui.clip && state.ui.clip->finishing);
     if (ImGui::Button(on ? "End the clip###clip" : "Save a clip###clip", {-1.0F, 0.0F}))
-        state.requests.toggle_clip = true;
+        state.commands.push(Action::take_clip);
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor(kRecordingColours);
     if (on) {
@@ -107,7 +107,7 @@ void draw_session_panel(ViewerState& state) {
     } else if (!state.touch.recorded_file.empty()) {
         file_row("Recorded", state.touch.recorded_file);
         if (ImGui::Button("Replay it", {half_width(), 0.0F})) {
-            state.requests.open = OpenRequest{.colour = state.touch.recorded_file};
+            state.commands.push(OpenRequest{.colour = state.touch.recorded_file});
         }
         ImGui::SameLine();
         report_button(state, state.touch.recorded_file);

@@ -123,7 +123,7 @@ void draw_surface_panel(ViewerState& state) {
     explain("As the camera that recorded it", state.keys, Action::toggle_straight_view);
     settings.straight_view = straight == 1;
     ImGui::SameLine();
-    if (ImGui::Button("Reset view")) state.requests.reset_view = true;
+    if (ImGui::Button("Reset view")) state.commands.push(Action::reset_view);
     explain(state.keys.name_for(Action::reset_view).c_str());
     choice_row("Theme", kThemeWords, settings.theme,
                "The colours of the panels and the wall (--theme)");

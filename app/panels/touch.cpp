@@ -26,7 +26,7 @@ void draw_origin(ViewerState& state) {
         return;
     }
     quiet_text("Computed again with these. The pale ball is the recorded proxy.");
-    if (ImGui::Button("As recorded", {-1.0F, 0.0F})) state.requests.as_recorded = true;
+    if (ImGui::Button("As recorded", {-1.0F, 0.0F})) state.commands.push(ReplayAsRecorded{});
     explain("Back to the recorded parameters, proxies and forces");
 }
 
@@ -94,7 +94,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
     ImGui::PushStyleColor(
         ImGuiCol_Button, ImGui::GetStyleColorVec4(chosen ? ImGuiCol_SliderGrab : ImGuiCol_FrameBg));
     if (ImGui::Button(label.c_str()))
-        state.requests.material = name.empty() ? std::string(kAsRecorded) : name;
+        state.commands.push(UseMaterial{name.empty() ? std::string(kAsRecorded) : name});
     ImGui::PopStyleColor();
     explain(help);
 }
@@ -116,7 +116,7 @@ void draw_materials(ViewerState& state) {
             text_field("##keep", "Changed: keep as a material called ...", state.ui.fields.material,
                        "Enter keeps what is felt now under that name");
         if (done && state.ui.fields.material.front() != '\0')
-            state.requests.keep_material = state.ui.fields.material.data();
+            state.commands.push(KeepMaterial{state.ui.fields.material.data()});
     }
     ImGui::PopID();
 }
@@ -128,11 +128,11 @@ void draw_bump(ViewerState& state) {
     }
     if (text_field("##bump", "Bump map: a grey picture, or drop it here", state.ui.fields.bump,
                    "Path of a picture laid over the surface as fine relief; Enter takes it")) {
-        state.requests.bump = typed_path(state.ui.fields.bump.data());
+        state.commands.push(LoadBump{typed_path(state.ui.fields.bump.data())});
     }
     if (!state.touch.bump) return;
     fact_row("Bump map", state.touch.bump_file.filename().string());
-    if (ImGui::Button("Remove the bump map")) state.requests.bump = std::filesystem::path{};
+    if (ImGui::Button("Remove the bump map")) state.commands.push(LoadBump{});
 }
 
 /// Its volume, and whether it is heard at all.

@@ -39,7 +39,7 @@ void draw_recent(ViewerState& state) {
         const std::string name =
             is_live(file.colour) ? public_name(file.colour) : file.colour.filename().string();
         if (ImGui::Selectable((name + depth).c_str()))
-            state.requests.open = OpenRequest{file.colour, file.depth};
+            state.commands.push(OpenRequest{file.colour, file.depth});
         ImGui::PopID();
         ImGui::EndDisabled();
         explain(file.colour.c_str());
@@ -64,10 +64,10 @@ void draw_open(ViewerState& state) {
     const bool named = state.ui.fields.colour[0] != '\0';
     const bool pressed = button_or_drop(state.media.opening ? "Opening" : "Open", !state.media.opening, "files",
                                         button_width(kRecent));
-    if (pressed && !named) state.requests.action = Action::open_file;
+    if (pressed && !named) state.commands.push(Action::open_file);
     if ((from_colour || from_depth || pressed) && named) {
-        state.requests.open = OpenRequest{typed_path(state.ui.fields.colour.data()),
-                                          typed_path(state.ui.fields.depth.data())};
+        state.commands.push(OpenRequest{typed_path(state.ui.fields.colour.data()),
+                                          typed_path(state.ui.fields.depth.data())});
     }
     draw_recent(state);
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "app/panels/commands.hpp"
 #include "app/settings/consent.hpp"
 #include "app/settings/folder.hpp"
 #include "app/settings/keys.hpp"
@@ -21,7 +21,6 @@
 #include "core/estimate/estimate_watch.hpp"
 #include "core/haptics/explanation.hpp"
 #include "core/haptics/words.hpp"
-#include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
 
@@ -60,12 +59,6 @@ struct Completion {
     std::string typed{}, whole{};
 };
 
-/// What was entered in the Open dialog, to be looked up.
-struct TypedFile {
-    std::string typed{};
-    std::optional<FolderEntry> chosen{};  ///< where that is no file
-};
-
 /// The window's own dialog for opening files.
 struct OpenDialog {
     static constexpr int kPicturesToFocus = 30;  ///< it takes two
@@ -101,39 +94,6 @@ struct OpenDialog {
 [[nodiscard]] inline bool takes_keys(const OpenDialog& dialog) {
     return dialog.shown && (dialog.in_front || dialog.asks_for_keyboard > 0);
 }
-
-/// What a person wants of depth that can be made for a video of colour alone.
-enum class DepthWish { make, agree, cancel, open, close };
-
-/// What a panel asks the viewer to do after the picture.
-struct Requests {
-    std::optional<OpenRequest> open{};
-    std::optional<DepthStatement> meaning{};  ///< what a person says of the depth that is open
-    bool save_sidecar{false};
-    std::optional<std::filesystem::path> bump{};  ///< empty path: no bump map
-    std::optional<std::string> material{};        ///< as material_called() takes it
-    std::string keep_material{};  ///< what is felt, under that name; empty: not asked
-    std::optional<std::filesystem::path> firmware{};
-    std::optional<bool> agreed{};      ///< a person's word on UiState::doubts
-    std::optional<DepthWish> depth{};  ///< of a video of colour alone
-    bool remove_paint{false};
-    bool reset_view{false};
-    bool toggle_recording{false};
-    std::vector<std::chrono::steady_clock::time_point> marks{};  ///< moments to mark
-    bool as_recorded{false};                        ///< a replay: no other parameters any more
-    bool leave_replay{false};                       ///< its video is to be touched
-    std::optional<std::filesystem::path> folder{};  ///< to be read, for the Open dialog
-    std::optional<std::string> completion{};        ///< of what was typed there
-    std::optional<TypedFile> typed{};               ///< and entered
-    std::optional<Action> action{};                 ///< of a button that does what a key does
-    std::filesystem::path report{};                 ///< of that session; empty: none is asked for
-    bool screenshot{false};
-    bool screenshot_of_relief{false};  ///< without panels
-    bool toggle_clip{false};
-    bool toggle_clip_of_relief{false};
-    bool full_screen{false};
-    bool quit{false};
-};
 
 /// What a picture or a clip of the window is of.
 enum class PictureOf { window, relief };
@@ -256,7 +216,7 @@ struct ViewerState {
     TouchState touch{};
     MediaState media{};
     UiState ui{};
-    Requests requests{};
+    CommandQueue commands{};
 
     /// As TouchState::shape().
     [[nodiscard]] const SurfaceShape& shape() const noexcept {

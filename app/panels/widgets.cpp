@@ -309,7 +309,7 @@ float half_width() {
 }
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
-    if (ImGui::Button("Report", {-1.0F, 0.0F})) state.requests.report = session;
+    if (ImGui::Button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
     explain("One page: where, how long and how hard it was touched (dibhr report)");
 }
 

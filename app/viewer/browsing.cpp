@@ -66,7 +66,7 @@ void Browsing::show(const fs::path& folder, ViewerState& state) {
 }
 
 void Browsing::go_to(const fs::path& folder, OpenDialog& dialog) {
-    next_folder_ = folder;
+    folder_.start_anew([folder] { return read_folder(folder); });
     dialog.folder = {.path = whole_path(folder)};
     dialog.reads = true;
     ++dialog.reading;
@@ -83,48 +83,45 @@ bool Browsing::go_by(int entries, const ViewerState& state) {
     return true;
 }
 
+void Browsing::complete(const std::string& typed, const OpenDialog& dialog) {
+    completion_.start_anew([typed, folder = dialog.folder.path] {
+        return Completion{typed, completed(typed, folder)};
+    });
+}
+
+void Browsing::enter(const TypedFile& entered, const OpenDialog& dialog) {
+    entered_in_ = dialog.line;
+    typed_.start_anew([entered, listed = dialog.folder] {
+        return entry_meant(listed, entered.typed, entered.chosen);
+    });
+}
+
 std::optional<std::string> Browsing::advance(ViewerState& state) {
-    advance_folder(state);
-    advance_typed(state);
+    take_folder(state.ui.dialog);
+    take_typed(state);
     advance_preview(state.ui.dialog);
     if (const auto folder = neighbours_.take()) return step(*folder, state);
     return std::nullopt;
 }
 
-void Browsing::advance_folder(ViewerState& state) {
-    OpenDialog& dialog = state.ui.dialog;
-    if (state.requests.folder) go_to(*std::exchange(state.requests.folder, {}), dialog);
-    if (auto folder = folder_.take(); folder && !next_folder_) {
-        dialog.folder = std::move(*folder);
-        dialog.reads = false;
-        ++dialog.reading;
-        // The row of a pair is named by its colour.
-        if (const auto row = entry_of(dialog.folder, dialog.chosen))
-            dialog.chosen = dialog.folder.entries[*row].file;
-    }
-    if (!next_folder_) return;
-    folder_.start_anew([folder = *std::exchange(next_folder_, {})] { return read_folder(folder); });
+void Browsing::take_folder(OpenDialog& dialog) {
+    auto folder = folder_.take();
+    if (!folder) return;
+    dialog.folder = std::move(*folder);
+    dialog.reads = false;
+    ++dialog.reading;
+    // The row of a pair is named by its colour.
+    if (const auto row = entry_of(dialog.folder, dialog.chosen))
+        dialog.chosen = dialog.folder.entries[*row].file;
 }
 
-void Browsing::advance_typed(ViewerState& state) {
+void Browsing::take_typed(ViewerState& state) {
     OpenDialog& dialog = state.ui.dialog;
-    const fs::path folder = dialog.folder.path;
-    if (const auto typed = std::exchange(state.requests.completion, {})) {
-        completion_.start_anew([typed = *typed, folder] {
-            return Completion{typed, completed(typed, folder)};
-        });
-    }
     if (auto completion = completion_.take()) dialog.completion = std::move(*completion);
-    if (const auto entered = std::exchange(state.requests.typed, {})) {
-        entered_in_ = dialog.line;
-        typed_.start_anew([typed = *entered, listed = dialog.folder] {
-            return entry_meant(listed, typed.typed, typed.chosen);
-        });
-    }
     const auto meant = typed_.take();
     if (!meant || !dialog.shown || dialog.line != entered_in_) return;
     if (meant->kind == FileKind::folder) return go_to(meant->file, dialog);
-    state.requests.open = request_for(*meant);
+    state.commands.push(request_for(*meant));
     dialog.shown = false;
 }
 
@@ -175,7 +172,7 @@ std::string Browsing::step(const Folder& folder, ViewerState& state) const {
     if (next < 0) return "The first one in its folder";
     if (next >= static_cast<long>(files.size())) return "The last one in its folder";
     const FolderEntry& entry = *files[static_cast<std::size_t>(next)];
-    state.requests.open = request_for(entry);
+    state.commands.push(request_for(entry));
     return std::to_string(next + 1) + " of " + std::to_string(files.size()) + ": " + entry.name();
 }
 

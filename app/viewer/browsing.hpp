@@ -32,8 +32,14 @@ class Browsing {
     /// has been read. False while it is still being read for the last one.
     [[nodiscard]] bool go_by(int entries, const ViewerState& state);
 
-    /// Once a picture: takes what was read, and reads what the dialog asks for. What there is to
-    /// tell a person.
+    /// Reads another folder for the dialog.
+    void go_to(const std::filesystem::path& folder, OpenDialog& dialog);
+    /// Finds what Tab makes of what is typed.
+    void complete(const std::string& typed, const OpenDialog& dialog);
+    /// Finds what was entered, which is then opened.
+    void enter(const TypedFile& entered, const OpenDialog& dialog);
+
+    /// Once a picture: takes what was read and found. What there is to tell a person.
     [[nodiscard]] std::optional<std::string> advance(ViewerState& state);
 
   private:
@@ -44,14 +50,12 @@ class Browsing {
     };
 
     static Read read_preview(const FolderEntry& entry);
-    void go_to(const std::filesystem::path& folder, OpenDialog& dialog);
-    void advance_folder(ViewerState& state);
-    void advance_typed(ViewerState& state);
+    void take_folder(OpenDialog& dialog);
+    void take_typed(ViewerState& state);
     void advance_preview(OpenDialog& dialog);
     [[nodiscard]] std::string step(const Folder& folder, ViewerState& state) const;
 
     std::filesystem::path sample_folder_;
-    std::optional<std::filesystem::path> next_folder_{};
     std::shared_ptr<const ColourImage> picture_{};
     ColourTexture texture_{};
     int by_{0};

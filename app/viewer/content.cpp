@@ -35,12 +35,12 @@ std::string desktop_words(const ViewerState& state) {
 bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& state) {
     const bool one = files.size() == 1;
     if (one && named_firmware(files.front())) {
-        state.requests.firmware = files.front();
+        state.commands.push(UseFirmware{files.front()});
     } else if (one && files.front().extension() == ".toml") {
-        state.requests.material = files.front().string();
+        state.commands.push(UseMaterial{files.front().string()});
     } else {
         const auto request = dropped_request(files);
-        if (request) state.requests.open = request;
+        if (request) state.commands.push(*request);
         return request.has_value();
     }
     return true;
@@ -90,7 +90,7 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     // On the relief a picture is a recording, on the panels it is laid over the relief.
     const bool over_panels = window_.pointer().position_px.x >= relief_viewport().x;
     if (over_panels && files.size() == 1 && named_picture(files.front())) {
-        state_.requests.bump = files.front();
+        state_.commands.push(LoadBump{files.front()});
     } else if (!take_files(files, state_)) {
         state_.ui.message =
             "Drop one colour file, a colour and a depth file together, a folder, a session, a "
@@ -366,42 +366,6 @@ void Viewer::frame_relief() {
     explaining_.leave_camera();
     camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
                          state_.settings.touch.shape.relief_px);
-}
-
-void Viewer::load_bump(const std::filesystem::path& file) {
-    attempt([&] {
-        state_.touch.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
-        state_.touch.bump_file = file;
-        if (state_.touch.bump) make_felt(state_.settings.touch);
-    });
-}
-
-void Viewer::take_material(const std::string& name) {
-    if (state_.touch.replay) {
-        tell("A replay is felt as it was recorded: touch its video to choose a material");
-        return;
-    }
-    attempt([&] {
-        Material material = material_called(name);
-        lay(material, state_.settings.touch);
-        state_.touch.bump = material.bumps;
-        state_.touch.bump_file = material.map;
-        state_.settings.material = material.name.empty() ? std::string{} : name;
-        state_.touch.material = std::move(material);
-    });
-}
-
-void Viewer::keep_material(const std::string& name) {
-    attempt([&] {
-        Material material = material_of(state_.settings.touch, state_.touch.bump_file, state_.touch.bump,
-                                        state_.media.depth_columns);
-        material.name = name;
-        material.sound = state_.touch.material.sound;
-        tell("Kept as " + save_material(material).string());
-        state_.ui.materials = material_names();
-        state_.ui.fields.material = {};
-        take_material(name);
-    });
 }
 
 void Viewer::draw_scene(glm::ivec2 viewport) {

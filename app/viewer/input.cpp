@@ -2,6 +2,7 @@
 #include "app/viewer/input.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -32,15 +33,14 @@ double times_speed(double speed, double factor) {
 }
 
 /// What the viewer does after the picture.
-constexpr std::pair<Action, bool Requests::*> kRequests[] = {
-    {Action::record, &Requests::toggle_recording},
-    {Action::reset_view, &Requests::reset_view},
-    {Action::toggle_full_screen, &Requests::full_screen},
-    {Action::take_screenshot, &Requests::screenshot},
-    {Action::take_screenshot_of_relief, &Requests::screenshot_of_relief},
-    {Action::take_clip, &Requests::toggle_clip},
-    {Action::take_clip_of_relief, &Requests::toggle_clip_of_relief},
-    {Action::quit, &Requests::quit}};
+constexpr std::array kAfterPicture{Action::record,
+                                   Action::reset_view,
+                                   Action::toggle_full_screen,
+                                   Action::take_screenshot,
+                                   Action::take_screenshot_of_relief,
+                                   Action::take_clip,
+                                   Action::take_clip_of_relief,
+                                   Action::quit};
 
 void close_topmost(ViewerState& state) {
     if (!state.ui.message.empty()) {
@@ -50,7 +50,7 @@ void close_topmost(ViewerState& state) {
     } else if (!state.ui.doubts.empty() && !state.touch.replay) {
         state.ui.doubts.clear();  // asked again by the next window
     } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
-        state.requests.depth = DepthWish::close;
+        state.commands.push(DepthWish::close);
     } else {
         state.ui.help_open = false;
     }
@@ -197,9 +197,8 @@ Answer perform(Action action, ViewerState& state, Player& player) {
                  player, state.keys)) {
         return state.media.still ? Answer{"A still picture: nothing plays"} : *moved;
     }
-    for (const auto& [asking, request] : kRequests) {
-        if (action == asking) state.requests.*request = true;
-    }
+    if (std::find(kAfterPicture.begin(), kAfterPicture.end(), action) != kAfterPicture.end())
+        state.commands.push(action);
     Settings& settings = state.settings;
     switch (action) {
         case Action::toggle_force:
@@ -212,7 +211,7 @@ Answer perform(Action action, ViewerState& state, Player& player) {
             ++state.touch.centred;
             return {"Hand centred"};
         case Action::mark:
-            state.requests.marks.push_back(std::chrono::steady_clock::now());
+            state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
             return {};
         case Action::toggle_sound:
             settings.mute = !settings.mute;

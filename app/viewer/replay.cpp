@@ -142,16 +142,18 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     }
 }
 
-void ViewerReplay::follow_panels(ViewerState& state) {
+void ViewerReplay::follow_panels(const ViewerState& state) {
     player_->compare(state.settings.others);
-    if (std::exchange(state.requests.as_recorded, false)) {
-        chosen_.reset();
-        state.settings.touch = recorded_;
-        player_->compute({});
-    } else if (!(state.settings.touch == (chosen_ ? *chosen_ : recorded_))) {
-        chosen_ = state.settings.touch;
-        player_->compute(chosen_);
-    }
+    if (state.settings.touch == (chosen_ ? *chosen_ : recorded_)) return;
+    chosen_ = state.settings.touch;
+    player_->compute(chosen_);
+}
+
+void ViewerReplay::put_back(ViewerState& state) {
+    if (!player_) return;
+    chosen_.reset();
+    state.settings.touch = recorded_;
+    player_->compute({});
 }
 
 DepthBlend ViewerReplay::shown() const {

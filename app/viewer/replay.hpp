@@ -25,8 +25,10 @@ class ViewerReplay {
 
     /// Once a picture, before the panels: the moment that is due then, into `state`.
     void advance(ViewerState& state, SessionPlayer::Time now);
-    /// After the panels: whether a person chose other parameters, or those of the recording.
-    void follow_panels(ViewerState& state);
+    /// After the panels: whether a person chose other parameters.
+    void follow_panels(const ViewerState& state);
+    /// Those of the recording again.
+    void put_back(ViewerState& state);
 
     /// The frames of the moment that is shown.
     [[nodiscard]] DepthBlend shown() const;

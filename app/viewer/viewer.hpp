@@ -132,7 +132,8 @@ class Viewer {
     void draw_picture(const WindowInput& input = {});
     void draw_panels(std::span<const KeyPress> pressed = {});
     void draw_explained();
-    void carry_out_requests();
+    void carry_out_commands();
+    void perform_after_picture(Action action);
     void publish();
     void keep_settings();
     void take_word(bool agreed);

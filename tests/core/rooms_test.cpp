@@ -271,6 +271,8 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"core/experiment/sweep.cpp", "core/report/session_report.hpp", true}));
     CHECK(breaks_arrow({"core/report/report_page.cpp", "core/experiment/experiment.hpp", true}));
     CHECK(breaks_arrow({"app/panels/touch.cpp", "app/viewer/viewer.hpp", true}));
+    CHECK(breaks_arrow({"app/touching/force_law.cpp", "app/panels/panels.hpp", true}));
+    CHECK(breaks_arrow({"app/study/study_surface.cpp", "app/viewer/viewer.hpp", true}));
     CHECK(breaks_arrow({"app/python/session.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"device/falcon/link.cpp", "device/mouse_hand.hpp", true}));
     CHECK_FALSE(breaks_arrow({"app/main.cpp", "core/error.hpp", true}));

@@ -166,6 +166,10 @@ void WindowProgram::hang() const {
     REQUIRE(eventually([this] { return (*board_)->is_hanging.load(); }, std::chrono::minutes(1)));
 }
 
+void WindowProgram::go_on() const {
+    (*board_)->hangs = false;
+}
+
 void WindowProgram::wait_for_picture() const {
     // The one that is being drawn may have looked for events already.
     const std::uint64_t wanted = seen().picture + 2;

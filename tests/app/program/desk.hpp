@@ -63,6 +63,8 @@ class WindowProgram : public Process {
     void act(const std::string& events) const;
     /// The window's thread loops for ever, which it does when this returns.
     void hang() const;
+    /// It goes on.
+    void go_on() const;
 
   private:
     WindowProgram(std::vector<std::string> arguments, std::vector<std::string> environment,

@@ -128,7 +128,7 @@ struct SeenBoard {
         }
     }
 
-    /// While it is true the window's thread loops for ever after its next picture.
+    /// While it is true the window's thread loops after its next picture.
     std::atomic<bool> hangs{false};
     std::atomic<bool> is_hanging{false};  ///< it does
 

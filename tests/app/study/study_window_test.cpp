@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -227,6 +228,12 @@ class Participant {
         return now;
     }
     [[nodiscard]] Seen seen() const { return program_.seen(); }
+    /// The window stands still from a picture on, soon after one in which that is so; and goes on.
+    void hang_window_when(const std::function<bool(const Seen&)>& is_so) const {
+        program_.wait_until(is_so);
+        program_.hang();
+    }
+    void resume_window() const { program_.go_on(); }
 
     static bool is_at(const Seen& now, StudyStep step) {
         return now.study && now.study_step == static_cast<int>(step);
@@ -696,6 +703,38 @@ TEST_CASE("a study that is killed at any picture loses no answer and doubles non
     CHECK(record.finished);
     CHECK(record.answered.size() == kKills);
     CHECK_FALSE(std::filesystem::exists(at.running_session()));
+}
+
+TEST_CASE("the button that takes the force off counts in the picture that begins an interval, too",
+          "[study window]") {
+    const Sitting at(head() + kPairs);
+    write_firmware(at.folder / "firmware.bin");
+    const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
+    const Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"},
+                             falcon.host());
+    person.leave(StudyStep::instructions);
+    // All is there, and it is felt 0.9 s after it was asked for.
+    const auto is_about_to_begin = [](int interval) {
+        return [interval](const Seen& now) {
+            return Participant::is_at(now, StudyStep::interval) && now.interval == interval &&
+                   (now.force_enabled || (now.waits && now.records && now.surface));
+        };
+    };
+    person.hang_window_when(is_about_to_begin(0));
+    if (!person.seen().waits) {  // on a busy machine it may have begun: the next one, then
+        person.resume_window();
+        person.wait_for_interval(0, 0);
+        person.press("Return");
+        person.hang_window_when(is_about_to_begin(1));
+    }
+    REQUIRE(person.seen().waits);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+    falcon.tell("press 8");  // minus
+    falcon.wait_for_commands(50);
+    person.resume_window();
+    person.wait_until(
+        [](const Seen& now) { return Participant::is_at(now, StudyStep::interval) && !now.waits; });
+    CHECK_FALSE(person.seen().force_enabled);
 }
 
 TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]") {

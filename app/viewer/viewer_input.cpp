@@ -1,0 +1,159 @@
+// What the viewer does at once with keys and mouse.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/panels/panels.hpp"
+#include "app/viewer/viewer.hpp"
+#include "core/haptics/surface.hpp"
+
+namespace dibhr {
+
+void Viewer::take_keys(const WindowInput& input) {
+    // A name typed right after the key that opens is none, even before the field has the keyboard.
+    const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown;
+    const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
+    const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
+                                                    [this](int key) { return window_.holds(key); });
+    if (as_recorded && !state_.media.as_recorded && !state_.touch.replay) tell("Depth as recorded");
+    state_.media.as_recorded = as_recorded;
+    const auto take = [this](Action action, EventTimes::Time at) {
+        if (action == Action::mark && !state_.touch.replay)
+            state_.commands.push(MarkMoment{at});
+        else
+            perform(action);
+    };
+    for (const KeyPress& press : input.keys) {
+        if (takes_keys(state_.ui.dialog) && state_.ui.message.empty()) take_dialog_key(press);
+        if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
+                                                          press.repeated, press.shift))
+            take(*action, press.at);
+    }
+    if (typing) return;
+    for (const TypedCharacter& typed : input.characters) {
+        if (const auto action =
+                state_.keys.action_of_character(typed.code, typed.repeated, typed.shift))
+            take(*action, typed.at);
+    }
+}
+
+void Viewer::take_dialog_key(const KeyPress& press) {
+    const auto key = list_key(press.key);
+    if (key == ListKey::down) ++state_.ui.dialog.move;
+    if (key == ListKey::up) --state_.ui.dialog.move;
+    if (key == ListKey::take && !press.repeated) state_.ui.dialog.enter = true;
+}
+
+std::optional<Answer> Viewer::perform_with_files(Action action) {
+    switch (action) {
+        case Action::open_file:
+            return open_by_dialog();
+        case Action::open_file_in_window:
+            desktop_.call_off();
+            browsing_.toggle(state_);
+            return Answer{};
+        case Action::next_file:
+        case Action::previous_file:
+            if (browsing_.go_by(action == Action::next_file ? 1 : -1, state_)) return Answer{};
+            return Answer{"Still looking into the folder"};
+        default:
+            return std::nullopt;
+    }
+}
+
+std::optional<Answer> Viewer::perform_with_view(Action action) {
+    if (action == Action::copy_view) {
+        gui_.copy(text_of(camera_.view()));
+        return Answer{"View copied" + state_.keys.told(Action::paste_view, " takes it again")};
+    }
+    if (action != Action::paste_view) return std::nullopt;
+    const auto view = view_in(gui_.copied());
+    if (!view)
+        return Answer{"No view was copied" + state_.keys.told(Action::copy_view, " copies one")};
+    explaining_.leave_camera();
+    camera_.set_view(*view);
+    return Answer{"View taken"};
+}
+
+std::optional<Answer> Viewer::perform_with_brush(Action action) {
+    Brush& brush = state_.ui.brush;
+    if (action != Action::toggle_brush && action != Action::undo && action != Action::redo)
+        return std::nullopt;
+    if (state_.touch.replay) return Answer{"A replay is felt as it was recorded: nothing is painted"};
+    if (!brush.refusal.empty()) return Answer{brush.refusal};
+    if (action == Action::toggle_brush) {
+        brush.on = !brush.on;
+        if (!brush.on) return Answer{"Brush off"};
+        if (state_.media.playback.playing) touch_.player().pause();
+        state_.ui.show_paint = true;
+        return Answer{"Brush: drag over the relief to paint"};
+    }
+    if (action == Action::undo) {
+        if (!brush.can_undo) return Answer{"Nothing is painted that could be taken back"};
+        painting_.undo(state_, touch_.player());
+        return Answer{"Taken back" + state_.keys.told(Action::redo, " paints it again")};
+    }
+    if (!brush.can_redo) return Answer{"Nothing was taken back"};
+    painting_.redo(state_, touch_.player());
+    return Answer{"Painted again"};
+}
+
+void Viewer::perform(Action action) {
+    SessionPlayer* const replay = replay_.player();
+    Player& player = touch_.player();
+    std::optional<Answer> answer = perform_with_files(action);
+    if (!answer) answer = perform_with_view(action);
+    if (!answer) answer = perform_with_brush(action);
+    if (!answer) answer = explaining_.perform(action, state_, player, replay);
+    if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
+    if (!answer) answer = dibhr::perform(action, state_, player);
+    state_.media.playback = player.status();  // the next key of this picture goes on from here
+    if (!answer->place && answer->words.empty()) return;
+    tell(answer->words);
+    state_.ui.notice_of_place = answer->place;
+}
+
+void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
+    shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
+    Pointer pointer = window_.pointer();
+    const auto on_panes = place_on_panes(state_, pointer.position_px);
+    pointer.position_px.y -= panes_height(state_);  // the relief is below them
+    PointerUse use =
+        mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
+    pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
+    pointed_at_.reset();
+    const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
+    const bool measures = state_.ui.ruler && !state_.ui.explained;
+    const bool paints = state_.ui.brush.on && !state_.ui.explained && !state_.touch.replay;
+    if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
+        pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
+    if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
+    if (paints) {
+        paint(use);
+        use.pressed = false;
+    } else if (measures) {  // its clicks touch nothing
+        state_.ui.ruler->press(use.pressed, pointed_at_);
+        use.pressed = false;
+    }
+    touch_.point(ray, shown_, use);
+}
+
+/// What it paints is not touched meanwhile.
+void Viewer::paint(const PointerUse& use) {
+    Brush& brush = state_.ui.brush;
+    painting_.use(use.pressed, pointed_at_, shown_, state_, touch_.player());
+    brush.ring.clear();
+    if (!pointed_at_ || !shown_.makes_surface()) return;
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
+    const double radius_px = 0.5 * brush.width * surface.columns();
+    constexpr int kCorners = 48;
+    for (int k = 0; k < kCorners; ++k) {
+        const double angle = 2.0 * std::numbers::pi * k / kCorners;
+        const Vec3 at =
+            surface.clamped_to_frame({pointed_at_->x + radius_px * std::cos(angle),
+                                      pointed_at_->y + radius_px * std::sin(angle), 0.0});
+        brush.ring.emplace_back(at.x, at.y, surface.elevation_at(at.x, at.y));
+    }
+}
+
+}  // namespace dibhr
