@@ -35,13 +35,4 @@ std::optional<ButtonAction> button_action_named(std::string_view name) noexcept 
     return value_named(kButtonJobs, name);
 }
 
-void TakenPresses::take(const ButtonPresses& presses, const ButtonPressTimes& at,
-                        const ButtonActions& actions, std::vector<GripPress>& into) {
-    for (std::size_t k = 0; k < taken_.size(); ++k) {
-        const std::uint32_t times = presses[k] - taken_[k];
-        if (times > 0) into.push_back({static_cast<int>(k), actions[k], times, at[k]});
-    }
-    taken_ = presses;
-}
-
 }  // namespace dibhr

@@ -137,15 +137,13 @@ void StudySurface::publish() {
     if (std::exchange(rests_, false)) session_.recording().mark("rest");
 }
 
-std::vector<StudySurface::ButtonPress> StudySurface::take_presses() {
-    std::vector<ButtonPress> pressed;
-    for (const GripPress& press : session_.take_presses()) {
-        if (press.action == ButtonAction::force_off)
-            rest();
-        else
-            pressed.push_back({press.button, press.at});
-    }
-    return pressed;
+std::vector<GripPress> StudySurface::take_presses() {
+    std::vector<GripPress> presses = session_.take_presses();
+    const auto takes_force_off = [](const GripPress& press) {
+        return press.action == ButtonAction::force_off;
+    };
+    if (std::erase_if(presses, takes_force_off) > 0) rest();
+    return presses;
 }
 
 }  // namespace dibhr

@@ -2,7 +2,6 @@
 // trial.
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -43,12 +42,8 @@ class StudySurface {
     void poll(bool window_in_front);
     /// Once a picture, after all that was changed: to the next tick.
     void publish();
-    struct ButtonPress {
-        int button{0};  ///< of the device, from 0
-        std::chrono::steady_clock::time_point at{};
-    };
     /// Those since the last call, but for what takes the force off, which is done here.
-    [[nodiscard]] std::vector<ButtonPress> take_presses();
+    [[nodiscard]] std::vector<GripPress> take_presses();
     [[nodiscard]] bool is_down(int button) const noexcept {
         return (touch_.haptic.hand.buttons >> button & 1) != 0;
     }

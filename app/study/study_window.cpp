@@ -296,11 +296,12 @@ void StudyWindow::take_button(StudyButton button, Clock::time_point at) {
 }
 
 void StudyWindow::take_buttons() {
-    for (const auto& [button, at] : surface_.take_presses()) {
-        if (button == kLongPressButton && run_.step() == StudyStep::adjust && !is_early(at))
-            long_press_.begin(at);
+    for (const GripPress& press : surface_.take_presses()) {
+        if (press.button == kLongPressButton && run_.step() == StudyStep::adjust &&
+            !is_early(press.at))
+            long_press_.begin(press.at);
         else
-            take_button({.number = button}, at);
+            take_button({.number = press.button}, press.at);
     }
     const auto ended = long_press_.ended(Clock::now(), surface_.is_down(kLongPressButton));
     if (ended) take_button({.number = kLongPressButton, .held = ended->held}, ended->at);

@@ -1,69 +1,49 @@
 // What the state of the force devices means.
 #include "app/touching/device_state.hpp"
 
-#include <algorithm>
-#include <array>
-#include <optional>
-
 namespace dibhr {
 
 namespace {
 
-/// What counts of a device's news, whichever device it is.
-struct Seen {
-    Touching as{};
-    bool asked{false};
-    bool was_ready{false};
-    bool ready{false};
-    bool may_be_ready{false};  ///< before the next picture
-    bool absent{false};        ///< none is there
-    bool needs_person{false};
-    bool trouble{false};
-    const std::string* sentence{nullptr};
-};
-
-using AllSeen = std::array<std::optional<Seen>, 2>;
-
-Seen seen(const FalconNews& news) {
-    using falcon::Stage;
-    const Stage stage = news.status.stage;
-    const bool ready = stage == Stage::ready;
-    return {Touching::falcon,
-            news.asked,
-            news.was_ready,
-            ready,
-            ready || stage == Stage::homing,
-            stage == Stage::looking,
-            needs_its_person(stage),
-            news.status.trouble,
-            &news.status.sentence};
+template <typename News>
+bool is_ready(const News& news) {
+    return news.status.stage == decltype(news.status.stage)::ready;
 }
 
-Seen seen(const Inverse3News& news) {
+/// None is there.
+bool is_absent(const FalconNews& news) {
+    return news.status.stage == falcon::Stage::looking;
+}
+bool is_absent(const Inverse3News& news) {
     using inverse3::Stage;
-    const Stage stage = news.status.stage;
-    const bool absent = stage == Stage::looking || stage == Stage::no_device;
-    return {Touching::inverse3,      news.asked, news.was_ready,          stage == Stage::ready,
-            !news.status.id.empty(), absent,     needs_its_person(stage), news.status.trouble,
-            &news.status.sentence};
+    return news.status.stage == Stage::looking || news.status.stage == Stage::no_device;
 }
 
-/// In a replay no device is there.
-AllSeen all_seen(const TouchState& touch) {
-    AllSeen all;
-    if (touch.replay) return all;
-    if (touch.falcon) all[0] = seen(*touch.falcon);
-    if (touch.inverse3) all[1] = seen(*touch.inverse3);
-    return all;
+/// Before the next picture.
+bool may_be_ready(const FalconNews& news) {
+    return is_ready(news) || news.status.stage == falcon::Stage::homing;
+}
+bool may_be_ready(const Inverse3News& news) {
+    return !news.status.id.empty();
 }
 
 /// It did so in the last tick that is known of.
-bool touches(const TouchState& touch, const Seen& one) {
-    return one.ready && !touch.haptic.hand.stand_in && touching(touch) == one.as;
+template <typename News>
+bool touches(const TouchState& touch, const News& news, Touching as) {
+    return is_ready(news) && !touch.haptic.hand.stand_in && touching(touch) == as;
 }
 
-bool in_sight(const TouchState& touch, const Seen& one) {
-    return !one.absent || one.trouble || one.was_ready || touches(touch, one);
+template <typename News>
+bool in_sight(const TouchState& touch, const News& news, Touching as) {
+    return !is_absent(news) || news.status.trouble || news.was_ready || touches(touch, news, as);
+}
+
+/// Whether that is so of a device. In a replay none is there.
+template <typename Is>
+bool any_device(const TouchState& touch, Is is) {
+    if (touch.replay) return false;
+    return (touch.falcon && is(*touch.falcon, Touching::falcon)) ||
+           (touch.inverse3 && is(*touch.inverse3, Touching::inverse3));
 }
 
 }  // namespace
@@ -73,15 +53,13 @@ Touching touching(const TouchState& touch) {
 }
 
 bool a_device_touches(const TouchState& touch) {
-    const AllSeen all = all_seen(touch);
-    return std::any_of(all.begin(), all.end(),
-                       [&](const std::optional<Seen>& one) { return one && touches(touch, *one); });
+    return any_device(
+        touch, [&](const auto& news, Touching as) { return touches(touch, news, as); });
 }
 
 bool may_touch(const TouchState& touch) {
-    const AllSeen all = all_seen(touch);
-    return std::any_of(all.begin(), all.end(), [](const std::optional<Seen>& one) {
-        return one && (!one->asked || one->was_ready || one->may_be_ready);
+    return any_device(touch, [](const auto& news, Touching) {
+        return !news.asked || news.was_ready || may_be_ready(news);
     });
 }
 
@@ -95,11 +73,11 @@ bool needs_its_person(inverse3::Stage stage) {
 }
 
 bool falcon_in_sight(const TouchState& touch) {
-    return touch.falcon && in_sight(touch, seen(*touch.falcon));
+    return touch.falcon && in_sight(touch, *touch.falcon, Touching::falcon);
 }
 
 bool inverse3_in_sight(const TouchState& touch) {
-    return touch.inverse3 && in_sight(touch, seen(*touch.inverse3));
+    return touch.inverse3 && in_sight(touch, *touch.inverse3, Touching::inverse3);
 }
 
 const char* touching_text(const TouchState& touch) {
@@ -109,12 +87,13 @@ const char* touching_text(const TouchState& touch) {
 
 std::string lacking_text(const TouchState& touch) {
     if (a_device_touches(touch)) return {};
-    for (const std::optional<Seen>& one : all_seen(touch)) {
-        if (!one) continue;
-        const bool lost = one->absent && (one->was_ready || one->trouble);
-        if ((lost || one->needs_person) && !one->sentence->empty()) return *one->sentence;
-    }
-    return {};
+    std::string text;
+    static_cast<void>(any_device(touch, [&text](const auto& news, Touching) {
+        const bool lost = is_absent(news) && (news.was_ready || news.status.trouble);
+        if (lost || needs_its_person(news.status.stage)) text = news.status.sentence;
+        return !text.empty();
+    }));
+    return text;
 }
 
 }  // namespace dibhr

@@ -7,6 +7,7 @@
 #include "app/touching/force_law.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
+#include "device/falcon/firmware_image.hpp"
 
 namespace dibhr {
 
@@ -14,7 +15,8 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kCatchingUpTime{300};  // of a single tick: else it would flicker
+/// Also of a single tick: else it would flicker.
+constexpr std::chrono::milliseconds kCatchingUpTime{300};
 
 std::string text_of(const Standstill& last) {
     const char* const of = last.of == Standstill::Of::window  ? "The window"
@@ -39,14 +41,17 @@ TouchSession::TouchSession(HandDevice hand, const TouchTies& ties, const Touched
     : ties_(ties),
       state_(state),
       hand_(std::move(hand)),
-      falcon_(hand_, state.settings, state.touch),
-      inverse3_(hand_, state.settings, state.touch),
+      falcon_(hand_.falcon, state.settings, state.touch),
+      inverse3_(hand_.inverse3, state.settings, state.touch),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
       recording_(*ticks_, ties.words, player_, state) {
     state_.touch.device = hand_.device->specification();
     state_.touch.haptic.hand = hand_.device->unread();
+    if (!state_.touch.falcon) return;
+    state_.touch.falcon->firmware = hand_.firmware;
+    state_.touch.falcon->firmware_trouble = hand_.firmware_trouble;
 }
 
 std::vector<std::string> TouchSession::poll(bool window_in_front) {
@@ -62,6 +67,7 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
     standstills_ = last.count;
     if (auto notice = falcon_.poll(touch)) notices.push_back(std::move(*notice));
     if (auto notice = inverse3_.poll(touch)) notices.push_back(std::move(*notice));
+    poll_ages();
     if (!touch.grants && loop_) touch.grants = loop_->grants();
     for (TickStrip strip; strips_->pop(strip);) touch.strips.add(strip);
     touch.sound = sound_.state();
@@ -75,6 +81,17 @@ std::vector<GripPress> TouchSession::take_presses() {
     falcon_.take_presses(state_.settings, state_.touch, presses);
     inverse3_.take_presses(state_.settings, state_.touch, presses);
     return presses;
+}
+
+void TouchSession::poll_ages() {
+    if (hand_.inverse3 == nullptr) return;
+    Inverse3News& news = *state_.touch.inverse3;
+    news.ages = hand_.inverse3->pose_ages();
+    const auto now = steady_clock::now();
+    if (now - ages_second_ < std::chrono::seconds(1)) return;
+    ages_second_ = now;
+    news.recent_ages = news.ages.since(ages_told_);
+    ages_told_ = news.ages;
 }
 
 void TouchSession::follow_others() {
@@ -95,6 +112,16 @@ void TouchSession::notice_catching_up() {
         catching_up_until_ = now + kCatchingUpTime;
     bounds_met_ = haptic.bounds_met;
     state_.touch.catching_up = now < catching_up_until_;
+}
+
+std::string TouchSession::use_firmware(const std::filesystem::path& file) {
+    falcon::FirmwareImage image = falcon::keep_firmware(file);
+    std::string kept = "Kept for the Falcon: " + image.name;
+    if (hand_.falcon == nullptr) return kept;
+    state_.touch.falcon->firmware = image.name;
+    state_.touch.falcon->firmware_trouble.clear();
+    hand_.falcon->use_firmware(std::move(image));
+    return kept;
 }
 
 void TouchSession::publish() {

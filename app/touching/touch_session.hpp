@@ -11,7 +11,6 @@
 #include <string>
 #include <vector>
 
-#include "app/settings/grip_buttons.hpp"
 #include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
 #include "app/sound/touch_source.hpp"
@@ -27,6 +26,7 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "core/video/media.hpp"
 #include "core/video/player.hpp"
+#include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {
@@ -77,15 +77,15 @@ class TouchSession {
     /// The loop has seen the end of the last recording: a next one gets none of its ticks.
     [[nodiscard]] bool may_record() const noexcept;
 
-    /// As FalconEnd::use_firmware().
-    std::string use_firmware(const std::filesystem::path& file) {
-        return falcon_.use_firmware(file, state_.touch);
-    }
+    /// Checks and keeps a firmware file, and gives it to the Falcon. What came of it, for a notice.
+    /// Throws InputError.
+    std::string use_firmware(const std::filesystem::path& file);
 
     [[nodiscard]] Player& player() noexcept { return player_; }
     [[nodiscard]] TouchRecording& recording() noexcept { return recording_; }
 
   private:
+    void poll_ages();
     void follow_others();
     void notice_catching_up();
     void publish_to_outputs();
@@ -94,8 +94,10 @@ class TouchSession {
     TouchTies ties_;
     TouchedState state_;
     HandDevice hand_;
-    FalconEnd falcon_;
-    Inverse3End inverse3_;
+    DeviceEnd<FalconKind> falcon_;
+    DeviceEnd<Inverse3Kind> inverse3_;
+    PoseAges ages_told_{};  // of an Inverse3, of the second before this one
+    std::chrono::steady_clock::time_point ages_second_{};
     HandPointer pointer_{};
     std::uint32_t media_number_{0};
     HapticSettings published_{};

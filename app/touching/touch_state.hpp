@@ -159,6 +159,7 @@ struct OpenRequest {
     bool again{false};   ///< what is live has changed: it is tried until it comes
 };
 
+/// What is opened, and how it plays.
 struct MediaState : MediaDescription {
     PlaybackStatus playback{};
     OpenRequest opened{};  ///< how it was opened

@@ -22,6 +22,10 @@ std::uint8_t bit_of(Button button) {
     return static_cast<std::uint8_t>(button);
 }
 
+std::string banner_of(const ViewerState& state) {
+    return device_banner(state.settings, state.touch);
+}
+
 }  // namespace
 
 TEST_CASE("the hand never feels more stiffness or damping than the device can give, at any scale",
@@ -50,7 +54,9 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 2.0;
     state.settings.falcon.workspace.scale = 4.0;
-    const auto stiffness = [&state] { return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm; };
+    const auto stiffness = [&state] {
+        return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
+    };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     state.touch.falcon.emplace();
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
@@ -66,9 +72,12 @@ TEST_CASE("the stiffness shown for a device that answers late is the one that th
     state.settings.touch.coupling.stiffness_newton_per_mm = 0.5;
     state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
     state.touch.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
-    CHECK_THAT(felt_coupling(state.settings, state.touch).stiffness_newton_per_mm, WithinAbs(0.5, 0.0));  // the mouse's
+    const auto stiffness = [&state] {
+        return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
+    };
+    CHECK_THAT(stiffness(), WithinAbs(0.5, 0.0));  // the mouse's
     state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
-    CHECK_THAT(felt_coupling(state.settings, state.touch).stiffness_newton_per_mm, WithinAbs(0.3, 1e-12));
+    CHECK_THAT(stiffness(), WithinAbs(0.3, 1e-12));
 }
 
 TEST_CASE("only the force of a Falcon waits for the window, and only when it is wished",
@@ -99,29 +108,30 @@ TEST_CASE("a force that waits for the window is told, unless the person has swit
     state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
     state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
     state.touch.in_front = false;
-    CHECK(device_banner(state.settings, state.touch).find("not in front") != std::string::npos);
+    CHECK(banner_of(state).find("not in front") != std::string::npos);
     state.touch.force_enabled = false;
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
 }
 
 TEST_CASE("the window says over the relief what an attached or lost Falcon needs",
           "[falcon][banner]") {
     ViewerState state;
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
     state.touch.falcon.emplace();
     state.touch.falcon->status.sentence = "plug it in";
-    CHECK(device_banner(state.settings, state.touch).empty());  // none has been there: only the panel says so
+    CHECK(banner_of(state).empty());  // none has been there: only the panel says so
     state.touch.falcon->status.trouble = true;  // one could not be brought up
-    CHECK(device_banner(state.settings, state.touch) == "plug it in");
+    CHECK(banner_of(state) == "plug it in");
     state.touch.falcon->status.trouble = false;
     state.touch.falcon->was_ready = true;  // one was lost
-    CHECK(device_banner(state.settings, state.touch) == "plug it in");
+    CHECK(banner_of(state) == "plug it in");
     state.touch.falcon->status.stage = falcon::Stage::ready;
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
     state.touch.falcon->was_ready = false;
-    state.touch.falcon->status.stage = GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
-                                          falcon::Stage::loading, falcon::Stage::homing);
-    CHECK(device_banner(state.settings, state.touch) == "plug it in");
+    state.touch.falcon->status.stage =
+        GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware, falcon::Stage::loading,
+                 falcon::Stage::homing);
+    CHECK(banner_of(state) == "plug it in");
 }
 
 TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[falcon][banner]") {
@@ -144,17 +154,17 @@ TEST_CASE("the window says over the relief what an Inverse3 that is there lacks"
     ViewerState state;
     inverse3::Status& status = state.touch.inverse3.emplace().status;
     status.sentence = "do this";
-    CHECK(device_banner(state.settings, state.touch).empty());  // no service, and nobody asked for one
+    CHECK(banner_of(state).empty());  // no service, and nobody asked for one
     CHECK_FALSE(inverse3_in_sight(state.touch));
     status.stage = inverse3::Stage::no_device;
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
     status.stage = GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
                             inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
                             inverse3::Stage::too_old, inverse3::Stage::not_understood);
-    CHECK(device_banner(state.settings, state.touch) == "do this");
+    CHECK(banner_of(state) == "do this");
     CHECK(inverse3_in_sight(state.touch));
     status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
 }
 
 TEST_CASE("what the Falcon lacks is not said while an Inverse3 touches", "[inverse3][banner]") {
@@ -162,9 +172,9 @@ TEST_CASE("what the Falcon lacks is not said while an Inverse3 touches", "[inver
     state.touch.falcon.emplace().status.stage = falcon::Stage::homing;
     state.touch.falcon->status.sentence = "pull it out";
     state.touch.inverse3.emplace().status.stage = inverse3::Stage::ready;
-    CHECK(device_banner(state.settings, state.touch) == "pull it out");
+    CHECK(banner_of(state) == "pull it out");
     state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::inverse3);
-    CHECK(device_banner(state.settings, state.touch).empty());
+    CHECK(banner_of(state).empty());
     state.touch.haptic.hand.buttons = 1;
     CHECK(clutched(state.settings, state.touch));  // its own button A, not the Falcon's
 }

@@ -32,7 +32,8 @@ class ExplainedScene {
     /// One update, as the loop makes it.
     void move_hand(Vec3 goal) {
         state_.touch.haptic.touch.goal = goal;
-        state_.touch.haptic.touch.proxy = hand_.update(surface(), goal, state_.settings.touch.friction);
+        state_.touch.haptic.touch.proxy =
+            hand_.update(surface(), goal, state_.settings.touch.friction);
     }
 
     /// What an update to there would give, which is not made.

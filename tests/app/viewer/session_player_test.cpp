@@ -154,7 +154,8 @@ TEST_CASE(
     };
     replay.player()->pause();
     replay.player()->seek(before.t_s);
-    show_until([&] { return state.touch.replay->tick.tick == before.tick && state.touch.haptic.touchable; });
+    const auto& replayed = state.touch.replay;
+    show_until([&] { return replayed->tick.tick == before.tick && state.touch.haptic.touchable; });
     const glm::dmat4 view = camera.clip_from_grid(1.5);
 
     REQUIRE(explaining.perform(Action::explain, state, player, replay.player()));
