@@ -16,10 +16,11 @@ constexpr float kMostOfWindow = 0.45F;  // a small window keeps room for the rel
 
 float panel_column_width(const ViewerState& state) {
     if (!state.settings.panels_visible) return 0.0F;
-    return std::floor(std::min(kColumnWidth * state.ui.scale, kMostOfWindow * state.ui.window_width));
+    const UiState& ui = state.ui;
+    return std::floor(std::min(kColumnWidth * ui.scale, kMostOfWindow * ui.window_width));
 }
 
-void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay) {
+void draw_panel_column(ViewerState& state, Transport& transport) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float width = panel_column_width(state);
     ImGui::SetNextWindowPos({display.x - width, 0.0F});
@@ -28,13 +29,13 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
                  ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                      ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
-    if (replay != nullptr) {
-        draw_replay_panel(state, *replay);
+    if (state.touch.replay) {
+        draw_replay_panel(state, transport);
         draw_touch_panel(state);
         draw_surface_panel(state);
         draw_video_panel(state, nullptr);
     } else {
-        draw_video_panel(state, &player);
+        draw_video_panel(state, &transport);
         draw_surface_panel(state);
         draw_touch_panel(state);
         draw_device_panel(state);

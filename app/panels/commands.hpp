@@ -60,10 +60,10 @@ struct MakeReport {
 
 /// An Action: as its key, but that what a key leaves for after the picture is done then. A
 /// DepthStatement: what a person says of the depth that is open.
-using Command = std::variant<Action, OpenRequest, DepthStatement, DepthWish, TypedFile, SaveSidecar,
-                             LoadBump, UseMaterial, KeepMaterial, UseFirmware, AnswerDoubts,
-                             RemovePaint, MarkMoment, ReplayAsRecorded, LeaveReplay, ReadFolder,
-                             CompleteTyped, MakeReport>;
+using WindowCommand =
+    std::variant<Action, OpenRequest, DepthStatement, DepthWish, TypedFile, SaveSidecar, LoadBump,
+                 UseMaterial, KeepMaterial, UseFirmware, AnswerDoubts, RemovePaint, MarkMoment,
+                 ReplayAsRecorded, LeaveReplay, ReadFolder, CompleteTyped, MakeReport>;
 
 /// A visitor of lambdas.
 template <typename... Visit>
@@ -77,8 +77,8 @@ class CommandQueue {
   public:
     /// What is asked for again before it was done is done once, as it was asked for last; but each
     /// moment is marked.
-    void push(Command command) {
-        const auto again = [&command](const Command& queued) {
+    void push(WindowCommand command) {
+        const auto again = [&command](const WindowCommand& queued) {
             if (queued.index() != command.index()) return false;
             const Action* const action = std::get_if<Action>(&command);
             return action == nullptr || *action == std::get<Action>(queued);
@@ -90,11 +90,11 @@ class CommandQueue {
             *same = std::move(command);
     }
     /// All of them, once.
-    [[nodiscard]] std::vector<Command> take() { return std::exchange(queue_, {}); }
+    [[nodiscard]] std::vector<WindowCommand> take() { return std::exchange(queue_, {}); }
     [[nodiscard]] bool empty() const noexcept { return queue_.empty(); }
 
   private:
-    std::vector<Command> queue_{};
+    std::vector<WindowCommand> queue_{};
 };
 
 }  // namespace dibhr

@@ -76,9 +76,9 @@ void draw_making_button(ViewerState& state, DepthOffer& offer) {
 }  // namespace
 
 void draw_depth_offer(ViewerState& state) {
-    if (!state.ui.depth_offer || state.ui.dialog.shown || !state.ui.message.empty() || !state.ui.doubts.empty())
-        return;
-    DepthOffer& offer = *state.ui.depth_offer;
+    UiState& ui = state.ui;
+    if (!ui.depth_offer || ui.dialog.shown || !ui.message.empty() || !ui.doubts.empty()) return;
+    DepthOffer& offer = *ui.depth_offer;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float relief_width = display.x - panel_column_width(state);
     ImGui::SetNextWindowPos({0.5F * relief_width, panes_height(state) + 0.08F * display.y},

@@ -65,7 +65,8 @@ void draw_force_switch(ViewerState& state, float width) {
     ImGui::PushStyleColor(ImGuiCol_Button, ground);
     ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
     ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
-    if (ImGui::Button(shown.text, {width, 0.0F})) state.touch.force_enabled = !state.touch.force_enabled;
+    bool& on = state.touch.force_enabled;
+    if (ImGui::Button(shown.text, {width, 0.0F})) on = !on;
     ImGui::PopStyleColor(4);
     explain(shown.help.c_str());
 }
@@ -92,11 +93,12 @@ void draw_device_panel(ViewerState& state) {
                  "another works in another window, in an experiment say");
     }
     const SafetyLimits standard;
-    number_row({"Max force", "%.1f N", 0.0, state.touch.device.limits.max_force_newton,
-                standard.max_force_newton, "No more than this is ever sent"},
-               state.settings.max_force_newton);
-    state.settings.max_force_newton =
-        std::clamp(state.settings.max_force_newton, 0.0, state.touch.device.limits.max_force_newton);
+    double& max_newton = state.settings.max_force_newton;
+    const double most_newton = state.touch.device.limits.max_force_newton;
+    number_row({"Max force", "%.1f N", 0.0, most_newton, standard.max_force_newton,
+                "No more than this is ever sent"},
+               max_newton);
+    max_newton = std::clamp(max_newton, 0.0, most_newton);
     const Touch& touch = state.touch.haptic.touch;
     fact_row("Goal", point_text(touch.goal), "Where the hand is: column, row and elevation");
     fact_row("Proxy", point_text(touch.proxy.position),

@@ -9,8 +9,8 @@
 namespace dibhr {
 
 void draw_doubts(ViewerState& state) {
-    if (state.ui.doubts.empty() || state.touch.replay || state.ui.dialog.shown || !state.ui.message.empty())
-        return;
+    const UiState& ui = state.ui;
+    if (ui.doubts.empty() || state.touch.replay || ui.dialog.shown || !ui.message.empty()) return;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float room = display.x - panel_column_width(state);
     const float em = ImGui::GetFontSize();

@@ -209,8 +209,9 @@ void draw_firmware_field(ViewerState& state) {
 }
 
 void draw_connection(ViewerState& state) {
-    fact_row("Firmware", state.touch.falcon->firmware.empty() ? "none kept" : state.touch.falcon->firmware);
-    if (state.touch.falcon->status.stage != falcon::Stage::no_firmware) draw_firmware_field(state);
+    const FalconNews& news = *state.touch.falcon;
+    fact_row("Firmware", news.firmware.empty() ? "none kept" : news.firmware);
+    if (news.status.stage != falcon::Stage::no_firmware) draw_firmware_field(state);
     draw_device_rows(state.settings.falcon, "Connection");
     quiet_text("These are used from the next start of the program.");
 }

@@ -77,8 +77,8 @@ float draw_banner(const ViewerState& state, const std::string& text) {
 std::string banner_of(const ViewerState& state) {
     if (const std::string banner = device_banner(state.settings, state.touch); !banner.empty())
         return capitalised(banner);
-    const bool lost = state.media.playback.live && !state.media.playback.live->signal && !state.touch.replay;
-    return lost ? in_words(*state.media.playback.live) : std::string();
+    const auto& live = state.media.playback.live;
+    return live && !live->signal && !state.touch.replay ? in_words(*live) : std::string();
 }
 
 void centred_label(const ViewerState& state, const std::string& text, float lines_above_bar,
@@ -114,15 +114,13 @@ std::string replay_text(const ReplayNews& replay) {
 
 /// Where playing is, in time and in frames or ticks.
 std::string place_text(const ViewerState& state) {
-    if (state.touch.replay) {
-        const SessionPlayback& at = state.touch.replay->playback;
-        return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
-               ", tick " + std::to_string(state.touch.replay->tick_count);
-    }
-    const PlaybackStatus& at = state.media.playback;
-    if (at.live) return "live, " + in_words(*at.live);
-    return clock_text(at.media_s) + " of " + clock_text(at.duration_s) + ", frame " +
-           std::to_string(at.frame + 1);
+    const auto& replay = state.touch.replay;
+    const PlaybackStatus& video = state.media.playback;
+    if (video.live && !replay) return "live, " + in_words(*video.live);
+    const Course at = state.course();
+    return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
+           (replay ? ", tick " + std::to_string(replay->tick_count)
+                   : ", frame " + std::to_string(video.frame + 1));
 }
 
 std::string touch_text(const ViewerState& state) {

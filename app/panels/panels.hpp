@@ -9,12 +9,13 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/playing/transport.hpp"
 #include "render/relief_paint.hpp"
 
 namespace dibhr {
 
 /// `player` null: the video of a replay, which goes by itself.
-void draw_video_panel(ViewerState& state, Player* player);
+void draw_video_panel(ViewerState& state, Transport* player);
 /// What the depth's levels mean, to be changed; part of the Video panel.
 void draw_depth_rows(ViewerState& state);
 /// Puts what the panel says of the file that is open now into the rows that are typed.
@@ -49,11 +50,11 @@ void draw_inverse3_settings(ViewerState& state);
 void draw_clip_button(ViewerState& state);
 
 /// In a replay: whose it is, what was felt at the moment shown, its marks.
-void draw_replay_panel(ViewerState& state, SessionPlayer& replay);
+void draw_replay_panel(ViewerState& state, Transport& replay);
 
-/// The column at the right with all that applies; `replay` null: a hand touches. Its width in
+/// The column at the right with all that applies to what plays: a video, or a session. Its width in
 /// pixels is panel_column_width().
-void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay);
+void draw_panel_column(ViewerState& state, Transport& transport);
 [[nodiscard]] float panel_column_width(const ViewerState& state);
 
 /// Of the bar under the relief [px].
@@ -61,7 +62,7 @@ void draw_panel_column(ViewerState& state, Player& player, SessionPlayer* replay
 /// The bar under the relief: play, time line, time and frame, force switch; of a replay, contacts
 /// and marks on the time line. While the panels are hidden it comes when the pointer does, and the
 /// force switch stays.
-void draw_bottom_bar(ViewerState& state, Player& player, SessionPlayer* replay);
+void draw_bottom_bar(ViewerState& state, Transport& transport);
 
 /// Whether the colour picture and the depth are shown above the relief, and how high they are [px];
 /// 0: they are not.

@@ -44,7 +44,7 @@ void draw_moment(const ViewerState& state) {
     }
 }
 
-void draw_marks(const ReplayNews& replay, SessionPlayer& player) {
+void draw_marks(const ReplayNews& replay, Transport& player) {
     if (replay.marks.empty()) return;
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float rows = std::min(static_cast<float>(replay.marks.size()), kMarkRows);
@@ -61,7 +61,7 @@ void draw_marks(const ReplayNews& replay, SessionPlayer& player) {
 
 }  // namespace
 
-void draw_replay_panel(ViewerState& state, SessionPlayer& replay) {
+void draw_replay_panel(ViewerState& state, Transport& replay) {
     bool open = true;  // what a replay is for
     section(state, "Replay", open);
     ImGui::PushID("replay");

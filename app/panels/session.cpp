@@ -101,19 +101,20 @@ void draw_session_panel(ViewerState& state) {
     draw_switch(state);
     ImGui::SameLine();
     draw_clip_button(state);
-    if (!state.touch.recording_trouble.empty()) trouble_text(capitalised(state.touch.recording_trouble));
-    if (state.touch.recording) {
-        draw_progress(*state.touch.recording);
-    } else if (!state.touch.recorded_file.empty()) {
-        file_row("Recorded", state.touch.recorded_file);
+    const TouchState& touch = state.touch;
+    if (!touch.recording_trouble.empty()) trouble_text(capitalised(touch.recording_trouble));
+    if (touch.recording) {
+        draw_progress(*touch.recording);
+    } else if (!touch.recorded_file.empty()) {
+        file_row("Recorded", touch.recorded_file);
         if (ImGui::Button("Replay it", {half_width(), 0.0F})) {
-            state.commands.push(OpenRequest{.colour = state.touch.recorded_file});
+            state.commands.push(OpenRequest{.colour = touch.recorded_file});
         }
         ImGui::SameLine();
-        report_button(state, state.touch.recorded_file);
+        report_button(state, touch.recorded_file);
     }
     draw_about(state.touch.session_fields);
-    if (state.touch.recording) draw_marks(state);
+    if (touch.recording) draw_marks(state);
     ImGui::PopID();
 }
 

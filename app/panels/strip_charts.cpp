@@ -217,13 +217,13 @@ void draw_strip_charts(ViewerState& state) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     const ImVec2 high{low.x + ImGui::GetContentRegionAvail().x, state.ui.strips_end_y};
     std::optional<std::size_t> age;
+    const float scale = state.ui.scale;
     if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect(low, high))
-        age =
-            ChartFrame{{low.x + gutter(), low.y}, {high.x - 4.0F * state.ui.scale, high.y}, {}}.age_at(
-                ImGui::GetMousePos().x);
+        age = ChartFrame{{low.x + gutter(), low.y}, {high.x - 4.0F * scale, high.y}, {}}.age_at(
+            ImGui::GetMousePos().x);
     const auto last = std::find_if(kKinds.rbegin(), kKinds.rend(), is_shown);
     for (const StripKind& kind : kKinds) {
-        if (is_shown(kind)) draw_chart(kind, strips, state.ui.scale, &kind == &*last, age);
+        if (is_shown(kind)) draw_chart(kind, strips, scale, &kind == &*last, age);
     }
     state.ui.strips_end_y = ImGui::GetCursorScreenPos().y;
     draw_buttons(state, {high.x, low.y});

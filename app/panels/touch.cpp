@@ -109,8 +109,9 @@ void draw_materials(ViewerState& state) {
         draw_material(state, name, "Bump map, friction, stiffness and damping in one (--material)");
     for (const std::string& name : state.ui.materials.own)
         draw_material(state, name, own_materials_folder().c_str());
-    const bool changed =
-        state.touch.bump_file != state.touch.material.map || !is_made_of(state.touch.material, state.settings.touch);
+    const Material& material = state.touch.material;
+    const bool changed = state.touch.bump_file != material.map ||
+                         !is_made_of(material, state.settings.touch);
     if (changed) {
         const bool done =
             text_field("##keep", "Changed: keep as a material called ...", state.ui.fields.material,
@@ -201,7 +202,8 @@ void draw_touch_panel(ViewerState& state) {
     draw_motion_trouble(state);
     draw_bump(state);
     draw_parameters(TouchTopic::texture, state.settings.touch);
-    if (!state.touch.bump && !state.touch.replay) quiet_text("Roughness needs a bump map to be felt.");
+    if (!state.touch.bump && !state.touch.replay)
+        quiet_text("Roughness needs a bump map to be felt.");
     draw_sound(state);
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +

@@ -197,38 +197,34 @@ void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
     ImGui::SameLine(right + ImGui::GetStyle().ItemSpacing.x);
 }
 
-void draw_playback(const ViewerState& state, Player& player, float right_of_line) {
+/// From the beginning on.
+TimeLineContents line_of(const Course& course) {
+    TimeLineContents line{.now_s = course.now_s - course.begin_s,
+                          .length_s = course.end_s - course.begin_s,
+                          .part = course.part};
+    if (line.part) {
+        line.part->from_s -= course.begin_s;
+        line.part->to_s -= course.begin_s;
+    }
+    return line;
+}
+
+void draw_playback(const ViewerState& state, Transport& player, float right_of_line) {
     const PlaybackStatus& playback = state.media.playback;
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
     if (playback.live) return draw_live(*playback.live, playback.playing, right_of_line);
-    const TimeLineContents times{
-        .now_s = playback.media_s, .length_s = playback.duration_s, .part = playback.part};
-    const auto wanted_s = draw_line_and_time(times, "frame " + std::to_string(playback.frame + 1),
-                                             ImGui::CalcTextSize("frame 00000").x, right_of_line);
+    const auto wanted_s = draw_line_and_time(
+        line_of(playback.course()), "frame " + std::to_string(playback.frame + 1),
+        ImGui::CalcTextSize("frame 00000").x, right_of_line);
     if (wanted_s) player.seek(*wanted_s);
-}
-
-TimeLineContents line_of(const ReplayNews& news) {
-    const SessionPlayback& playback = news.playback;
-    TimeLineContents line{.now_s = playback.now_s - playback.begin_s,
-                          .length_s = playback.end_s - playback.begin_s,
-                          .part = playback.part,
-                          .contacts = news.contacts,
-                          .marks = news.marks};
-    for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;
-    if (line.part) {
-        line.part->from_s -= playback.begin_s;
-        line.part->to_s -= playback.begin_s;
-    }
-    return line;
 }
 
 float force_switch_width() {
     return ImGui::CalcTextSize("Force is OFF").x + 2.0F * ImGui::GetStyle().FramePadding.x;
 }
 
-void draw_transport_bar(ViewerState& state, Player& player) {
+void draw_transport_bar(ViewerState& state, Transport& player) {
     const ImGuiStyle& style = ImGui::GetStyle();
     begin_bottom_bar(state, "Transport");
     const float force_width = force_switch_width();
@@ -245,7 +241,7 @@ void draw_transport_bar(ViewerState& state, Player& player) {
     ImGui::End();
 }
 
-void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
+void draw_replay_bar(ViewerState& state, Transport& replay) {
     begin_bottom_bar(state, "Replay");
     const SessionPlayback& playback = state.touch.replay->playback;
     play_and_step_buttons(playback.playing, replay, state.keys, "tick", 0.0F);
@@ -255,7 +251,10 @@ void draw_replay_bar(ViewerState& state, SessionPlayer& replay) {
         replay.set_looping(!playback.looping);
     }
     ImGui::SameLine();
-    const TimeLineContents line = line_of(*state.touch.replay);
+    TimeLineContents line = line_of(playback.course());
+    line.contacts = state.touch.replay->contacts;
+    line.marks = state.touch.replay->marks;
+    for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;
     const std::string video = "video " + clock_text(state.touch.replay->tick.video_s);
     const auto wanted_s =
         draw_line_and_time(line, video, ImGui::CalcTextSize(video.c_str()).x, 0.0F);
@@ -296,12 +295,12 @@ float bottom_bar_height(const ViewerState& state) {
     return ImGui::GetFrameHeight() + line + 2.0F * style.WindowPadding.y;
 }
 
-void draw_bottom_bar(ViewerState& state, Player& player, SessionPlayer* replay) {
+void draw_bottom_bar(ViewerState& state, Transport& transport) {
     const bool wanted = bar_is_wanted(state);
-    if (replay != nullptr) {
-        if (wanted) draw_replay_bar(state, *replay);
+    if (state.touch.replay) {
+        if (wanted) draw_replay_bar(state, transport);
     } else if (wanted) {
-        draw_transport_bar(state, player);
+        draw_transport_bar(state, transport);
     } else {
         draw_force_switch_alone(state);
     }

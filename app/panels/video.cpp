@@ -62,12 +62,13 @@ void draw_open(ViewerState& state) {
         text_field("##depth", "Depth file: found beside it", state.ui.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
     const bool named = state.ui.fields.colour[0] != '\0';
-    const bool pressed = button_or_drop(state.media.opening ? "Opening" : "Open", !state.media.opening, "files",
+    const bool opening = state.media.opening;
+    const bool pressed = button_or_drop(opening ? "Opening" : "Open", !opening, "files",
                                         button_width(kRecent));
     if (pressed && !named) state.commands.push(Action::open_file);
     if ((from_colour || from_depth || pressed) && named) {
         state.commands.push(OpenRequest{typed_path(state.ui.fields.colour.data()),
-                                          typed_path(state.ui.fields.depth.data())});
+                                        typed_path(state.ui.fields.depth.data())});
     }
     draw_recent(state);
 }
@@ -108,7 +109,7 @@ void draw_frame(const PlaybackStatus& playback) {
                              "second, in their time");
 }
 
-void draw_playback(const ViewerState& state, Player& player) {
+void draw_playback(const ViewerState& state, Transport& player) {
     const PlaybackStatus& playback = state.media.playback;
     play_and_step_buttons(playback.playing, player, state.keys, "frame");
     bool looping = playback.looping;
@@ -120,7 +121,7 @@ void draw_playback(const ViewerState& state, Player& player) {
 }
 
 /// What comes as it happens.
-void draw_live(const ViewerState& state, Player& player) {
+void draw_live(const ViewerState& state, Transport& player) {
     const PlaybackStatus& playback = state.media.playback;
     const LiveStatus& live = *playback.live;
     play_button(playback.playing, player, state.keys);
@@ -200,7 +201,7 @@ void draw_cleaning(ViewerState& state) {
 
 }  // namespace
 
-void draw_video_panel(ViewerState& state, Player* player) {
+void draw_video_panel(ViewerState& state, Transport* player) {
     if (!section(state, "Video", state.settings.panels.video)) return;
     ImGui::PushID("video");
     draw_open(state);
@@ -214,7 +215,8 @@ void draw_video_panel(ViewerState& state, Player* player) {
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);
     ImGui::EndDisabled();
-    if (player != nullptr && !state.media.playback.failure.empty()) quiet_text(state.media.playback.failure);
+    const std::string& failure = state.media.playback.failure;
+    if (player != nullptr && !failure.empty()) quiet_text(failure);
     ImGui::PopID();
 }
 

@@ -443,6 +443,30 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
     return pressed;
 }
 
+void play_button(bool playing, Transport& transport, const KeyTable& keys) {
+    const std::string help = (playing ? "Pause" : "Play") + keys.in_brackets(Action::play_or_pause);
+    if (icon_button("play", playing ? Icon::pause : Icon::play, help.c_str()))
+        playing ? transport.pause() : transport.play();
+}
+
+void play_and_step_buttons(bool playing, Transport& transport, const KeyTable& keys,
+                           const std::string& step, float gap) {
+    const std::string back = "One " + step + " back" + keys.in_brackets(Action::step_back);
+    const std::string forward = "One " + step + " forward" + keys.in_brackets(Action::step_forward);
+    if (icon_button("back", Icon::step_back, back.c_str())) transport.step(-1);
+    ImGui::SameLine(0.0F, gap);
+    play_button(playing, transport, keys);
+    ImGui::SameLine(0.0F, gap);
+    if (icon_button("forward", Icon::step_forward, forward.c_str())) transport.step(1);
+    ImGui::SameLine(0.0F, gap);
+}
+
+void speed_row(double speed, Transport& transport) {
+    if (number_row({"Speed", "x %.2f", kSlowestSpeed, kFastestSpeed, 1.0, "[ slower, ] faster"},
+                   speed))
+        transport.set_speed(speed);
+}
+
 std::string capitalised(std::string line) {
     if (!line.empty()) {
         line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));

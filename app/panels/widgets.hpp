@@ -12,6 +12,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/video/playing/transport.hpp"
 
 namespace dibhr {
 
@@ -136,39 +137,14 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
 /// Whether Ctrl+O asks the desktop.
 void desktop_dialog_box(OpenWith& with);
 
-/// Play or pause, for a video or a session.
-template <typename AnyPlayer>
-void play_button(bool playing, AnyPlayer& player, const KeyTable& keys) {
-    const std::string help = (playing ? "Pause" : "Play") + keys.in_brackets(Action::play_or_pause);
-    if (icon_button("play", playing ? Icon::pause : Icon::play, help.c_str())) {
-        playing ? player.pause() : player.play();
-    }
-}
+/// Play or pause.
+void play_button(bool playing, Transport& transport, const KeyTable& keys);
 
-/// Steps on both sides of it; `step` is what the player steps by, `gap` in pixels, negative: the
-/// usual.
-template <typename AnyPlayer>
-void play_and_step_buttons(bool playing, AnyPlayer& player, const KeyTable& keys,
-                           const std::string& step, float gap = -1.0F) {
-    const std::string back = "One " + step + " back" + keys.in_brackets(Action::step_back);
-    const std::string forward = "One " + step + " forward" + keys.in_brackets(Action::step_forward);
-    if (icon_button("back", Icon::step_back, back.c_str())) player.step(-1);
-    ImGui::SameLine(0.0F, gap);
-    play_button(playing, player, keys);
-    ImGui::SameLine(0.0F, gap);
-    if (icon_button("forward", Icon::step_forward, forward.c_str())) {
-        player.step(1);
-    }
-    ImGui::SameLine(0.0F, gap);
-}
+/// Steps on both sides of it; `step` is what one goes by, `gap` in pixels, negative: the usual.
+void play_and_step_buttons(bool playing, Transport& transport, const KeyTable& keys,
+                           const std::string& step, float gap = -1.0F);
 
-template <typename AnyPlayer>
-void speed_row(double speed, AnyPlayer& player) {
-    if (number_row({"Speed", "x %.2f", kSlowestSpeed, kFastestSpeed, 1.0, "[ slower, ] faster"},
-                   speed)) {
-        player.set_speed(speed);
-    }
-}
+void speed_row(double speed, Transport& transport);
 
 /// The name of a texture as ImGui wants it: as a pointer, or, from 1.91.4 on, as a number.
 template <typename Id>

@@ -13,7 +13,9 @@
 #include "app/settings/settings.hpp"
 #include "app/touching/device_state.hpp"
 #include "app/touching/touch_state.hpp"
+#include "device/falcon/falcon_device.hpp"
 #include "device/hand_device.hpp"
+#include "device/inverse3/inverse3_device.hpp"
 
 namespace dibhr {
 
@@ -62,6 +64,9 @@ class DeviceEnd {
         Kind::news(touch).emplace();
         publish(settings, touch);
     }
+
+    /// Null: it is not looked for.
+    [[nodiscard]] typename Kind::Device* device() const noexcept { return device_; }
 
     /// Once a picture: its status into the state. Says once for each need that it needs its person.
     /// A short notice when it begins to touch.

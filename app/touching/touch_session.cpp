@@ -41,17 +41,17 @@ TouchSession::TouchSession(HandDevice hand, const TouchTies& ties, const Touched
     : ties_(ties),
       state_(state),
       hand_(std::move(hand)),
-      falcon_(hand_.falcon, state.settings, state.touch),
-      inverse3_(hand_.inverse3, state.settings, state.touch),
+      falcon_(hand_.find<falcon::FalconDevice>(), state.settings, state.touch),
+      inverse3_(hand_.find<inverse3::Inverse3Device>(), state.settings, state.touch),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
       recording_(*ticks_, ties.words, player_, state) {
     state_.touch.device = hand_.device->specification();
     state_.touch.haptic.hand = hand_.device->unread();
-    if (!state_.touch.falcon) return;
-    state_.touch.falcon->firmware = hand_.firmware;
-    state_.touch.falcon->firmware_trouble = hand_.firmware_trouble;
+    if (falcon_.device() == nullptr) return;
+    state_.touch.falcon->firmware = falcon_.device()->firmware();
+    state_.touch.falcon->firmware_trouble = falcon_.device()->firmware_trouble();
 }
 
 std::vector<std::string> TouchSession::poll(bool window_in_front) {
@@ -84,9 +84,9 @@ std::vector<GripPress> TouchSession::take_presses() {
 }
 
 void TouchSession::poll_ages() {
-    if (hand_.inverse3 == nullptr) return;
+    if (inverse3_.device() == nullptr) return;
     Inverse3News& news = *state_.touch.inverse3;
-    news.ages = hand_.inverse3->pose_ages();
+    news.ages = inverse3_.device()->pose_ages();
     const auto now = steady_clock::now();
     if (now - ages_second_ < std::chrono::seconds(1)) return;
     ages_second_ = now;
@@ -117,10 +117,10 @@ void TouchSession::notice_catching_up() {
 std::string TouchSession::use_firmware(const std::filesystem::path& file) {
     falcon::FirmwareImage image = falcon::keep_firmware(file);
     std::string kept = "Kept for the Falcon: " + image.name;
-    if (hand_.falcon == nullptr) return kept;
+    if (falcon_.device() == nullptr) return kept;
     state_.touch.falcon->firmware = image.name;
     state_.touch.falcon->firmware_trouble.clear();
-    hand_.falcon->use_firmware(std::move(image));
+    falcon_.device()->use_firmware(std::move(image));
     return kept;
 }
 

@@ -113,9 +113,10 @@ Answer Viewer::open_by_dialog() {
 /// Says for as long as it is open why nothing happens here.
 void Viewer::take_desktop_answer() {
     const auto answer = desktop_.take();
-    const bool told = state_.ui.notice.starts_with(kDesktopAsks) && now_s() < state_.ui.notice_until_s;
-    if (desktop_.open() && (told || now_s() >= state_.ui.notice_until_s)) tell(desktop_words(state_));
-    if (!desktop_.open() && told) state_.ui.notice_until_s = now_s();
+    UiState& ui = state_.ui;
+    const bool told = ui.notice.starts_with(kDesktopAsks) && now_s() < ui.notice_until_s;
+    if (desktop_.open() && (told || now_s() >= ui.notice_until_s)) tell(desktop_words(state_));
+    if (!desktop_.open() && told) ui.notice_until_s = now_s();
     if (!answer) return;
     if (answer->of == FileAnswer::Of::nobody) {
         if (state_.settings.open_with == OpenWith::desktop)
@@ -296,10 +297,9 @@ void Viewer::open_again(const DepthStatement& panel) {
 /// What sends now sends another form: all that was known of it is found out anew.
 void Viewer::follow_live() {
     const auto& live = state_.media.playback.live;
-    if (live && !state_.touch.replay) log_.keep_change("live", signal_in_words(*live));
-    if (state_.touch.replay || !live || !live->other_form || live->opened != touch_.media_number() ||
-        opening_.under_way())
-        return;
+    if (!live || state_.touch.replay) return;
+    log_.keep_change("live", signal_in_words(*live));
+    if (!live->other_form || live->opened != touch_.media_number() || opening_.under_way()) return;
     OpenRequest request = state_.media.opened;
     request.request.live = nullptr;
     request.again = true;
@@ -358,7 +358,8 @@ void Viewer::fit_to_media() {
     const Fit fit = fit_of(state_.media);
     if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
     if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
-    if (keeps_texture) lay_texture(state_.touch.material, settings.touch);  // a pixel is of another size
+    // A pixel is of another size.
+    if (keeps_texture) lay_texture(state_.touch.material, settings.touch);
     keep_in_range(settings.touch);
 }
 

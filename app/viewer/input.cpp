@@ -42,6 +42,12 @@ constexpr std::array kAfterPicture{Action::record,
                                    Action::take_clip_of_relief,
                                    Action::quit};
 
+bool is_of_a_hand(Action action) {
+    return action == Action::toggle_force || action == Action::force_off ||
+           action == Action::centre_workspace || action == Action::mark ||
+           action == Action::toggle_sound;
+}
+
 void close_topmost(ViewerState& state) {
     if (!state.ui.message.empty()) {
         state.ui.message.clear();
@@ -55,14 +61,6 @@ void close_topmost(ViewerState& state) {
         state.ui.help_open = false;
     }
 }
-
-/// How what plays goes on: a video or a session.
-struct Course {
-    bool playing, looping;
-    std::optional<MediaPart> part;
-    double speed;
-    double now_s, begin_s, end_s;
-};
 
 /// How far an action seeks, forward or back [s]; 0: it does not.
 double seek_step_s(Action action) {
@@ -123,8 +121,7 @@ std::string said_of(const std::optional<MediaPart>& part, const Course& course,
 }
 
 /// What moves a video or a session; nothing when the action is not about that.
-template <typename AnyPlayer>
-std::optional<Answer> move(Action action, const Course& course, AnyPlayer& player,
+std::optional<Answer> move(Action action, const Course& course, Transport& player,
                            const KeyTable& keys) {
     const double end_s = std::max(course.begin_s, course.end_s);
     if (const double step_s = seek_step_s(action); std::abs(step_s) > 0.0) {
@@ -166,7 +163,7 @@ std::optional<Answer> move(Action action, const Course& course, AnyPlayer& playe
 }
 
 /// What moves a video moves nothing that comes as it happens, but holds it.
-std::optional<Answer> move_live(Action action, bool playing, Player& player) {
+std::optional<Answer> move_live(Action action, bool playing, Transport& player) {
     switch (action) {
         case Action::play_or_pause:
             playing ? player.pause() : player.play();
@@ -186,17 +183,17 @@ std::optional<Answer> move_live(Action action, bool playing, Player& player) {
 
 }  // namespace
 
-Answer perform(Action action, ViewerState& state, Player& player) {
-    const PlaybackStatus& now = state.media.playback;
-    if (now.live) {
-        if (const auto moved = move_live(action, now.playing, player)) return *moved;
+Answer perform(Action action, ViewerState& state, Transport& transport) {
+    const bool replays = state.touch.replay.has_value();
+    const PlaybackStatus& video = state.media.playback;
+    if (video.live && !replays) {
+        if (const auto moved = move_live(action, video.playing, transport)) return *moved;
     }
-    if (const auto moved =
-            move(action,
-                 {now.playing, now.looping, now.part, now.speed, now.media_s, 0.0, now.duration_s},
-                 player, state.keys)) {
-        return state.media.still ? Answer{"A still picture: nothing plays"} : *moved;
+    if (const auto moved = move(action, state.course(), transport, state.keys)) {
+        const bool still = state.media.still && !replays;
+        return still ? Answer{"A still picture: nothing plays"} : *moved;
     }
+    if (replays && is_of_a_hand(action)) return {"A replay: no hand is touching"};
     if (std::find(kAfterPicture.begin(), kAfterPicture.end(), action) != kAfterPicture.end())
         state.commands.push(action);
     Settings& settings = state.settings;
@@ -262,22 +259,6 @@ void Ruler::press(bool down, const std::optional<Vec3>& under) {
     if (!clicked || !under) return;
     if (places.size() == 2) places.clear();
     places.push_back(*under);
-}
-
-std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay,
-                                        const KeyTable& keys) {
-    const SessionPlayback& now = replay.playback();
-    if (auto moved =
-            move(action,
-                 {now.playing, now.looping, now.part, now.speed, now.now_s, now.begin_s, now.end_s},
-                 replay, keys)) {
-        return moved;
-    }
-    const bool of_a_hand = action == Action::toggle_force || action == Action::force_off ||
-                           action == Action::centre_workspace || action == Action::mark ||
-                           action == Action::toggle_sound;
-    if (of_a_hand) return Answer{"A replay: no hand is touching"};
-    return std::nullopt;
 }
 
 constexpr const char* kViewWord = "dibhr-view";

@@ -6,7 +6,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/keys.hpp"
-#include "core/replay/session_player.hpp"
+#include "core/video/playing/transport.hpp"
 #include "render/camera.hpp"
 
 namespace dibhr {
@@ -18,11 +18,8 @@ struct Answer {
     bool place{false};  ///< instead: where playing is then
 };
 
-/// What an action does, to a video or to the window.
-Answer perform(Action action, ViewerState& state, Player& player);
-
-/// What moves a replay, and nothing else; nothing when the action is not about that.
-std::optional<Answer> perform_in_replay(Action action, SessionPlayer& replay, const KeyTable& keys);
+/// What an action does, to what plays or to the window.
+Answer perform(Action action, ViewerState& state, Transport& transport);
 
 /// A view as text for the clipboard, and back; nothing: that text is no view.
 [[nodiscard]] std::string text_of(const Camera::View& view);

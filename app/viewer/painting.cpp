@@ -337,16 +337,17 @@ std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
 
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
     const std::shared_ptr<const TouchMaps> maps = drawn();
+    const BrushLays lays = state.ui.brush.lays;
     if (!state.ui.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
     const bool is_same =
-        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == state.ui.brush.lays;
+        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == lays;
     if (!is_same) {
         tinted_ = {};
         tinted_.colour =
-            std::make_shared<const ColourImage>(Tint(*maps, state.ui.brush.lays).over(*frame->colour));
+            std::make_shared<const ColourImage>(Tint(*maps, lays).over(*frame->colour));
         tinted_colour_ = frame->colour;
         tinted_maps_ = maps;
-        tinted_lays_ = state.ui.brush.lays;
+        tinted_lays_ = lays;
     }
     return &tinted_;
 }

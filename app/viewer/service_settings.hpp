@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/settings/inverse3_settings.hpp"
+#include "app/settings/settings.hpp"
 #include "app/touching/touch_state.hpp"
 #include "app/viewer/errand.hpp"
 #include "device/inverse3/kept_settings.hpp"

@@ -2,18 +2,14 @@
 #include "app/viewer/viewer.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdlib>
+#include <atomic>
 #include <functional>
-#include <numbers>
 #include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/touching/force_law.hpp"
 #include "app/touching/picture_time.hpp"
-#include "app/viewer/picture_time.hpp"
-#include "app/window/display_loss.hpp"
 #include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
@@ -31,8 +27,7 @@ constexpr double kNoticeTime_s = 4.0;
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 
 /// `begin_s`: of what is played, on its own clock.
-template <typename AnyPlayer>
-void play_as_asked(const ViewOptions& options, double begin_s, AnyPlayer& player) {
+void play_as_asked(const ViewOptions& options, double begin_s, Transport& player) {
     if (options.end_s)
         player.set_part(MediaPart{begin_s + options.open.at_s, begin_s + *options.end_s});
     if (options.speed) player.set_speed(*options.speed);
@@ -132,64 +127,59 @@ void Viewer::beat() {
     heart_.beat();
 }
 
-/// Ends what goes on, and writes what is to last, without the window.
+/// Without the window.
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     desktop_.call_off();
     state_.ui.message.clear();
     touch_.stop();
     estimating_.end();
-    explaining_.end(state_, camera_);
-    keep_memory();
-    keeper_.finish(lasting_settings());
-    attempt([this] { lasting_.finish(kPatienceAtAnEnd); });
-    attempt([this] { screenshots_.finish(); });
-    attempt([this] { painting_.finish(touch_.recording(), kPatienceAtAnEnd); });
-    attempt([this] { clip_.finish(ClipEnd::at_once); });
-    attempt([this] { touch_.recording().finish(kPatienceAtAnEnd); });
+    const std::atomic<bool> at_once{true};
+    write_what_lasts(at_once, [this](const char*, const auto& step) { attempt(step); });
     touch_.close_device();
     if (!state_.ui.message.empty()) print_error_line(state_.ui.message);
 }
 
 void Viewer::finish() {
-    const auto now = [this](const char* what) { ending_.words().doing(what); };
-    now("taking the force off");
-    // No force is sent any more when files are written.
-    if (const auto schedule = touch_.stop()) keep_lateness(*schedule);
-    estimating_.end();
     std::string failure;
-    const auto try_to = [&failure](auto&& step) {
+    const auto try_to = [&](const char* what, const auto& step) {
+        ending_.words().doing(what);
         try {
             step();
         } catch (const Error& error) {
             if (failure.empty()) failure = error.what();
         }
     };
-    now("writing the last picture");
-    try_to([this] { write_last_picture(); });
-    try_to([this] { take_last_screenshot(); });
-    now("saving the settings");
+    // No force is sent any more when files are written.
+    try_to("taking the force off", [this] {
+        if (const auto schedule = touch_.stop()) keep_lateness(*schedule);
+        estimating_.end();
+    });
+    try_to("writing the last picture", [this] { write_last_picture(); });
+    try_to("writing the last picture", [this] { take_last_screenshot(); });
+    write_what_lasts(ending_.asked(), try_to);
+    ending_.words().doing("closing the window");
+    if (!failure.empty()) throw InputError(failure);
+}
+
+/// Each step by `try_to`, which is told what it is. `at_once`: from then on nothing waits for long.
+template <typename Try>
+void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to) {
     explaining_.end(state_, camera_);
     keep_memory();
     keeper_.finish(lasting_settings());
-    try_to([this] {
-        lasting_.finish(ending_.asked() ? kPatienceAtAnEnd : std::chrono::milliseconds(10000));
+    TouchRecording& recording = touch_.recording();
+    try_to("saving the settings", [&] {
+        lasting_.finish(at_once ? kPatienceAtAnEnd : std::chrono::milliseconds(10000));
     });
-    now("writing pictures");
-    try_to([this] { screenshots_.finish(); });
-    now("saving what was painted");
-    try_to([this] {
-        ending_.asked() ? painting_.finish(touch_.recording(), kPatienceAtAnEnd)
-                        : painting_.finish(touch_.recording());
+    try_to("writing pictures", [&] { screenshots_.finish(); });
+    try_to("saving what was painted", [&] {
+        at_once ? painting_.finish(recording, kPatienceAtAnEnd) : painting_.finish(recording);
     });
-    now("finishing the clip");
-    try_to([this] { clip_.finish(ending_.asked() ? ClipEnd::at_once : ClipEnd::well); });
-    now("closing the recording");
-    try_to([this] {
-        touch_.recording().finish(ending_.asked() ? kPatienceAtAnEnd : Recorder::kPatience);
-    });
-    now("closing the window");
-    if (!failure.empty()) throw InputError(failure);
+    try_to("finishing the clip",
+           [&] { clip_.finish(at_once ? ClipEnd::at_once : ClipEnd::well); });
+    try_to("closing the recording",
+           [&] { recording.finish(at_once ? kPatienceAtAnEnd : Recorder::kPatience); });
 }
 
 /// Also when the window was moved to a display of another scale.
@@ -286,9 +276,8 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
         camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y);
     draw_ruler(state_, clip_from_grid);
     draw_brush(state_, clip_from_grid);
-    Player& player = touch_.player();
-    if (state_.settings.panels_visible) draw_panel_column(state_, player, replay_.player());
-    draw_bottom_bar(state_, player, replay_.player());
+    if (state_.settings.panels_visible) draw_panel_column(state_, transport());
+    draw_bottom_bar(state_, transport());
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
@@ -397,6 +386,11 @@ void Viewer::tell(const std::string& notice) {
     state_.ui.notice_until_s = now_s() + kNoticeTime_s;
 }
 
+Transport& Viewer::transport() {
+    if (replay_.player() != nullptr) return *replay_.player();
+    return touch_.player();
+}
+
 double Viewer::now_s() const {
     return std::chrono::duration<double>(steady_clock::now() - start_).count();
 }
@@ -409,17 +403,13 @@ bool Viewer::over() {
 
 /// And does not begin again.
 bool Viewer::played_to_the_end() const {
-    if (state_.touch.replay) {
-        const SessionPlayback& at = state_.touch.replay->playback;
-        return !at.playing && !at.looping &&
-               at.now_s >= (at.part ? std::min(at.part->to_s, at.end_s) : at.end_s);
-    }
-    const PlaybackStatus& at = state_.media.playback;
-    if (!at.open || at.playing || at.looping || state_.media.still || !(at.frames_per_s > 0.0))
-        return false;
-    const double end_s = at.part ? std::min(at.part->to_s, at.duration_s) : at.duration_s;
+    const Course at = state_.course();
+    if (at.playing || at.looping) return false;
+    if (state_.touch.replay) return at.now_s >= at.last_s();
+    const PlaybackStatus& video = state_.media.playback;
+    if (!video.open || state_.media.still || !(video.frames_per_s > 0.0)) return false;
     constexpr double kFramesBefore = 1.5;  // the last one is shown
-    return at.media_s + kFramesBefore / at.frames_per_s >= end_s;
+    return at.now_s + kFramesBefore / video.frames_per_s >= at.last_s();
 }
 
 glm::ivec2 Viewer::relief_viewport() const {

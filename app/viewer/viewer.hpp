@@ -1,6 +1,7 @@
 // The viewer: one window, one player, one hand, one haptic loop.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -163,6 +164,8 @@ class Viewer {
     void beat();
     void finish();
     void close_without_display();
+    template <typename Try>
+    void write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to);
     void write_last_picture();
     void take_last_screenshot();
     /// Says so where the last files are still being opened.
@@ -181,6 +184,8 @@ class Viewer {
             state_.ui.message = error.what();
         }
     }
+    /// Of what plays.
+    [[nodiscard]] Transport& transport();
     [[nodiscard]] double now_s() const;
     [[nodiscard]] bool over();
     [[nodiscard]] bool played_to_the_end() const;

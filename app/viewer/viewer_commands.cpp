@@ -40,7 +40,7 @@ void Viewer::carry_out_commands() {
         [this](const ReadFolder& wanted) { browsing_.go_to(wanted.folder, state_.ui.dialog); },
         [this](const CompleteTyped& line) { browsing_.complete(line.typed, state_.ui.dialog); },
         [this](const MakeReport& report) { make_report(report.session); }};
-    for (const Command& command : state_.commands.take()) std::visit(carry_out, command);
+    for (const WindowCommand& command : state_.commands.take()) std::visit(carry_out, command);
 }
 
 /// What its key does, and what that leaves for now.
@@ -113,9 +113,10 @@ void Viewer::start_or_stop_clip(PictureOf of) {
 
 void Viewer::load_bump(const std::filesystem::path& file) {
     attempt([&] {
-        state_.touch.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
-        state_.touch.bump_file = file;
-        if (state_.touch.bump) make_felt(state_.settings.touch);
+        TouchState& touch = state_.touch;
+        touch.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
+        touch.bump_file = file;
+        if (touch.bump) make_felt(state_.settings.touch);
     });
 }
 
@@ -136,10 +137,11 @@ void Viewer::take_material(const std::string& name) {
 
 void Viewer::keep_material(const std::string& name) {
     attempt([&] {
-        Material material = material_of(state_.settings.touch, state_.touch.bump_file, state_.touch.bump,
+        const TouchState& touch = state_.touch;
+        Material material = material_of(state_.settings.touch, touch.bump_file, touch.bump,
                                         state_.media.depth_columns);
         material.name = name;
-        material.sound = state_.touch.material.sound;
+        material.sound = touch.material.sound;
         tell("Kept as " + save_material(material).string());
         state_.ui.materials = material_names();
         state_.ui.fields.material = {};

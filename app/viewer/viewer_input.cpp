@@ -79,7 +79,8 @@ std::optional<Answer> Viewer::perform_with_brush(Action action) {
     Brush& brush = state_.ui.brush;
     if (action != Action::toggle_brush && action != Action::undo && action != Action::redo)
         return std::nullopt;
-    if (state_.touch.replay) return Answer{"A replay is felt as it was recorded: nothing is painted"};
+    if (state_.touch.replay)
+        return Answer{"A replay is felt as it was recorded: nothing is painted"};
     if (!brush.refusal.empty()) return Answer{brush.refusal};
     if (action == Action::toggle_brush) {
         brush.on = !brush.on;
@@ -105,9 +106,10 @@ void Viewer::perform(Action action) {
     if (!answer) answer = perform_with_view(action);
     if (!answer) answer = perform_with_brush(action);
     if (!answer) answer = explaining_.perform(action, state_, player, replay);
-    if (!answer && replay != nullptr) answer = perform_in_replay(action, *replay, state_.keys);
-    if (!answer) answer = dibhr::perform(action, state_, player);
-    state_.media.playback = player.status();  // the next key of this picture goes on from here
+    if (!answer) answer = dibhr::perform(action, state_, transport());
+    // The next key of this picture goes on from here.
+    state_.media.playback = player.status();
+    if (replay != nullptr) state_.touch.replay->playback = replay->playback();
     if (!answer->place && answer->words.empty()) return;
     tell(answer->words);
     state_.ui.notice_of_place = answer->place;
@@ -126,7 +128,8 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     const bool measures = state_.ui.ruler && !state_.ui.explained;
     const bool paints = state_.ui.brush.on && !state_.ui.explained && !state_.touch.replay;
     if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
-        pointed_at_ = surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
+        pointed_at_ =
+            surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
     if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
     if (paints) {
         paint(use);

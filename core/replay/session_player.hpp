@@ -19,6 +19,7 @@
 #include "core/replay/frames.hpp"
 #include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
+#include "core/video/playing/transport.hpp"
 
 namespace dibhr {
 
@@ -54,29 +55,31 @@ struct SessionPlayback {
     std::optional<MediaPart> part{};  ///< only that is played; nothing: all of it
     bool waiting{false};              ///< for ticks that are being read
     std::string failure{};            ///< a plain sentence when reading broke off; empty otherwise
+
+    [[nodiscard]] Course course() const {
+        return {playing, looping, speed, now_s, begin_s, end_s, part};
+    }
 };
 
 /// All of it belongs to the window's thread; nothing waits for a disk or for decoding. Its clock is
 /// that of the pictures: what is asked for counts from the last one on.
-class SessionPlayer {
+class SessionPlayer final : public Transport {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
     /// Begins to play from the first tick on.
     explicit SessionPlayer(std::unique_ptr<OpenedSession> opened);
-    ~SessionPlayer();  ///< ends its thread
+    ~SessionPlayer() override;  ///< ends its thread
     SessionPlayer(const SessionPlayer&) = delete;
     SessionPlayer& operator=(const SessionPlayer&) = delete;
 
-    void play();  ///< at the end: from the beginning
-    void pause();
-    void seek(double t_s);  ///< keeps playing or paused; of many in a row the last one counts
-    void step(int ticks);   ///< pauses, then moves by that many ticks forth, or by one back
-    void set_looping(bool looping);
-    /// Plays only that part: stops at its end, or begins it again. What is beyond it already goes
-    /// on to the session's own end.
-    void set_part(const std::optional<MediaPart>& part);
-    void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
+    void play() override;
+    void pause() override;
+    void seek(double t_s) override;
+    void step(int ticks) override;  ///< by that many forth, or by one back
+    void set_looping(bool looping) override;
+    void set_part(const std::optional<MediaPart>& part) override;
+    void set_speed(double speed) override;
     /// What these parameters give is computed from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);
     /// Whether the other algorithms' proxies are computed, too, from a second before the moment

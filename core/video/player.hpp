@@ -14,6 +14,7 @@
 #include "core/video/live/live_status.hpp"
 #include "core/video/media.hpp"
 #include "core/video/motion/motion_wanted.hpp"
+#include "core/video/playing/transport.hpp"
 
 namespace dibhr {
 
@@ -38,15 +39,19 @@ struct PlaybackStatus {
     CleaningSteps steps{};             ///< the same
     std::optional<LiveStatus> live{};  ///< nothing: it is read from files
     std::string failure{};  ///< a plain sentence when reading broke off or met less; else empty
+
+    [[nodiscard]] Course course() const {
+        return {playing, looping, speed, media_s, 0.0, duration_s, part};
+    }
 };
 
 /// Every method may be called from the window thread; none waits for decoding. The two frame
 /// windows are the readers' ends: `haptics()` belongs to the haptic thread, `picture()` to the
 /// window thread.
-class Player {
+class Player final : public Transport {
   public:
     Player();
-    ~Player();  ///< stops the thread
+    ~Player() override;  ///< stops the thread
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
@@ -55,15 +60,13 @@ class Player {
     void play_media(std::unique_ptr<Media> media, std::uint32_t number = 0,
                     std::shared_ptr<const TouchMaps> maps = nullptr);
 
-    void play();
-    void pause();
-    /// What is live cannot be sought or stepped: it goes on.
-    void seek(double media_s);  ///< to the frame shown at that time; keeps playing or paused
-    void step(int frames);      ///< pauses, then moves by whole frames, back or forth
-    void set_looping(bool looping);
-    /// Plays only that part of the media, nothing: all of it. Stops at its end, or begins it again.
-    void set_part(const std::optional<MediaPart>& part);
-    void set_speed(double speed);  ///< kSlowestSpeed .. kFastestSpeed
+    void play() override;
+    void pause() override;
+    void seek(double media_s) override;  ///< to the frame shown at that time
+    void step(int frames) override;
+    void set_looping(bool looping) override;
+    void set_part(const std::optional<MediaPart>& part) override;
+    void set_speed(double speed) override;
     /// What is as it was asked for last changes nothing, so that it may be said once a picture.
     void set_cleaning(const CleaningOptions& options);
     /// What is to be found out of the time between frames; likewise.

@@ -17,7 +17,7 @@ TEST_CASE("a command that is asked for twice before it is done is done once, in 
     queue.push(Action::take_screenshot);
     queue.push(Action::record);
     queue.push(LoadBump{"last.png"});
-    const std::vector<Command> asked = queue.take();
+    const std::vector<WindowCommand> asked = queue.take();
     REQUIRE(asked.size() == 3);
     CHECK(std::get<Action>(asked[0]) == Action::record);
     CHECK(std::get<LoadBump>(asked[1]).file == "last.png");
@@ -33,7 +33,7 @@ TEST_CASE("each moment that is marked counts", "[commands]") {
     CommandQueue queue;
     queue.push(MarkMoment{first});
     queue.push(MarkMoment{second});
-    const std::vector<Command> asked = queue.take();
+    const std::vector<WindowCommand> asked = queue.take();
     REQUIRE(asked.size() == 2);
     CHECK(std::get<MarkMoment>(asked[0]).at == first);
     CHECK(std::get<MarkMoment>(asked[1]).at == second);

@@ -134,12 +134,12 @@ TEST_CASE("at its end the view is as before, and Esc ends it after what lies on 
     scene.press(Action::explain);
     scene.show();
     CHECK(scene.view() != before);
-    scene.state().message = "That did not work";
+    scene.state().ui.message = "That did not work";
     CHECK_FALSE(scene.press(Action::close_topmost));
-    scene.state().message.clear();
+    scene.state().ui.message.clear();
     CHECK(scene.press(Action::close_topmost));
     scene.finish();
-    CHECK_FALSE(scene.state().explained);
+    CHECK_FALSE(scene.state().ui.explained);
     CHECK(scene.view() == before);
     CHECK_FALSE(scene.press(Action::step_forward));
 }
@@ -157,9 +157,9 @@ TEST_CASE("at its end the view stays where a person took it meanwhile", "[explai
 
 TEST_CASE("without a surface nothing is explained, and it says so", "[explain]") {
     ExplainedScene scene;
-    scene.state().haptic.touchable = false;
+    scene.state().touch.haptic.touchable = false;
     const auto answer = scene.press(Action::explain);
     REQUIRE(answer);
     CHECK(answer->words.find("No surface") == 0);
-    CHECK_FALSE(scene.state().explained);
+    CHECK_FALSE(scene.state().ui.explained);
 }
