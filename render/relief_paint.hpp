@@ -4,8 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -24,11 +22,8 @@ inline constexpr std::array<Word<ReliefPaint>, 5> kReliefPaintWords{
      {ReliefPaint::grey, "grey", "Depth, grey"}}};
 static_assert(has_all_in_order(kReliefPaintWords, ReliefPaint::grey));
 
-[[nodiscard]] constexpr std::string_view name_of(ReliefPaint paint) noexcept {
-    return entry_of(kReliefPaintWords, paint).name;
-}
-[[nodiscard]] constexpr std::optional<ReliefPaint> paint_named(std::string_view name) noexcept {
-    return value_named(kReliefPaintWords, name);
+[[nodiscard]] constexpr const auto& words_of(ReliefPaint) noexcept {
+    return kReliefPaintWords;
 }
 
 /// Colours for depth, from the farthest to the nearest: one row of 256 pixels. Null for a paint

@@ -1,7 +1,7 @@
 // Finds the files that come with the program.
 #include "app/settings/assets_path.hpp"
 
-#include <string>
+#include <algorithm>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -47,6 +47,15 @@ fs::path shipped_materials_folder() {
 
 fs::path shipped_studies_folder() {
     return assets_folder() / "studies";
+}
+
+std::vector<std::string> toml_names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+    std::ranges::sort(names);
+    return names;
 }
 
 }  // namespace dibhr

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace dibhr {
 
@@ -18,5 +20,9 @@ struct SampleFiles {
 
 /// The studies that come with the program. Throws InputError when its files are missing.
 [[nodiscard]] std::filesystem::path shipped_studies_folder();
+
+/// The names, in order and without ending, of the TOML files in a folder of materials or studies;
+/// none where it cannot be read.
+[[nodiscard]] std::vector<std::string> toml_names_in(const std::filesystem::path& folder);
 
 }  // namespace dibhr

@@ -54,27 +54,10 @@ auto value_called(const std::string& name, const Values& values, const char* opt
 
 constexpr std::string_view kAutomatic = "auto";
 
-/// --NAME with one of some words, or auto, which leaves `fact` empty.
-template <typename Values>
-void add_word_option(CLI::App& app, const char* name, const Values& values,
-                     std::optional<typename Values::value_type>& fact, const std::string& help) {
-    app.add_option_function<std::string>(
-           name,
-           [&fact, &values, name](const std::string& word) {
-               if (word == kAutomatic)
-                   fact.reset();
-               else
-                   fact = value_called(word, values, name);
-           },
-           help + ": auto, " + names_of(values))
-        ->type_name("WORD")
-        ->default_str(std::string(kAutomatic));
-}
-
-/// --NAME with what `read` makes of the text, or auto.
+/// --NAME with what `read` makes of the text, or auto, which leaves `fact` empty.
 template <typename Fact, typename Read>
 void add_fact_option(CLI::App& app, const char* name, std::optional<Fact>& fact, const Read& read,
-                     const char* type, const char* lacking, const std::string& help) {
+                     const char* type, const std::string& lacking, const std::string& help) {
     app.add_option_function<std::string>(
            name,
            [&fact, read, name, lacking](const std::string& text) {
@@ -88,8 +71,17 @@ void add_fact_option(CLI::App& app, const char* name, std::optional<Fact>& fact,
         ->default_str(std::string(kAutomatic));
 }
 
-Algorithm known_algorithm(const std::string& name) {
-    return value_called(name, all_algorithms(), "--algorithm");
+/// --NAME with one of some words, or auto.
+template <typename Values>
+void add_word_option(CLI::App& app, const char* name, const Values& values,
+                     std::optional<typename Values::value_type>& fact, const std::string& help) {
+    const auto read = [&values](const std::string& word) {
+        const auto found =
+            std::ranges::find(values, word, [](auto value) { return name_of(value); });
+        return found == values.end() ? std::nullopt : std::optional(*found);
+    };
+    add_fact_option(app, name, fact, read, "WORD", "is none of " + names_of(values),
+                    help + ": auto, " + names_of(values));
 }
 
 std::string range_of(double lowest, double highest) {
@@ -200,7 +192,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--cleaning",
            [&request](const std::string& name) {
-               request.preset = cleaning_named(name);
+               request.preset = named<CleaningPreset>(name);
                if (!request.preset || request.preset == CleaningPreset::own)
                    throw CLI::ValidationError(
                        "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
@@ -272,10 +264,9 @@ void make_felt(TouchParameters& parameters) {
 }
 
 bool GivenParameters::gives_damping() const {
-    return std::any_of(touch_numbers().begin(), touch_numbers().end(),
-                       [this](const TouchNumber& number) {
-                           return number.topic == TouchTopic::damper && value_of(number) != nullptr;
-                       });
+    return std::ranges::any_of(touch_numbers(), [this](const TouchNumber& number) {
+        return number.topic == TouchTopic::damper && value_of(number) != nullptr;
+    });
 }
 
 void GivenParameters::apply_texture(TouchParameters& parameters) const {
@@ -357,7 +348,8 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
     app.add_option_function<std::vector<std::string>>(
            "--algorithm",
            [&algorithms](const std::vector<std::string>& names) {
-               for (const std::string& name : names) algorithms.push_back(known_algorithm(name));
+               for (const std::string& name : names)
+                   algorithms.push_back(value_called(name, all_algorithms(), "--algorithm"));
            },
            "How the proxy follows the goal, once or several times: " + names_of(all_algorithms()))
         ->type_name("NAME")
@@ -401,7 +393,7 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
                                const std::vector<std::string>& names, const std::string& help,
                                const std::function<void(const std::string&)>& take) {
     const auto check = [name, names, take](const std::string& word) {
-        if (std::find(names.begin(), names.end(), word) == names.end())
+        if (std::ranges::find(names, word) == names.end())
             throw CLI::ValidationError(name, "'" + word + "' is none of " + listed(names));
         take(word);
     };

@@ -152,9 +152,7 @@ void Consent::add(const std::vector<std::string>& lines) const {
     all.insert(lines.begin(), lines.end());
     if (all.size() == before) return;
     all.insert(std::string(kHead));  // "#" comes before all that is a key
-    OutputFile out(record_);
-    for (const std::string& line : all) out.write(line + '\n');
-    out.commit();
+    write_file(record_, listed({all.begin(), all.end()}, "\n") + '\n');
 }
 
 void copy_doubted(const std::vector<Doubt>& doubts, Settings from, Settings& to) {

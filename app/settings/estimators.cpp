@@ -14,8 +14,7 @@ namespace dibhr {
 namespace fs = std::filesystem;
 
 const Estimator* estimator_called(std::span<const Estimator> estimators, const std::string& name) {
-    const auto found = std::find_if(estimators.begin(), estimators.end(),
-                                    [&name](const Estimator& one) { return one.name == name; });
+    const auto found = std::ranges::find(estimators, name, &Estimator::name);
     return found == estimators.end() ? nullptr : &*found;
 }
 

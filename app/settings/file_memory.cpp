@@ -19,15 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-double within(double value, double lowest, double highest, double standard) {
-    return value >= lowest && value <= highest ? value : standard;
-}
-
-std::optional<double> relief_in(const toml::table& table) {
-    const auto read = table["relief"].value<double>();
-    const TouchNumber& number = *touch_number("relief");
-    if (!read || !(*read >= number.lowest && *read <= number.highest)) return std::nullopt;
-    return read;
+/// Nothing: the file has no number of that name in the range.
+std::optional<double> number_within(const toml::table& table, const char* name, double lowest,
+                                    double highest) {
+    const auto read = table[name].value<double>();
+    return read && *read >= lowest && *read <= highest ? read : std::nullopt;
 }
 
 }  // namespace
@@ -42,8 +38,10 @@ FileMemory read_memory(const fs::path& folder, const fs::path& media) try {
     std::error_code unknown;
     if (!fs::is_regular_file(file, unknown)) return {};
     const toml::table table = toml::parse_file(file.string());
-    return {relief_in(table), table["view"].value_or(std::string{}),
-            within(table["at"].value_or(0.0), 0.0, kLongest_s, 0.0)};
+    const TouchNumber& relief = *touch_number("relief");
+    return {number_within(table, "relief", relief.lowest, relief.highest),
+            table["view"].value_or(std::string{}),
+            number_within(table, "at", 0.0, kLongest_s).value_or(0.0)};
 } catch (const toml::parse_error&) {
     return {};
 }

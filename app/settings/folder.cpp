@@ -30,7 +30,7 @@ constexpr std::array<std::string_view, 3> kBagEndings{".mcap", ".db3", ".bag"};
 /// Of ROS.
 bool is_bag(const fs::path& file) {
     const std::string ending = lower_case(file.extension().string());
-    return std::find(kBagEndings.begin(), kBagEndings.end(), ending) != kBagEndings.end();
+    return std::ranges::find(kBagEndings, ending) != kBagEndings.end();
 }
 
 FileKind kind_of(const fs::directory_entry& entry) {
@@ -69,57 +69,34 @@ bool is_film(const FolderEntry& entry) {
 
 /// Depth goes into the row of its colour: of the same subject, of the same kind if there is one.
 void join_pairs(std::vector<FolderEntry>& entries) {
-    std::map<std::string, std::vector<std::size_t>> colours;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        const fs::path& file = entries[k].file;
-        if (is_film(entries[k]) && !named_depth(file) &&
-            (named_colour(file) || may_name_colour(file)))
-            colours[subject_of(file)].push_back(k);
+    std::map<std::string, std::vector<FolderEntry*>> colours;
+    for (FolderEntry& entry : entries) {
+        const fs::path& file = entry.file;
+        if (is_film(entry) && !named_depth(file) && (named_colour(file) || may_name_colour(file)))
+            colours[subject_of(file)].push_back(&entry);
     }
-    std::vector<bool> joined(entries.size(), false);
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (!is_film(entries[k]) || !named_depth(entries[k].file)) continue;
-        const auto same = colours.find(subject_of(entries[k].file));
-        if (same == colours.end()) continue;
-        for (const std::size_t colour : same->second) {
-            FolderEntry& row = entries[colour];
-            if (!row.depth.empty() || row.kind != entries[k].kind) continue;
-            row.depth = entries[k].file;
-            row.bytes += entries[k].bytes;
-            joined[k] = true;
+    for (FolderEntry& entry : entries) {
+        if (!is_film(entry) || !named_depth(entry.file)) continue;
+        for (FolderEntry* const row : colours[subject_of(entry.file)]) {
+            if (!row->depth.empty() || row->kind != entry.kind) continue;
+            row->depth = std::exchange(entry.file, {});
+            row->bytes += entry.bytes;
             break;
         }
     }
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < entries.size(); ++k) {
-        if (joined[k]) continue;
-        if (next != k) entries[next] = std::move(entries[k]);
-        ++next;
-    }
-    entries.resize(next);
+    std::erase_if(entries, [](const FolderEntry& entry) { return entry.file.empty(); });
 }
 
 std::string common_beginning(const std::string& a, const std::string& b) {
-    const auto differ = std::mismatch(a.begin(), a.end(), b.begin(), b.end());
-    return {a.begin(), differ.first};
+    return {a.begin(), std::ranges::mismatch(a, b).in1};
 }
 
 }  // namespace
 
 const char* name_of(FileKind kind) noexcept {
-    switch (kind) {
-        case FileKind::folder:
-            return "folder";
-        case FileKind::session:
-            return "session";
-        case FileKind::video:
-            return "video";
-        case FileKind::picture:
-            return "picture";
-        case FileKind::other:
-            break;
-    }
-    return "file";
+    constexpr std::array kNames{"folder", "session", "video", "picture", "file"};
+    static_assert(kNames.size() == static_cast<std::size_t>(FileKind::other) + 1);
+    return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::string FolderEntry::name() const {
@@ -140,7 +117,7 @@ Folder read_folder(const fs::path& path) {
         if (!is_hidden(entries->path())) folder.entries.push_back(described(*entries));
     }
     if (failed) folder.trouble = shown(folder.path) + " cannot be read: " + failed.message();
-    std::sort(folder.entries.begin(), folder.entries.end(), comes_before);
+    std::ranges::sort(folder.entries, comes_before);
     join_pairs(folder.entries);
     return folder;
 }
@@ -182,7 +159,7 @@ std::optional<std::size_t> entry_of(const Folder& folder, const fs::path& file) 
     const auto holds = [&whole](const FolderEntry& entry) {
         return entry.file == whole || entry.depth == whole;
     };
-    const auto found = std::find_if(folder.entries.begin(), folder.entries.end(), holds);
+    const auto found = std::ranges::find_if(folder.entries, holds);
     if (found == folder.entries.end()) return std::nullopt;
     return static_cast<std::size_t>(found - folder.entries.begin());
 }

@@ -15,19 +15,26 @@ namespace dibhr {
 
 namespace {
 
-constexpr KeyJob while_typing(KeyJob job) {
-    job.while_typing = true;
-    return job;
+/// Acts once at a press, and not while something is typed; `keys`: the standard ones.
+template <typename... Keys>
+constexpr KeyJob job(Action action, std::string_view name, std::string_view group,
+                     std::string_view help, Keys... keys) {
+    return {action, name, group, help, {keys...}};
 }
 
-constexpr KeyJob repeating(KeyJob job) {
-    job.repeats = true;
-    return job;
+constexpr KeyJob while_typing(KeyJob one) {
+    one.while_typing = true;
+    return one;
 }
 
-constexpr KeyJob while_held(KeyJob job) {
-    job.held = true;
-    return job;
+constexpr KeyJob repeating(KeyJob one) {
+    one.repeats = true;
+    return one;
+}
+
+constexpr KeyJob while_held(KeyJob one) {
+    one.held = true;
+    return one;
 }
 
 // Headings of the help sheet.
@@ -37,128 +44,77 @@ constexpr const char* kView = "View";
 constexpr const char* kProgram = "Program";
 
 constexpr KeyJob kJobs[] = {
-    {Action::toggle_force, "toggle-force", kTouch, "Force off, force on again", {"F"}},
-    while_typing({Action::force_off, "force-off", kTouch, "Force off, whatever it was", {"F8"}}),
-    {Action::centre_workspace,
-     "centre-workspace",
-     kTouch,
-     "Centre the device's hand in the image",
-     {"C"}},
-    while_typing({Action::record, "record", kTouch, "Record what is touched, stop", {"Ctrl+R"}}),
-    {Action::toggle_sound, "toggle-sound", kTouch, "Sound of touch off, on", {"U"}},
-    {Action::mark, "mark", kTouch, "Mark this moment of the recording", {"M"}},
-    {Action::explain, "explain", kTouch, "Explain an update step by step; end it", {"E"}},
-    {Action::toggle_brush,
-     "toggle-brush",
-     kTouch,
-     "Brush that paints materials on the relief; end it",
-     {"G"}},
-    {Action::undo, "undo", kTouch, "Take back what was painted", {"Ctrl+Z"}},
-    {Action::redo, "redo", kTouch, "Paint it again", {"Ctrl+Shift+Z"}},
-    {Action::toggle_others,
-     "toggle-others",
-     kTouch,
-     "Proxies of the other algorithms on, off",
-     {"O"}},
-    {Action::play_or_pause, "play-or-pause", kPlayback, "Play, pause", {"Space", "P"}},
-    repeating({Action::step_forward,
-               "step-forward",
-               kPlayback,
-               "One frame forward; in a replay, one tick",
-               {"."}}),
-    repeating({Action::step_back,
-               "step-back",
-               kPlayback,
-               "One frame back; in a replay, one tick",
-               {","}}),
-    repeating({Action::seek_forward_little,
-               "seek-forward-little",
-               kPlayback,
-               "1 s forward",
-               {"Shift+Right"}}),
+    job(Action::toggle_force, "toggle-force", kTouch, "Force off, force on again", "F"),
+    while_typing(job(Action::force_off, "force-off", kTouch, "Force off, whatever it was", "F8")),
+    job(Action::centre_workspace, "centre-workspace", kTouch,
+        "Centre the device's hand in the image", "C"),
+    while_typing(job(Action::record, "record", kTouch, "Record what is touched, stop", "Ctrl+R")),
+    job(Action::toggle_sound, "toggle-sound", kTouch, "Sound of touch off, on", "U"),
+    job(Action::mark, "mark", kTouch, "Mark this moment of the recording", "M"),
+    job(Action::explain, "explain", kTouch, "Explain an update step by step; end it", "E"),
+    job(Action::toggle_brush, "toggle-brush", kTouch,
+        "Brush that paints materials on the relief; end it", "G"),
+    job(Action::undo, "undo", kTouch, "Take back what was painted", "Ctrl+Z"),
+    job(Action::redo, "redo", kTouch, "Paint it again", "Ctrl+Shift+Z"),
+    job(Action::toggle_others, "toggle-others", kTouch, "Proxies of the other algorithms on, off",
+        "O"),
+    job(Action::play_or_pause, "play-or-pause", kPlayback, "Play, pause", "Space", "P"),
+    repeating(job(Action::step_forward, "step-forward", kPlayback,
+                  "One frame forward; in a replay, one tick", ".")),
+    repeating(job(Action::step_back, "step-back", kPlayback,
+                  "One frame back; in a replay, one tick", ",")),
+    repeating(job(Action::seek_forward_little, "seek-forward-little", kPlayback, "1 s forward",
+                  "Shift+Right")),
     repeating(
-        {Action::seek_back_little, "seek-back-little", kPlayback, "1 s back", {"Shift+Left"}}),
-    repeating({Action::seek_forward, "seek-forward", kPlayback, "5 s forward", {"Right"}}),
-    repeating({Action::seek_back, "seek-back", kPlayback, "5 s back", {"Left"}}),
-    repeating({Action::seek_forward_far, "seek-forward-far", kPlayback, "60 s forward", {"Up"}}),
-    repeating({Action::seek_back_far, "seek-back-far", kPlayback, "60 s back", {"Down"}}),
-    {Action::go_to_start, "go-to-start", kPlayback, "To the start", {"Home"}},
-    {Action::go_to_end, "go-to-end", kPlayback, "To the last second", {"End"}},
-    repeating({Action::slower, "slower", kPlayback, "Slower", {"[", "-"}}),
-    repeating({Action::faster, "faster", kPlayback, "Faster", {"]", "+", "="}}),
-    {Action::half_speed, "half-speed", kPlayback, "Half the speed", {"{", "Page down"}},
-    {Action::double_speed, "double-speed", kPlayback, "Twice the speed", {"}", "Page up"}},
-    {Action::normal_speed, "normal-speed", kPlayback, "Normal speed", {"Backspace"}},
-    {Action::toggle_loop, "toggle-loop", kPlayback, "Loop on, off", {"L"}},
-    {Action::loop_part, "loop-part", kPlayback, "Loop from here; to here; all again", {"A"}},
-    {Action::reset_view, "reset-view", kView, "Reset the view", {"R"}},
-    {Action::toggle_straight_view,
-     "toggle-straight-view",
-     kView,
-     "Straight view, perspective",
-     {"V"}},
-    while_held({Action::show_as_recorded,
-                "show-as-recorded",
-                kView,
-                "Depth as recorded, before cleaning",
-                {"B"}}),
-    {Action::next_paint,
-     "next-paint",
-     kView,
-     "Colour of the video, clay, colours of the depth",
-     {"D"}},
-    {Action::toggle_panes,
-     "toggle-panes",
-     kView,
-     "Colour and depth as pictures above the relief",
-     {"K"}},
-    {Action::toggle_ruler,
-     "toggle-ruler",
-     kView,
-     "Ruler between two clicks on the relief; end it",
-     {"N"}},
-    {Action::toggle_statistics, "toggle-statistics", kView, "Statistics over the relief", {"I"}},
-    {Action::copy_view, "copy-view", kView, "Copy where the view is from", {"Ctrl+C"}},
-    {Action::paste_view, "paste-view", kView, "Take the copied view", {"Ctrl+V"}},
-    {Action::toggle_panels, "toggle-panels", kView, "Hide the panels, show them", {"Tab"}},
+        job(Action::seek_back_little, "seek-back-little", kPlayback, "1 s back", "Shift+Left")),
+    repeating(job(Action::seek_forward, "seek-forward", kPlayback, "5 s forward", "Right")),
+    repeating(job(Action::seek_back, "seek-back", kPlayback, "5 s back", "Left")),
+    repeating(job(Action::seek_forward_far, "seek-forward-far", kPlayback, "60 s forward", "Up")),
+    repeating(job(Action::seek_back_far, "seek-back-far", kPlayback, "60 s back", "Down")),
+    job(Action::go_to_start, "go-to-start", kPlayback, "To the start", "Home"),
+    job(Action::go_to_end, "go-to-end", kPlayback, "To the last second", "End"),
+    repeating(job(Action::slower, "slower", kPlayback, "Slower", "[", "-")),
+    repeating(job(Action::faster, "faster", kPlayback, "Faster", "]", "+", "=")),
+    job(Action::half_speed, "half-speed", kPlayback, "Half the speed", "{", "Page down"),
+    job(Action::double_speed, "double-speed", kPlayback, "Twice the speed", "}", "Page up"),
+    job(Action::normal_speed, "normal-speed", kPlayback, "Normal speed", "Backspace"),
+    job(Action::toggle_loop, "toggle-loop", kPlayback, "Loop on, off", "L"),
+    job(Action::loop_part, "loop-part", kPlayback, "Loop from here; to here; all again", "A"),
+    job(Action::reset_view, "reset-view", kView, "Reset the view", "R"),
+    job(Action::toggle_straight_view, "toggle-straight-view", kView, "Straight view, perspective",
+        "V"),
+    while_held(job(Action::show_as_recorded, "show-as-recorded", kView,
+                   "Depth as recorded, before cleaning", "B")),
+    job(Action::next_paint, "next-paint", kView, "Colour of the video, clay, colours of the depth",
+        "D"),
+    job(Action::toggle_panes, "toggle-panes", kView,
+        "Colour and depth as pictures above the relief", "K"),
+    job(Action::toggle_ruler, "toggle-ruler", kView,
+        "Ruler between two clicks on the relief; end it", "N"),
+    job(Action::toggle_statistics, "toggle-statistics", kView, "Statistics over the relief", "I"),
+    job(Action::copy_view, "copy-view", kView, "Copy where the view is from", "Ctrl+C"),
+    job(Action::paste_view, "paste-view", kView, "Take the copied view", "Ctrl+V"),
+    job(Action::toggle_panels, "toggle-panels", kView, "Hide the panels, show them", "Tab"),
     while_typing(
-        {Action::toggle_full_screen, "toggle-full-screen", kView, "Full screen on, off", {"F11"}}),
-    while_typing({Action::open_file, "open-file", kProgram, "Open files", {"Ctrl+O"}}),
-    while_typing({Action::open_file_in_window,
-                  "open-file-in-window",
-                  kProgram,
-                  "Open files in this window, with previews",
-                  {"Ctrl+Shift+O"}}),
-    while_typing({Action::next_file,
-                  "next-file",
-                  kProgram,
-                  "The next file of the folder",
-                  {"Ctrl+Page down"}}),
-    while_typing(
-        {Action::previous_file, "previous-file", kProgram, "The file before it", {"Ctrl+Page up"}}),
-    while_typing({Action::take_screenshot,
-                  "take-screenshot",
-                  kProgram,
-                  "Save a picture, by default into the current folder",
-                  {"S", "F12"}}),
-    while_typing({Action::take_screenshot_of_relief,
-                  "take-screenshot-of-relief",
-                  kProgram,
-                  "Save a picture without panels",
-                  {"Shift+F12"}}),
-    while_typing({Action::take_clip, "take-clip", kProgram, "Save a clip (MP4), end it", {"F9"}}),
-    while_typing({Action::take_clip_of_relief,
-                  "take-clip-of-relief",
-                  kProgram,
-                  "Save a clip without panels, end it",
-                  {"Shift+F9"}}),
-    while_typing({Action::toggle_help, "toggle-help", kProgram, "This sheet", {"?", "F1", "H"}}),
-    while_typing({Action::close_topmost,
-                  "close-topmost",
-                  kProgram,
-                  "Close this sheet or a message",
-                  {"Esc"}}),
-    while_typing({Action::quit, "quit", kProgram, "Quit", {"Q", "Ctrl+Q"}}),
+        job(Action::toggle_full_screen, "toggle-full-screen", kView, "Full screen on, off", "F11")),
+    while_typing(job(Action::open_file, "open-file", kProgram, "Open files", "Ctrl+O")),
+    while_typing(job(Action::open_file_in_window, "open-file-in-window", kProgram,
+                     "Open files in this window, with previews", "Ctrl+Shift+O")),
+    while_typing(job(Action::next_file, "next-file", kProgram, "The next file of the folder",
+                     "Ctrl+Page down")),
+    while_typing(job(Action::previous_file, "previous-file", kProgram, "The file before it",
+                     "Ctrl+Page up")),
+    while_typing(job(Action::take_screenshot, "take-screenshot", kProgram,
+                     "Save a picture, by default into the current folder", "S", "F12")),
+    while_typing(job(Action::take_screenshot_of_relief, "take-screenshot-of-relief", kProgram,
+                     "Save a picture without panels", "Shift+F12")),
+    while_typing(job(Action::take_clip, "take-clip", kProgram, "Save a clip (MP4), end it", "F9")),
+    while_typing(job(Action::take_clip_of_relief, "take-clip-of-relief", kProgram,
+                     "Save a clip without panels, end it", "Shift+F9")),
+    while_typing(job(Action::toggle_help, "toggle-help", kProgram, "This sheet", "?", "F1", "H")),
+    while_typing(job(Action::close_topmost, "close-topmost", kProgram,
+                     "Close this sheet or a message", "Esc")),
+    while_typing(job(Action::quit, "quit", kProgram, "Quit", "Q", "Ctrl+Q")),
 };
 
 static_assert(std::size(kJobs) == kActions);
@@ -286,18 +242,17 @@ bool edits_text(const Key& key) {
     constexpr int kWithControl[] = {GLFW_KEY_A, GLFW_KEY_C, GLFW_KEY_V,
                                     GLFW_KEY_X, GLFW_KEY_Y, GLFW_KEY_Z};
     const auto among = [&key](const auto& codes) {
-        return std::find(std::begin(codes), std::end(codes), key.code) != std::end(codes);
+        return std::ranges::find(codes, key.code) != std::end(codes);
     };
     return key.typed || among(kEditing) || (key.control && among(kWithControl));
 }
 
 bool holds(const std::vector<Key>& keys, const Key& key) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
+    return std::ranges::find(keys, key) != keys.end();
 }
 
 const KeyJob* job_called(std::string_view name) {
-    const auto* const found = std::find_if(std::begin(kJobs), std::end(kJobs),
-                                           [name](const KeyJob& job) { return job.name == name; });
+    const auto* const found = std::ranges::find(kJobs, name, &KeyJob::name);
     return found == std::end(kJobs) ? nullptr : found;
 }
 
@@ -385,9 +340,7 @@ std::string name_of(const Key& key) {
     if (key.control) name += kControl;
     if (key.shift) name += kShift;
     if (key.code == ' ') return name.append(kSpace);
-    const auto* const named =
-        std::find_if(std::begin(kNamedKeys), std::end(kNamedKeys),
-                     [&key](const NamedKey& one) { return one.code == key.code; });
+    const auto* const named = std::ranges::find(kNamedKeys, key.code, &NamedKey::code);
     if (!key.typed && named != std::end(kNamedKeys)) return name.append(named->name);
     return name + in_utf8(upper_case(key.code));
 }
@@ -397,8 +350,7 @@ std::span<const KeyJob> key_jobs() {
 }
 
 const KeyJob& job_of(Action action) {
-    return *std::find_if(std::begin(kJobs), std::end(kJobs),
-                         [action](const KeyJob& job) { return job.action == action; });
+    return *std::ranges::find(kJobs, action, &KeyJob::action);
 }
 
 KeyTable::KeyTable(std::span<const OwnKeys> own, std::vector<std::string>* complaints) {

@@ -100,8 +100,7 @@ void take(const fs::path& file, std::string_view name, const toml::node& node, M
         return;
     }
     const auto& all = properties();
-    const auto* const found = std::find_if(
-        all.begin(), all.end(), [name](const Property& known) { return known.name == name; });
+    const auto* const found = std::ranges::find(all, name, &Property::name);
     if (found == all.end())
         refuse(file, node,
                in_quotes(name) + " is no property of a material: those are " + known_properties());
@@ -123,17 +122,8 @@ toml::table table_of(const fs::path& file) {
     }
 }
 
-std::vector<std::string> names_in(const fs::path& folder) {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder, none))
-        if (entry.path().extension() == kEnding) names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 bool contains(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::find(names, name) != names.end();
 }
 
 void require_own_name(const std::string& name) {
@@ -141,7 +131,7 @@ void require_own_name(const std::string& name) {
         return std::isalnum(c) != 0 || c == '-' || c == '_' || c == ' ' || c >= 0x80;
     };
     const bool names_file = !name.empty() && name.size() <= kLongestName && name.front() != ' ' &&
-                            name.back() != ' ' && std::all_of(name.begin(), name.end(), fits);
+                            name.back() != ' ' && std::ranges::all_of(name, fits);
     if (!names_file)
         throw InputError(in_quotes(name) +
                          " is no name for a material: use letters, digits, spaces and hyphens");
@@ -243,16 +233,16 @@ Material material_called(const std::string& name) {
     if (name == kAsRecorded) return {};
     if (fs::path(name).extension() == kEnding) return read_material(name);
     for (const fs::path& folder : {own_materials_folder(), shipped_materials_folder()}) {
-        if (contains(names_in(folder), name)) return read_material(folder / (name + kEnding));
+        if (contains(toml_names_in(folder), name)) return read_material(folder / (name + kEnding));
     }
     throw InputError("no material is called " + in_quotes(name) + ": there are " +
                      list_of_materials() + ", and files that end in .toml");
 }
 
 MaterialNames material_names() {
-    MaterialNames names{.own = names_in(own_materials_folder())};
+    MaterialNames names{.own = toml_names_in(own_materials_folder())};
     try {
-        names.shipped = names_in(shipped_materials_folder());
+        names.shipped = toml_names_in(shipped_materials_folder());
     } catch (const InputError&) {  // whoever asks for one of them is told
     }
     return names;

@@ -17,25 +17,13 @@ std::string padded(long long number, int digits) {
     return text.data();
 }
 
+/// What strftime() makes of a letter after "%"; empty: the letter is no placeholder.
 std::string date_part(char letter, const std::tm& now) {
-    switch (letter) {
-        case 'Y':
-            return padded(now.tm_year + 1900, 4);
-        case 'm':
-            return padded(now.tm_mon + 1, 2);
-        case 'd':
-            return padded(now.tm_mday, 2);
-        case 'H':
-            return padded(now.tm_hour, 2);
-        case 'M':
-            return padded(now.tm_min, 2);
-        case 'S':
-            return padded(now.tm_sec, 2);
-        case '%':
-            return "%";
-        default:
-            return {};
-    }
+    if (std::string_view("YmdHMS%").find(letter) == std::string_view::npos) return {};
+    const char format[]{'%', letter, '\0'};
+    std::array<char, 24> text{};
+    std::strftime(text.data(), text.size(), format, &now);
+    return text.data();
 }
 
 /// "00m04.631s": in the order of time also when sorted by name.
@@ -76,8 +64,7 @@ Part part_at(std::string_view rest, const NameFacts& facts) {
 
 std::string lacking_of(const NamePattern& pattern) {
     const std::string& text = pattern.text;
-    const bool one_line = std::none_of(text.begin(), text.end(),
-                                       [](char c) { return static_cast<unsigned char>(c) < 0x20; });
+    const bool one_line = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20; });
     if (text.empty() || text.back() == '/' || !one_line) return "names no file";
     const NameFacts any{.file = "file"};
     std::string_view rest = text;

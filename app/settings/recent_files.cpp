@@ -46,7 +46,7 @@ std::vector<RecentFile> with_first(const RecentFile& opened, std::vector<RecentF
     const RecentFile first{whole(opened.colour), whole(opened.depth)};
     const std::string names = first.colour.string() + first.depth.string();
     if (first.colour.empty() || names.find_first_of(kOwnBytes) != std::string::npos) return files;
-    files.erase(std::remove(files.begin(), files.end(), first), files.end());
+    std::erase(files, first);
     files.insert(files.begin(), first);
     files.resize(std::min(files.size(), kMostKept));
     return files;

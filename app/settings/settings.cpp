@@ -4,7 +4,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +14,7 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -49,7 +49,7 @@ std::string take_exact(const toml::node& node, T& value, const char* lacking) {
 }
 
 template <typename Enum>
-std::string take_word(std::optional<Enum> named, Enum& value, const char* lacking) {
+std::string take_word(std::optional<Enum> named, Enum& value, const std::string& lacking) {
     if (!named) return lacking;
     value = *named;
     return {};
@@ -88,27 +88,14 @@ std::string take(const toml::node& node, const Setting& setting, int& value) {
     return lacking;
 }
 
-std::string take(const toml::node& node, const Setting&, Algorithm& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(named<Algorithm>(word), value, "is not the name of an algorithm");
-}
-
-std::string take(const toml::node& node, const Setting&, CleaningPreset& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(cleaning_named(word), value, "is not the name of a way to clean");
-}
-
-std::string take(const toml::node& node, const Setting&, ReliefPaint& value) {
-    const auto word = node.value<std::string_view>().value_or("");
-    return take_word(paint_named(word), value, "is not what the relief can be painted with");
-}
-
 template <HasWords Enum>
 std::string take(const toml::node& node, const Setting&, Enum& value) {
-    const auto read = named<Enum>(node.value<std::string_view>().value_or(""));
-    if (!read) return "is none of " + listed(all_names<Enum>());
-    value = *read;
-    return {};
+    std::string lacking = "is none of " + listed(all_names<Enum>());
+    if (std::is_same_v<Enum, Algorithm>) lacking = "is not the name of an algorithm";
+    if (std::is_same_v<Enum, CleaningPreset>) lacking = "is not the name of a way to clean";
+    if (std::is_same_v<Enum, ReliefPaint>) lacking = "is not what the relief can be painted with";
+    const auto word = node.value<std::string_view>().value_or("");
+    return take_word(named<Enum>(word), value, lacking);
 }
 
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
@@ -144,13 +131,6 @@ std::optional<std::vector<std::string>> key_names(const toml::node& node) {
         names.push_back(entry.as_string()->get());
     }
     return names;
-}
-
-/// Whether the file can be written with that name as it is.
-bool is_bare(std::string_view name) {
-    return !name.empty() && std::all_of(name.begin(), name.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-    });
 }
 
 /// A command, or a table of one and of what is said of its depth. What it lacks to be an
@@ -210,8 +190,9 @@ class Reading {
         if (table == nullptr) return;
         for (const auto& [name, node] : in_order(*table)) {
             Estimator estimator{.name = name};
-            const std::string lacking = is_bare(name) ? take(*node, estimator)
-                                                      : "is not a name of letters, digits, - and _";
+            const std::string lacking = is_bare_name(name)
+                                            ? take(*node, estimator)
+                                            : "is not a name of letters, digits, - and _";
             if (lacking.empty())
                 estimators.push_back(std::move(estimator));
             else
@@ -252,7 +233,7 @@ class Reading {
         std::vector<const toml::node*> taken;
         for (const auto& [name, node] : in_order(table)) {
             auto names = key_names(*node);
-            if (!is_bare(name)) {
+            if (!is_bare_name(name)) {
                 tell(*node, kKeys, name, "is not an action: dibhr help keys lists them");
             } else if (!names) {
                 warn(*node, kKeys, name, "is neither a key in quotes nor a list of them");
@@ -365,16 +346,13 @@ std::string toml_text(Settings settings) {
     return text;
 }
 
-std::string content_of(const fs::path& file) {
-    if (auto content = small_text_in(file)) return *std::move(content);
-    throw InputError("cannot read the settings file " + file.string() +
-                     ": make it readable or delete it");
-}
-
 toml::table parsed(const fs::path& file) {
-    const std::string content = content_of(file);
+    const auto content = small_text_in(file);
+    if (!content)
+        throw InputError("cannot read the settings file " + file.string() +
+                         ": make it readable or delete it");
     try {
-        return toml::parse(content);
+        return toml::parse(*content);
     } catch (const toml::parse_error& error) {
         std::ostringstream text;
         text << "cannot understand the settings file " << file.string() << " at line "

@@ -2,6 +2,8 @@
 // folder; and the one list of all settings, which reading, writing and comparing share.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,10 +15,10 @@
 #include "app/settings/grip_buttons.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
-#include "app/settings/open_with.hpp"
 #include "app/settings/theme.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
+#include "core/haptics/words.hpp"
 #include "core/sound/touch_sound.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
@@ -37,6 +39,23 @@ inline constexpr int kLargestWindow = 16384;
 /// Of text and panels; 0 stands for what the display says.
 inline constexpr double kSmallestUi = 0.5;
 inline constexpr double kLargestUi = 4.0;
+
+/// Which dialog opens files.
+enum class OpenWith : std::uint8_t {
+    automatic,  ///< the desktop's where there is a desktop, else the window's own
+    desktop,    ///< the desktop's, also by what is found without one
+    window      ///< the window's own, with pairs and previews
+};
+
+inline constexpr std::array<Word<OpenWith>, 3> kOpenWithWords{
+    {{OpenWith::automatic, "auto", "The desktop's, where there is one"},
+     {OpenWith::desktop, "desktop", "The desktop's"},
+     {OpenWith::window, "window", "In this window"}}};
+static_assert(has_all_in_order(kOpenWithWords, OpenWith::window));
+
+[[nodiscard]] constexpr const auto& words_of(OpenWith) noexcept {
+    return kOpenWithWords;
+}
 
 /// Which panels stand open.
 struct PanelsOpen {

@@ -78,7 +78,7 @@ TouchRequest request_of(const TouchValues& values) {
     if (const auto material = word("material"); !material.empty())
         given.material = material_called(material);
     given.bump = word("bump");
-    request.preset = cleaning_named(word("cleaning"));
+    request.preset = named<CleaningPreset>(word("cleaning"));
     request.raw_depth = request.preset == CleaningPreset::raw;
     return request;
 }

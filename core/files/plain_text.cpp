@@ -9,6 +9,7 @@ extern "C" {
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -169,6 +170,13 @@ std::string listed(const std::vector<std::string>& words, std::string_view betwe
     std::string list;
     for (const std::string& word : words) list.append(list.empty() ? "" : between).append(word);
     return list;
+}
+
+bool is_bare_name(std::string_view text) {
+    const auto fits = [](unsigned char c) {
+        return c < 0x80 && (std::isalnum(c) != 0 || c == '-' || c == '_');
+    };
+    return !text.empty() && std::ranges::all_of(text, fits);
 }
 
 std::optional<double> number_of_text(std::string_view text) {

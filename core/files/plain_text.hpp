@@ -28,6 +28,9 @@ namespace dibhr {
 [[nodiscard]] std::string listed(const std::vector<std::string>& words,
                                  std::string_view between = ", ");
 
+/// Whether the text is a name of letters, digits, "-" and "_" alone; an empty one is none.
+[[nodiscard]] bool is_bare_name(std::string_view text);
+
 /// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
 /// double quotes.
 [[nodiscard]] std::string html_text(std::string_view text);

@@ -246,11 +246,8 @@ void sign_session(Database database, const StudyIdentity& identity, int trial,
 }  // namespace
 
 void require_label(const std::string& label) {
-    const bool fits = !label.empty() && label.size() <= kLongestLabel && label.front() != '-' &&
-                      label.front() != '_' &&
-                      std::all_of(label.begin(), label.end(), [](unsigned char c) {
-                          return c < 0x80 && (std::isalnum(c) != 0 || c == '-' || c == '_');
-                      });
+    const bool fits = is_bare_name(label) && label.size() <= kLongestLabel &&
+                      label.front() != '-' && label.front() != '_';
     if (!fits)
         throw InputError(in_quotes(label) +
                          " is no label of a participant: use letters, digits, - and _, at most 40, "

@@ -77,7 +77,7 @@ Json json_of(const std::string& place, const Feel& feel) {
 /// False when it could not be read, which is said.
 bool measure(const std::string& place, const std::string& cleaning, FeelOptions options,
              Json& json) {
-    options.cleaning.preset = cleaning_named(cleaning).value();
+    options.cleaning.preset = named<CleaningPreset>(cleaning).value();
     try {
         const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
         for (const Way way : kWays) print_way(short_name(place) + " " + cleaning, way, feel[way]);

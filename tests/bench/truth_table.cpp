@@ -78,7 +78,7 @@ Json measure(const Asked& asked) {
             const std::vector<DepthImage> recorded = sensor(name).see(truth, asked.seed);
             for (const std::string& cleaning : asked.cleanings) {
                 const Cleaned cleaned =
-                    cleaned_against(truth, recorded, cleaning_named(cleaning).value());
+                    cleaned_against(truth, recorded, named<CleaningPreset>(cleaning).value());
                 print_row(scene, name, cleaning, cleaned);
                 json.push_back(json_of(scene, name, cleaning, cleaned));
             }

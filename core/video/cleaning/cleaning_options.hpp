@@ -2,10 +2,9 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
-#include <optional>
-#include <string_view>
+
+#include "core/haptics/words.hpp"
 
 namespace dibhr {
 
@@ -51,29 +50,16 @@ inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
 /// Which steps: those of a name, those that the noise of the clip asks for, or one's own.
 enum class CleaningPreset : std::uint8_t { automatic, raw, gentle, sensor, own };
 
-/// What a person reads and types for one.
-struct CleaningWord {
-    CleaningPreset value;
-    std::string_view name;
-    const char* label;
-};
-inline constexpr std::array<CleaningWord, 5> kCleaningWords{
+inline constexpr std::array<Word<CleaningPreset>, 5> kCleaningWords{
     {{CleaningPreset::automatic, "auto", "Auto"},
      {CleaningPreset::raw, "raw", "Raw"},
      {CleaningPreset::gentle, "gentle", "Gentle"},
      {CleaningPreset::sensor, "sensor", "Sensor"},
      {CleaningPreset::own, "own", "Own"}}};
+static_assert(has_all_in_order(kCleaningWords, CleaningPreset::own));
 
-[[nodiscard]] constexpr std::string_view name_of(CleaningPreset preset) noexcept {
-    return kCleaningWords[static_cast<std::size_t>(preset)].name;
-}
-
-/// Nothing: there is none of that name.
-[[nodiscard]] constexpr std::optional<CleaningPreset> cleaning_named(
-    std::string_view name) noexcept {
-    for (const CleaningWord& word : kCleaningWords)
-        if (word.name == name) return word.value;
-    return std::nullopt;
+[[nodiscard]] constexpr const auto& words_of(CleaningPreset) noexcept {
+    return kCleaningWords;
 }
 
 /// Which steps are asked for.

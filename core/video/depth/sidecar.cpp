@@ -101,7 +101,7 @@ std::optional<Intrinsics> intrinsics_of(const toml::node& node) {
 std::optional<CleaningChoice> cleaning_of(const toml::node& node) {
     CleaningChoice choice;
     if (const auto word = node.value<std::string_view>()) {
-        const auto preset = cleaning_named(*word);
+        const auto preset = named<CleaningPreset>(*word);
         if (!preset || preset == CleaningPreset::own) return std::nullopt;
         choice.preset = *preset;
         return choice;

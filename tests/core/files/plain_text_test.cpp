@@ -33,6 +33,11 @@ TEST_CASE("a text is shown on one line, cut short where it is too long", "[files
     CHECK(one_line("a long name of a file", 10) == "a long n..");
 }
 
+TEST_CASE("a bare name is of letters, digits, - and _ alone", "[files]") {
+    CHECK(is_bare_name("Depth-pro_2"));
+    for (const char* name : {"", "a b", "a.b", "J\xC3\xBCrgen"}) CHECK_FALSE(is_bare_name(name));
+}
+
 TEST_CASE("an escaped text is all there, and no two look the same", "[files]") {
     CHECK(escaped_text("env -C ~/x run \"a b\"") == "env -C ~/x run \"a b\"");
     CHECK(escaped_text(std::string("\0\x1b\x7f\n", 4)) == "\\x00\\x1b\\x7f\\x0a");
