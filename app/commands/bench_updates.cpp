@@ -237,9 +237,7 @@ Json with_size(Json json, int columns, int rows, const SampleStatistics& us) {
 
 double PathCost::dibhr_to_pga() const {
     const auto of = [this](Algorithm algorithm) {
-        return std::find_if(algorithms.begin(), algorithms.end(),
-                            [&](const UpdateCost& cost) { return cost.algorithm == algorithm; })
-            ->update_ns;
+        return std::ranges::find(algorithms, algorithm, &UpdateCost::algorithm)->update_ns;
     };
     return of(Algorithm::dibhr) / of(Algorithm::pga);
 }

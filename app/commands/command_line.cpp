@@ -125,9 +125,7 @@ void print_help() {
 }
 
 const Command* command_called(const std::string& name) {
-    const auto* const found =
-        std::find_if(kCommands.begin(), kCommands.end(),
-                     [&name](const Command& command) { return command.name == name; });
+    const auto* const found = std::ranges::find(kCommands, name, &Command::name);
     return found == kCommands.end() ? nullptr : found;
 }
 
@@ -212,7 +210,7 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     for (const std::string& argument : arguments) {
         const std::string word = argument.substr(0, argument.find('='));
-        const bool known = std::find(names.begin(), names.end(), word) != names.end();
+        const bool known = std::ranges::find(names, word) != names.end();
         if (word.size() > 2 && word.starts_with("--") && !known)
             return "there is no option " + one_line(word) + did_you_mean(word, names);
     }

@@ -86,11 +86,7 @@ Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estima
 
 /// Also in place of one of that name.
 void keep_estimator(Estimator estimator) {
-    const bool bare = !estimator.name.empty() &&
-                      estimator.name.find_first_not_of(
-                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_") ==
-                          std::string::npos;
-    if (!bare)
+    if (!is_bare_name(estimator.name))
         throw UsageError("--as " + in_quotes(estimator.name) +
                          " is not a name of letters, digits, - and _");
     Settings settings = load_settings(settings_path());

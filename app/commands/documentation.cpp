@@ -2,7 +2,6 @@
 #include "app/commands/documentation.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <iomanip>
 #include <sstream>
@@ -34,32 +33,21 @@ std::string replaced(std::string text, std::string_view what, std::string_view b
 
 std::vector<std::string> split(const std::string& text, std::string_view at) {
     std::vector<std::string> parts;
-    std::size_t begin = 0;
-    std::size_t end = text.find(at);
-    while (end != std::string::npos) {
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(at, begin), text.size());
         parts.push_back(text.substr(begin, end - begin));
         begin = end + at.size();
-        end = text.find(at, begin);
     }
-    parts.push_back(text.substr(begin));
     return parts;
 }
 
 std::string without_parentheses(std::string text) {
-    std::size_t open = text.find(" (");
-    while (open != std::string::npos) {
+    for (std::size_t open = 0; (open = text.find(" (")) != std::string::npos;) {
         const std::size_t close = text.find(')', open);
         if (close == std::string::npos) break;
         text.erase(open, close + 1 - open);
-        open = text.find(" (");
     }
     return text;
-}
-
-bool is_word(const std::string& text) {
-    return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-    });
 }
 
 /// For troff: no escape, no hyphen that would be broken at, no request at a line's begin.
@@ -275,7 +263,7 @@ bool DocumentedOption::takes_file() const {
 
 std::vector<std::string> DocumentedOption::values() const {
     if (std::vector<std::string> choices = split(type, "|");
-        choices.size() > 1 && std::all_of(choices.begin(), choices.end(), is_word))
+        choices.size() > 1 && std::ranges::all_of(choices, is_bare_name))
         return choices;
     if (type != "NAME" && type != "WORD") return {};
     const std::size_t colon = help.find(": ");
@@ -287,7 +275,7 @@ std::vector<std::string> DocumentedOption::values() const {
     // "relief: the picture plane; true: the shape: auto, relief, true"
     if (const std::size_t last = help.rfind(": "); last != colon)
         words = split(without_parentheses(help.substr(last + 2)), ", ");
-    std::erase_if(words, [](const std::string& word) { return !is_word(word); });
+    std::erase_if(words, [](const std::string& word) { return !is_bare_name(word); });
     return words;
 }
 

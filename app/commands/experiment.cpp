@@ -2,13 +2,11 @@
 // asked for, then reports.
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iostream>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -26,8 +24,6 @@
 namespace dibhr {
 
 namespace {
-
-constexpr std::array<std::string_view, 5> kPaths{"linear", "circle", "human", "all", "sweep"};
 
 struct ExperimentOptions {
     std::string path{"all"};        ///< linear, circle, human, all or sweep
@@ -122,23 +118,11 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     outputs.write(table_of(paths, clock_us), json_of(paths, clock_us));
 }
 
-void check_path(const std::string& path) {
-    if (std::find(kPaths.begin(), kPaths.end(), path) != kPaths.end()) return;
-    std::string choices;
-    for (const std::string_view name : kPaths) {
-        choices += (choices.empty() ? "" : ", ") + std::string(name);
-    }
-    throw CLI::ValidationError("PATH", "'" + path + "' is none of " + choices);
-}
-
 void add_options(CLI::App& app, ExperimentOptions& options) {
-    app.add_option_function<std::string>(
-           "PATH",
-           [&options](const std::string& path) {
-               check_path(path);
-               options.path = path;
-           },
-           "linear, circle, human, all of them, or sweep: every friction with every depth")
+    add_choice_option(
+        app, "PATH", {"linear", "circle", "human", "all", "sweep"},
+        "linear, circle, human, all of them, or sweep: every friction with every depth",
+        [&options](const std::string& path) { options.path = path; })
         ->type_name("")
         ->default_str("all");
     add_file(app, "--json", options.json, "Writes all numbers as JSON; - is standard output");

@@ -10,7 +10,6 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/experiment/hand_motion.hpp"
-#include "core/session/session.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -20,30 +19,26 @@ namespace {
 constexpr int kLeadIn = 500;  // ticks before a session's first contact
 
 /// Goals over another video would touch nothing, or the wrong thing.
-void check_is_of_sample(const RecordedGoals& recorded, const std::filesystem::path& session) {
-    const auto fact = [&](const char* key) {
-        const auto found = recorded.facts.find(key);
-        return found == recorded.facts.end() ? std::string{} : found->second;
-    };
+void check_is_of_sample(const Session& session) {
     const std::filesystem::path sample = sample_files().depth;
     const MediaDescription description = open_depth(sample)->description();
-    const std::string depth = std::filesystem::path(fact("depth")).filename().string();
+    const std::string depth = std::filesystem::path(session.fact("depth")).filename().string();
     const bool same_name = depth.empty() || depth == sample.filename().string();
-    const bool same_size = fact("depth-columns") == std::to_string(description.depth_columns) &&
-                           fact("depth-rows") == std::to_string(description.depth_rows);
+    const bool same_size =
+        session.fact("depth-columns") == std::to_string(description.depth_columns) &&
+        session.fact("depth-rows") == std::to_string(description.depth_rows);
     if (same_name && same_size) return;
-    throw InputError(session.string() +
+    throw InputError(session.file().string() +
                      ": was recorded over another video; record one over the built-in sample: "
                      "dibhr --record FILE");
 }
 
-PathRun session_path(const RecordedGoals& recorded, const std::string& name,
-                     const DepthClip& sample, double mu) {
+PathRun session_path(const HandInput& hand, const DepthClip& sample, double mu) {
     PathRun path;
     path.name = "human";
-    path.source = "a recorded session, " + name;
+    path.source = "a recorded session, " + hand.name;
     path.mu = mu;
-    for (const RecordedGoal& tick : recorded.goals) {
+    for (const RecordedGoal& tick : hand.session) {
         path.goals.push_back(tick.goal);
         path.times_s.push_back(sample.time_of(tick.frame, tick.blend));
     }
@@ -70,11 +65,8 @@ ColourImage first_colour(const SampleFiles& files) {
 
 }  // namespace
 
-RecordedGoals read_session_goals(const std::filesystem::path& file, int lead_in, int count) {
-    const Session session(file);
-    RecordedGoals recorded;
-    recorded.facts = session.facts();
-
+std::vector<RecordedGoal> read_session_goals(const Session& session, int lead_in, int count) {
+    std::vector<RecordedGoal> goals;
     const auto lead = static_cast<std::size_t>(std::max(lead_in, 0));
     const auto most = static_cast<std::size_t>(std::max(count, 0));
     std::deque<RecordedGoal> before;  // the first contact
@@ -88,25 +80,26 @@ RecordedGoals read_session_goals(const std::filesystem::path& file, int lead_in,
             if (before.size() > lead) before.pop_front();
             continue;
         }
-        if (!touched) recorded.goals.assign(before.begin(), before.end());
+        if (!touched) goals.assign(before.begin(), before.end());
         touched = true;
-        recorded.goals.push_back(one);
-        if (recorded.goals.size() >= most) break;
+        goals.push_back(one);
+        if (goals.size() >= most) break;
     }
     if (!touched) {
-        throw InputError(file.string() +
+        throw InputError(session.file().string() +
                          ": nothing is touched in it; record a session with contact");
     }
-    recorded.goals.resize(std::min(recorded.goals.size(), most));
-    return recorded;
+    goals.resize(std::min(goals.size(), most));
+    return goals;
 }
 
 HandInput read_hand(const HumanOptions& options) {
     HandInput hand;
     if (!options.session.empty()) {
         hand.name = options.session.filename().string();
-        hand.session = read_session_goals(options.session, kLeadIn, kExperimentUpdates);
-        check_is_of_sample(*hand.session, options.session);
+        const Session session(options.session);
+        hand.session = read_session_goals(session, kLeadIn, kExperimentUpdates);
+        check_is_of_sample(session);
     } else if (!options.trace.empty()) {
         hand.name = options.trace.filename().string();
         hand.trace = read_trace(options.trace);
@@ -123,7 +116,7 @@ SampleClip read_sample(const HumanOptions& options, const Progress& progress) {
 }
 
 PathRun human_goals(const HandInput& hand, const SampleClip& sample, double mu) {
-    if (hand.session) return session_path(*hand.session, hand.name, sample.depth, mu);
+    if (!hand.session.empty()) return session_path(hand, sample.depth, mu);
     return human_path(motion_of(hand, foreground_area(sample.depth)), sample.depth, mu);
 }
 

@@ -3,14 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/experiment/experiment.hpp"
 #include "core/experiment/hand_motion.hpp"
 #include "core/haptics/parameters.hpp"
+#include "core/session/session.hpp"
 #include "core/video/frame_window.hpp"
 
 namespace dibhr {
@@ -29,21 +28,17 @@ struct RecordedGoal {
     double blend{0.0};  ///< 0: that frame, 1: the one after it
 };
 
-struct RecordedGoals {
-    std::map<std::string, std::string> facts{};  ///< the session table
-    std::vector<RecordedGoal> goals{};           ///< in order of time
-};
+/// The ticks from `lead_in` before the first one in contact on, at most `count`, in order of time;
+/// ticks without a finite goal are left out. Throws InputError for a session without a tick in
+/// contact.
+[[nodiscard]] std::vector<RecordedGoal> read_session_goals(const Session& session, int lead_in,
+                                                           int count);
 
-/// The ticks from `lead_in` before the first one in contact on, at most `count`; ticks without a
-/// finite goal are left out. Throws InputError for a file that is no session, and one without a
-/// tick in contact.
-[[nodiscard]] RecordedGoals read_session_goals(const std::filesystem::path& file, int lead_in,
-                                               int count);
-
-/// What moves the hand, read and checked as far as it can be without the sample.
+/// What moves the hand, read and checked as far as it can be without the sample: a session, a
+/// trace, or neither.
 struct HandInput {
     std::string name{};  ///< the file, for messages; empty: the modelled hand
-    std::optional<RecordedGoals> session{};
+    std::vector<RecordedGoal> session{};
     std::vector<TraceSample> trace{};
 };
 

@@ -87,11 +87,11 @@ std::vector<Run> make_runs(const Session& session, const ReplayOptions& options)
 }
 
 bool has_bump(const Session& session, const ReplayOptions& options) {
-    const auto& all = session.parameters();
+    const auto has_file = [](const SessionParameters& parameters) {
+        return !parameters.bump.file.empty();
+    };
     return !options.touch.given.bump_file().empty() ||
-           std::any_of(all.begin(), all.end(), [](const SessionParameters& parameters) {
-               return !parameters.bump.file.empty();
-           });
+           std::ranges::any_of(session.parameters(), has_file);
 }
 
 SessionFramesOptions frames_options(const Session& session, const ReplayOptions& options) {

@@ -22,15 +22,17 @@ namespace dibhr {
 
 namespace {
 
-RecordedPicture picture_of(const std::filesystem::path& session, SessionMediaFinder& finder,
-                           const SessionSource& source, double media_s) {
+/// Files that are gone or have changed are no reason to have no report.
+RecordedPicture picture_of(const Session& session, const SessionSource& source,
+                           double media_s) try {
+    SessionMediaFinder finder(session.file(), false);
     RecordedPicture picture;
     const std::filesystem::path depth = finder.find(source.depth, "depth video");
     std::filesystem::path colour;  // of depth alone there is none
     if (!source.colour.file.empty()) colour = finder.find(source.colour, "colour video");
     DepthRequest request;
     if (!source.depth_meaning.empty())
-        request.recorded = statement_in(source.depth_meaning, session.string());
+        request.recorded = statement_in(source.depth_meaning, session.file().string());
     const std::unique_ptr<Media> media = open_media(colour, depth, request);
     picture.columns = media->description().depth_columns;
     picture.rows = media->description().depth_rows;
@@ -40,19 +42,10 @@ RecordedPicture picture_of(const std::filesystem::path& session, SessionMediaFin
     picture.colour = std::move(frame->colour);
     picture.warning = finder.warning();
     return picture;
-}
-
-/// Files that are gone or have changed are no reason to have no report.
-RecordedPicture picture_or_remark(const Session& session, const SessionSource& source,
-                                  double media_s) {
-    SessionMediaFinder finder(session.file(), false);
-    try {
-        return picture_of(session.file(), finder, source, media_s);
-    } catch (const InputError& error) {
-        RecordedPicture none;
-        none.remark = error.what();
-        return none;
-    }
+} catch (const InputError& error) {
+    RecordedPicture none;
+    none.remark = error.what();
+    return none;
 }
 
 }  // namespace
@@ -78,7 +71,7 @@ int run_report(CLI::App& app, const Arguments& arguments) {
         ProgressBar bar("reading the session");
         write_session_report(session, {out, "dibhr " DIBHR_VERSION,
                                        [&session](const SessionSource& source, double media_s) {
-                                           return picture_or_remark(session, source, media_s);
+                                           return picture_of(session, source, media_s);
                                        },
                                        [&bar](double share) { bar.show(share); }, plot_formats});
     }

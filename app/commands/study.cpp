@@ -13,9 +13,8 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
+#include "app/commands/study_check.hpp"
 #include "app/commands/study_pilot.hpp"
-#include "app/commands/study_protocol.hpp"
-#include "app/commands/study_readiness.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/consent.hpp"
@@ -90,22 +89,14 @@ StudyNames study_names(bool files) {
     return names;
 }
 
-std::vector<std::string> shipped_studies() {
-    std::vector<std::string> names;
-    std::error_code none;
-    for (const auto& entry : fs::directory_iterator(shipped_studies_folder(), none))
-        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 /// A file, or a study that comes with the program by its name.
 fs::path protocol_called(const fs::path& name) {
     std::error_code failed;
     if (fs::exists(name, failed)) return name;
-    const std::vector<std::string> shipped = shipped_studies();
-    if (std::find(shipped.begin(), shipped.end(), name.string()) != shipped.end())
-        return shipped_studies_folder() / (name.string() + ".toml");
+    const fs::path folder = shipped_studies_folder();
+    const std::vector<std::string> shipped = toml_names_in(folder);
+    if (std::ranges::find(shipped, name.string()) != shipped.end())
+        return folder / (name.string() + ".toml");
     throw InputError(shown(name) + " is no file, and no study that comes with the program (" +
                      listed(shipped) + ")" + did_you_mean(name.string(), shipped));
 }

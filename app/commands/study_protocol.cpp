@@ -1,5 +1,5 @@
 // Says what a study will be.
-#include "app/commands/study_protocol.hpp"
+#include "app/commands/study_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,8 +81,7 @@ void print_summary(const Protocol& protocol) {
 void tell_same_conditions(const Protocol& protocol) {
     const auto& all = protocol.conditions;
     for (auto one = all.begin(); one != all.end(); ++one) {
-        const auto before = std::find_if(
-            all.begin(), one, [&](const Condition& other) { return other.values == one->values; });
+        const auto before = std::ranges::find(all.begin(), one, one->values, &Condition::values);
         if (before != one)
             std::cout << before->name << " and " << one->name
                       << " have the same values: nobody can tell them apart\n";
@@ -92,8 +91,7 @@ void tell_same_conditions(const Protocol& protocol) {
 /// Yes and no, without trials in which there is nothing.
 void tell_unknown_guesses(const Block& block) {
     const Variation& vary = block.variation;
-    const bool has_nothing = std::any_of(vary.levels.begin(), vary.levels.end(),
-                                         [](double level) { return level == 0.0; });
+    const bool has_nothing = std::ranges::find(vary.levels, 0.0) != vary.levels.end();
     if (block.form != TrialForm::explore || !vary.any() || has_nothing) return;
     std::cout << block.name
               << ": without a level 0 it is not known how often yes is said of nothing; the guess "
@@ -101,8 +99,7 @@ void tell_unknown_guesses(const Block& block) {
 }
 
 void tell_only_practice(const Protocol& protocol) {
-    if (std::all_of(protocol.blocks.begin(), protocol.blocks.end(),
-                    [](const Block& block) { return block.practice; }))
+    if (std::ranges::all_of(protocol.blocks, &Block::practice))
         std::cout << "all of it is practice: no answer will count\n";
 }
 

@@ -1,5 +1,5 @@
 // Looks after device, clock and stability.
-#include "app/commands/study_readiness.hpp"
+#include "app/commands/study_check.hpp"
 
 #include <chrono>
 #include <cstddef>

@@ -44,11 +44,6 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
     return media;
 }
 
-[[noreturn]] void refuse_time(const fs::path& file, double time_s, double duration_s) {
-    throw InputError(shown(file) + " lasts " + short_text(duration_s) +
-                     " s: give --time less than that instead of " + short_text(time_s));
-}
-
 /// The frame shown at `time_s` of the media and the one after it, if any: the last one stays until
 /// the media ends. Throws InputError when that is before.
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
@@ -67,7 +62,9 @@ std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
     if (!next) {
         const double end_s = now->media_s + reader.last_interval_s(now->media_s);
         constexpr double kRoundOff_s = 1e-6;
-        if (time_s >= end_s - kRoundOff_s) refuse_time(file, time_s, end_s);
+        if (time_s >= end_s - kRoundOff_s)
+            throw InputError(shown(file) + " lasts " + short_text(end_s) +
+                             " s: give --time less than that instead of " + short_text(time_s));
         return frames;
     }
     next->time_s = next->media_s;

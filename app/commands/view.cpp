@@ -48,16 +48,6 @@ void warn(const std::string& sentence, ToldLog& log) {
     log.keep("warning", sentence);
 }
 
-Settings read_settings(const fs::path& file, ToldLog& log) {
-    std::vector<std::string> warnings;
-    Settings settings = load_settings(file, warnings);
-    for (const std::string& warning : warnings) {
-        print_error_line(warning);
-        log.keep("warning", warning);
-    }
-    return settings;
-}
-
 /// Puts a settings file that cannot be read aside, so that no change is kept in its place. What is
 /// told of it.
 std::string put_aside(const fs::path& file, const std::string& trouble) {
@@ -76,7 +66,13 @@ std::string put_aside(const fs::path& file, const std::string& trouble) {
 
 /// With --stay the window opens whatever the file is.
 Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& log) try {
-    return read_settings(options.settings_file, log);
+    std::vector<std::string> warnings;
+    Settings settings = load_settings(options.settings_file, warnings);
+    for (const std::string& warning : warnings) {
+        print_error_line(warning);
+        log.keep("warning", warning);
+    }
+    return settings;
 } catch (const InputError& error) {
     if (!options.stays) throw;
     parts.damage = put_aside(options.settings_file, error.what());
@@ -170,17 +166,15 @@ void require_writable_outputs(const ViewOptions& options) {
     if (options.clip == "-" || (fs::exists(options.clip) && !fs::is_regular_file(options.clip)))
         throw InputError("a clip cannot be written to " + options.clip.string() +
                          ": give --clip the name of a file");
-    const auto cannot_be = [](const fs::path& file, const char* both) {
-        throw InputError(file.string() + " cannot be both " + both + ": give them two names");
+    const auto require_apart = [](const fs::path& one, const fs::path& other, const char* both) {
+        if (!one.empty() && whole_path(one) == whole_path(other))
+            throw InputError(one.string() + " cannot be both " + both + ": give them two names");
     };
-    if (!options.clip.empty() && whole_path(options.clip) == whole_path(options.screenshot))
-        cannot_be(options.clip, "clip and screenshot");
+    require_apart(options.clip, options.screenshot, "clip and screenshot");
     if (options.record.empty()) return;
     require_writable_folder(options.record, "--record");
-    const fs::path record = whole_path(options.record);
-    if (record == whole_path(options.screenshot))
-        cannot_be(options.record, "recording and screenshot");
-    if (record == whole_path(options.clip)) cannot_be(options.record, "recording and clip");
+    require_apart(options.record, options.screenshot, "recording and screenshot");
+    require_apart(options.record, options.clip, "recording and clip");
     if (fs::exists(options.record)) {
         throw InputError(options.record.string() +
                          " exists already: move it away or give --record another name");

@@ -1,6 +1,7 @@
 // Goals read back from a recorded session.
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include "app/commands/experiment_human.hpp"
 #include "core/error.hpp"
@@ -32,20 +33,20 @@ void record(const SessionFolder& folder, std::int64_t first_contact) {
 TEST_CASE("a session's goals begin a little before its first contact", "[session]") {
     const SessionFolder folder;
     record(folder, 40);
-    const RecordedGoals recorded = read_session_goals(folder.file(), 10, 50);
-    REQUIRE(recorded.goals.size() == 50);
-    CHECK(recorded.goals[0].goal == Vec3{30.0, 30.1, 30.2});
-    CHECK(recorded.goals[49].goal.x == 79.0);
-    CHECK(recorded.goals[49].frame == 2);
-    CHECK(recorded.goals[0].blend == 0.25);
-    CHECK(recorded.facts.at("columns") == "640");
-    CHECK(read_session_goals(folder.file(), 1000, 1000).goals.size() == 100);
+    const Session session(folder.file());
+    const std::vector<RecordedGoal> goals = read_session_goals(session, 10, 50);
+    REQUIRE(goals.size() == 50);
+    CHECK(goals[0].goal == Vec3{30.0, 30.1, 30.2});
+    CHECK(goals[49].goal.x == 79.0);
+    CHECK(goals[49].frame == 2);
+    CHECK(goals[0].blend == 0.25);
+    CHECK(session.fact("columns") == "640");
+    CHECK(read_session_goals(session, 1000, 1000).size() == 100);
 }
 
 TEST_CASE("a session without contact, an empty file and a foreign one are refused", "[session]") {
     const SessionFolder folder;
     record(folder, -1);
-    CHECK_THROWS_AS(read_session_goals(folder.file(), 10, 50), InputError);
-    CHECK_THROWS_AS(read_session_goals(folder.path() / "none.dibhr", 10, 50), InputError);
-    CHECK_THROWS_AS(read_session_goals(folder.path(), 10, 50), InputError);
+    for (const auto& file : {folder.file(), folder.path() / "none.dibhr", folder.path()})
+        CHECK_THROWS_AS(read_session_goals(Session(file), 10, 50), InputError);
 }
