@@ -11,7 +11,6 @@
 
 #include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
-#include "core/experiment/experiment.hpp"
 #include "core/experiment/grounds.hpp"
 #include "core/experiment/report.hpp"
 #include "core/files/plain_text.hpp"
@@ -29,11 +28,16 @@ constexpr std::string_view kFlat = "bit-flat";  // the ground of "updates" and "
 PathCost cost_of(const Ground& ground, PathRun path) {
     run_algorithms(path, ground.clip, all_algorithms(), Timing::careful);
     PathCost cost{ground.name, path.name, path.columns, path.rows, path.depth_px};
-    for (const AlgorithmRun& run : path.runs) {
-        cost.algorithms.push_back({run.algorithm, 1e3 * run.whole_run_us, run.moves_per_update,
-                                   run.time_us, run.bounds_met});
-    }
+    cost.algorithms.assign(path.runs.begin(), path.runs.end());
     return cost;
+}
+
+double update_ns(const RunFigures& run) {
+    return 1e3 * run.whole_run_us;
+}
+
+double move_ns(const RunFigures& run) {
+    return update_ns(run) / run.moves_per_update;
 }
 
 CatchUpCost cost_of(const Ground& ground, const Jump& jump, Algorithm which) {
@@ -139,11 +143,11 @@ std::string mean_table(const UpdateCosts& costs) {
                        " px deep, 700 mm/s\n" + head() + right("dibhr : pga", kRatioWidth) + "\n";
     for (const PathCost& cost : costs.paths) {
         text += row_of(cost, cost.path,
-                       [](const UpdateCost& update) {
-                           const double move_ns = update.move_ns();
-                           return number_text(update.update_ns, 0) + " = " +
-                                  number_text(update.moves, 1) + " x " +
-                                  number_text(move_ns, move_ns < 100.0 ? 1 : 0);
+                       [](const RunFigures& run) {
+                           const double ns = move_ns(run);
+                           return number_text(update_ns(run), 0) + " = " +
+                                  number_text(run.moves_per_update, 1) + " x " +
+                                  number_text(ns, ns < 100.0 ? 1 : 0);
                        }) +
                 right(number_text(cost.dibhr_to_pga(), 2), kRatioWidth) + "\n";
     }
@@ -164,9 +168,9 @@ std::string single_table(const UpdateCosts& costs) {
                        short_text(costs.clock_us, 2) + " us, is part of each)\n" + head() + "\n";
     for (const PathCost& cost : costs.paths) {
         text += row_of(cost, cost.path,
-                       [](const UpdateCost& update) {
-                           return number_text(update.single_us.p99, 2) + " / " +
-                                  number_text(update.single_us.highest, 1);
+                       [](const RunFigures& run) {
+                           return number_text(run.time_us.p99, 2) + " / " +
+                                  number_text(run.time_us.highest, 1);
                        }) +
                 "\n";
     }
@@ -192,13 +196,13 @@ std::string jump_table(const UpdateCosts& costs) {
 
 Json json_of(const PathCost& cost) {
     Json algorithms = Json::array();
-    for (const UpdateCost& update : cost.algorithms) {
-        algorithms.push_back({{"algorithm", name_of(update.algorithm)},
-                              {"update_ns", update.update_ns},
-                              {"moves", update.moves},
-                              {"move_ns", update.move_ns()},
-                              {"single", json_of(update.single_us, "us")},
-                              {"bounds_met", update.bounds_met}});
+    for (const RunFigures& run : cost.algorithms) {
+        algorithms.push_back({{"algorithm", name_of(run.algorithm)},
+                              {"update_ns", update_ns(run)},
+                              {"moves", run.moves_per_update},
+                              {"move_ns", move_ns(run)},
+                              {"single", json_of(run.time_us, "us")},
+                              {"bounds_met", run.bounds_met}});
     }
     const auto paper = paper_dibhr_to_pga(cost.path);
     return {{"ground", cost.ground},
@@ -237,7 +241,7 @@ Json with_size(Json json, int columns, int rows, const SampleStatistics& us) {
 
 double PathCost::dibhr_to_pga() const {
     const auto of = [this](Algorithm algorithm) {
-        return std::ranges::find(algorithms, algorithm, &UpdateCost::algorithm)->update_ns;
+        return update_ns(*std::ranges::find(algorithms, algorithm, &RunFigures::algorithm));
     };
     return of(Algorithm::dibhr) / of(Algorithm::pga);
 }
@@ -272,10 +276,10 @@ void add_to_json(const UpdateCosts& costs, Json& json) {
     for (const PathCost& cost : costs.paths) {
         grounds.push_back(json_of(cost));
         if (cost.ground != kFlat) continue;
-        for (const UpdateCost& update : cost.algorithms) {
-            Json row = with_size({{"algorithm", name_of(update.algorithm)}, {"path", cost.path}},
-                                 cost.columns, cost.rows, update.single_us);
-            row["moves"] = update.moves;
+        for (const RunFigures& run : cost.algorithms) {
+            Json row = with_size({{"algorithm", name_of(run.algorithm)}, {"path", cost.path}},
+                                 cost.columns, cost.rows, run.time_us);
+            row["moves"] = run.moves_per_update;
             updates.push_back(std::move(row));
         }
     }

@@ -2,26 +2,13 @@
 // that jumps costs them.
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/experiment/experiment.hpp"
 #include "core/files/json.hpp"
-#include "core/haptics/parameters.hpp"
-#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
-
-/// One algorithm along one path.
-struct UpdateCost {
-    Algorithm algorithm{Algorithm::dibhr};
-    double update_ns{0.0};         ///< an update's share of a run timed as a whole, no clock in it
-    double moves{0.0};             ///< of an update
-    SampleStatistics single_us{};  ///< of single updates; each includes one reading of the clock
-    std::uint64_t bounds_met{0};
-
-    [[nodiscard]] double move_ns() const noexcept { return update_ns / moves; }
-};
 
 struct PathCost {
     std::string ground{};
@@ -29,7 +16,7 @@ struct PathCost {
     int columns{0};
     int rows{0};
     double depth_px{0.0};
-    std::vector<UpdateCost> algorithms{};  ///< in the order of all_algorithms()
+    std::vector<RunFigures> algorithms{};  ///< in the order of all_algorithms()
 
     /// What DIBHR takes of the time of PGA.
     [[nodiscard]] double dibhr_to_pga() const;

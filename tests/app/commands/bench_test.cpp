@@ -156,9 +156,9 @@ UpdateCosts made_up_costs() {
         for (const Algorithm algorithm : all_algorithms())
             path.algorithms.push_back(
                 {.algorithm = algorithm,
-                 .update_ns = 100.0 + static_cast<double>(path.algorithms.size()),
-                 .moves = 3.0,
-                 .single_us = statistics_of({0.1, 0.2, 0.3})});
+                 .time_us = statistics_of({0.1, 0.2, 0.3}),
+                 .whole_run_us = 0.1 + 0.001 * static_cast<double>(path.algorithms.size()),
+                 .moves_per_update = 3.0});
     }
     for (const std::string& row : kJumps) {
         const Named name = parts_of(row);
