@@ -111,9 +111,7 @@ void show_word(std::optional<Fact> DepthStatement::*fact, const ViewerState& sta
                std::span<char> field) {
     const std::optional<Fact>& panel = state.media.opened.request.panel.*fact;
     const std::string text = panel && !is_given(fact, state) ? text_of(*panel) : "";
-    const std::size_t shown = std::min(text.size(), field.size() - 1);
-    std::copy_n(text.begin(), shown, field.begin());
-    field[shown] = '\0';
+    field[text.copy(field.data(), field.size() - 1)] = '\0';
 }
 
 std::string camera_text(const Known<std::optional<Intrinsics>>& camera) {
@@ -169,7 +167,7 @@ std::string depth_line(const DepthMeaning& meaning, float room) {
     const auto fits = [room](const std::string& line) {
         return ImGui::CalcTextSize(line.c_str()).x <= room;
     };
-    const auto found = std::find_if(lines.begin(), lines.end(), fits);
+    const auto found = std::ranges::find_if(lines, fits);
     return found == lines.end() ? lines.back() : *found;
 }
 
@@ -234,9 +232,7 @@ void show_depth_words(ViewerState& state) {
 void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
     const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(line.c_str());
-    ImGui::PopStyleColor();
+    ImGui::TextDisabled("%s", line.c_str());
     explain("What the depth's levels mean; click to change it");
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (ImGui::IsItemClicked()) ImGui::OpenPopup(kRowsPopup);

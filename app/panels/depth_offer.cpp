@@ -79,20 +79,12 @@ void draw_depth_offer(ViewerState& state) {
     UiState& ui = state.ui;
     if (!ui.depth_offer || ui.dialog.shown || !ui.message.empty() || !ui.doubts.empty()) return;
     DepthOffer& offer = *ui.depth_offer;
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float relief_width = display.x - panel_column_width(state);
-    ImGui::SetNextWindowPos({0.5F * relief_width, panes_height(state) + 0.08F * display.y},
-                            ImGuiCond_Always, {0.5F, 0.0F});
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowSize({std::max(std::min(30.0F * em, relief_width - em), 8.0F * em), 0.0F});
     const char* const what = offer.progress        ? "Making depth: "
                              : offer.depth.empty() ? "Colour alone: "
                                                    : "Depth is made: ";
     const std::string title =
         what + one_line(offer.colour.filename().string(), 40) + "###depth offer";
-    ImGui::Begin(title.c_str(), nullptr,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    begin_card(state, title.c_str(), 30.0F);
     if (offer.progress) {
         draw_making(state, offer);
         ImGui::End();

@@ -1,6 +1,5 @@
 // What a settings file takes away from what protects the hand: usual and other value side by side,
 // and a person's word on it.
-#include <algorithm>
 #include <string>
 
 #include "app/panels/panels.hpp"
@@ -11,15 +10,7 @@ namespace dibhr {
 void draw_doubts(ViewerState& state) {
     const UiState& ui = state.ui;
     if (ui.doubts.empty() || state.touch.replay || ui.dialog.shown || !ui.message.empty()) return;
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const float room = display.x - panel_column_width(state);
-    const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({0.5F * room, panes_height(state) + 0.08F * display.y},
-                            ImGuiCond_Always, {0.5F, 0.0F});
-    ImGui::SetNextWindowSize({std::max(std::min(32.0F * em, room - em), 8.0F * em), 0.0F});
-    ImGui::Begin("These settings protect the hand less", nullptr,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    begin_card(state, "These settings protect the hand less", 32.0F);
     ImGui::TextWrapped(
         "Nobody has agreed to this here. The usual values hold until you do, once and for all.");
     if (ImGui::BeginTable("doubts", 3, ImGuiTableFlags_RowBg)) {

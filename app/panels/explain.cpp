@@ -254,9 +254,7 @@ void draw_card(ViewerState& state) {
                             ImGuiCond_Always, {0.5F, 1.0F});
     ImGui::SetNextWindowSize({width, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.9F);
-    ImGui::Begin("Explain", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+    ImGui::Begin("Explain", nullptr, kBareWindow | ImGuiWindowFlags_NoFocusOnAppearing);
     const auto button = [&state](const char* id, Icon icon, std::string help, Action action) {
         help += state.keys.in_brackets(action);
         if (icon_button(id, icon, help.c_str())) state.commands.push(action);

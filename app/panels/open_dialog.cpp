@@ -349,9 +349,7 @@ void draw_open_dialog(ViewerState& state) {
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize(size);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, std::max(1.0F, state.ui.scale));
-    ImGui::Begin("Open a recording or a session", &dialog.shown,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::Begin("Open a recording or a session", &dialog.shown, kTitledWindow);
     dialog.in_front = ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
     draw_path(state);
     draw_line(state);

@@ -30,28 +30,27 @@ void draw_ground(ImVec2 low, ImVec2 size, float alpha,
                        ImGui::GetColorU32(ImGuiCol_PopupBg, alpha), 5.0F);
 }
 
-float wrap_of(float widest) {
-    const float pad = ImGui::GetStyle().FramePadding.x;
-    return widest > 0.0F ? std::max(widest - 2.0F * pad, 1.0F) : -1.0F;
+float wrap_of(float widest, ImVec2 pad) {
+    return widest > 0.0F ? std::max(widest - 2.0F * pad.x, 1.0F) : -1.0F;
 }
 
 /// Of a label, with its ground.
-ImVec2 label_size(const std::string& text, float widest = 0.0F) {
-    const ImVec2 pad = ImGui::GetStyle().FramePadding;
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_of(widest));
+ImVec2 label_size(const std::string& text, float widest = 0.0F,
+                  ImVec2 pad = ImGui::GetStyle().FramePadding) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_of(widest, pad));
     return {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y};
 }
 
 /// Text on a rounded ground, so that it can be read over any picture; broken into lines that wide
 /// (0: nowhere). Its height.
 float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0F,
-            ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
-    const ImVec2 pad = ImGui::GetStyle().FramePadding;
-    const ImVec2 size = label_size(text, widest);
+            ImDrawList& list = *ImGui::GetBackgroundDrawList(),
+            ImVec2 pad = ImGui::GetStyle().FramePadding) {
+    const ImVec2 size = label_size(text, widest, pad);
     draw_ground(low, size, kGround * alpha, list);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
                  ImGui::GetColorU32(ImGuiCol_Text, alpha), text.c_str(), nullptr,
-                 std::max(wrap_of(widest), 0.0F));
+                 std::max(wrap_of(widest, pad), 0.0F));
     return size.y;
 }
 
@@ -59,18 +58,12 @@ float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0
 /// room. Where it ends.
 float draw_banner(const ViewerState& state, const std::string& text) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float wrap =
-        std::max(std::min(room - 4.0F * style.WindowPadding.x, ImGui::GetFontSize() * 40.0F), 1.0F);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap);
-    const ImVec2 pad = style.WindowPadding;
-    const ImVec2 low{(room - size.x) * 0.5F, panes_height(state) + 3.2F * ImGui::GetFrameHeight()};
-    draw_ground({low.x - pad.x, low.y - pad.y}, {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y},
-                kGround);
-    ImGui::GetBackgroundDrawList()->AddText(ImGui::GetFont(), ImGui::GetFontSize(), low,
-                                            ImGui::GetColorU32(ImGuiCol_Text), text.c_str(),
-                                            nullptr, wrap);
-    return low.y + size.y + pad.y;
+    const ImVec2 pad = ImGui::GetStyle().WindowPadding;
+    const float widest =
+        std::max(std::min(room - 2.0F * pad.x, ImGui::GetFontSize() * 40.0F + 2.0F * pad.x), 1.0F);
+    const ImVec2 low{(room - label_size(text, widest, pad).x) * 0.5F,
+                     panes_height(state) + 3.2F * ImGui::GetFrameHeight() - pad.y};
+    return low.y + label(text, low, 1.0F, widest, *ImGui::GetBackgroundDrawList(), pad);
 }
 
 /// What is missing to touch: of a device, or of what is live. Empty: nothing.
@@ -176,9 +169,7 @@ std::vector<std::string> statistics_of(const ViewerState& state) {
 }
 
 std::string statistics_text(const ViewerState& state) {
-    std::string text;
-    for (const std::string& line : statistics_of(state)) text += (text.empty() ? "" : "\n") + line;
-    return text;
+    return listed(statistics_of(state), "\n");
 }
 
 /// What the pointer is on; where that is no line, in two.
@@ -467,8 +458,7 @@ void draw_way_to_keys(const ViewerState& state, float margin) {
     const std::string text = (help.empty() ? "" : "Keys: " + help) + between +
                              (panels.empty() ? "" : "Panels: " + panels);
     if (text.empty()) return;
-    const float width =
-        ImGui::CalcTextSize(text.c_str()).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    const float width = label_size(text).x;
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const float touching = ImGui::CalcTextSize(touch_text(state).c_str()).x;
     if (touching + width + 4.0F * margin < room)
@@ -503,9 +493,8 @@ void draw_over_pictures(const ViewerState& state, const std::function<void()>& d
     list.AddCallback(call, const_cast<std::function<void()>*>(&drawn));  // NOLINT: its signature
     if (!state.ui.clip) return;
     const float margin = 12.0F * state.ui.scale;
-    const float above_bar = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
     constexpr float kLinesAboveBar = 4.4F;  // hints and notices are below
-    const ImVec2 low{margin, above_bar - kLinesAboveBar * ImGui::GetFrameHeight()};
+    const ImVec2 low{margin, bar_top(state) - kLinesAboveBar * ImGui::GetFrameHeight()};
     red_dot_label(list, clip_text(state), low);
 }
 
@@ -530,9 +519,7 @@ void draw_nothing_open(ViewerState& state) {
     ImGui::SetNextWindowPos({0.5F * (display.x - panel_column_width(state)), 0.42F * display.y},
                             ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::Begin("Nothing is open", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoBackground |
-                     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_AlwaysAutoResize);
+                 kBareWindow | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::TextUnformatted("Nothing is open.");
     ImGui::TextDisabled("Drop a colour and a depth file here, a folder or a session, or");
     ImGui::Spacing();
@@ -547,9 +534,7 @@ void draw_message_box(ViewerState& state) {
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.4F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 32.0F, 0.0F});
     bool open = true;
-    ImGui::Begin("That did not work", &open,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::Begin("That did not work", &open, kTitledWindow);
     ImGui::TextWrapped("%s", state.ui.message.c_str());
     ImGui::Spacing();
     if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
@@ -577,9 +562,7 @@ void draw_help_sheet(ViewerState& state) {
     const float wide = widths.column() + (beside ? between + widths.column() : 0.0F);
     ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
     ImGui::SetNextWindowSize({wide + around, 0.0F});
-    ImGui::Begin("Keys and mouse", &state.ui.help_open,
-                 ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings);
+    ImGui::Begin("Keys and mouse", &state.ui.help_open, kTitledWindow);
     const ImVec2 begin = ImGui::GetCursorPos();
     draw_sheet_column(state, groups.first(left), widths, begin);
     const ImVec2 second{begin.x + widths.column() + between, begin.y};

@@ -55,14 +55,12 @@ void draw_about(SessionFields& fields) {
 }
 
 void draw_marks(ViewerState& state) {
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float button = ImGui::CalcTextSize("Mark").x + 2.0F * style.FramePadding.x;
+    const float beside = button_width("Mark") + ImGui::GetStyle().ItemSpacing.x;
     const std::string key = state.keys.name_for(Action::mark);
     const std::string or_key = key.empty() ? "" : ", or " + key + " while nothing is typed";
-    const bool entered =
-        text_field("##tag", "Tag of the next mark", state.touch.session_fields.tag,
-                   ("Enter" + or_key + ", marks the moment with it").c_str(), true,
-                   ImGui::GetContentRegionAvail().x - button - style.ItemSpacing.x);
+    const bool entered = text_field("##tag", "Tag of the next mark", state.touch.session_fields.tag,
+                                    ("Enter" + or_key + ", marks the moment with it").c_str(), true,
+                                    ImGui::GetContentRegionAvail().x - beside);
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered)
         state.commands.push(MarkMoment{std::chrono::steady_clock::now()});

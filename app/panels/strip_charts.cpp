@@ -102,10 +102,6 @@ void draw_values(ImDrawList& list, const StripHistory& strips, Strip strip,
     }
 }
 
-std::string axis_number(float value) {
-    return formatted("%g", static_cast<double>(value));
-}
-
 /// Three numbers at the left of the frame.
 void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
     const float text = ImGui::GetTextLineHeight();
@@ -114,7 +110,7 @@ void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
     list.AddLine({frame.low.x, frame.y_of(middle)}, {frame.high.x, frame.y_of(middle)},
                  ImGui::GetColorU32(ImGuiCol_Separator));
     for (const float value : {frame.range.low, middle, frame.range.high}) {
-        const std::string words = axis_number(value);
+        const std::string words = formatted("%g", static_cast<double>(value));
         const float width = ImGui::CalcTextSize(words.c_str()).x;
         const float y = std::clamp(frame.y_of(value) - 0.5F * text, frame.low.y - 0.5F * text,
                                    frame.high.y - text);
@@ -179,12 +175,9 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
     const float gap = 2.0F * state.ui.scale;
     const char* const choose = "Charts";
     const char* const hold = state.ui.held_strips ? "Go on" : "Pause";
-    const auto width = [](const char* words) {
-        return ImGui::CalcTextSize(words).x + 2.0F * ImGui::GetStyle().FramePadding.x;
-    };
     const ImVec2 below = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos(
-        {corner.x - width(choose) - width(hold) - 2.0F * gap, corner.y + gap});
+        {corner.x - button_width(choose) - button_width(hold) - 2.0F * gap, corner.y + gap});
     if (ImGui::SmallButton(hold)) {
         if (state.ui.held_strips) {
             state.ui.held_strips.reset();

@@ -84,11 +84,9 @@ void draw_stability(ViewerState& state) {
 /// One of the row, lit when it is the chosen one; where it does not fit, on the next line.
 void draw_material(ViewerState& state, const std::string& name, const char* help) {
     const std::string label = spoken_name(name.empty() ? std::string(kAsRecorded) : name);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const float width = ImGui::CalcTextSize(label.c_str()).x + 2.0F * style.FramePadding.x;
     if (!name.empty()) {  // not the first
-        ImGui::SameLine(0.0F, style.ItemInnerSpacing.x);
-        if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();
+        ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
+        if (ImGui::GetContentRegionAvail().x < button_width(label.c_str())) ImGui::NewLine();
     }
     const bool chosen = state.touch.material.name == name;
     ImGui::PushStyleColor(

@@ -172,9 +172,7 @@ void begin_bottom_bar(const ViewerState& state, const char* name) {
     ImGui::SetNextWindowPos({0.0F, display.y - height});
     ImGui::SetNextWindowSize({display.x - panel_column_width(state), height});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    ImGui::Begin(name, nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::Begin(name, nullptr, kBareWindow | ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
 /// Where the line of time would be: there is none.
@@ -221,7 +219,7 @@ void draw_playback(const ViewerState& state, Transport& player, float right_of_l
 }
 
 float force_switch_width() {
-    return ImGui::CalcTextSize("Force is OFF").x + 2.0F * ImGui::GetStyle().FramePadding.x;
+    return button_width("Force is OFF");
 }
 
 void draw_transport_bar(ViewerState& state, Transport& player) {
@@ -278,10 +276,9 @@ void draw_force_switch_alone(ViewerState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(display, ImGuiCond_Always, {1.0F, 1.0F});
     ImGui::SetNextWindowBgAlpha(0.0F);
-    ImGui::Begin("Force", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
-                     ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::Begin(
+        "Force", nullptr,
+        kBareWindow | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoBringToFrontOnFocus);
     draw_force_switch(state, force_switch_width());
     ImGui::End();
 }

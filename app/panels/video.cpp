@@ -15,10 +15,6 @@ namespace {
 
 constexpr const char* kRecent = "Recent";
 
-float button_width(const char* label) {
-    return ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
-}
-
 /// The files opened before, the last one first; those that are gone cannot be chosen.
 void draw_recent(ViewerState& state) {
     const float width = button_width(kRecent);

@@ -188,6 +188,16 @@ void draw_entry(const TouchNumber& option, TouchParameters& parameters, TouchPar
 
 }  // namespace
 
+void begin_card(const ViewerState& state, const char* title, float widest_em) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float room = display.x - panel_column_width(state);
+    const float em = ImGui::GetFontSize();
+    ImGui::SetNextWindowPos({0.5F * room, panes_height(state) + 0.08F * display.y},
+                            ImGuiCond_Always, {0.5F, 0.0F});
+    ImGui::SetNextWindowSize({std::max(std::min(widest_em * em, room - em), 8.0F * em), 0.0F});
+    ImGui::Begin(title, nullptr, kTitledWindow | ImGuiWindowFlags_NoFocusOnAppearing);
+}
+
 bool section(const ViewerState& state, const char* title, bool& open, bool* wanted) {
     const bool asked = wanted != nullptr && std::exchange(*wanted, false);
     open = open || asked;
@@ -304,6 +314,10 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
     return done;
 }
 
+float button_width(const char* label) {
+    return ImGui::CalcTextSize(label).x + 2.0F * ImGui::GetStyle().FramePadding.x;
+}
+
 float half_width() {
     return 0.5F * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
 }
@@ -414,10 +428,8 @@ void trouble_text(const std::string& text) {
     list.AddCircleFilled({low.x + line * 0.5F, low.y + line * 0.78F}, line * 0.065F, colour);
     ImGui::Dummy({line, line});
     ImGui::SameLine();
-    ImGui::PushStyleColor(ImGuiCol_Text, trouble_colour());
-    ImGui::PushTextWrapPos(0.0F);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", text.c_str());
     ImGui::PopStyleColor();
 }
 

@@ -16,6 +16,17 @@
 
 namespace dibhr {
 
+/// Of windows that stay where they are put: with a title, and bare ones.
+inline constexpr ImGuiWindowFlags kTitledWindow =
+    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+    ImGuiWindowFlags_NoSavedSettings;
+inline constexpr ImGuiWindowFlags kBareWindow =
+    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
+
+/// A card over the relief, in the middle of its upper part and at most so wide; to be ended with
+/// ImGui::End().
+void begin_card(const ViewerState& state, const char* title, float widest_em);
+
 /// A collapsible section; `open` is kept by the caller, `wanted` opens it once and brings it into
 /// sight.
 bool section(const ViewerState& state, const char* title, bool& open, bool* wanted = nullptr);
@@ -83,6 +94,9 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
 /// Label, a line to type into with `hint` while it is empty, and an arrow that empties it. True
 /// when Enter or the arrow was pressed.
 bool text_row(const char* label, const std::string& hint, std::span<char> text, const char* help);
+
+/// Of a button with that text [px].
+[[nodiscard]] float button_width(const char* label);
 
 /// Of the first of two buttons side by side [px].
 [[nodiscard]] float half_width();
