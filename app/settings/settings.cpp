@@ -308,27 +308,11 @@ std::string toml_text_at(const T* value) {
 
 /// "" for none, one key as it is, more as a list.
 std::string toml_text(const OwnKeys& own) {
-    std::string text = own.action + " = ";
-    if (own.keys.empty()) return text + "\"\"\n";
-    if (own.keys.size() == 1 && !own.keys.front().empty())
-        return text + toml_text(own.keys.front()) + "\n";
-    const char* before = "[";
-    for (const std::string& key : own.keys) {
-        text += before;
-        text += toml_text(key);
-        before = ", ";
-    }
-    return text + "]\n";
-}
-
-/// Only where there are some.
-std::string toml_text(const std::vector<OwnKeys>& keys) {
-    std::string text;
-    for (const OwnKeys& own : keys) {
-        if (text.empty()) text = "\n[keys]\n";
-        text += toml_text(own);
-    }
-    return text;
+    std::vector<std::string> quoted;
+    for (const std::string& key : own.keys) quoted.push_back(toml_text(key));
+    const bool is_list = quoted.size() > 1 || (quoted.size() == 1 && own.keys.front().empty());
+    const std::string keys = quoted.empty() ? "\"\"" : listed(quoted);
+    return own.action + " = " + (is_list ? "[" + keys + "]" : keys) + "\n";
 }
 
 /// The whole file but its head, a heading before each table.
@@ -340,7 +324,8 @@ std::string toml_text(Settings settings) {
         table = setting.table;
         text += std::string(setting.name) + " = " + text_of(setting) + "\n";
     }
-    text += toml_text(settings.keys);
+    if (!settings.keys.empty()) text += "\n[keys]\n";
+    for (const OwnKeys& own : settings.keys) text += toml_text(own);
     if (!settings.estimators.empty()) text += "\n[estimators]\n";
     for (const Estimator& estimator : settings.estimators) text += toml_of(estimator);
     return text;
