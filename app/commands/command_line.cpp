@@ -20,6 +20,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
 #include "core/files/terminal.hpp"
+#include "core/haptics/words.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {
@@ -220,10 +221,7 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
 }  // namespace
 
 std::string meant_command(const std::string& word) {
-    std::vector<std::string> names;
-    names.reserve(kCommands.size());
-    for (const Command& command : kCommands) names.emplace_back(command.name);
-    return did_you_mean(word, names);
+    return did_you_mean(word, all_names(kCommands));
 }
 
 bool parse(CLI::App& app, const Arguments& arguments) {

@@ -24,6 +24,7 @@
 #include "core/estimate/depth_estimate.hpp"
 #include "core/estimate/estimator_command.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/haptics/words.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {
@@ -46,12 +47,6 @@ struct DepthOptions {
 
 bool is_command(const std::string& text) {
     return text.find('{') != std::string::npos;
-}
-
-std::string names_of(const std::vector<Estimator>& estimators) {
-    std::string names;
-    for (const Estimator& one : estimators) names += (names.empty() ? "" : ", ") + one.name;
-    return names;
 }
 
 /// A command of the settings is another's word until a person here agrees to it.
@@ -81,7 +76,7 @@ Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estima
     throw UsageError("--with " + in_quotes(options.with) +
                      " is neither a command with {input} or {frames} and {output} nor the name of "
                      "an estimator" +
-                     (known.empty() ? "" : " (" + names_of(known) + ")"));
+                     (known.empty() ? "" : " (" + listed(all_names(known)) + ")"));
 }
 
 /// Also in place of one of that name.

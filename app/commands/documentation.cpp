@@ -8,6 +8,7 @@
 
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/haptics/words.hpp"
 
 namespace dibhr {
 
@@ -92,9 +93,7 @@ void add_command(std::ostringstream& page, const DocumentedCommand& command) {
 }
 
 std::string names_of(const std::vector<DocumentedCommand>& commands) {
-    std::vector<std::string> names;
-    names.reserve(commands.size() + 2);
-    for (const DocumentedCommand& command : commands) names.push_back(command.name);
+    std::vector<std::string> names = all_names(commands);
     names.insert(names.end(), {"help", "completion"});
     return listed(names, " ");
 }

@@ -257,17 +257,10 @@ constexpr std::array<Word<Curve>, 3> kCurves{
      {Curve::cumulative_gaussian, "gaussian", "Cumulative Gaussian"},
      {Curve::weibull, "weibull", "Weibull"}}};
 
-std::vector<std::string> curve_names() {
-    std::vector<std::string> names;
-    names.reserve(kCurves.size());
-    for (const auto& entry : kCurves) names.emplace_back(entry.name);
-    return names;
-}
-
 Curve curve_called(const std::string& name) {
     if (const auto curve = value_named(kCurves, name)) return *curve;
-    throw UsageError("--curve is one of " + listed(curve_names()) + ", not " + in_quotes(name) +
-                     did_you_mean(name, curve_names()));
+    throw UsageError("--curve is one of " + listed(all_names(kCurves)) + ", not " +
+                     in_quotes(name) + did_you_mean(name, all_names(kCurves)));
 }
 
 int plan(const StudyOptions& options) {
@@ -344,7 +337,7 @@ void add_options(CLI::App& app, StudyOptions& options) {
     app.add_option_function<std::string>(
            "--curve",
            [&options](const std::string& name) { options.analysis.curve = curve_called(name); },
-           "Psychometric function of a report: " + listed(curve_names()))
+           "Psychometric function of a report: " + listed(all_names(kCurves)))
         ->default_str("logistic")
         ->type_name("NAME");
     app.add_option("--bootstraps", options.analysis.bootstraps,

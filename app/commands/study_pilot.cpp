@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
+#include "core/haptics/words.hpp"
 #include "core/realtime/now.hpp"
 #include "core/study/simulated_participant.hpp"
 
@@ -27,11 +28,9 @@ constexpr std::string_view kHand = "hand";
 void require_preferred(const Protocol& protocol, const SimulatedParticipant& who) {
     const std::string& name = who.prefers;
     if (name.empty() || protocol.condition_named(name) != nullptr) return;
-    std::vector<std::string> names;
-    names.reserve(protocol.conditions.size());
-    for (const Condition& condition : protocol.conditions) names.push_back(condition.name);
     throw InputError("no condition is called " + in_quotes(name) +
-                     ", which the pilot is to prefer" + did_you_mean(name, names));
+                     ", which the pilot is to prefer" +
+                     did_you_mean(name, all_names(protocol.conditions)));
 }
 
 Pilot pilot_called(const std::string& text, const Protocol& protocol) {

@@ -59,11 +59,17 @@ template <HasWords Enum>
     return value_named(words_of(Enum{}), name);
 }
 
+/// The names of what a table or a list holds, in its order.
+template <typename Table>
+[[nodiscard]] std::vector<std::string> all_names(const Table& table) {
+    std::vector<std::string> names;
+    for (const auto& entry : table) names.emplace_back(entry.name);
+    return names;
+}
+
 template <HasWords Enum>
 [[nodiscard]] std::vector<std::string> all_names() {
-    std::vector<std::string> names;
-    for (const auto& entry : words_of(Enum{})) names.emplace_back(entry.name);
-    return names;
+    return all_names(words_of(Enum{}));
 }
 
 }  // namespace dibhr

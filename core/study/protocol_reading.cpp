@@ -24,14 +24,6 @@ namespace {
 constexpr std::size_t kMostConditions = 1000;
 constexpr double kAnyNumber = 1e9;
 
-template <typename Table>
-std::vector<std::string> names_of(const Table& table) {
-    std::vector<std::string> names;
-    names.reserve(table.size());
-    for (const auto& word : table) names.emplace_back(word.name);
-    return names;
-}
-
 /// The range of a number by its name; nothing: there is none.
 std::optional<std::pair<double, double>> range_of(const std::string& name,
                                                   const StudyNames& names) {
@@ -48,8 +40,7 @@ std::vector<std::string> number_names() {
 }
 
 std::vector<std::string> switch_names() {
-    std::vector<std::string> all;
-    for (const TouchSwitch& entry : touch_switches()) all.emplace_back(entry.name);
+    std::vector<std::string> all = all_names(touch_switches());
     all.insert(all.end(), {"in-betweens", "stability"});
     return all;
 }
@@ -126,9 +117,7 @@ class ProtocolReading {
         for (const TouchChoice& choice : touch_choices())
             take_word(table, std::string(choice.name), choice.names(), values);
         take_word(table, "cleaning", names_.cleanings, values);
-        std::vector<std::string> media;
-        for (const StudyMedia& one : to_.media) media.push_back(one.name);
-        take_word(table, "media", media, values);
+        take_word(table, "media", all_names(to_.media), values);
         if (names_.materials)
             take_word(table, "material", *names_.materials, values);
         else if (const auto material = table.text("material"))
@@ -229,14 +218,14 @@ class ProtocolReading {
         block.name = table.name("name").value_or("block " + std::to_string(to_.blocks.size() + 1));
         block.practice = table.yes("practice", false);
         block.feedback = table.yes("feedback", block.practice);
-        const auto form = table.word("form", names_of(kTrialForms));
+        const auto form = table.word("form", all_names(kTrialForms));
         if (!form)
             table.refuse("form",
-                         "a block has no form: it is one of " + listed(names_of(kTrialForms)));
+                         "a block has no form: it is one of " + listed(all_names(kTrialForms)));
         block.form = static_cast<TrialForm>(*form);
         block.order =
-            static_cast<TrialOrder>(table.word("order", names_of(kTrialOrders)).value_or(0));
-        block.view = static_cast<StudyView>(table.word("view", names_of(kStudyViews)).value_or(0));
+            static_cast<TrialOrder>(table.word("order", all_names(kTrialOrders)).value_or(0));
+        block.view = static_cast<StudyView>(table.word("view", all_names(kStudyViews)).value_or(0));
         block.instructions = read_page(table, "instructions");
         block.again = table.yes("again", false);
         block.interval_s = table.number("interval-s", 0.0, 3600.0).value_or(0.0);
@@ -256,8 +245,7 @@ class ProtocolReading {
 
     std::size_t condition_at(const PageTable& table, const std::string& key,
                              const std::string& name) const {
-        std::vector<std::string> all;
-        for (const Condition& condition : to_.conditions) all.push_back(condition.name);
+        const std::vector<std::string> all = all_names(to_.conditions);
         const auto found = std::find(all.begin(), all.end(), name);
         if (found == all.end())
             table.refuse(key, "no condition is called " + in_quotes(name) + ": there are " +

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
+#include "core/haptics/words.hpp"
 #include "core/psychophysics/random.hpp"
 
 namespace dibhr {
@@ -125,8 +126,7 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         {"bias", who.bias, -1e9, 1e9},           {"noise", who.noise, 0.0, 1e9},
         {"share", who.share, 1.0 / 3.0, 1.0},    {"difference", difference, -1e9, 1e9},
         {"spread", who.spread, 0.0, 1e9},        {"seed", seed, 0.0, 1e9}};
-    std::vector<std::string> names;
-    for (const auto& number : numbers) names.emplace_back(number.name);
+    const std::vector<std::string> names = all_names(numbers);
     std::set<std::string> given;
     std::istringstream parts(text);
     for (std::string part; std::getline(parts, part, ',');) {
