@@ -24,16 +24,6 @@ double minutes_of(const Block& block) {
     return block.most_trials() * (block.intervals() * interval_s + kAnswer_s) / 60.0;
 }
 
-std::string values_text(const TouchValues& values) {
-    std::string text;
-    const auto add = [&text](const std::string& name, const std::string& value) {
-        text += (text.empty() ? "" : ", ") + name + " " + value;
-    };
-    for (const auto& [name, word] : values.words) add(name, word);
-    for (const auto& [name, number] : values.numbers) add(name, number_text(number));
-    return text.empty() ? "as the program has it" : text;
-}
-
 std::string levels_text(const Variation& vary) {
     if (!vary.any()) return {};
     std::string text = "; varies " + vary.parameter + " around " + number_text(vary.reference);
@@ -59,7 +49,7 @@ void print_summary(const Protocol& protocol) {
     std::cout << protocol.title << '\n'
               << counted(static_cast<int>(protocol.conditions.size()), "condition") << '\n';
     for (const Condition& condition : protocol.conditions)
-        std::cout << "  " << condition.name << ": " << values_text(condition.values) << '\n';
+        std::cout << "  " << condition.name << ": " << in_words(condition.values) << '\n';
     std::cout << counted(static_cast<int>(protocol.blocks.size()), "block") << '\n';
     double minutes = 0.0;
     bool adapts = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
 
 namespace dibhr {
@@ -21,6 +22,14 @@ const char* name_of(TrialOrder order) noexcept {
 
 const char* name_of(StudyView view) noexcept {
     return entry_of(kStudyViews, view).name;
+}
+
+std::string in_words(const TouchValues& values) {
+    std::vector<std::string> all;
+    for (const auto& [name, word] : values.words) all.push_back(name + " " + word);
+    for (const auto& [name, number] : values.numbers)
+        all.push_back(name + " " + number_text(number));
+    return all.empty() ? "as the program has it" : listed(all);
 }
 
 TouchValues laid_over(const TouchValues& under, const TouchValues& over) {

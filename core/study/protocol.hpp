@@ -30,6 +30,9 @@ struct TouchValues {
     bool operator==(const TouchValues&) const = default;
 };
 
+/// "material bark, friction 0.4"; of none: "as the program has it".
+[[nodiscard]] std::string in_words(const TouchValues& values);
+
 /// `over` laid over `under`. One coefficient of friction by itself beats "friction" of the same
 /// table; "friction" laid over takes both away that were below.
 [[nodiscard]] TouchValues laid_over(const TouchValues& under, const TouchValues& over);

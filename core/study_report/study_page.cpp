@@ -52,16 +52,8 @@ std::string block_section(const StudyReport& report, const BlockFindings& found)
 
 std::string conditions_section(const Study& study) {
     std::vector<Cells> rows;
-    for (const Condition& condition : study.protocol.conditions) {
-        std::string values;
-        const auto add = [&values](const std::string& name, const std::string& value) {
-            values.append(values.empty() ? "" : ", ").append(name).append(" ").append(value);
-        };
-        for (const auto& [name, word] : condition.values.words) add(name, word);
-        for (const auto& [name, number] : condition.values.numbers) add(name, number_text(number));
-        rows.push_back({html_text(condition.name),
-                        values.empty() ? "as the program has it" : html_text(values)});
-    }
+    for (const Condition& condition : study.protocol.conditions)
+        rows.push_back({html_text(condition.name), html_text(in_words(condition.values))});
     return section("Conditions", table_of({"name", "values"}, rows));
 }
 
