@@ -26,6 +26,7 @@
 #include "app/window/ending.hpp"
 #include "app/window/last_words.hpp"
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"

@@ -12,10 +12,10 @@
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/surface_files/surface_file.hpp"
 #include "core/video/frame_reader.hpp"
-#include "core/video/media_names.hpp"
 
 namespace dibhr {
 namespace {

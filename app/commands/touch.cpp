@@ -13,6 +13,7 @@
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/tick_runner.hpp"

@@ -14,7 +14,7 @@
 #include "app/panels/widgets.hpp"
 #include "app/settings/folder.hpp"
 #include "app/settings/recent_files.hpp"
-#include "core/video/media_names.hpp"
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 

@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "app/settings/recent_files.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"

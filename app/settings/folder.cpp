@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "app/settings/recent_files.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/touch_map_files.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/media.hpp"

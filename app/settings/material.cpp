@@ -15,6 +15,7 @@
 #include "app/settings/assets_path.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"

@@ -12,6 +12,7 @@
 
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/depth/depth_missing.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"

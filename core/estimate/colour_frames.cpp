@@ -9,6 +9,8 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 #include "core/video/pictures.hpp"

@@ -18,10 +18,10 @@
 #include "core/estimate/estimator_output.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/json.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 
 namespace dibhr {
 

@@ -17,12 +17,12 @@
 #include "core/estimate/estimator_output.hpp"
 #include "core/estimate/spoken_progress.hpp"
 #include "core/files/content_hash.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 
 namespace dibhr {
 

@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/estimate/depth_video.hpp"
 #include "core/estimate/estimator_output.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"

@@ -12,6 +12,8 @@
 
 #include "core/error.hpp"
 #include "core/estimate/colour_frames.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 

@@ -107,6 +107,16 @@ std::string in_quotes(std::string_view text, std::size_t longest) {
     return "'" + shown + (text.size() > longest ? "...'" : "'");
 }
 
+bool is_decimal_digit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
 std::string escaped_text(std::string_view text) {
     constexpr std::string_view kDigits = "0123456789abcdef";
     std::string result;

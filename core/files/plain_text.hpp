@@ -20,6 +20,12 @@ namespace dibhr {
 /// In quotation marks on one line, cut short after `longest` bytes.
 [[nodiscard]] std::string in_quotes(std::string_view text, std::size_t longest = 40);
 
+/// The text with A to Z as a to z.
+[[nodiscard]] std::string lower_case(std::string text);
+
+/// 0 to 9.
+[[nodiscard]] bool is_decimal_digit(char c);
+
 /// All of it, in printable ASCII on one line: other bytes as \x1b, a backslash doubled, and of
 /// blanks side by side all but the first as \x20. Two texts never look the same.
 [[nodiscard]] std::string escaped_text(std::string_view text);

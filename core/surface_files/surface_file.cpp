@@ -2,9 +2,9 @@
 #include "core/surface_files/surface_file.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 
+#include "core/files/plain_text.hpp"
 #include "core/surface_files/pieces.hpp"
 
 namespace dibhr {
@@ -31,9 +31,7 @@ std::string_view name_of(SurfaceFormat format) noexcept {
 }
 
 std::optional<SurfaceFormat> surface_format_of(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = lower_case(file.extension().string());
     for (const SurfaceFormat format : kSurfaceFormats) {
         if (ending == "." + std::string(name_of(format))) return format;
     }

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/picture_lists.hpp"
 #include "core/video/media.hpp"

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/depth_guess.hpp"
@@ -156,10 +157,6 @@ CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked
 double finger_mm_on(const MediaDescription& media, double asked_mm) {
     if (asked_mm > 0.0 || !media.meaning) return asked_mm;
     return media.meaning->finger_mm.value;
-}
-
-std::string shown(const fs::path& file) {
-    return in_quotes(file.string(), std::string::npos);
 }
 
 void require_readable(const fs::path& file) {

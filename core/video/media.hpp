@@ -28,9 +28,6 @@ void require_readable(const std::filesystem::path& file);
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);
 
-/// The name in quotes, as messages show it, without control characters: always one line.
-[[nodiscard]] std::string shown(const std::filesystem::path& file);
-
 /// A decoded, not yet cleaned pair. NaN in its depth is no data.
 struct RawFrame {
     DepthImage depth{};

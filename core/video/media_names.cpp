@@ -11,6 +11,8 @@
 #include <system_error>
 #include <vector>
 
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/touch_map_files.hpp"
 #include "core/video/media.hpp"
 
@@ -160,21 +162,6 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
 
 }  // namespace
 
-bool is_decimal_digit(char c) {
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
-
-bool is_folder(const fs::path& place) {
-    std::error_code ignored;
-    return fs::is_directory(place, ignored);
-}
-
 std::span<const std::string_view> picture_endings() noexcept {
     return kPictureEndings;
 }
@@ -220,30 +207,6 @@ std::string subject_of(const fs::path& file) {
         subject += word;
     }
     return subject;
-}
-
-bool in_natural_order(const std::string& a, const std::string& b) {
-    std::size_t i = 0;
-    std::size_t j = 0;
-    while (i < a.size() && j < b.size()) {
-        if (!is_decimal_digit(a[i]) || !is_decimal_digit(b[j])) {
-            if (a[i] != b[j]) return a[i] < b[j];
-            ++i;
-            ++j;
-            continue;
-        }
-        const auto run = [](const std::string& text, std::size_t& at) {
-            while (at + 1 < text.size() && text[at] == '0' && is_decimal_digit(text[at + 1])) ++at;
-            const std::size_t begin = at;
-            while (at < text.size() && is_decimal_digit(text[at])) ++at;
-            return std::string_view(text).substr(begin, at - begin);
-        };
-        const std::string_view left = run(a, i);
-        const std::string_view right = run(b, j);
-        if (left.size() != right.size()) return left.size() < right.size();
-        if (left != right) return left < right;
-    }
-    return a.size() - i < b.size() - j;
 }
 
 std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& looked_for) {

@@ -9,15 +9,6 @@
 
 namespace dibhr {
 
-/// The text with A to Z as a to z.
-[[nodiscard]] std::string lower_case(std::string text);
-
-/// 0 to 9.
-[[nodiscard]] bool is_decimal_digit(char c);
-
-/// Whether there is a folder of that name.
-[[nodiscard]] bool is_folder(const std::filesystem::path& place);
-
 /// How names of pictures and of videos end: ".png", in small letters.
 [[nodiscard]] std::span<const std::string_view> picture_endings() noexcept;
 [[nodiscard]] std::span<const std::string_view> video_endings() noexcept;
@@ -41,9 +32,6 @@ namespace dibhr {
 /// What is left of a name without its ending and the words that say colour or depth, in small
 /// letters: files of the same belong together ("take2_color.mp4" and "Take2-Depth.mkv": "take 2").
 [[nodiscard]] std::string subject_of(const std::filesystem::path& file);
-
-/// 97 before 100: runs of digits by their value, everything else by its letters.
-[[nodiscard]] bool in_natural_order(const std::string& a, const std::string& b);
 
 /// The depth file that belongs to a colour file: `*color*` -> `*depth*` (also colour, rgb, ...)
 /// beside it, or else one of depth of the same subject. Nothing when there is none; `looked_for`

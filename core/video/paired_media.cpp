@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/live/taken_pictures.hpp"
 

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
@@ -41,22 +42,6 @@ NumberedPicture numbered(const fs::path& file) {
                 .base();
     }
     return {file, number_of_text(std::string(first, last)).value_or(0.0), decimal};
-}
-
-std::vector<fs::path> entries_of(const fs::path& folder) {
-    std::vector<fs::path> entries;
-    std::error_code failed;
-    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
-         entry.increment(failed)) {
-        entries.push_back(entry->path());
-    }
-    if (failed)
-        throw InputError(shown(folder) + " cannot be read (" + failed.message() +
-                         "): check the permissions of the folder");
-    std::sort(entries.begin(), entries.end(), [](const fs::path& a, const fs::path& b) {
-        return in_natural_order(a.filename().string(), b.filename().string());
-    });
-    return entries;
 }
 
 namespace {

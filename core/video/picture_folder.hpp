@@ -40,9 +40,6 @@ struct PictureSet {
     LayoutFacts facts{};
 };
 
-/// What is in a folder, in natural order. Throws InputError when it cannot be read.
-[[nodiscard]] std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
-
 /// Whether there is such a file and its name is that of a picture; not where it begins with a
 /// point.
 [[nodiscard]] bool is_picture(const std::filesystem::path& file);

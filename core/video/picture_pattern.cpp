@@ -10,9 +10,9 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 #include "core/video/picture_folder.hpp"
 
 namespace dibhr {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/libraries.hpp"

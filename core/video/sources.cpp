@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_missing.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/formats/array_file.hpp"

@@ -19,6 +19,7 @@ extern "C" {
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"
 

@@ -12,13 +12,13 @@
 #include <string_view>
 #include <utility>
 
+#include "core/files/names.hpp"
 #include "core/video/colour_registration.hpp"
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/ros_messages.hpp"
 #include "core/video/layouts.hpp"
-#include "core/video/media_names.hpp"
 #include "core/video/packed.hpp"
 #include "core/video/paired_media.hpp"
 #include "core/video/recorder_metadata.hpp"

@@ -2,6 +2,7 @@
 // that can be touched, or one line.
 #include <string>
 
+#include "core/files/names.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "tests/fuzz/entry.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"

@@ -8,6 +8,7 @@
 
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/live/live_name.hpp"

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"

@@ -21,6 +21,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/exr_header.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"

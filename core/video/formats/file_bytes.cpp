@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr {

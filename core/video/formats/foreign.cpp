@@ -8,6 +8,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "core/files/plain_text.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {

@@ -13,6 +13,7 @@
 #include <string>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/media.hpp"
 

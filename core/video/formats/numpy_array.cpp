@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/numbers.hpp"
 #include "core/video/media.hpp"

@@ -16,6 +16,8 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 

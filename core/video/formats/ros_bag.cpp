@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/sqlite/database.hpp"
 #include "core/video/formats/bag_file.hpp"

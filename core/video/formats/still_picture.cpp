@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/exr.hpp"

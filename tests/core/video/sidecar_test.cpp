@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/files/names.hpp"
 #include "core/video/frame_reader.hpp"
 #include "core/video/media.hpp"
 #include "tests/core/video/clips.hpp"

@@ -1,0 +1,23 @@
+// Names of files and folders: as messages show them, in the order that people expect, and those in a
+// folder.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace dibhr {
+
+/// The name in quotes, as messages show it, without control characters: always one line.
+[[nodiscard]] std::string shown(const std::filesystem::path& file);
+
+/// Whether there is a folder of that name.
+[[nodiscard]] bool is_folder(const std::filesystem::path& place);
+
+/// What is in a folder, in natural order. Throws InputError when it cannot be read.
+[[nodiscard]] std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
+
+/// 97 before 100: runs of digits by their value, everything else by its letters.
+[[nodiscard]] bool in_natural_order(const std::string& a, const std::string& b);
+
+}  // namespace dibhr
