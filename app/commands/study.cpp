@@ -39,6 +39,7 @@
 #include "core/study_report/study_report.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "device/hand/guardian.hpp"
 #include "device/hand_device.hpp"
 

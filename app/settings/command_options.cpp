@@ -12,6 +12,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/touch_map_files.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

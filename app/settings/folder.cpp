@@ -13,7 +13,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/touch_map_files.hpp"
 #include "core/video/live/live_name.hpp"
-#include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {

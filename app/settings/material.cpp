@@ -19,7 +19,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

@@ -14,6 +14,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/now.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "render/drawing_threads.hpp"
 
 namespace dibhr {

@@ -16,6 +16,7 @@
 #include "core/video/depth/depth_missing.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

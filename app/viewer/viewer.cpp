@@ -13,6 +13,7 @@
 #include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "render/drawing_threads.hpp"
 #include "render/gl_objects.hpp"
 

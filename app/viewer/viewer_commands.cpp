@@ -6,6 +6,7 @@
 
 #include "app/panels/commands.hpp"
 #include "app/viewer/viewer.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

@@ -15,6 +15,7 @@
 #include "assets/sample/encode.hpp"
 #include "assets/sample/picture.hpp"
 #include "core/error.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace {
 

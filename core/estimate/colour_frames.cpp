@@ -10,10 +10,8 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/libraries.hpp"
-#include "core/video/media.hpp"
 #include "core/video/modules/picture_codecs.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/sources/readers.hpp"
 
 namespace dibhr {
 

@@ -21,7 +21,6 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/depth/sidecar.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

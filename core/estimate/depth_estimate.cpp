@@ -21,8 +21,8 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/layouts.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

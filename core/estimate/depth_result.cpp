@@ -14,10 +14,10 @@
 #include "core/estimate/estimator_output.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
-#include "core/video/media.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/modules/picture_codecs.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 

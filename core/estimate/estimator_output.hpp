@@ -9,7 +9,8 @@
 #include <set>
 #include <vector>
 
-#include "core/video/pictures.hpp"
+#include "core/video/formats/picture_source.hpp"
+
 
 namespace dibhr {
 

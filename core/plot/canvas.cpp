@@ -17,7 +17,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 namespace {

@@ -15,6 +15,7 @@
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/touch_map_files.hpp"
 #include "core/video/picture_pattern.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
 

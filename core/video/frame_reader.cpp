@@ -12,6 +12,7 @@
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
 #include "core/video/cleaning/remembering_media.hpp"
+#include "core/video/frames/presentation_time.hpp"
 
 namespace dibhr {
 

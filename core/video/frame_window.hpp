@@ -16,15 +16,9 @@
 #include "core/haptics/surface_motion.hpp"
 #include "core/haptics/touch_maps.hpp"
 #include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/colour_image.hpp"
 
 namespace dibhr {
-
-/// Colour picture, rows x columns, row-major, 3 bytes a pixel: red, green, blue.
-struct ColourImage {
-    int columns{0};
-    int rows{0};
-    std::vector<std::uint8_t> rgb{};
-};
 
 /// One colour + depth frame, cleaned and ready to touch. Immutable once published.
 struct Frame {

@@ -10,13 +10,15 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/picture_lists.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/picture_pattern.hpp"
+#include "core/video/sources.hpp"
 
 namespace dibhr {
 
@@ -187,6 +189,41 @@ bool is_of_videos(const fs::path& folder, const std::vector<fs::path>& videos) {
     return std::none_of(entries.begin(), entries.end(), is_picture);
 }
 
+/// Pictures of one kind, where they were found.
+struct PlacedRow {
+    fs::path place{};
+    PictureRow pictures{};
+    LayoutFacts said{};
+};
+
+std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& other,
+                                        PictureRole role) {
+    return std::make_unique<PictureSequence>(
+        row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said);
+}
+
+/// The pictures of that role, or those whose names say nothing. Throws InputError when there are
+/// none.
+PlacedRow row_of(const fs::path& place, PictureRole role) {
+    PictureSet found = pictures_at(place);
+    const bool is_depth = role == PictureRole::depth;
+    PictureRow& named = is_depth ? found.depth : found.colour;
+    PictureRow& row = named.empty() ? found.unnamed : named;
+    const bool has_others = !found.colour.empty() || !found.depth.empty();
+    const std::string kind = !has_others ? "" : is_depth ? "depth " : "colour ";
+    if (row.empty())
+        throw InputError(shown(place) + (is_folder(place) ? " is a folder" : " is a list") +
+                         " without " + kind +
+                         "pictures: give the folder or the file that holds them");
+    return {place, std::move(row), std::move(found.facts)};
+}
+
+Sources pair_of(PlacedRow colour, const PlacedRow& depth) {
+    colour.pictures = nearest_in_time(colour.pictures, depth.pictures);
+    return {sequence(depth, colour.pictures, PictureRole::depth),
+            sequence(colour, depth.pictures, PictureRole::colour)};
+}
+
 }  // namespace
 
 bool names_pictures(const fs::path& place) {
@@ -201,6 +238,21 @@ PictureSet pictures_at(const fs::path& place) {
     const fs::path folder = place.has_filename() ? place : place.parent_path();
     found.facts = facts_of(folder, found);
     return found;
+}
+
+std::unique_ptr<PictureSource> open_row(const fs::path& place, PictureRole role) {
+    return sequence(row_of(place, role), {}, role);
+}
+
+Sources both_rows(const fs::path& place) {
+    PictureSet found = pictures_at(place);
+    if (found.colour.empty() || found.depth.empty()) return {};
+    return pair_of({place, std::move(found.colour), {}},
+                   {place, std::move(found.depth), std::move(found.facts)});
+}
+
+Sources rows_of_two(const fs::path& colour, const fs::path& depth) {
+    return pair_of(row_of(colour, PictureRole::colour), row_of(depth, PictureRole::depth));
 }
 
 MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {

@@ -2,11 +2,11 @@
 #include "core/video/media.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
-#include <fstream>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/mat.hpp>
 #include <optional>
-#include <system_error>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,7 +16,7 @@
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"
-#include "core/video/formats/foreign.hpp"
+#include "core/video/frames/presentation_time.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/live/live_source.hpp"
 #include "core/video/media_names.hpp"
@@ -32,19 +32,6 @@ namespace {
 constexpr double kPaperRelief = 255.0 / 720.0;  ///< of the width
 constexpr double kPaperWidth_mm = 101.6;
 constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
-
-/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
-/// would make the decoder open other files. Text pictures (PNM) are not refused.
-bool begins_like_text(std::ifstream& in) {
-    std::array<char, 512> head{};
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    const auto count = static_cast<std::size_t>(in.gcount());
-    if (count >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
-    return std::all_of(head.begin(), head.begin() + static_cast<std::ptrdiff_t>(count), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
-    });
-}
 
 /// Opens with what was chosen before; where that cannot be understood or does not fit what is there
 /// now, without it, and with a sentence that says so. `open(request, sentence)`.
@@ -157,36 +144,6 @@ CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked
 double finger_mm_on(const MediaDescription& media, double asked_mm) {
     if (asked_mm > 0.0 || !media.meaning) return asked_mm;
     return media.meaning->finger_mm.value;
-}
-
-void require_readable(const fs::path& file) {
-    std::error_code failed;
-    const auto status = fs::status(file, failed);
-    if (status.type() == fs::file_type::not_found)
-        throw InputError(shown(file) + " does not exist: check the name and the folder");
-    if (failed)
-        throw InputError(shown(file) + " cannot be reached (" + failed.message() +
-                         "): check the name and the permissions of its folder");
-    if (fs::is_directory(status))
-        throw InputError(shown(file) + " is a folder: give the video or picture file in it");
-    if (!fs::is_regular_file(status))
-        throw InputError(shown(file) +
-                         " is a pipe or a device: open it as it runs, as pipe:NAME, or "
-                         "save its data to a file first");
-    std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
-    if (fs::file_size(file, failed) == 0)
-        throw InputError(shown(file) + " is empty: record or copy it again");
-    if (const std::string advice = advice_on_foreign(file); !advice.empty())
-        throw InputError(shown(file) + advice);
-    if (begins_like_text(in))
-        throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
-}
-
-void require_size(const fs::path& file, int columns, int rows) {
-    if (columns >= 2 && rows >= 2) return;
-    throw InputError(shown(file) + " is only " + std::to_string(columns) + " x " +
-                     std::to_string(rows) + " pixels: give one of at least 2 x 2");
 }
 
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/video/cleaning/depth_memory.hpp"
@@ -20,13 +19,6 @@ namespace dibhr {
 
 class LiveFeed;
 struct TakenPictures;
-
-/// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
-/// empty, text. Throws InputError: what, which file, what to do next.
-void require_readable(const std::filesystem::path& file);
-
-/// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
-void require_size(const std::filesystem::path& file, int columns, int rows);
 
 /// A decoded, not yet cleaned pair. NaN in its depth is no data.
 struct RawFrame {
@@ -115,21 +107,6 @@ struct MediaDescription {
 /// media.
 [[nodiscard]] double finger_mm_on(const MediaDescription& media, double asked_mm);
 
-/// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
-inline constexpr double kTimeTolerance_s = 0.0005;
-
-/// Of the items that `source.next()` gives the first that is not before `earliest_s`, or the last.
-template <typename Source, typename Item>
-std::optional<Item> first_from(double earliest_s, Source& source, double Item::*time_s) {
-    std::optional<Item> first = source.next();
-    while (first && (*first).*time_s < earliest_s) {
-        std::optional<Item> later = source.next();
-        if (!later) break;
-        first = std::move(later);
-    }
-    return first;
-}
-
 /// One opened colour + depth pair. Frames come in order; depth drives, colour is the one shown at
 /// its time.
 class Media {
@@ -172,22 +149,5 @@ class Media {
 /// exact.
 [[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place,
                                               const DepthRequest& request = {.find_out = true});
-
-/// A bump map from an 8- or 16-bit image, normalised so that its lowest level is 0 and its
-/// highest 1.
-[[nodiscard]] BumpMap read_bump_map(const std::filesystem::path& file);
-
-/// A picture to be looked at, of any form that is read. Throws InputError.
-[[nodiscard]] ColourImage read_colour_picture(const std::filesystem::path& file);
-
-/// The bytes of an RGB picture's PNG file. Throws InputError for an empty picture.
-[[nodiscard]] std::string png_of(const ColourImage& picture);
-
-/// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
-void write_png(const ColourImage& picture, const std::filesystem::path& file);
-
-/// The same, but beside a file of that name: with the first free number, "view-2.png". Gives the
-/// name.
-std::filesystem::path write_new_png(const ColourImage& picture, const std::filesystem::path& file);
 
 }  // namespace dibhr

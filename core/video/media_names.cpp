@@ -14,7 +14,6 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/touch_map_files.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

@@ -11,9 +11,9 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 #include "core/video/picture_folder.hpp"
+#include "core/video/sources/coded_depth.hpp"
+#include "core/video/sources/readers.hpp"
 
 namespace dibhr {
 
@@ -26,7 +26,7 @@ bool is_side_by_side(DepthPacking packing) noexcept {
 }
 
 /// Where packed pictures are all that a folder holds.
-std::unique_ptr<PictureSource> open_row(const fs::path& folder, PictureRole role) {
+std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureRole role) {
     PictureSet found = look_into(folder);
     const auto longest =
         std::max({&found.unnamed, &found.colour, &found.depth},
@@ -40,7 +40,7 @@ std::unique_ptr<PictureSource> open_row(const fs::path& folder, PictureRole role
 }
 
 std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole role) {
-    return is_folder(place) ? open_row(place, role) : open_picture_source(place, role);
+    return is_folder(place) ? open_longest_row(place, role) : open_picture_source(place, role);
 }
 
 std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, DepthPacking packing,
@@ -149,16 +149,20 @@ cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role) {
     return {first ? cv::Point() : last, half};
 }
 
-UnpackedSources unpack(std::unique_ptr<PictureSource> for_colour,
-                       std::unique_ptr<PictureSource> for_depth, const PackedForm& form) {
+Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<PictureSource> for_depth,
+               const PackedForm& form) {
     auto colour = cropped(std::move(for_colour), form.packing, PictureRole::colour);
     auto depth = cropped(std::move(for_depth), form.packing, PictureRole::depth);
     if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
-    return {unsqueezed(std::move(colour), form, PictureRole::colour),
-            unsqueezed(std::move(depth), form, PictureRole::depth)};
+    Sources sources;
+    sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);
+    sources.depth = unsqueezed(std::move(depth), form, PictureRole::depth);
+    sources.found.packing = form.packing;
+    sources.found.code = form.hue ? DepthCode::hue : DepthCode::grey;
+    return sources;
 }
 
-UnpackedSources open_packed(const fs::path& place, const PackedForm& form) {
+Sources open_packed(const fs::path& place, const PackedForm& form) {
     const PictureRole read_as = form.hue ? PictureRole::colour : PictureRole::depth;
     auto for_colour = open_whole(place, PictureRole::colour);
     return unpack(std::move(for_colour), open_whole(place, read_as), form);

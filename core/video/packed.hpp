@@ -10,7 +10,9 @@
 
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/depth/hue_code.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
+#include "core/video/sources.hpp"
 
 namespace dibhr {
 
@@ -24,11 +26,6 @@ struct PackedForm {
     cv::Size intrinsics_size{};  ///< of the depth picture that known.intrinsics are of; 0: its own
 };
 
-struct UnpackedSources {
-    std::unique_ptr<PictureSource> colour{};
-    std::unique_ptr<PictureSource> depth{};
-};
-
 /// Whether colour and depth are the halves of one picture.
 [[nodiscard]] bool is_of_halves(DepthPacking packing) noexcept;
 
@@ -37,18 +34,16 @@ struct UnpackedSources {
 [[nodiscard]] cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role);
 
 /// The halves of pictures that come from two sources of the same, which lead to each role;
-/// `for_depth` in colours where depth is coded by hue. Throws InputError when the halves are too
-/// small.
-[[nodiscard]] UnpackedSources unpack(std::unique_ptr<PictureSource> for_colour,
-                                     std::unique_ptr<PictureSource> for_depth,
-                                     const PackedForm& form);
+/// `for_depth` in colours where depth is coded by hue. Packing and code are told as found. Throws
+/// InputError when the halves are too small.
+[[nodiscard]] Sources unpack(std::unique_ptr<PictureSource> for_colour,
+                             std::unique_ptr<PictureSource> for_depth, const PackedForm& form);
 
 /// A picture or a video file, or a folder of packed pictures. Depth that is coded by brightness
 /// keeps every level that the file has. Each source reads and decodes the file for itself, as they
 /// do where colour and depth are files of their own. Throws InputError, also when the halves are
 /// too small.
-[[nodiscard]] UnpackedSources open_packed(const std::filesystem::path& place,
-                                          const PackedForm& form);
+[[nodiscard]] Sources open_packed(const std::filesystem::path& place, const PackedForm& form);
 
 /// What a file's name says of halves in its pictures.
 struct NamedPacking {

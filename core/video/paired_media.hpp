@@ -9,8 +9,8 @@
 #include "core/video/colour_registration.hpp"
 #include "core/video/depth/depth_scale.hpp"
 #include "core/video/depth/true_shape.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/media.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 

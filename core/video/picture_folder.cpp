@@ -15,8 +15,8 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
+#include "core/video/sources/readers.hpp"
 
 namespace dibhr {
 
@@ -178,25 +178,17 @@ std::vector<double> times_s(const PictureRow& row, const PictureRow& other, doub
 
 PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<double> times,
                                  PictureRole role, const LayoutFacts& said)
-    : row_(std::move(row)), times_s_(std::move(times)), role_(role) {
+    : row_(std::move(row)), role_(role) {
     StillFile first(row_.front().file, role_);
     facts_ = first.facts();
     last_ = first.next()->picture;
     facts_.file = std::move(place);
-    facts_.start_s = times_s_.front();
-    for (double& time_s : times_s_) time_s -= facts_.start_s;
     take_in(said);
-    const auto count = static_cast<std::int64_t>(row_.size());
-    facts_.frames = count;
-    facts_.still = count == 1;
-    if (count == 1) return;
-    if (!(times_s_.back() <= kLongestRow_s))
-        throw InputError(shown(facts_.file) + " has pictures that are " +
-                         short_text(times_s_.back()) +
+    const double lasts_s = times.back() - times.front();
+    if (row_.size() > 1 && !(lasts_s <= kLongestRow_s))
+        throw InputError(shown(facts_.file) + " has pictures that are " + short_text(lasts_s) +
                          " s apart: give each its time in seconds, or only a number");
-    const double interval_s = times_s_.back() / static_cast<double>(count - 1);
-    facts_.frames_per_s = 1.0 / interval_s;
-    facts_.duration_s = times_s_.back() + interval_s;
+    take_times(std::move(times));
 }
 
 void PictureSequence::take_in(const LayoutFacts& said) {
@@ -211,23 +203,14 @@ void PictureSequence::take_in(const LayoutFacts& said) {
     facts_.other_camera = said.other_camera;
 }
 
-std::optional<TimedPicture> PictureSequence::next() {
-    if (at_ == row_.size()) return std::nullopt;
-    const std::size_t at = at_++;
+cv::Mat PictureSequence::picture(std::size_t at) {
     try {
         StillFile still(row_[at].file, role_);
         last_ = with_bits(still.next()->picture, still.facts().bits, facts_.bits);
     } catch (const InputError& error) {
-        if (facts_.trouble.empty())
-            facts_.trouble = std::string(error.what()) + "; until then the one before it is shown";
+        tell_trouble(error.what());
     }
-    return TimedPicture{last_, times_s_[at], static_cast<std::int64_t>(at)};
-}
-
-void PictureSequence::seek(double time_s) {
-    const auto later =
-        std::upper_bound(times_s_.begin(), times_s_.end(), time_s + kTimeTolerance_s);
-    at_ = later == times_s_.begin() ? 0 : static_cast<std::size_t>(later - times_s_.begin()) - 1;
+    return last_;
 }
 
 }  // namespace dibhr

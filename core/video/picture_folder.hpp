@@ -2,12 +2,16 @@
 // one of depth that belong together; inside the room.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
 
@@ -64,30 +68,21 @@ void sort_by_number(PictureRow& row);
 [[nodiscard]] std::vector<double> times_s(const PictureRow& row, const PictureRow& other,
                                           double frames_per_s);
 
-/// Pictures a second of those whose names tell no time.
-inline constexpr double kPicturesPerSecond = 30.0;
-
 /// A row of pictures as a video. One that cannot be read on the way is told, and the one before it
 /// stays.
-class PictureSequence : public PictureSource {
+class PictureSequence : public IndexedPictures {
   public:
     /// `times`: one a picture, rising. Throws InputError when the first cannot be read, or when
     /// they go over more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
                     PictureRole role, const LayoutFacts& said = {});
 
-    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
-    std::optional<TimedPicture> next() override;
-    void seek(double time_s) override;
-
   private:
+    [[nodiscard]] cv::Mat picture(std::size_t at) override;
     void take_in(const LayoutFacts& said);
 
-    SourceFacts facts_{};
     PictureRow row_;
-    std::vector<double> times_s_;  // from the first
     PictureRole role_;
-    std::size_t at_{0};
     cv::Mat last_{};
 };
 

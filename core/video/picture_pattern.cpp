@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
 #include "core/video/picture_folder.hpp"
 
 namespace dibhr {

@@ -6,8 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -17,8 +15,7 @@
 #include "core/files/json.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
@@ -30,15 +27,6 @@ constexpr std::size_t kMostText = 1U << 20U;  ///< such files have a few thousan
 constexpr double kFarthest_m = 1000.0;
 
 // Reading.
-
-/// At most kMostText of the file; empty when it cannot be read.
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text(kMostText, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-    return text;
-}
 
 std::string_view trimmed(std::string_view text, std::string_view what) {
     const auto first = text.find_first_not_of(what);
@@ -216,11 +204,7 @@ std::optional<PackedForm> form_inside(const fs::path& video, cv::Size picture) {
     static constexpr std::array kEndings{".mp4", ".mov", ".m4v"};
     const std::string ending = lower_case(video.extension().string());
     if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) return std::nullopt;
-    std::ifstream in(video, std::ios::binary | std::ios::ate);
-    const std::streamoff bytes = in.tellg();
-    if (bytes <= 0) return std::nullopt;
-    in.seekg(std::max<std::streamoff>(0, bytes - static_cast<std::streamoff>(kMostText)));
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string text = end_of(video, kMostText);
     const auto begin = text.rfind("{\"intrinsic");
     if (begin == std::string::npos) return std::nullopt;
     const auto end = text.find('}', begin);  // it holds no other braces
@@ -269,9 +253,8 @@ std::optional<MetadataFile> metadata_beside(const fs::path& video) {
 
 std::optional<PackedForm> form_beside(const fs::path& video, cv::Size picture) {
     const auto beside = metadata_beside(video);
-    std::error_code ignored;
-    if (!beside || !fs::is_regular_file(beside->file, ignored)) return std::nullopt;
-    const std::string text = text_of(beside->file);
+    if (!beside) return std::nullopt;
+    const std::string text = beginning_of(beside->file, kMostText);
     const bool is_asset = lower_case(beside->file.extension().string()) == ".asset";
     const Json metadata = is_asset ? asset_of(text) : parsed_json(text);
     if (!metadata.is_object()) return std::nullopt;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
 
@@ -19,6 +19,7 @@ struct Sources {
     DepthStatement found{};                   ///< by files, names and metadata
     DepthStatement assumed{};                 ///< by how the pictures look
     bool by_look{false};                      ///< what the depth says of itself is so, too
+    int depth_track{0};                       ///< of a video's
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< where they come from; null: files
 };

@@ -21,7 +21,6 @@ extern "C" {
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

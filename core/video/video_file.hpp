@@ -7,7 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/video_decoder.hpp"
 
 namespace dibhr {

@@ -216,8 +216,7 @@ void look_at_packed(const fs::path& video) {
     static const fs::path packed =
         picture.with({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     (void)test::is_taken([&form] {
-        UnpackedSources halves = open_packed(packed, *form);
-        Sources sources{std::move(halves.depth), std::move(halves.colour)};
+        Sources sources = open_packed(packed, *form);
         DepthScale scale = find_scale(sources, kAsFound);
         test::require_frames(std::make_unique<PairedMedia>(
             std::move(sources.depth), std::move(sources.colour), std::move(scale)));

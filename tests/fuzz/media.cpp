@@ -5,6 +5,7 @@
 #include "core/files/names.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/frames.hpp"
 

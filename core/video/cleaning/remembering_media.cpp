@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/video/cleaning/patches.hpp"
+#include "core/video/frames/presentation_time.hpp"
 
 namespace dibhr {
 

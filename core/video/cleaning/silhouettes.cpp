@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/colour_image.hpp"
 #include "core/video/vector_clones.hpp"
 
 namespace dibhr {

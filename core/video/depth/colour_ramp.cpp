@@ -3,7 +3,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
+
 
 namespace dibhr {
 

@@ -1,7 +1,7 @@
 // Colours that say how far: perceptual maps of the field.
 #pragma once
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/colour_image.hpp"
 
 namespace dibhr {
 

@@ -13,8 +13,9 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/depth/sidecar.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
 

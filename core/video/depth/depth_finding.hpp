@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/video/depth/depth_scale.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/media.hpp"
-#include "core/video/pictures.hpp"
 #include "core/video/sources.hpp"
 
 namespace dibhr {

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "core/video/depth/depth_scale.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/vector_clones.hpp"
 
 namespace dibhr {

@@ -158,18 +158,6 @@ void settle_areas(cv::Mat& hues, const cv::Mat& mask) {
     }
 }
 
-/// What the code says of the levels that it becomes.
-DepthStatement meaning_of(const HueCode& code) {
-    DepthStatement meaning;
-    meaning.code = DepthCode::hue;
-    meaning.near = NearLevels::dark;
-    meaning.unit = code.metres ? DepthUnit::m : DepthUnit::levels;
-    meaning.scale = 1.0;
-    meaning.range = code.metres;
-    meaning.no_data.emplace();  // 0 is a level
-    return meaning;
-}
-
 constexpr double kLeastColoured = 0.02;  ///< of a picture whose colours say anything
 
 bool has_colour(const cv::Vec3f& bgr) {
@@ -189,22 +177,6 @@ bool is_on_ramp(const cv::Vec3f& bgr) {
         if (std::abs(bgr[channel] - there) > kBeside) return false;
     }
     return true;
-}
-
-/// Black, as dark as codecs leave it, is 0.
-cv::Mat ramp_levels(const cv::Mat& picture) {
-    constexpr float kBlack = 0.06F;
-    cv::Mat levels(picture.rows, picture.cols, CV_32F, cv::Scalar(0.0));
-    if (picture.channels() < 3) return levels;
-    const cv::Mat colours = as_real(picture);
-    for (int j = 0; j < levels.rows; ++j) {
-        const auto* const pixels = colours.ptr<cv::Vec3f>(j);
-        std::transform(
-            pixels, pixels + levels.cols, levels.ptr<float>(j), [](const cv::Vec3f& bgr) {
-                return std::max({bgr[0], bgr[1], bgr[2]}) < kBlack ? 0.0F : 255.0F * mean_of(bgr);
-            });
-    }
-    return levels;
 }
 
 }  // namespace
@@ -240,22 +212,20 @@ void settle_red(cv::Mat& hues) {
     if (cv::countNonZero(high) > 0) settle_areas(hues, low | high);
 }
 
-std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,
-                                           std::string known_from) {
-    const auto decode = [code](const cv::Mat& picture) {
-        cv::Mat depth = hues_of(picture, code);
-        if (!code.metres) return depth;
-        const double near = code.metres->near;
-        depth.convertTo(depth, CV_32F, code.metres->far - near, near);
-        return depth;
-    };
-    const auto tell = [code, from = std::move(known_from)](SourceFacts& facts) {
-        facts.bits = kRealBits;
-        facts.channels = 1;
-        facts.known_from = from;
-        facts.known.fill_in(meaning_of(code));
-    };
-    return std::make_unique<ChangedPictures>(std::move(colours), decode, tell);
+/// Black, as dark as codecs leave it, is 0.
+cv::Mat ramp_levels(const cv::Mat& picture) {
+    constexpr float kBlack = 0.06F;
+    cv::Mat levels(picture.rows, picture.cols, CV_32F, cv::Scalar(0.0));
+    if (picture.channels() < 3) return levels;
+    const cv::Mat colours = as_real(picture);
+    for (int j = 0; j < levels.rows; ++j) {
+        const auto* const pixels = colours.ptr<cv::Vec3f>(j);
+        std::transform(
+            pixels, pixels + levels.cols, levels.ptr<float>(j), [](const cv::Vec3f& bgr) {
+                return std::max({bgr[0], bgr[1], bgr[2]}) < kBlack ? 0.0F : 255.0F * mean_of(bgr);
+            });
+    }
+    return levels;
 }
 
 double share_on_ramp(const cv::Mat& picture) {
@@ -274,21 +244,6 @@ double share_on_ramp(const cv::Mat& picture) {
     if (static_cast<double>(coloured) < kLeastColoured * static_cast<double>(colours.total()))
         return 0.0;
     return static_cast<double>(on_ramp) / static_cast<double>(coloured);
-}
-
-std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
-                                            std::string known_from) {
-    const auto tell = [from = std::move(known_from)](SourceFacts& facts) {
-        facts.bits = 8;
-        facts.channels = 1;
-        facts.known_from = from;
-        DepthStatement ramp;
-        ramp.near = NearLevels::bright;
-        ramp.unit = DepthUnit::levels;
-        ramp.no_data = {0.0};
-        facts.known.fill_in(ramp);
-    };
-    return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, tell);
 }
 
 }  // namespace dibhr

@@ -2,13 +2,10 @@
 // more than 256 levels, or along a ramp from white through cyan and blue to black; inside the room.
 #pragma once
 
-#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
-#include <string>
 
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 
@@ -40,18 +37,12 @@ struct HueCode {
 /// 1, whatever side of red noise has put it on. Other hues stay as they are.
 void settle_red(cv::Mat& hues);
 
-/// The pictures of a source of colours as depth of real numbers: metres where the code says the
-/// range, else hue, of which red is near. Not finite: no data. `known_from`: who says so.
-[[nodiscard]] std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours,
-                                                         HueCode code, std::string known_from);
-
 /// The share of a picture's pixels that lie on the ramp white - cyan - blue - black, of those that
 /// have a colour; 0 where hardly any has.
 [[nodiscard]] double share_on_ramp(const cv::Mat& picture);
 
-/// Pictures of that ramp as grey levels, near (white) the highest: the mean of red, green and blue,
-/// which is linear along the ramp as luma is not. Levels of 8 bits, not rounded.
-[[nodiscard]] std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
-                                                          std::string known_from);
+/// A picture of that ramp as grey levels, near (white) the highest: the mean of red, green and
+/// blue, which is linear along the ramp as luma is not. Levels of 8 bits, not rounded.
+[[nodiscard]] cv::Mat ramp_levels(const cv::Mat& picture);
 
 }  // namespace dibhr

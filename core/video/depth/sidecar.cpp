@@ -16,7 +16,6 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
 

@@ -10,7 +10,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/colour_image.hpp"
 
 namespace dibhr {
 

@@ -4,21 +4,21 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
-#include "core/video/picture_folder.hpp"
 
 namespace dibhr {
 
@@ -103,8 +103,7 @@ void state(SourceFacts& facts, const std::string& array) {
 
 }  // namespace
 
-bool is_array_file(const fs::path& file) {
-    const std::string head = head_of(file);
+bool is_array_file(const fs::path& file, std::string_view head) {
     return is_npy(head) || is_npz(file, head);
 }
 
@@ -136,9 +135,6 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.bits = whole && bytes <= 2 ? 8 * bytes : kRealBits;
     facts_.channels = role_ == PictureRole::colour ? 3 : static_cast<int>(shape_.channels);
     facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
-    facts_.frames = shape_.frames;
-    facts_.frames_exact = true;
-    facts_.still = shape_.frames == 1;
     if (role_ == PictureRole::colour || !arrays.zipped()) return;
     const std::string name = chosen(arrays, role_);
     if (lower_case(name).starts_with("disp")) {
@@ -154,35 +150,22 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     const std::vector<double> rate = numbers_of(arrays, kRateNames, 1);
     const bool usable = !rate.empty() && rate[0] >= 0.001 && rate[0] <= 10000.0;
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
-    times_s_ = numbers_of(arrays, kTimeNames, shape_.frames);
-    if (std::cmp_not_equal(times_s_.size(), shape_.frames) || !rises(times_s_)) {
-        times_s_.clear();
+    std::vector<double> times_s = numbers_of(arrays, kTimeNames, shape_.frames);
+    if (std::cmp_not_equal(times_s.size(), shape_.frames) || !rises(times_s)) {
+        times_s.clear();
         for (std::int64_t k = 0; k < shape_.frames; ++k)
-            times_s_.push_back(static_cast<double>(k) / frames_per_s);
+            times_s.push_back(static_cast<double>(k) / frames_per_s);
     }
-    facts_.start_s = times_s_.front();
-    for (double& time_s : times_s_) time_s -= facts_.start_s;
-    if (facts_.still) return;
-    const double interval_s = times_s_.back() / static_cast<double>(shape_.frames - 1);
-    facts_.frames_per_s = 1.0 / interval_s;
-    facts_.duration_s = times_s_.back() + interval_s;
+    take_times(std::move(times_s));
 }
 
-std::optional<TimedPicture> ArrayFile::next() {
-    if (at_ == shape_.frames) return std::nullopt;
-    const std::int64_t at = at_++;
-    cv::Mat picture = array_.picture(shape_, at);
-    if (role_ == PictureRole::colour && picture.channels() == 1)
-        cv::cvtColor(picture, picture, cv::COLOR_GRAY2BGR);
-    if (role_ == PictureRole::colour && picture.channels() == 4)
-        cv::cvtColor(picture, picture, cv::COLOR_BGRA2BGR);
-    return TimedPicture{picture, times_s_[static_cast<std::size_t>(at)], at};
-}
-
-void ArrayFile::seek(double time_s) {
-    const auto later =
-        std::upper_bound(times_s_.begin(), times_s_.end(), time_s + kTimeTolerance_s);
-    at_ = std::max<std::int64_t>(later - times_s_.begin() - 1, 0);
+cv::Mat ArrayFile::picture(std::size_t at) {
+    cv::Mat frame = array_.picture(shape_, static_cast<std::int64_t>(at));
+    if (role_ == PictureRole::colour && frame.channels() == 1)
+        cv::cvtColor(frame, frame, cv::COLOR_GRAY2BGR);
+    if (role_ == PictureRole::colour && frame.channels() == 4)
+        cv::cvtColor(frame, frame, cv::COLOR_BGRA2BGR);
+    return frame;
 }
 
 StillPicture read_array(const fs::path& file, PictureRole role) {

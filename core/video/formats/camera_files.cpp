@@ -5,13 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <fstream>
 #include <sstream>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "core/files/json.hpp"
+#include "core/files/text_file.hpp"
 
 namespace dibhr {
 
@@ -19,17 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t kLongest_bytes = 1 << 20;
-
-/// Empty when it cannot be read, or is too long for a camera.
-std::string text_of(const fs::path& file) {
-    std::error_code failed;
-    if (!fs::is_regular_file(file, failed) || fs::file_size(file, failed) > kLongest_bytes)
-        return {};
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return text.str();
-}
+constexpr std::size_t kLongest_bytes = 1 << 20;
 
 /// A discarded value when it is no JSON, or too long. Zeros behind it belong to what held it.
 Json json_of(const std::string& text) {
@@ -125,7 +114,7 @@ std::optional<Placement> placement_of(const Json& camera) {
 }  // namespace
 
 std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
-    std::istringstream text(text_of(file));
+    std::istringstream text(small_text_in(file).value_or(""));
     std::vector<double> m;
     for (double number = 0.0; m.size() < 17 && text >> number;) m.push_back(number);
     if (m.size() != 9 && m.size() != 16) return std::nullopt;
@@ -136,7 +125,7 @@ std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
 }
 
 std::optional<CameraFile> read_camera_json(const fs::path& file) {
-    const Json json = json_of(text_of(file));
+    const Json json = json_of(small_text_in(file).value_or(""));
     if (!json.is_object()) return std::nullopt;
     const std::vector<double> m = numbers_in(json, "intrinsic_matrix");
     if (m.size() != 9) return std::nullopt;

@@ -17,6 +17,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,8 +26,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/exr_header.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 
 namespace dibhr {
 
@@ -227,10 +226,6 @@ StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
 }
 
 }  // namespace
-
-bool is_exr(std::string_view head) {
-    return head.starts_with("\x76\x2f\x31\x01");
-}
 
 StillPicture read_exr(const fs::path& file, PictureRole role) {
     if (!has_sound_exr_header(file)) refuse_as_damaged(file);

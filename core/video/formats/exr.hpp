@@ -3,13 +3,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "core/video/formats/still_picture.hpp"
 
 namespace dibhr {
-
-[[nodiscard]] bool is_exr(std::string_view head);
 
 /// Of its display window; outside its data window, and at renderers' infinity, is no data. Depth is
 /// the channel Z, else V, Y or R, of a layer that says depth before others; of R, G and B that

@@ -1,4 +1,4 @@
-// How files begin, how large they may claim to be, and light as a screen shows it.
+// What is refused, how files begin, how large they may claim to be, and light as a screen shows it.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
@@ -10,9 +10,11 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/foreign.hpp"
 
 namespace dibhr {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,14 +28,76 @@ std::uint8_t screen_level(float light) {
     return static_cast<std::uint8_t>(std::lround(255.0F * level));
 }
 
+enum class From { beginning, end };
+
+std::string bytes_of(const fs::path& file, std::size_t most, From from) {
+    std::error_code failed;
+    if (!fs::is_regular_file(file, failed)) return {};
+    const std::uintmax_t bytes = fs::file_size(file, failed);
+    if (failed) return {};
+    std::string text(std::min<std::uintmax_t>(bytes, most), '\0');
+    std::ifstream in(file, std::ios::binary);
+    if (from == From::end) in.seekg(static_cast<std::streamoff>(bytes - text.size()));
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    return text;
+}
+
+/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
+/// would make the decoder open other files. Text pictures (PNM) are not refused.
+bool begins_like_text(const fs::path& file) {
+    constexpr std::size_t kLookedAt_bytes = 512;
+    const std::string head = beginning_of(file, kLookedAt_bytes);
+    if (head.size() >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
+    return std::all_of(head.begin(), head.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
+    });
+}
+
 }  // namespace
 
-std::string head_of(const std::filesystem::path& file) {
-    std::string head(32, '\0');
-    std::ifstream in(file, std::ios::binary);
-    in.read(head.data(), static_cast<std::streamsize>(head.size()));
-    head.resize(static_cast<std::size_t>(std::max<std::streamsize>(in.gcount(), 0)));
-    return head;
+void require_readable(const fs::path& file) {
+    std::error_code failed;
+    const auto status = fs::status(file, failed);
+    if (status.type() == fs::file_type::not_found)
+        throw InputError(shown(file) + " does not exist: check the name and the folder");
+    if (failed)
+        throw InputError(shown(file) + " cannot be reached (" + failed.message() +
+                         "): check the name and the permissions of its folder");
+    if (fs::is_directory(status))
+        throw InputError(shown(file) + " is a folder: give the video or picture file in it");
+    if (!fs::is_regular_file(status))
+        throw InputError(shown(file) +
+                         " is a pipe or a device: open it as it runs, as pipe:NAME, or "
+                         "save its data to a file first");
+    if (!std::ifstream(file, std::ios::binary))
+        throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
+    if (fs::file_size(file, failed) == 0)
+        throw InputError(shown(file) + " is empty: record or copy it again");
+    if (const std::string advice = advice_on_foreign(file); !advice.empty())
+        throw InputError(shown(file) + advice);
+    if (begins_like_text(file))
+        throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
+}
+
+void require_size(const fs::path& file, int columns, int rows) {
+    if (columns >= 2 && rows >= 2) return;
+    throw InputError(shown(file) + " is only " + std::to_string(columns) + " x " +
+                     std::to_string(rows) + " pixels: give one of at least 2 x 2");
+}
+
+std::string beginning_of(const fs::path& file, std::size_t most) {
+    return bytes_of(file, most, From::beginning);
+}
+
+std::string end_of(const fs::path& file, std::size_t most) {
+    return bytes_of(file, most, From::end);
+}
+
+std::string head_of(const fs::path& file) {
+    constexpr std::size_t kHeadBytes = 32;
+    return beginning_of(file, kHeadBytes);
 }
 
 std::uint64_t size_of(const std::filesystem::path& file) {

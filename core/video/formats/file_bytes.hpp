@@ -1,7 +1,8 @@
-// What the readers of forms share: how a file begins, how large it may claim to be, and pictures of
-// real numbers; inside the room.
+// What the readers of forms share: what is refused before any of them sees it, how a file begins,
+// how large it may claim to be, and pictures of real numbers; inside the room.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
@@ -9,7 +10,19 @@
 
 namespace dibhr {
 
-/// The first bytes of a file, at most 32; none when it cannot be read.
+/// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
+/// empty, text. Throws InputError: what, which file, what to do next.
+void require_readable(const std::filesystem::path& file);
+
+/// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
+void require_size(const std::filesystem::path& file, int columns, int rows);
+
+/// The first bytes of an ordinary file, or the last ones, at most so many; none when it is none, or
+/// cannot be read.
+[[nodiscard]] std::string beginning_of(const std::filesystem::path& file, std::size_t most);
+[[nodiscard]] std::string end_of(const std::filesystem::path& file, std::size_t most);
+
+/// So much of it as readers tell their files by.
 [[nodiscard]] std::string head_of(const std::filesystem::path& file);
 
 /// In bytes; 0 when it cannot be told.

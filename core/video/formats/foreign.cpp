@@ -1,15 +1,14 @@
 // Told by how files begin, and by their names where that says too little.
 #include "core/video/formats/foreign.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
-#include <fstream>
+#include <string>
 #include <string_view>
 #include <system_error>
 
 #include "core/files/plain_text.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
@@ -59,34 +58,21 @@ constexpr std::array kForeign{
             "OpenNI's tools"},
     Foreign{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
 
-constexpr std::streamoff kLookedAt_bytes = 1 << 16;
-
-/// From there on.
-std::string some_of(std::ifstream& in, std::streamoff from) {
-    std::string bytes(static_cast<std::size_t>(kLookedAt_bytes), '\0');
-    in.clear();
-    in.seekg(from);
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    bytes.resize(static_cast<std::size_t>(in.gcount()));
-    return bytes;
-}
+constexpr std::size_t kLookedAt_bytes = 1 << 16;
 
 bool hold(const std::string& bytes, std::string_view part) {
     return bytes.find(part) != std::string::npos;
 }
 
 /// The names in a zip archive are listed at its end.
-bool lists_record3d(std::ifstream& in) {
-    in.clear();
-    in.seekg(0, std::ios::end);
-    const std::string end =
-        some_of(in, std::max<std::streamoff>(0, std::streamoff{in.tellg()} - kLookedAt_bytes));
+bool lists_record3d(const fs::path& file) {
+    const std::string end = end_of(file, kLookedAt_bytes);
     return hold(end, "rgbd/") && hold(end, "metadata");
 }
 
 /// Its own codecs of depth, in the Matroska file's list of tracks.
-bool is_of_librgbd(std::ifstream& in) {
-    const std::string begin = some_of(in, 0);
+bool is_of_librgbd(const fs::path& file) {
+    const std::string begin = beginning_of(file, kLookedAt_bytes);
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
@@ -95,18 +81,15 @@ bool is_of_librgbd(std::ifstream& in) {
 std::string advice_on_foreign(const fs::path& file) {
     std::error_code failed;
     if (!fs::is_regular_file(file, failed)) return {};
-    std::array<char, 16> bytes{};
-    std::ifstream in(file, std::ios::binary);
-    in.read(bytes.data(), bytes.size());
-    const std::string_view head(bytes.data(), static_cast<std::size_t>(in.gcount()));
+    const std::string head = head_of(file);
     const std::string ending = lower_case(file.extension().string());
     for (const Foreign& foreign : kForeign) {
         if (head.starts_with(foreign.begins) &&
             (foreign.ending.empty() || foreign.ending == ending))
             return std::string(foreign.advice);
     }
-    if (head.starts_with(kZip) && lists_record3d(in)) return std::string(kRecord3d);
-    if (head.starts_with(kMatroska) && is_of_librgbd(in)) return std::string(kLibrgbd);
+    if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
+    if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     return {};
 }
 

@@ -3,8 +3,6 @@
 
 #include <libheif/heif.h>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstring>
 #include <memory>
@@ -15,7 +13,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 
@@ -136,12 +133,6 @@ StillPicture read_depth(const heif_image_handle& primary, const fs::path& file) 
 }
 
 }  // namespace
-
-bool is_heif(std::string_view head) {
-    constexpr std::array<std::string_view, 5> kBrands{"heic", "heix", "heim", "heis", "mif1"};
-    return head.size() >= 12 && head.substr(4, 4) == "ftyp" &&
-           std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
-}
 
 StillPicture read_heif(const fs::path& file, PictureRole role) {
     const Context context = opened_heif(file);

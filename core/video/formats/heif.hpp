@@ -2,13 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "core/video/formats/still_picture.hpp"
 
 namespace dibhr {
-
-[[nodiscard]] bool is_heif(std::string_view head);
 
 /// The primary picture, or its depth picture, each turned as it says itself. Throws InputError,
 /// also when depth is asked for and there is none.

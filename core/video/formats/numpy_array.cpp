@@ -17,7 +17,6 @@
 #include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/numbers.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

@@ -17,7 +17,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/numbers.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 
@@ -59,11 +58,6 @@ PfmHeader read_header(std::istream& in) {
 }
 
 }  // namespace
-
-bool is_pfm(std::string_view head) {
-    return (head.starts_with("Pf") || head.starts_with("PF")) && head.size() > 2 &&
-           (head[2] == '\n' || head[2] == '\r' || head[2] == ' ' || head[2] == '\t');
-}
 
 StillPicture read_pfm(const std::filesystem::path& file, PictureRole role) {
     std::ifstream in(file, std::ios::binary);

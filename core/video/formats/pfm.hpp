@@ -2,13 +2,10 @@
 #pragma once
 
 #include <filesystem>
-#include <string_view>
 
 #include "core/video/formats/still_picture.hpp"
 
 namespace dibhr {
-
-[[nodiscard]] bool is_pfm(std::string_view head);
 
 /// The values as they stand in the file: of its scale only the sign counts, which says the byte
 /// order, as in the readers of the datasets themselves (OpenCV divides by it). Throws InputError.

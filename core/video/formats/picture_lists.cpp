@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
@@ -18,7 +17,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/media_names.hpp"
 
 namespace dibhr {
@@ -28,7 +27,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kListBegin_bytes = 1 << 16;  ///< for a first line after comments
-constexpr std::uintmax_t kLongestList_bytes = 256 << 20;
+constexpr std::size_t kLongestList_bytes = 256 << 20;
 constexpr double kLargestNumber = 1e20;  ///< more than nanoseconds since 1970
 
 /// A picture's name at a time, as a line has it.
@@ -105,19 +104,6 @@ void for_each_line(std::string_view text, Take take) {
         if (!is_comment(text.substr(0, length))) take(text.substr(0, length));
         text.remove_prefix(std::min(length + 1, text.size()));
     }
-}
-
-std::string beginning_of(const fs::path& file, std::uintmax_t most) {
-    std::string text;
-    std::error_code failed;
-    if (!fs::is_regular_file(file, failed)) return text;
-    const std::uintmax_t bytes = std::min(fs::file_size(file, failed), most);
-    if (failed) return text;
-    text.resize(bytes);
-    std::ifstream in(file, std::ios::binary);
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<std::size_t>(in.gcount()));
-    return text;
 }
 
 /// What the words of a name, or else of the folders in it, say.

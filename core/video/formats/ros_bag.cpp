@@ -18,9 +18,6 @@
 #include "core/video/formats/bag_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/ros_messages.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
-#include "core/video/picture_folder.hpp"
 
 namespace dibhr {
 
@@ -164,14 +161,14 @@ std::vector<Stamped> messages_of(BagFiles& files, const Topic& wanted) {
     return std::move(taken);
 }
 
-class RosTopic : public PictureSource {
+class RosTopic : public IndexedPictures {
   public:
     RosTopic(const fs::path& place, BagFiles files, Topic topic, PictureRole role)
         : files_(std::move(files)), topic_(std::move(topic)) {
         facts_.file = place;
         messages_ = messages_of(files_, topic_);
         if (messages_.empty()) throw InputError(unreadable());
-        last_ = picture(messages_.front());
+        last_ = decoded(messages_.front());
         if (last_.empty()) throw InputError(unreadable());
         require_size(place, last_.cols, last_.rows);
         describe_picture();
@@ -179,13 +176,11 @@ class RosTopic : public PictureSource {
         if (role == PictureRole::depth) know_depth();
     }
 
-    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
-
-    std::optional<TimedPicture> next() override {
-        if (at_ == messages_.size()) return std::nullopt;
-        const std::size_t at = at_++;
+  private:
+    /// One that cannot be decoded is told, and the one before it stays.
+    [[nodiscard]] cv::Mat picture(std::size_t at) override {
         try {
-            const cv::Mat now = picture(messages_[at]);
+            const cv::Mat now = decoded(messages_[at]);
             if (now.empty() || now.type() != last_.type())
                 tell_trouble(unreadable());
             else
@@ -193,22 +188,7 @@ class RosTopic : public PictureSource {
         } catch (const InputError& error) {
             tell_trouble(error.what());
         }
-        return TimedPicture{last_, time_s(at), static_cast<std::int64_t>(at)};
-    }
-
-    void seek(double time_s) override {
-        const auto wanted_ns = static_cast<std::int64_t>(
-            std::clamp(time_s + kTimeTolerance_s, -1.0, facts_.duration_s + 1.0) * 1e9);
-        const auto later = std::upper_bound(
-            messages_.begin(), messages_.end(), messages_.front().time_ns + wanted_ns,
-            [](std::int64_t time_ns, const Stamped& message) { return time_ns < message.time_ns; });
-        at_ = later == messages_.begin() ? 0
-                                         : static_cast<std::size_t>(later - messages_.begin()) - 1;
-    }
-
-  private:
-    [[nodiscard]] double time_s(std::size_t at) const {
-        return static_cast<double>(messages_[at].time_ns - messages_.front().time_ns) * 1e-9;
+        return last_;
     }
 
     [[nodiscard]] std::string unreadable() const {
@@ -217,13 +197,8 @@ class RosTopic : public PictureSource {
                "compressing messages";
     }
 
-    void tell_trouble(const std::string& what) {
-        if (facts_.trouble.empty())
-            facts_.trouble = what + "; until then the one before it is shown";
-    }
-
     /// Empty when it is broken.
-    [[nodiscard]] cv::Mat picture(const Stamped& message) {
+    [[nodiscard]] cv::Mat decoded(const Stamped& message) {
         const std::vector<std::uint8_t> data = files_[message.file]->data(message.row);
         const auto image = ros_image(data, is_compressed(topic_));
         if (!image) return {};
@@ -244,15 +219,13 @@ class RosTopic : public PictureSource {
             throw InputError(shown(facts_.file) +
                              " has messages that are years apart: record it "
                              "again with clocks that are set");
-        facts_.frames = static_cast<std::int64_t>(messages_.size());
-        facts_.frames_exact = true;
-        facts_.still = facts_.frames == 1;
+        std::vector<double> times_s;
+        times_s.reserve(messages_.size());
+        for (const Stamped& message : messages_)
+            times_s.push_back(static_cast<double>(message.time_ns - messages_.front().time_ns) *
+                              1e-9);
+        take_times(std::move(times_s));
         facts_.start_s = static_cast<double>(messages_.front().time_ns) * 1e-9;
-        if (facts_.still) return;
-        const double interval_s =
-            static_cast<double>(length_ns) * 1e-9 / static_cast<double>(facts_.frames - 1);
-        facts_.frames_per_s = 1.0 / interval_s;
-        facts_.duration_s = static_cast<double>(length_ns) * 1e-9 + interval_s;
     }
 
     void know_depth() {
@@ -292,20 +265,16 @@ class RosTopic : public PictureSource {
 
     BagFiles files_;
     Topic topic_;
-    SourceFacts facts_{};
     std::vector<Stamped> messages_{};
-    std::size_t at_{0};
     cv::Mat last_{};
 };
 
 }  // namespace
 
-bool is_ros_bag(const fs::path& place) {
-    if (is_folder(place)) {
-        const std::vector<fs::path> entries = entries_of(place);
-        return std::any_of(entries.begin(), entries.end(), is_bag_name);
-    }
-    return is_database(place);
+bool is_ros_bag(const fs::path& place, std::string_view /*head*/) {
+    if (!is_folder(place)) return is_database(place);
+    const std::vector<fs::path> entries = entries_of(place);
+    return std::any_of(entries.begin(), entries.end(), is_bag_name);
 }
 
 bool ros_bag_holds(const fs::path& place, PictureRole role) {

@@ -4,13 +4,15 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
 
 /// Whether it is a SQLite file, or a folder of a bag's files.
-[[nodiscard]] bool is_ros_bag(const std::filesystem::path& place);
+[[nodiscard]] bool is_ros_bag(const std::filesystem::path& place, std::string_view head);
 
 /// Whether it holds pictures of that role. Throws InputError as below.
 [[nodiscard]] bool ros_bag_holds(const std::filesystem::path& place, PictureRole role);

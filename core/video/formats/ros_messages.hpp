@@ -10,7 +10,6 @@
 #include <string>
 
 #include "core/video/depth/camera.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 

@@ -1,12 +1,13 @@
-// One still picture out of a file of any form, told apart by content; inside the room.
+// One still picture out of a file, and the reader of the forms that OpenCV knows; inside the room.
 #pragma once
 
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <string_view>
 
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
 
@@ -18,15 +19,12 @@ struct StillPicture {
     std::string known_from{};  ///< as in SourceFacts
 };
 
-/// Whether some reader takes the file as a picture, or as an array of them.
-[[nodiscard]] bool is_still(const std::filesystem::path& file);
+/// Whether OpenCV's codecs read it, or it is a WebP picture, also a damaged one, which they do not
+/// know any more: libav takes that for a video, and ends the program. Loads the codecs.
+[[nodiscard]] bool is_opencv_picture(const std::filesystem::path& file, std::string_view head);
 
-/// Whether the file holds a colour picture and the depth that belongs to it: an EXR file of R, G, B
-/// and Z, a portrait photo, a .npz of both. False for a file that cannot be read.
-[[nodiscard]] bool holds_colour_and_depth(const std::filesystem::path& file);
-
-/// Depth keeps its levels and channels, colour becomes 8-bit BGR; of an array the first picture.
-/// Throws InputError.
-[[nodiscard]] StillPicture read_still(const std::filesystem::path& file, PictureRole role);
+/// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
+/// (TIFF), become real. Throws InputError.
+[[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
 
 }  // namespace dibhr

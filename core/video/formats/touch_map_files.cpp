@@ -19,13 +19,11 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/claimed_size.hpp"
-#include "core/video/formats/still_picture.hpp"
 #include "core/video/libraries.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
 #include "core/video/modules/picture_codecs.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/sources/readers.hpp"
 
 namespace dibhr {
 

@@ -13,7 +13,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/moving_mean.hpp"
 #include "core/realtime/now.hpp"
-#include "core/video/media.hpp"
 
 namespace dibhr {
 

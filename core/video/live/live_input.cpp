@@ -24,10 +24,10 @@ extern "C" {
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/modules/module.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 

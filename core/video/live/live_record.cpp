@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/live/taken_pictures.hpp"
-#include "core/video/pictures.hpp"
 
 namespace dibhr {
 

@@ -11,9 +11,12 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/hue_code.hpp"
-#include "core/video/media.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/packed.hpp"
 #include "core/video/picture_kind.hpp"
+#include "core/video/sources/coded_depth.hpp"
 
 namespace dibhr {
 
@@ -150,12 +153,8 @@ Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
 
 Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form) {
     auto colour = pictures_of(cursor, Which::colour);
-    auto depth = pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth);
-    UnpackedSources both = unpack(std::move(colour), std::move(depth), form);
-    Sources sources{std::move(both.depth), std::move(both.colour)};
-    sources.found.packing = form.packing;
-    sources.found.code = form.hue ? DepthCode::hue : DepthCode::grey;
-    return sources;
+    return unpack(std::move(colour),
+                  pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth), form);
 }
 
 PictureGuess look_at(const std::shared_ptr<LiveCursor>& cursor) {

@@ -6,7 +6,6 @@
 
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/live/live_feed.hpp"
-#include "core/video/pictures.hpp"
 #include "core/video/sources.hpp"
 
 namespace dibhr {

@@ -27,6 +27,7 @@
 #include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/touch_map_files.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "tests/core/session/exploration.hpp"
 
 namespace {

@@ -20,6 +20,7 @@
 #include <string_view>
 
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "tests/app/program/program_start.hpp"
 #include "tests/support/catch.hpp"
 

@@ -15,6 +15,7 @@
 #include "core/video/libraries.hpp"
 #include "core/video/media.hpp"
 #include "core/video/playback.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "tests/support/catch.hpp"
 
 namespace dibhr::test {

@@ -8,6 +8,7 @@
 
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"

@@ -5,7 +5,6 @@
 
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/media.hpp"
-#include "core/video/pictures.hpp"
 #include "core/video/video_file.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"

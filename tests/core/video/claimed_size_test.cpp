@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/video/formats/still_picture.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"

@@ -8,7 +8,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
-#include "core/video/pictures.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;

@@ -18,6 +18,7 @@
 
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"
@@ -228,7 +229,7 @@ TEST_CASE("one EXR file of colours and Z opens as both, its colours as a screen 
     const TemporaryFolder folder;
     write_exr({{"R", flat(1)}, {"G", flat(0.5)}, {"B", flat(0)}, {"Z", flat(2)}},
               folder / "both.exr");
-    CHECK(holds_colour_and_depth(folder / "both.exr"));
+    CHECK(exr_has_colour_and_depth(folder / "both.exr"));
     const auto media = open_media(folder / "both.exr");
     CHECK(media->description().depth_columns == 8);
     CHECK(media->description().colour_columns == 8);
@@ -259,7 +260,7 @@ TEST_CASE("parts of an EXR file are looked through for their channels", "[exr]")
         behind.setFrameBuffer(second.buffer);
         behind.writePixels(6);
     }
-    CHECK(holds_colour_and_depth(folder / "parts.exr"));
+    CHECK(exr_has_colour_and_depth(folder / "parts.exr"));
     CHECK(different(depth_in(folder / "parts.exr"), flat(4)) == 0);
     CHECK(read_still(folder / "parts.exr", PictureRole::colour).picture.at<cv::Vec3b>(0, 0) ==
           cv::Vec3b(0, 0, 255));
@@ -269,7 +270,7 @@ TEST_CASE("an EXR file without what is asked for says what is lacking", "[exr]")
     const TemporaryFolder folder;
     write_exr({{"Z", flat(1)}}, folder / "z.exr");
     write_exr({{"A", flat(1)}}, folder / "a.exr");
-    CHECK_FALSE(holds_colour_and_depth(folder / "z.exr"));
+    CHECK_FALSE(exr_has_colour_and_depth(folder / "z.exr"));
     CHECK(contains(refusal([&] { (void)read_still(folder / "z.exr", PictureRole::colour); }),
                    "no channels R, G and B"));
     CHECK(contains(refusal([&] { (void)depth_in(folder / "a.exr"); }), "no channel Z, V, Y or R"));

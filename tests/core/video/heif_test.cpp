@@ -7,6 +7,7 @@
 
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"
@@ -34,7 +35,7 @@ bool is_decoded(const std::filesystem::path& photo) {
 TEST_CASE("a portrait photo opens as colour and depth, and keeps the depth's levels", "[heif]") {
     const TemporaryFolder folder;
     write_photo({.colour = "color=red:s=64x48", .depth = kRamp}, folder / "portrait.heic");
-    CHECK(holds_colour_and_depth(folder / "portrait.heic"));
+    CHECK(heif_has_depth(folder / "portrait.heic"));
     if (!is_decoded(folder / "portrait.heic")) return;
     const StillPicture depth = read_still(folder / "portrait.heic", PictureRole::depth);
     CHECK(depth.bits == 8);
@@ -80,7 +81,7 @@ TEST_CASE("a turned photo is upright in colour and in depth", "[heif]") {
 TEST_CASE("a photo without depth is colour, and refused as depth", "[heif]") {
     const TemporaryFolder folder;
     write_photo({}, folder / "plain.heic");
-    CHECK_FALSE(holds_colour_and_depth(folder / "plain.heic"));
+    CHECK_FALSE(heif_has_depth(folder / "plain.heic"));
     if (!is_decoded(folder / "plain.heic")) return;
     CHECK(read_still(folder / "plain.heic", PictureRole::colour).picture.type() == CV_8UC3);
     CHECK(

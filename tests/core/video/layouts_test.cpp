@@ -11,7 +11,7 @@
 
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

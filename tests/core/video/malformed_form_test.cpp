@@ -17,6 +17,8 @@
 #include "core/error.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"

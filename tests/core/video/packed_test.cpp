@@ -64,7 +64,7 @@ TEST_CASE("each half of a packed picture is a picture of its own, colour and dep
     const cv::Mat colour = scene_photo();
     const cv::Mat depth = painted(scene_depth(), as_grey);
     cv::imwrite((folder / "both.png").string(), packed_as(packing, colour, depth));
-    const UnpackedSources sources = open_packed(folder / "both.png", form_of(packing));
+    const Sources sources = open_packed(folder / "both.png", form_of(packing));
     CHECK(sources.colour->facts().columns == kSceneColumns);
     CHECK(sources.depth->facts().columns == kSceneColumns);
     CHECK(sources.depth->facts().rows == kSceneRows);
@@ -81,8 +81,7 @@ TEST_CASE("the line in the middle of a packed picture of an odd size belongs to 
     CAPTURE(columns, rows);
     write_picture(folder / "odd.png", columns, rows, 8, 3,
                   [](int i, int j, int) { return 10 * i + j; });
-    const UnpackedSources sources =
-        open_packed(folder / "odd.png", form_of(DepthPacking::left_right));
+    const Sources sources = open_packed(folder / "odd.png", form_of(DepthPacking::left_right));
     const cv::Mat left = sources.colour->next()->picture;
     const cv::Mat right = sources.depth->next()->picture;
     REQUIRE(left.size() == cv::Size(columns / 2, rows));
@@ -109,7 +108,7 @@ TEST_CASE("halves that were squeezed are shown in the size of the whole", "[pack
         {{DepthPacking::left_right, 40, 20}, {DepthPacking::top_bottom, 40, 20}}));
     PackedForm form = form_of(packing);
     form.half_size = true;
-    const UnpackedSources sources = open_packed(folder / "both.png", form);
+    const Sources sources = open_packed(folder / "both.png", form);
     CHECK(sources.colour->facts().columns == columns);
     CHECK(sources.colour->facts().rows == rows);
     CHECK(sources.depth->facts().columns == columns);
@@ -126,7 +125,7 @@ TEST_CASE("a packed file keeps every level of its depth", "[packed]") {
          {"yuv.mkv", "-c:v ffv1 -pix_fmt yuv420p", 1.1},
          {"h264.mp4", "-c:v libx264 -qp 0 -pix_fmt yuv420p", 1.1}}));
     CAPTURE(name);
-    const UnpackedSources sources =
+    const Sources sources =
         open_packed(clip_of(folder, both, name, encoding), form_of(DepthPacking::left_right));
     const DepthImage depth = DepthScale::as_recorded(sources.depth->facts().bits)
                                  .image_of(sources.depth->next()->picture);
@@ -143,8 +142,7 @@ TEST_CASE("a packed picture of 16 bits keeps all of them", "[packed]") {
     const TemporaryFolder folder;
     write_picture(folder / "both.png", 64, 64, 16, 3,
                   [](int i, int j, int) { return 1000 * i + j; });
-    const UnpackedSources sources =
-        open_packed(folder / "both.png", form_of(DepthPacking::right_left));
+    const Sources sources = open_packed(folder / "both.png", form_of(DepthPacking::right_left));
     const cv::Mat depth = sources.depth->next()->picture;
     REQUIRE(depth.depth() == CV_16U);
     CHECK(depth.at<cv::Vec3w>(5, 31)[0] == 31005);
@@ -161,7 +159,7 @@ TEST_CASE("depth coded by hue is decoded from its half, with what the recorder k
     form.known.intrinsics = Intrinsics{200.0, 100.0, 79.5, 119.5};
     form.intrinsics_size = {kSceneColumns / 2, kSceneRows};
     form.known_from = "a test";
-    const UnpackedSources sources = open_packed(folder / "both.png", form);
+    const Sources sources = open_packed(folder / "both.png", form);
     const SourceFacts& facts = sources.depth->facts();
     CHECK(facts.bits == kRealBits);
     CHECK(facts.known.range == DepthRange{1.0, 3.0});
@@ -177,7 +175,7 @@ TEST_CASE("the halves of a packed video go together in time, also after a seek",
     const TemporaryFolder folder;
     // Frame n has level 5 n in both halves.
     make_flat_clip(folder / "both.mkv", 24, 12, kLossless);
-    UnpackedSources sources = open_packed(folder / "both.mkv", form_of(DepthPacking::left_right));
+    Sources sources = open_packed(folder / "both.mkv", form_of(DepthPacking::left_right));
     PairedMedia media(std::move(sources.depth), std::move(sources.colour),
                       DepthScale::as_recorded(8));
     media.seek(1.0);
@@ -198,7 +196,7 @@ TEST_CASE("a folder of packed pictures is a packed video", "[packed]") {
     for (int k = 0; k < 3; ++k)
         write_picture(folder / (stem + std::to_string(k) + ".png"), 16, 8, 8, 3,
                       [k](int i, int, int) { return i < 8 ? 40 + k : 80 + k; });
-    const UnpackedSources sources = open_packed(folder.path(), form_of(DepthPacking::left_right));
+    const Sources sources = open_packed(folder.path(), form_of(DepthPacking::left_right));
     CHECK(sources.depth->facts().frames == 3);
     for (int k = 0; k < 3; ++k) {
         CHECK(sources.colour->next()->picture.at<cv::Vec3b>(0, 0)[0] == 40 + k);

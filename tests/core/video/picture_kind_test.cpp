@@ -12,7 +12,7 @@
 
 #include "core/video/media.hpp"
 #include "core/video/picture_kind.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"
 #include "tests/support/catch.hpp"

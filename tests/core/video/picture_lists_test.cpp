@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/video/media.hpp"
-#include "core/video/pictures.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/video/media.hpp"
+#include "core/video/sources/picture_files.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/video/frames/presentation_time.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;

@@ -1,7 +1,8 @@
-// Files as rows of pictures with presentation times, still ones, and the way from OpenCV's pictures
-// to ours; inside the room, so OpenCV types may show.
+// What a reader of any form gives: pictures with presentation times, and what is known of them;
+// inside the room.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,28 +12,13 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/depth_image.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
-#include "core/video/frame_window.hpp"
 
 namespace dibhr {
 
 struct LivePair;
-
-/// The bits of levels that are real numbers: they have no highest one.
-inline constexpr int kRealBits = 32;
-
-/// Of levels of so many bits.
-[[nodiscard]] double highest_level(int bits);
-
-/// One channel of the same bits, of a picture of 1 to 4. Where the channels are equal the level is
-/// exactly theirs, otherwise their luma.
-[[nodiscard]] cv::Mat grey_of(const cv::Mat& picture);
-
-/// RGB of an 8-bit BGR picture.
-[[nodiscard]] ColourImage colour_of(const cv::Mat& picture);
 
 /// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits or 32-bit
 /// real numbers, of which what is not finite is no data; 1 to 4 channels). Shared with nobody who
@@ -69,20 +55,6 @@ struct SourceFacts {
     bool other_camera{false};  ///< the colour beside it is of another one, which stands elsewhere
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; none: not known
 };
-
-/// The same levels, of which the highest is highest_level(bits): of a row of pictures that do not
-/// agree. Real numbers stay as they are, as far as they are levels of so many bits.
-[[nodiscard]] cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits);
-
-enum class PictureRole { colour, depth };
-
-/// OpenCV resamples pictures of less than 2^15 pixels along a side: the same, or as large as that.
-inline constexpr int kMostAlong = 32000;
-[[nodiscard]] cv::Mat resampleable(const cv::Mat& picture);
-
-/// The picture as it is to be seen: stretched along one side until its pixels, `aspect` times as
-/// wide as high, are square. A level of depth is never mixed with no data, which is level 0.
-[[nodiscard]] cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role);
 
 class PictureSource {
   public:
@@ -135,24 +107,29 @@ class ChangedPictures : public PictureSource {
     std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
 
-/// A still image as a source of one picture.
-class StillFile : public PictureSource {
-  public:
-    /// Depth keeps its bits and channels, colour becomes 8-bit BGR. Throws InputError.
-    StillFile(const std::filesystem::path& file, PictureRole role);
+/// Pictures a second of those that tell no time.
+inline constexpr double kPicturesPerSecond = 30.0;
 
+/// Pictures that are each read by number, from 0, and whose times are known at the opening.
+class IndexedPictures : public PictureSource {
+  public:
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
     void seek(double time_s) override;
 
-  private:
-    SourceFacts facts_{};
-    cv::Mat picture_{};
-    bool given_{false};
-};
+  protected:
+    /// One time a picture, rising, and at least one: the facts of time follow from them.
+    void take_times(std::vector<double> times_s);
+    /// Why a picture is replaced by the one before it; the first reason stays.
+    void tell_trouble(const std::string& what);
 
-/// A still image or a video, told apart by content, or a folder of pictures. Throws InputError.
-[[nodiscard]] std::unique_ptr<PictureSource> open_picture_source(const std::filesystem::path& file,
-                                                                 PictureRole role);
+    SourceFacts facts_{};
+
+  private:
+    [[nodiscard]] virtual cv::Mat picture(std::size_t at) = 0;
+
+    std::vector<double> times_s_{};  ///< from the first
+    std::size_t at_{0};              ///< the next one
+};
 
 }  // namespace dibhr

@@ -1,0 +1,174 @@
+// The list of readers, and what is done with it.
+#include "core/video/sources/readers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/files/plain_text.hpp"
+#include "core/video/formats/array_file.hpp"
+#include "core/video/formats/exr.hpp"
+#include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/heif.hpp"
+#include "core/video/formats/pfm.hpp"
+#include "core/video/formats/ros_bag.hpp"
+#include "core/video/layouts.hpp"
+#include "core/video/libraries.hpp"
+#include "core/video/sources.hpp"
+#include "core/video/video_file.hpp"
+#include "core/video/video_packets.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool is_row(const fs::path& place, std::string_view /*head*/) {
+    return names_pictures(place);
+}
+
+/// As most videos begin (MP4 and QuickTime, Matroska, AVI, NUT): they need no picture codecs to be
+/// loaded. Other videos are found by what the codecs say.
+bool is_video_container(const fs::path& /*file*/, std::string_view head) {
+    constexpr std::array<std::string_view, 9> kBrands{"isom", "iso2", "iso4", "iso5", "iso6",
+                                                      "mp41", "mp42", "M4V ", "qt  "};
+    if (head.size() < 12) return false;
+    if (head.substr(4, 4) == "ftyp")
+        return std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
+    return head.starts_with("\x1a\x45\xdf\xa3") || head.starts_with("nut/multimedia") ||
+           (head.starts_with("RIFF") && head.substr(8, 4) == "AVI ");
+}
+
+bool is_exr(const fs::path& /*file*/, std::string_view head) {
+    return head.starts_with("\x76\x2f\x31\x01");
+}
+
+bool is_pfm(const fs::path& /*file*/, std::string_view head) {
+    return (head.starts_with("Pf") || head.starts_with("PF")) && head.size() > 2 &&
+           (head[2] == '\n' || head[2] == '\r' || head[2] == ' ' || head[2] == '\t');
+}
+
+bool is_heif(const fs::path& /*file*/, std::string_view head) {
+    constexpr std::array<std::string_view, 5> kBrands{"heic", "heix", "heim", "heis", "mif1"};
+    return head.size() >= 12 && head.substr(4, 4) == "ftyp" &&
+           std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
+}
+
+bool is_what_is_left(const fs::path& /*file*/, std::string_view /*head*/) {
+    return true;
+}
+
+template <typename Source>
+std::unique_ptr<PictureSource> open_file(const fs::path& file, PictureRole role) {
+    return std::make_unique<Source>(file, role);
+}
+
+bool bag_has_colour(const fs::path& place) {
+    return ros_bag_holds(place, PictureRole::colour);
+}
+
+template <bool (*HoldsBoth)(const fs::path&)>
+Sources both_if(const fs::path& place) {
+    if (!HoldsBoth(place)) return {};
+    return {open_picture_source(place, PictureRole::depth),
+            open_picture_source(place, PictureRole::colour)};
+}
+
+/// The two of a video's tracks that belong together, where its own words say it: one has depth in
+/// its title, or is coded without colours beside one that has them; of several such the one of the
+/// most bits.
+Sources both_tracks(const fs::path& file) {
+    const std::vector<VideoTrack> tracks = video_tracks(file);
+    constexpr int kTitled = 100;  // says more than any number of bits
+    const auto likelihood_of_depth = [](const VideoTrack& track) {
+        if (lower_case(track.title).find("depth") != std::string::npos) return kTitled;
+        return track.grey ? track.bits : 0;
+    };
+    const auto depth = std::max_element(tracks.begin(), tracks.end(),
+                                        [&](const VideoTrack& a, const VideoTrack& b) {
+                                            return likelihood_of_depth(a) < likelihood_of_depth(b);
+                                        });
+    if (depth == tracks.end() || likelihood_of_depth(*depth) == 0) return {};
+    const auto colour = std::find_if(tracks.begin(), tracks.end(), [&](const VideoTrack& track) {
+        return likelihood_of_depth(track) == 0;
+    });
+    if (colour == tracks.end()) return {};
+    Sources both;
+    both.depth_track = static_cast<int>(depth - tracks.begin());
+    both.depth = std::make_unique<VideoFile>(file, PictureRole::depth, both.depth_track);
+    both.colour = std::make_unique<VideoFile>(file, PictureRole::colour,
+                                              static_cast<int>(colour - tracks.begin()));
+    both.found.packing = DepthPacking::tracks;
+    return both;
+}
+
+/// The first that takes a place reads it; the last one takes whatever is left.
+constexpr std::array kReaders{
+    Reader{"bag of ROS 2", Form::bag, is_ros_bag, nullptr, open_ros_topic, both_if<bag_has_colour>},
+    Reader{"row of pictures", Form::row, is_row, nullptr, open_row, both_rows},
+    Reader{"video in a usual container", Form::video, is_video_container, nullptr,
+           open_file<VideoFile>, both_tracks},
+    Reader{"numpy arrays", Form::arrays, is_array_file, read_array, open_file<ArrayFile>,
+           both_if<arrays_have_colour_and_depth>},
+    Reader{"OpenEXR picture", Form::still, is_exr, read_exr, nullptr,
+           both_if<exr_has_colour_and_depth>},
+    Reader{"portable float map", Form::still, is_pfm, read_pfm, nullptr, nullptr},
+    Reader{"HEIC photo", Form::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
+    Reader{"picture by OpenCV's codecs", Form::still, is_opencv_picture, read_by_opencv, nullptr,
+           nullptr},
+    Reader{"video by libav", Form::video, is_what_is_left, nullptr, open_file<VideoFile>,
+           both_tracks}};
+constexpr std::size_t kOfManyFiles = 2;  ///< readers, the first ones; all others are of one file
+
+}  // namespace
+
+const Reader& reader_of(const fs::path& place) {
+    const std::string head = head_of(place);
+    const auto takes = [&](const Reader& reader) { return reader.is_own(place, head); };
+    const auto of_one_file = kReaders.begin() + kOfManyFiles;
+    auto found = std::find_if(kReaders.begin(), of_one_file, takes);
+    if (found == of_one_file) {
+        require_readable(place);
+        found = std::find_if(of_one_file, kReaders.end(), takes);
+    }
+    return *found;
+}
+
+std::unique_ptr<PictureSource> open_picture_source(const fs::path& place, PictureRole role) {
+    set_up_libraries();
+    const Reader& reader = reader_of(place);
+    if (reader.open != nullptr) return reader.open(place, role);
+    return std::make_unique<StillFile>(place, reader.read(place, role));
+}
+
+/// OpenCV's codecs need not be asked: what no other one takes is theirs.
+StillPicture read_still(const fs::path& file, PictureRole role) {
+    set_up_libraries();
+    require_readable(file);
+    const std::string head = head_of(file);
+    const auto* const found =
+        std::find_if(kReaders.begin(), kReaders.end(), [&](const Reader& reader) {
+            return reader.read != nullptr &&
+                   (reader.read == read_by_opencv || reader.is_own(file, head));
+        });
+    return found->read(file, role);
+}
+
+StillFile::StillFile(const fs::path& file, StillPicture still)
+    : picture_(std::move(still.picture)) {
+    facts_.file = file;
+    facts_.columns = picture_.cols;
+    facts_.rows = picture_.rows;
+    facts_.bits = still.bits;
+    facts_.channels = picture_.channels();
+    facts_.codec = std::move(still.codec);
+    facts_.known = std::move(still.known);
+    facts_.known_from = std::move(still.known_from);
+    take_times({0.0});
+    require_size(file, facts_.columns, facts_.rows);
+}
+
+}  // namespace dibhr
