@@ -51,10 +51,12 @@ std::size_t bytes_of(const DepthImage& depth) {
 FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts,
                          Now now)
     : now_(std::move(now)),
+      assembly_(now_, kLongestRest),
       media_(std::make_unique<RememberingMedia>(std::move(media)), hearts, now_),
-      number_(number),
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
-      in_time_(kInTime) {}
+      in_time_(kInTime) {
+    assembly_.set_number(number);
+}
 
 double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
     return std::chrono::duration<double>(now_() - begin).count();
@@ -65,9 +67,15 @@ std::size_t FrameReader::Kept::bytes() const {
     bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
     if (const LoneDepth* lone = raw.lone.get(); lone != nullptr)
         bytes += bytes_of(lone->depth) + lone->made_up.size() + lone->unseen.size();
-    if (cleaned) bytes += bytes_of(*cleaned->depth);
-    if (cleaned && cleaned->beneath) bytes += bytes_of(*cleaned->beneath);
+    if (frame.depth) bytes += bytes_of(*frame.depth);
+    if (frame.beneath) bytes += bytes_of(*frame.beneath);
     return bytes;
+}
+
+void FrameReader::Kept::forget_cleaned() {
+    frame.depth.reset();
+    frame.unseen.reset();
+    frame.beneath.reset();
 }
 
 FrameReader::Kept* FrameReader::find(double media_s) {
@@ -119,7 +127,7 @@ void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double wai
     waited_s_ += waited_s;
     cost_.decode_ms = 1000.0 * waited_s;
     const auto count = static_cast<double>(frames);
-    const bool only_decoded = raw.passing_s > 0.0 && !plan_.steps.steady;
+    const bool only_decoded = raw.passing_s > 0.0 && !plan().steps.steady;
     const double passing_s = only_decoded ? raw.passing_s : waited_s / count;
     decoding_s_ = moving_mean(decoding_s_, passing_s);
     if (!only_decoded)
@@ -131,14 +139,11 @@ void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double wai
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     let_go();
     Kept& kept = kept_[raw.media_s];
-    const bool needs_colour = plan_.steps.sharpen_silhouettes && plan_.steps.colour_edges;
-    if (needs_colour && !raw.lone && !kept.can_be_cleaned()) clean_alone(raw, plan_);
-    if (!kept.frame.colour) {  // it is new, or nobody had wanted it any more
-        kept.frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
-        kept.frame.colour_of_view = raw.colour_of_view;
-        kept.frame.media_s = raw.media_s;
-        kept.frame.media = number_;
-    }
+    const CleaningSteps& steps = plan().steps;
+    const bool needs_colour = steps.sharpen_silhouettes && steps.colour_edges;
+    if (needs_colour && !raw.lone && !kept.can_be_cleaned()) assembly_.clean_alone(raw, plan());
+    // It is new, or nobody had wanted it any more.
+    if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
     kept.frame.index = raw.index;  // an estimate after some jumps, which frames in a row share
     raw.colour = {};
     if (!kept.can_be_cleaned()) kept.raw = std::move(raw);
@@ -146,7 +151,7 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 }
 
 std::size_t FrameReader::reach() const {
-    return plan_.steps.steady ? kReachInTime : 0;
+    return plan().steps.steady ? kReachInTime : 0;
 }
 
 /// Makes room for one more. What the wanted frame and the next one depend on stays. Of what else
@@ -159,9 +164,7 @@ void FrameReader::let_go() {
     std::ptrdiff_t away = -before;
     std::size_t bytes = 0;
     for (auto& [media_s, kept] : kept_) {
-        if (kept.cleaned && std::abs(away) > stays) {
-            kept.raw = {};
-        }
+        if (kept.is_cleaned() && std::abs(away) > stays) kept.raw = {};
         ++away;
         bytes += kept.bytes();
     }
@@ -180,7 +183,7 @@ void FrameReader::let_go() {
         Kept& kept = at->second;
         bytes -= kept.bytes();
         kept.frame.colour.reset();
-        kept.cleaned.reset();
+        kept.forget_cleaned();
         bytes += kept.bytes();
     }
 }
@@ -207,7 +210,7 @@ void FrameReader::go_on_from_kept(double media_s) {
     while (const Kept* next = kept_after(*row.back(), Needs::surface)) row.push_back(next);
     const double kept_to_s = row.back()->frame.media_s;
     if (row.back()->last || goes_on_after(kept_to_s) || heads_for(kept_to_s)) return;
-    const auto is_cleaned = [](const Kept* kept) { return kept->cleaned.has_value(); };
+    const auto is_cleaned = [](const Kept* kept) { return kept->is_cleaned(); };
     if (!std::all_of(row.begin(), row.end(), is_cleaned)) return;
     const double from_s = row[row.size() - 1 - std::min(reach(), row.size() - 1)]->frame.media_s;
     media_.decode_from(from_s);
@@ -245,37 +248,28 @@ void FrameReader::make_plan() {
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
     const CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
-    if (!same_alone(plan.steps, plan_.steps)) {
+    if (!same_alone(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
     }
-    for (auto& [media_s, kept] : kept_) kept.cleaned.reset();
+    for (auto& [media_s, kept] : kept_) kept.forget_cleaned();
     std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
-    plan_ = plan;
+    assembly_.set_plan(plan);
     planned_ = true;
     clean_ahead();
 }
 
-void FrameReader::clean_alone(RawFrame& raw, const CleaningPlan& plan) {
-    const std::lock_guard lock(alone_);
-    const auto begin = now_();
-    const std::vector<HeldLevel> held = std::move(raw.held);
-    const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
-    raw.lone =
-        std::make_shared<const LoneDepth>(chain_.alone(std::move(raw.depth), plan, held, colour));
-    raw.lone_ms = 1000.0 * seconds_since(begin);
-}
-
 /// Unless the machine is too slow for all frames: then who reads cleans, while the next is decoded.
 void FrameReader::clean_ahead() {
-    if (in_time_ < kInTime && !plan_.steps.steady)
+    if (in_time_ < kInTime && !plan().steps.steady)
         media_.prepare_with(nullptr);
     else
-        media_.prepare_with([this, plan = plan_](RawFrame& raw) { clean_alone(raw, plan); });
+        media_.prepare_with(
+            [this, plan = plan()](RawFrame& raw) { assembly_.clean_alone(raw, plan); });
 }
 
 const std::shared_ptr<const LoneDepth>& FrameReader::lone_of(Kept& kept) {
-    if (!kept.raw.lone) clean_alone(kept.raw, plan_);
+    if (!kept.raw.lone) assembly_.clean_alone(kept.raw, plan());
     cost_.clean_ms += std::exchange(kept.raw.lone_ms, 0.0);
     return kept.raw.lone;
 }
@@ -307,29 +301,24 @@ FrameReader::Around FrameReader::around(double media_s) {
 
 Frame FrameReader::cleaned(double media_s) {
     wanted_s_ = media_s;
-    if (!find(media_s)->cleaned) {
+    if (!find(media_s)->is_cleaned()) {
         cost_.clean_ms = 0.0;
         const Around around = this->around(media_s);
         const auto begin = now_();
         std::vector<const LoneDepth*> frames;
         frames.reserve(around.frames.size());
         for (const auto& lone : around.frames) frames.push_back(lone.get());
-        find(media_s)->cleaned = chain_.finished(frames, around.now, plan_);
+        Kept& kept = *find(media_s);
+        kept.frame = assembly_.finished(kept.frame, frames, around.now);
         cost_.clean_ms += 1000.0 * seconds_since(begin);
         cost_.cleaned = now_();
     }
-    const Kept& kept = *find(media_s);
-    return with_depth(kept.frame, *kept.cleaned, plan_.steps);
+    return find(media_s)->frame;
 }
 
-Frame FrameReader::with_depth(Frame frame, const CleanedDepth& cleaned,
-                              const CleaningSteps& steps) const {
-    frame.depth = cleaned.depth;
-    frame.unseen = cleaned.unseen;
-    frame.beneath = cleaned.beneath;
-    frame.maps = maps_;
-    frame.cleaning = {steps, plan_.finger};
-    return frame;
+void FrameReader::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
+    assembly_.set_maps(maps);
+    for (auto& [media_s, kept] : kept_) kept.frame.maps = maps;
 }
 
 FrameReader::Kept* FrameReader::kept_after(const Kept& kept, Needs needs) {
@@ -416,7 +405,7 @@ const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pa
     const bool passes = pace.earliest_s > media_s || pace.apart_s > 0.0;
     const Kept* const here = find(media_s);
     const bool is_kept = here != nullptr && kept_after(*here, Needs::surface) != nullptr;
-    if (plan_.steps.steady || !passes || is_kept || !goes_on_after(media_s))
+    if (plan().steps.steady || !passes || is_kept || !goes_on_after(media_s))
         return next_of(media_s, Needs::surface);
     return here != nullptr && here->last ? nullptr : read(pace);
 }
@@ -441,7 +430,7 @@ std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
 }
 
 void FrameReader::keep_pace(std::int64_t passed_over) {
-    if (passed_over > 0) motion_rests_.begin(done_);  // it is left out before frames are
+    if (passed_over > 0) assembly_.begin_rest();  // motion is left out before frames are
     const bool was_in_time = in_time_ >= kInTime;
     in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
     if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
@@ -449,10 +438,8 @@ void FrameReader::keep_pace(std::int64_t passed_over) {
 
 void FrameReader::connect(Frame& from, const Frame& next) {
     const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
-    const MotionWanted affordable = motion_rests_.affordable(motion_wanted_);
-    done_ = follows ? affordable : MotionWanted{};
     const auto begin = now_();
-    motion_.connect(from, next, done_);
+    assembly_.connect(from, next, follows);
     waited_s_ += seconds_since(begin);
 }
 
@@ -474,17 +461,7 @@ std::optional<Frame> FrameReader::preview(double media_s) {
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;
-    if (!raw->lone) clean_alone(*raw, plan_);
-    Frame frame;
-    frame.colour = std::make_shared<const ColourImage>(std::move(raw->colour));
-    frame.colour_of_view = raw->colour_of_view;
-    frame.media_s = raw->media_s;
-    frame.index = raw->index;
-    frame.media = number_;
-    CleaningSteps steps = plan_.steps;
-    steps.steady = false;
-    const LoneDepth* const lone = raw->lone.get();
-    return with_depth(std::move(frame), chain_.finished({&lone, 1}, 0, plan_), steps);
+    return assembly_.single(std::move(*raw));
 }
 
 double FrameReader::last_interval_s(double media_s) {

@@ -7,17 +7,14 @@
 #include <exception>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "core/realtime/now.hpp"
-#include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/decoded_ahead.hpp"
 #include "core/video/frame_window.hpp"
 #include "core/video/media.hpp"
-#include "core/video/motion/frame_motion.hpp"
-#include "core/video/motion/motion_rests.hpp"
+#include "core/video/playing/frame_assembly.hpp"
 
 namespace dibhr {
 
@@ -65,13 +62,13 @@ class FrameReader {
     /// time for it. Nothing is known of frames that are not next to each other in the file.
     void connect(Frame& from, const Frame& next);
     /// What connect() finds out from here on.
-    void set_motion(const MotionWanted& wanted) { motion_wanted_ = wanted; }
+    void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
 
     /// From here on frames come cleaned so; those given out before are asked for again.
     void set_cleaning(const CleaningOptions& options);
 
     /// From here on frames carry these; null: none.
-    void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
+    void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
     [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
@@ -90,7 +87,7 @@ class FrameReader {
     [[nodiscard]] double waited_s() const { return waited_s_; }
 
     /// What is done to them, once a frame has been given out.
-    [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
+    [[nodiscard]] const CleaningPlan& plan() const { return assembly_.plan(); }
 
   private:
     static constexpr int kLongestRest = 20'000;  ///< frames without motion
@@ -100,16 +97,17 @@ class FrameReader {
     /// itself and then with those around it when that is asked for; what was made of it last may be
     /// all that is left.
     struct Kept {
-        Frame frame{};   ///< without its depth
+        Frame frame{};   ///< without its depth until that is cleaned
         RawFrame raw{};  ///< without its colour; its lone_ms until they are told
-        std::optional<CleanedDepth> cleaned{};
         std::optional<double> previous_s{}, next_s{};
         bool first{false}, last{false};  ///< of the media
 
+        [[nodiscard]] bool is_cleaned() const { return frame.depth != nullptr; }
+        void forget_cleaned();
         [[nodiscard]] bool can_be_cleaned() const { return raw.lone || !raw.depth.levels.empty(); }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
-            return frame.colour && (cleaned || can_be_cleaned());
+            return frame.colour && (is_cleaned() || can_be_cleaned());
         }
         [[nodiscard]] std::size_t bytes() const;
     };
@@ -135,7 +133,6 @@ class FrameReader {
     void tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s);
     Kept* keep(RawFrame raw);
     const std::shared_ptr<const LoneDepth>& lone_of(Kept& kept);
-    void clean_alone(RawFrame& raw, const CleaningPlan& plan);  ///< on either thread
     Kept* kept_after(const Kept& kept, Needs needs);
     Kept* next_of(double media_s, Needs needs);  ///< of one at exactly that time; null at the end
     Kept* looked_ahead(double media_s);
@@ -154,16 +151,11 @@ class FrameReader {
     [[nodiscard]] static DepthNoise noise_of(Media& media);
     Around around(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
-    [[nodiscard]] Frame with_depth(Frame frame, const CleanedDepth& cleaned,
-                                   const CleaningSteps& steps) const;
-
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
 
     Now now_;
-    std::mutex alone_{};  ///< the chain's alone() is in use
-    CleaningChain chain_{};
+    FrameAssembly assembly_;
     DecodedAhead media_;  // after what its thread uses
-    std::uint32_t number_;
     CleaningOptions options_{};
     std::optional<DepthNoise> noise_{};  ///< of the clip, once it is needed
     /// A file that broke off after a frame, which was noticed ahead of time.
@@ -172,9 +164,7 @@ class FrameReader {
         std::exception_ptr why{};
     };
     std::optional<Broken> broken_{};
-    CleaningPlan plan_{};  ///< what the options mean for it
-    bool planned_{false};
-    std::shared_ptr<const TouchMaps> maps_{};
+    bool planned_{false};  ///< the assembly has what the options mean for it
     std::map<double, Kept> kept_{};       ///< by presentation time
     double wanted_s_{0.0};                ///< the frame that is, or was last, given out
     bool at_beginning_{true};             ///< the next frame is the first one
@@ -187,10 +177,6 @@ class FrameReader {
     double jump_s_;  ///< how long the last one took, to a frame that was not kept
     std::int64_t passed_over_{0};
     int in_time_{0};  ///< frames since one was passed over
-    FrameMotion motion_{};
-    MotionWanted motion_wanted_{};
-    MotionWanted done_{};  ///< of it, at the last frame
-    MotionRests motion_rests_{kLongestRest};
     FrameCost cost_{};
 };
 

@@ -177,7 +177,7 @@ Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
     Cleaned cleaned;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const double begin_ms = cpu_ms();
-        CleanedDepth done = chain.finished(all, k, plan);
+        const Frame done = chain.finished(all, k, plan);
         const bool inside = k >= kReachInTime && k + kReachInTime < all.size();
         if (inside || all.size() <= 2 * kReachInTime) finished_ms.push_back(cpu_ms() - begin_ms);
         cleaned.sum = mixed(cleaned.sum, *done.depth);

@@ -143,7 +143,7 @@ Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
     std::vector<const LoneDepth*> all;
     for (const LoneDepth& one : lone) all.push_back(&one);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        CleanedDepth cleaned = chain.finished(all, k, plan);
+        Frame cleaned = chain.finished(all, k, plan);
         stretch.frames[k].depth = std::move(cleaned.depth);
         stretch.frames[k].unseen = std::move(cleaned.unseen);
     }

@@ -45,7 +45,7 @@ inline void require_touchable(const RawFrame& frame, const MediaDescription& des
     constexpr std::size_t kMostPixels = std::size_t{1} << 14U;
     if (frame.depth.levels.size() > kMostPixels) return;
     const CleaningPlan plan{kSensorSteps, {}, {.constant = 0.002F, .square = 0.01F}};
-    const CleanedDepth cleaned = CleaningChain().cleaned(frame.depth, plan, frame.held);
+    const Frame cleaned = CleaningChain().cleaned(frame.depth, plan, frame.held);
     const auto highest = static_cast<float>(cleaned.depth->highest_level);
     const bool has_bounds = description.meaning || !description.has_real_numbers();
     for (const float level : cleaned.depth->levels) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <utility>
 
 #include "core/files/plain_text.hpp"
@@ -128,8 +129,8 @@ LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
     return lone;
 }
 
-CleanedDepth CleaningChain::cleaned(DepthImage image, const CleaningPlan& plan,
-                                    std::span<const HeldLevel> held) {
+Frame CleaningChain::cleaned(DepthImage image, const CleaningPlan& plan,
+                             std::span<const HeldLevel> held) {
     const LoneDepth lone = alone(std::move(image), plan, held);
     const LoneDepth* const frames = &lone;
     return finished({&frames, 1}, 0, plan);
@@ -141,8 +142,8 @@ DepthImage CleaningChain::steadied(std::span<const LoneDepth* const> frames, std
     return temporal_.filtered(frames, now, noise);
 }
 
-CleanedDepth CleaningChain::finished(std::span<const LoneDepth* const> frames, std::size_t now,
-                                     const CleaningPlan& plan) {
+Frame CleaningChain::finished(std::span<const LoneDepth* const> frames, std::size_t now,
+                              const CleaningPlan& plan, Frame frame) {
     const LoneDepth& here = *frames[now];
     DepthImage depth =
         plan.steps.steady && frames.size() > 1 ? steadied(frames, now, plan.noise) : here.depth;
@@ -150,15 +151,15 @@ CleanedDepth CleaningChain::finished(std::span<const LoneDepth* const> frames, s
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
         if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
     }
-    CleanedDepth done;
     if (!here.unseen.empty())
-        done.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
+        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
-        done.beneath = std::make_shared<const DepthImage>(std::move(depth));
-        depth = finger_.dilated(*done.beneath, plan.finger);
+        frame.beneath = std::make_shared<const DepthImage>(std::move(depth));
+        depth = finger_.dilated(*frame.beneath, plan.finger);
     }
-    done.depth = std::make_shared<const DepthImage>(std::move(depth));
-    return done;
+    frame.depth = std::make_shared<const DepthImage>(std::move(depth));
+    frame.cleaning = {plan.steps, plan.finger};
+    return frame;
 }
 
 }  // namespace dibhr

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,15 +20,9 @@
 #include "core/video/cleaning/spikes.hpp"
 #include "core/video/cleaning/step_smoothing.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
+#include "core/video/frame_window.hpp"
 
 namespace dibhr {
-
-/// A depth image without holes, and where nothing was ever seen (see Frame).
-struct CleanedDepth {
-    std::shared_ptr<const DepthImage> depth{};
-    std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
-    std::shared_ptr<const DepthImage> beneath{};  ///< the finger; null: it is a point
-};
 
 /// What is done to the frames of one clip.
 struct CleaningPlan {
@@ -74,13 +67,13 @@ class CleaningChain {
                                   const ColourImage* colour = nullptr);
 
     /// All that is left, of frame `now` of `frames`, which follow each other in time and may be
-    /// only one.
-    [[nodiscard]] CleanedDepth finished(std::span<const LoneDepth* const> frames, std::size_t now,
-                                        const CleaningPlan& plan);
+    /// only one: the depth of `frame`, which has none, and how it was cleaned.
+    [[nodiscard]] Frame finished(std::span<const LoneDepth* const> frames, std::size_t now,
+                                 const CleaningPlan& plan, Frame frame = {});
 
     /// Both parts of a frame that has none before or after it.
-    [[nodiscard]] CleanedDepth cleaned(DepthImage image, const CleaningPlan& plan,
-                                       std::span<const HeldLevel> held = {});
+    [[nodiscard]] Frame cleaned(DepthImage image, const CleaningPlan& plan,
+                                std::span<const HeldLevel> held = {});
 
   private:
     [[nodiscard]] DepthImage steadied(std::span<const LoneDepth* const> frames, std::size_t now,

@@ -73,8 +73,9 @@ void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
     close();
     media_ = std::move(media);
     feed_ = media_->live();
-    opened_ = number_ = number;
-    maps_ = std::move(maps);
+    opened_ = number;
+    assembly_.set_number(number);
+    assembly_.set_maps(std::move(maps));
     playing_ = true;
     clock_.begin_again();
     feed_->tell(std::move(news));
@@ -95,7 +96,7 @@ void LivePlayback::close() {
     file_begin_s_.reset();
     dropped_ = 0;
     behind_s_ = 0.0;
-    budget_ = {};
+    assembly_.forget_rests();
     lost_ = force_off_ = false;
     ++discontinuity_;
 }
@@ -125,14 +126,14 @@ void LivePlayback::show_again(Time now) {
 }
 
 void LivePlayback::set_maps(std::shared_ptr<const TouchMaps> maps) {
-    maps_ = std::move(maps);
-    for (Frame& frame : frames_) frame.maps = maps_;
+    for (Frame& frame : frames_) frame.maps = maps;
+    assembly_.set_maps(std::move(maps));
 }
 
 void LivePlayback::record(std::uint32_t number, LiveSink sink, Time now) {
     sink_ = std::move(sink);
     if (!sink_) return;
-    number_ = number;
+    assembly_.set_number(number);
     file_begin_s_.reset();
     memory_.forget();
     if (frames_.empty()) return;
@@ -167,7 +168,7 @@ bool LivePlayback::take_frame(Time now) {
     const double stamp_s = raw->media_s;
     if (!file_begin_s_) file_begin_s_ = stamp_s;
     raw->media_s = file_s(stamp_s - *file_begin_s_);
-    if (!frames_.empty() && frames_.back().media == number_ &&
+    if (!frames_.empty() && frames_.back().media == assembly_.number() &&
         raw->media_s <= frames_.back().media_s)
         raw->media_s = file_s(frames_.back().media_s + 1.0 / kMilliseconds);
     if (!raw->always_whole) raw->held = memory_.take(raw->depth, raw->media_s);
@@ -197,39 +198,23 @@ bool LivePlayback::measures(const RawFrame& raw) {
 void LivePlayback::make_plan() {
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
-    plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
-    plan_.steps.steady = false;  // needs frames that are still to come
+    CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    plan.steps.steady = false;  // needs frames that are still to come
+    assembly_.set_plan(plan);
 }
 
 Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     const auto begin = now_();
-    const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
-    const LoneDepth lone = chain_.alone(raw.depth, plan_, raw.held, colour);
-    const LoneDepth* const one = &lone;
-    const CleanedDepth cleaned = chain_.finished({&one, 1}, 0, plan_);
-    Frame frame;
-    frame.depth = cleaned.depth;
-    frame.unseen = cleaned.unseen;
-    frame.beneath = cleaned.beneath;
-    frame.colour = std::make_shared<const ColourImage>(raw.colour);
-    frame.colour_of_view = raw.colour_of_view;
-    frame.maps = maps_;
-    frame.media_s = raw.media_s;
-    frame.index = raw.index;
-    frame.media = number_;
-    frame.cleaning = {plan_.steps, plan_.finger};
-    cleaned_ = now_();
-    clean_ms_ = kMilliseconds * seconds_between(begin, cleaned_);
+    Frame frame = assembly_.single(raw);
+    clean_ms_ = kMilliseconds * seconds_between(begin, now_());
     return frame;
 }
 
 /// How the one before becomes this one, whose cleaning began then.
 void LivePlayback::connect(const Frame& next, Time begin) {
-    if (!motion_wanted_.any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
-    const MotionWanted affordable = budget_.affordable(motion_wanted_);
-    motion_.connect(frames_.back(), next, affordable);
-    cleaned_ = now_();
-    budget_.took(affordable, seconds_between(begin, cleaned_), clock_.interval_s());
+    if (!assembly_.motion().any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
+    assembly_.connect(frames_.back(), next, true);
+    assembly_.took(seconds_between(begin, now_()), clock_.interval_s());
 }
 
 void LivePlayback::show(Frame frame, Time now) {
@@ -248,7 +233,7 @@ void LivePlayback::keep(const RawFrame& raw) {
 }
 
 void LivePlayback::notice_motion(const Frame& frame, Time now) {
-    const float noise = kMovedNoise * plan_.noise.at(0.5F);
+    const float noise = kMovedNoise * assembly_.plan().noise.at(0.5F);
     const float by = std::max(kMoved, noise) * static_cast<float>(frame.depth->highest_level);
     if (!frames_.empty() && differ(*frames_.back().depth, *frame.depth, by)) moved_ = now;
 }
@@ -311,9 +296,10 @@ LiveStatus LivePlayback::status(Time now) const {
     status.trouble = signal.trouble;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
-    status.motion_rests = motion_wanted_.motion && budget_.rests().motion();
-    status.in_betweens_rest =
-        motion_wanted_.in_betweens && (budget_.rests().in_betweens() || budget_.rests().motion());
+    const MotionThrottle& throttle = assembly_.throttle();
+    status.motion_rests = assembly_.motion().motion && throttle.motion_rests();
+    status.in_betweens_rest = assembly_.motion().in_betweens &&
+                              (throttle.in_betweens_rest() || throttle.motion_rests());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }
@@ -321,7 +307,7 @@ LiveStatus LivePlayback::status(Time now) const {
 std::string LivePlayback::cleaning_in_words() const {
     const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
                                static_cast<std::size_t>(description().depth_rows);
-    CleaningPlan whole = plan_of(options_, plan_.noise, pixels);
+    CleaningPlan whole = plan_of(options_, assembly_.plan().noise, pixels);
     return in_words(options_, whole) + (whole.steps.steady ? "; live: not in time" : "");
 }
 

@@ -11,14 +11,12 @@
 #include <utility>
 
 #include "core/realtime/now.hpp"
-#include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/live/live_clock.hpp"
 #include "core/video/live/live_feed.hpp"
 #include "core/video/live/live_record.hpp"
 #include "core/video/live/live_status.hpp"
-#include "core/video/live/motion_budget.hpp"
 #include "core/video/media.hpp"
-#include "core/video/motion/frame_motion.hpp"
+#include "core/video/playing/frame_assembly.hpp"
 
 namespace dibhr {
 
@@ -30,7 +28,8 @@ class LivePlayback {
     using Time = std::chrono::steady_clock::time_point;
 
     /// `now` is what cleaning is measured by: it ends later than the time that take() is given.
-    explicit LivePlayback(Now now = std::chrono::steady_clock::now) : now_(std::move(now)) {}
+    explicit LivePlayback(Now now = std::chrono::steady_clock::now)
+        : now_(std::move(now)), assembly_(now_, kLongestRest) {}
     ~LivePlayback() { close(); }
 
     /// `news` is called on other threads whenever take() has something to do.
@@ -44,7 +43,7 @@ class LivePlayback {
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
     /// What is to be found out of the time between the frames that come from now on.
-    void set_motion(const MotionWanted& wanted) { motion_wanted_ = wanted; }
+    void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
     void set_maps(std::shared_ptr<const TouchMaps> maps);
     /// From the one that is there on frames carry that number, their presentation times count from
     /// it, and what was before it is forgotten: it is the first one of a file. Empty: no more.
@@ -59,11 +58,12 @@ class LivePlayback {
     [[nodiscard]] LiveStatus status(Time now) const;
     [[nodiscard]] const MediaDescription& description() const { return media_->description(); }
     [[nodiscard]] std::string cleaning_in_words() const;
-    [[nodiscard]] const CleaningSteps& steps() const { return plan_.steps; }
+    [[nodiscard]] const CleaningSteps& steps() const { return assembly_.plan().steps; }
     [[nodiscard]] double clean_ms() const { return clean_ms_; }
-    [[nodiscard]] Time cleaned() const { return cleaned_; }
 
   private:
+    static constexpr int kLongestRest = 1920;  ///< frames without motion: a minute
+
     bool take_frame(Time now);
     [[nodiscard]] bool measures(const RawFrame& raw);
     void make_plan();
@@ -80,18 +80,12 @@ class LivePlayback {
     std::unique_ptr<Media> media_{};
     std::shared_ptr<LiveFeed> feed_{};
     std::uint32_t opened_{0};  ///< number it was opened by
-    std::uint32_t number_{0};  ///< that frames carry now
-    std::shared_ptr<const TouchMaps> maps_{};
+    FrameAssembly assembly_;
     CleaningOptions options_{};
-    CleaningPlan plan_{};
-    CleaningChain chain_{};
     DepthMemory memory_{};
     NoiseMeter meter_{};
     std::size_t measured_{0};  ///< frames
     std::optional<DepthNoise> noise_{};
-    MotionWanted motion_wanted_{};
-    MotionBudget budget_{};
-    FrameMotion motion_{};
     LiveClock clock_{};
     std::deque<Frame> frames_{};  ///< from the shown one on
     RawFrame last_{};             ///< the newest as it came, with its colour
@@ -108,7 +102,6 @@ class LivePlayback {
     LiveSink sink_{};
     std::optional<double> file_begin_s_{};  ///< stamp of the first frame of what is recorded
     double clean_ms_{0.0};
-    Time cleaned_{};
 };
 
 }  // namespace dibhr

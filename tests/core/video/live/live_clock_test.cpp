@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/video/live/live_join.hpp"
-#include "core/video/live/motion_budget.hpp"
+#include "core/video/motion/motion_throttle.hpp"
 #include "tests/core/video/live/live_bench.hpp"
 #include "tests/support/catch.hpp"
 
@@ -236,12 +236,12 @@ TEST_CASE("stamps of a clock that goes otherwise are compared by the last three 
 TEST_CASE("where there is no time for motion in-betweens rest first, then all of it, and longer",
           "[live]") {
     constexpr MotionWanted kAll{true, true};
-    MotionBudget budget;
+    MotionThrottle throttle(1920);
     const auto frames_until = [&](const MotionWanted& wanted, double busy_s, auto changed) {
         for (int k = 0; k < 10'000; ++k) {
-            const MotionWanted done = budget.affordable(wanted);
+            const MotionWanted done = throttle.affordable(wanted);
             if (changed(done)) return k;
-            budget.took(done, busy_s, kLiveInterval_s);
+            throttle.took(done, busy_s, kLiveInterval_s);
         }
         return -1;
     };
@@ -252,10 +252,10 @@ TEST_CASE("where there is no time for motion in-betweens rest first, then all of
     const int begin = frames_until(kAll, 2.0 * kLiveInterval_s, less);
     CHECK(begin > 0);
     CHECK(begin < 10);
-    CHECK(budget.rests().in_betweens());
-    CHECK_FALSE(budget.rests().motion());  // it may fit alone
+    CHECK(throttle.in_betweens_rest());
+    CHECK_FALSE(throttle.motion_rests());  // it may fit alone
     CHECK(frames_until(kAll, 2.0 * kLiveInterval_s, none) < 10);
-    CHECK(budget.rests().motion());
+    CHECK(throttle.motion_rests());
     const int first = frames_until(kAll, 0.5 * kLiveInterval_s, all);
     REQUIRE(first > 30);
     CHECK(frames_until(kAll, 2.0 * kLiveInterval_s, none) < 20);
