@@ -15,12 +15,12 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/realtime/moving_mean.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/frames/presentation_time.hpp"
-#include "core/video/live/live_record.hpp"
 #include "core/video/video_packets.hpp"
 
 namespace dibhr {

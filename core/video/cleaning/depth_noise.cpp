@@ -6,8 +6,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <locale>
+#include <sstream>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "core/video/cleaning/frame_scale.hpp"
 
 namespace dibhr {
@@ -110,6 +113,20 @@ Powers fitted(const std::vector<Sample>& samples) {
 }
 
 }  // namespace
+
+std::string text_of(const DepthNoise& noise) {
+    const auto text = [](float value) { return number_text(static_cast<double>(value)); };
+    return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
+           text(noise.blotched) + " " + (noise.of_scale ? "1" : "0");
+}
+
+std::optional<DepthNoise> noise_in(const std::string& text) {
+    std::istringstream words(text);
+    words.imbue(std::locale::classic());
+    DepthNoise noise;
+    words >> noise.constant >> noise.linear >> noise.square >> noise.blotched >> noise.of_scale;
+    return words ? std::optional(noise) : std::nullopt;
+}
 
 void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top) const {
     const int right = std::min(left + kTile_px, frame.columns - 1);

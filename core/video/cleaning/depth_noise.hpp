@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -31,6 +33,14 @@ struct DepthNoise {
         return constant + away * (linear + away * square);
     }
 };
+
+// What a file of depth that was recorded live says of it beside its levels: the noise, by which it
+// is cleaned again, and the bits of a level.
+inline constexpr const char* kNoiseTag = "DIBHR_NOISE";
+inline constexpr const char* kBitsTag = "DIBHR_BITS";
+[[nodiscard]] std::string text_of(const DepthNoise& noise);
+/// Nothing where it is no such text.
+[[nodiscard]] std::optional<DepthNoise> noise_in(const std::string& text);
 
 /// How far levels of one surface may differ: so many standard deviations.
 class NoiseBound {

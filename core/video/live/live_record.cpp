@@ -1,11 +1,8 @@
-// Pictures as plain data, and words for a file's tags.
+// Pictures as plain data.
 #include "core/video/live/live_record.hpp"
 
 #include <cstring>
-#include <locale>
-#include <sstream>
 
-#include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/live/taken_pictures.hpp"
 
@@ -26,20 +23,6 @@ LiveLevels levels_of(const LiveRecord& record) {
 ColourImage colour_of(const LiveRecord& record) {
     const cv::Mat& colour = record.pictures->colour;
     return colour.empty() ? ColourImage{} : colour_of(colour);
-}
-
-std::string text_of(const DepthNoise& noise) {
-    const auto text = [](float value) { return number_text(static_cast<double>(value)); };
-    return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
-           text(noise.blotched) + " " + (noise.of_scale ? "1" : "0");
-}
-
-std::optional<DepthNoise> noise_in(const std::string& text) {
-    std::istringstream words(text);
-    words.imbue(std::locale::classic());
-    DepthNoise noise;
-    words >> noise.constant >> noise.linear >> noise.square >> noise.blotched >> noise.of_scale;
-    return words ? std::optional(noise) : std::nullopt;
 }
 
 }  // namespace dibhr

@@ -4,12 +4,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/video/cleaning/depth_noise.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/colour_image.hpp"
 
 namespace dibhr {
 
@@ -32,13 +30,6 @@ struct LiveLevels {
 [[nodiscard]] LiveLevels levels_of(const LiveRecord& record);
 /// As it came; of no size where there is none.
 [[nodiscard]] ColourImage colour_of(const LiveRecord& record);
-
-// What a file of such depth says of it, beside its levels: what replays it cleans it by the same.
-inline constexpr const char* kNoiseTag = "DIBHR_NOISE";
-inline constexpr const char* kBitsTag = "DIBHR_BITS";
-[[nodiscard]] std::string text_of(const DepthNoise& noise);
-/// Nothing where it is no such text.
-[[nodiscard]] std::optional<DepthNoise> noise_in(const std::string& text);
 
 /// Gets every frame that is shown, before it is. Waits for nothing.
 using LiveSink = std::function<void(const LiveRecord&)>;
