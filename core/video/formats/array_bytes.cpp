@@ -110,7 +110,7 @@ class ZippedBytes : public ArrayBytes {
     std::uint64_t at_{0};
 };
 
-std::shared_ptr<zip> opened(const fs::path& file) {
+std::shared_ptr<zip> opened_archive(const fs::path& file) {
     zip_t* const archive = zip_open(file.c_str(), ZIP_RDONLY, nullptr);
     return archive == nullptr ? nullptr : std::shared_ptr<zip>(archive, zip_discard);
 }
@@ -134,7 +134,7 @@ bool is_npy(std::string_view head) {
 
 bool is_npz(const fs::path& file, std::string_view head) {
     if (!head.starts_with("PK\3\4")) return false;
-    const auto archive = opened(file);
+    const auto archive = opened_archive(file);
     return archive != nullptr && !names_in(*archive).empty();
 }
 
@@ -143,7 +143,7 @@ NamedArrays::NamedArrays(fs::path file) : file_(std::move(file)) {
         names_.emplace_back();
         return;
     }
-    archive_ = opened(file_);
+    archive_ = opened_archive(file_);
     if (archive_ == nullptr) refuse_as_cut(file_);
     names_ = names_in(*archive_);
 }

@@ -29,7 +29,7 @@ constexpr std::chrono::seconds kPatience{6};  ///< without a picture, who waits 
 /// Where packets come: for a key frame, which encoders send every 250 frames unless told else.
 constexpr std::chrono::seconds kPatienceWithKey{12};
 constexpr int kMostSamples = 10;  ///< a third of a second
-constexpr int kLookedAt = 4;
+constexpr int kLookedAtLive = 4;
 
 /// Where one reader of a feed is.
 struct LiveCursor {
@@ -158,7 +158,7 @@ Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form
 }
 
 PictureGuess look_at(const std::shared_ptr<LiveCursor>& cursor) {
-    return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLookedAt));
+    return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLookedAtLive));
 }
 
 /// One connection: halves as somebody says or as they look, else depth alone.
