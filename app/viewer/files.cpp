@@ -13,7 +13,6 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/depth/depth_missing.hpp"
 #include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/sources/picture_files.hpp"

@@ -1,5 +1,5 @@
-// Names of files and folders: as messages show them, in the order that people expect, and those in a
-// folder.
+// Names of files and folders: as messages show them, in the order that people expect, and those in
+// a folder.
 #pragma once
 
 #include <filesystem>

@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
 #include "core/video/cleaning/remembering_media.hpp"
-#include "core/video/frames/presentation_time.hpp"
 
 namespace dibhr {
 
@@ -245,9 +244,8 @@ void FrameReader::make_plan() {
         jump_to(0.0);
         waited_s_ += seconds_since(begin);
     }
-    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
-                               static_cast<std::size_t>(description().depth_rows);
-    const CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    const CleaningPlan plan =
+        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
     if (!same_alone(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);

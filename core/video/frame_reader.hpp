@@ -164,7 +164,7 @@ class FrameReader {
         std::exception_ptr why{};
     };
     std::optional<Broken> broken_{};
-    bool planned_{false};  ///< the assembly has what the options mean for it
+    bool planned_{false};                 ///< the assembly has what the options mean for it
     std::map<double, Kept> kept_{};       ///< by presentation time
     double wanted_s_{0.0};                ///< the frame that is, or was last, given out
     bool at_beginning_{true};             ///< the next frame is the first one

@@ -8,7 +8,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -50,6 +52,21 @@ struct Frame {
         return beneath ? beneath : depth;
     }
 };
+
+/// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
+inline constexpr double kTimeTolerance_s = 0.0005;
+
+/// Of the items that `source.next()` gives the first that is not before `earliest_s`, or the last.
+template <typename Source, typename Item>
+std::optional<Item> first_from(double earliest_s, Source& source, double Item::*time_s) {
+    std::optional<Item> first = source.next();
+    while (first && (*first).*time_s < earliest_s) {
+        std::optional<Item> later = source.next();
+        if (!later) break;
+        first = std::move(later);
+    }
+    return first;
+}
 
 /// How slowly and how fast a video or a session plays.
 inline constexpr double kSlowestSpeed = 0.1;

@@ -115,11 +115,6 @@ bool are_swapped(const fs::path& colour, const fs::path& depth) {
            !named_depth(second);
 }
 
-struct VideoPair {
-    fs::path colour{};
-    fs::path depth{};
-};
-
 /// None where the folder has a list of pictures.
 std::vector<fs::path> videos_in(const fs::path& folder) {
     std::vector<fs::path> videos;
@@ -146,8 +141,8 @@ const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>
 }
 
 /// In natural order. One of colour and one of depth belong together whatever else their names say.
-std::vector<VideoPair> pairs_of(const std::vector<fs::path>& videos) {
-    std::vector<VideoPair> pairs;
+std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
+    std::vector<MediaPlaces> pairs;
     std::vector<fs::path> colours;
     std::vector<fs::path> depths;
     for (const fs::path& video : videos) {
@@ -158,21 +153,21 @@ std::vector<VideoPair> pairs_of(const std::vector<fs::path>& videos) {
     }
     for (const fs::path& depth : depths) {
         if (const fs::path* const colour = colour_beside(depth, videos))
-            pairs.push_back({*colour, depth});
+            pairs.push_back({*colour, depth, {}});
     }
     if (pairs.empty() && colours.size() == 1 && depths.size() == 1)
-        pairs.push_back({colours.front(), depths.front()});
-    std::stable_sort(pairs.begin(), pairs.end(), [](const VideoPair& a, const VideoPair& b) {
+        pairs.push_back({colours.front(), depths.front(), {}});
+    std::stable_sort(pairs.begin(), pairs.end(), [](const MediaPlaces& a, const MediaPlaces& b) {
         return in_natural_order(a.colour.filename().string(), b.colour.filename().string());
     });
     return pairs;
 }
 
-std::string words_for(const VideoPair& pair) {
+std::string words_for(const MediaPlaces& pair) {
     return shown(pair.colour.filename()) + " with " + shown(pair.depth.filename());
 }
 
-std::string others_of(const std::vector<VideoPair>& pairs) {
+std::string others_of(const std::vector<MediaPlaces>& pairs) {
     constexpr std::size_t kMostNamed = 3;
     if (pairs.size() < 2) return {};
     std::string said = "opened " + words_for(pairs.front()) + "; the folder also holds ";
@@ -262,7 +257,7 @@ MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
                     shown(colour.filename()) + " as depth"};
     if (!is_folder(colour) || (!depth.empty() && depth != colour)) return {colour, depth, {}};
     const std::vector<fs::path> videos = videos_in(colour);
-    const std::vector<VideoPair> pairs = pairs_of(videos);
+    const std::vector<MediaPlaces> pairs = pairs_of(videos);
     if (!pairs.empty()) return {pairs.front().colour, pairs.front().depth, others_of(pairs)};
     if (videos.size() == 1 && is_of_videos(colour, videos)) return {videos.front(), {}, {}};
     return {colour, depth, {}};
@@ -271,7 +266,7 @@ MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
 fs::path depth_place_for(const fs::path& place) {
     if (!is_folder(place)) return place;
     const std::vector<fs::path> videos = videos_in(place);
-    const std::vector<VideoPair> pairs = pairs_of(videos);
+    const std::vector<MediaPlaces> pairs = pairs_of(videos);
     if (!pairs.empty()) return pairs.front().depth;
     if (!is_of_videos(place, videos)) return place;
     const auto depth = std::find_if(videos.begin(), videos.end(), named_depth);

@@ -16,7 +16,6 @@
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/kept_choices.hpp"
-#include "core/video/frames/presentation_time.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/live/live_source.hpp"
 #include "core/video/media_names.hpp"

@@ -2,6 +2,7 @@
 // what can be said about a file before any decoder sees it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/lone_depth.hpp"
@@ -34,6 +36,12 @@ struct RawFrame {
     std::int64_t index{0};
     bool always_whole{false};  ///< no frame of this media has a pixel without data
     double passing_s{0.0};     ///< so long one takes, as of late, to pass over; 0: as to read it
+};
+
+/// There is colour, and no depth in it or beside it.
+class DepthMissing : public InputError {
+  public:
+    using InputError::InputError;
 };
 
 /// Whose words count on what depth means.
@@ -89,6 +97,9 @@ struct MediaDescription {
     /// Sentences on what was passed over or chosen at the opening; mostly empty.
     std::string notice{};
 
+    [[nodiscard]] std::size_t depth_pixels() const noexcept {
+        return static_cast<std::size_t>(depth_columns) * static_cast<std::size_t>(depth_rows);
+    }
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
 

@@ -1,4 +1,4 @@
-// Halves of pictures, and what names say of them.
+// Halves of pictures, what names say of them, and colours that are a code.
 #include "core/video/packed.hpp"
 
 #include <algorithm>
@@ -12,7 +12,6 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/picture_folder.hpp"
-#include "core/video/sources/coded_depth.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -79,6 +78,18 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
     return std::make_unique<ChangedPictures>(std::move(half), change, tell);
 }
 
+/// What the code says of the levels that it becomes.
+DepthStatement meaning_of(const HueCode& code) {
+    DepthStatement meaning;
+    meaning.code = DepthCode::hue;
+    meaning.near = NearLevels::dark;
+    meaning.unit = code.metres ? DepthUnit::m : DepthUnit::levels;
+    meaning.scale = 1.0;
+    meaning.range = code.metres;
+    meaning.no_data.emplace();  // 0 is a level
+    return meaning;
+}
+
 /// Letters and digits between other characters, as small letters.
 std::vector<std::string> plain_words_of(const std::string& name) {
     std::vector<std::string> words(1);
@@ -133,6 +144,39 @@ bool is_number(const std::string& word) {
 }
 
 }  // namespace
+
+std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,
+                                           std::string known_from) {
+    const auto decode = [code](const cv::Mat& picture) {
+        cv::Mat depth = hues_of(picture, code);
+        if (!code.metres) return depth;
+        const double near = code.metres->near;
+        depth.convertTo(depth, CV_32F, code.metres->far - near, near);
+        return depth;
+    };
+    const auto tell = [code, from = std::move(known_from)](SourceFacts& facts) {
+        facts.bits = kRealBits;
+        facts.channels = 1;
+        facts.known_from = from;
+        facts.known.fill_in(meaning_of(code));
+    };
+    return std::make_unique<ChangedPictures>(std::move(colours), decode, tell);
+}
+
+std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
+                                            std::string known_from) {
+    const auto tell = [from = std::move(known_from)](SourceFacts& facts) {
+        facts.bits = 8;
+        facts.channels = 1;
+        facts.known_from = from;
+        DepthStatement ramp;
+        ramp.near = NearLevels::bright;
+        ramp.unit = DepthUnit::levels;
+        ramp.no_data = {0.0};
+        facts.known.fill_in(ramp);
+    };
+    return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, tell);
+}
 
 bool is_of_halves(DepthPacking packing) noexcept {
     return packing != DepthPacking::separate && packing != DepthPacking::tracks;

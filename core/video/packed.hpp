@@ -1,5 +1,5 @@
-// Colour and depth in the halves of one picture, still or moving, as sources of their own; inside
-// the room.
+// Depth that is packed into pictures, still or moving, as a source of its own: beside colour in the
+// halves of a picture, or coded as colours; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +25,15 @@ struct PackedForm {
     std::string known_from{};      ///< where it says so; empty: nowhere
     cv::Size intrinsics_size{};  ///< of the depth picture that known.intrinsics are of; 0: its own
 };
+
+/// The pictures of a source of colours as depth of real numbers: metres where the code says the
+/// range, else hue, of which red is near. Not finite: no data. `known_from`: who says so.
+[[nodiscard]] std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours,
+                                                         HueCode code, std::string known_from);
+
+/// The pictures of such a source as ramp_levels().
+[[nodiscard]] std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
+                                                          std::string known_from);
 
 /// Whether colour and depth are the halves of one picture.
 [[nodiscard]] bool is_of_halves(DepthPacking packing) noexcept;

@@ -11,7 +11,7 @@
 #include "core/files/names.hpp"
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/frames/presentation_time.hpp"
+#include "core/video/frame_window.hpp"
 #include "core/video/live/taken_pictures.hpp"
 
 namespace dibhr {

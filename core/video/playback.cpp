@@ -11,7 +11,6 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/realtime/moving_mean.hpp"
-#include "core/video/frames/presentation_time.hpp"
 
 namespace dibhr {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <sstream>
@@ -34,19 +33,12 @@ std::string_view trimmed(std::string_view text, std::string_view what) {
     return text.substr(first, text.find_last_not_of(what) - first + 1);
 }
 
-std::optional<double> number_of(std::string_view text) {
-    double number = 0.0;
-    const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), number);
-    if (failed != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-    return number;
-}
-
 /// "key: 3" as a member of the object, unless it has that member.
 void add_member(Json& object, std::string_view member) {
     const auto colon = member.find(':');
     if (colon == std::string_view::npos) return;
     const std::string key(trimmed(member.substr(0, colon), " -"));
-    const auto number = number_of(trimmed(member.substr(colon + 1), " \r"));
+    const auto number = number_of_text(trimmed(member.substr(colon + 1), " \r"));
     if (number && !object.contains(key)) object[key] = *number;
 }
 

@@ -10,17 +10,16 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/depth/depth_missing.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/ros_bag.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/libraries.hpp"
+#include "core/video/media.hpp"
 #include "core/video/media_names.hpp"
 #include "core/video/packed.hpp"
 #include "core/video/picture_kind.hpp"
 #include "core/video/recorder_metadata.hpp"
-#include "core/video/sources/coded_depth.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/video_file.hpp"
 

@@ -20,7 +20,7 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/frames/presentation_time.hpp"
+#include "core/video/frame_window.hpp"
 #include "core/video/video_packets.hpp"
 
 namespace dibhr {

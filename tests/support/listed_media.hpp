@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/frames/presentation_time.hpp"
 #include "core/video/media.hpp"
 
 namespace dibhr::test {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/frames/presentation_time.hpp"
+#include "core/video/frame_window.hpp"
 
 namespace dibhr {
 

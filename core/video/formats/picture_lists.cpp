@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -66,9 +65,9 @@ std::optional<Entry> entry_of(std::string_view time, std::string_view name) {
     Entry entry;
     entry.name = name;
     entry.decimal = time.find('.') != std::string_view::npos;
-    const auto [end, failed] = std::from_chars(time.data(), time.data() + time.size(), entry.time);
-    const bool is_number = failed == std::errc{} && end == time.data() + time.size();
-    if (!is_number || !(std::abs(entry.time) < kLargestNumber)) return std::nullopt;
+    const auto number = number_of_text(time);
+    if (!number || !(std::abs(*number) < kLargestNumber)) return std::nullopt;
+    entry.time = *number;
     if (!named_picture(fs::path(name))) return std::nullopt;
     return entry;
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/frames/presentation_time.hpp"
+#include "core/video/frame_window.hpp"
 
 namespace dibhr {
 
@@ -100,8 +100,7 @@ void IndexedPictures::take_times(std::vector<double> times_s) {
 }
 
 void IndexedPictures::tell_trouble(const std::string& what) {
-    if (facts_.trouble.empty())
-        facts_.trouble = what + "; until then the one before it is shown";
+    if (facts_.trouble.empty()) facts_.trouble = what + "; until then the one before it is shown";
 }
 
 std::optional<TimedPicture> IndexedPictures::next() {

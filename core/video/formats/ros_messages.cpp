@@ -16,6 +16,7 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/numbers.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 
@@ -114,15 +115,6 @@ bool is_compressed_depth(const RosImage& image) {
     return image.compressed && holds(image.encoding, "compressedDepth");
 }
 
-void swap_bytes(cv::Mat& picture) {
-    const std::size_t size = picture.elemSize1();
-    for (int row = 0; row < picture.rows; ++row) {
-        std::uint8_t* const bytes = picture.ptr(row);
-        const std::size_t count = static_cast<std::size_t>(picture.cols) * picture.elemSize();
-        for (std::size_t k = 0; k < count; k += size) std::reverse(bytes + k, bytes + k + size);
-    }
-}
-
 cv::Mat plain_picture(const RosImage& image) {
     const Encoding* const encoding = encoding_of(image.encoding);
     if (encoding == nullptr ||
@@ -138,7 +130,8 @@ cv::Mat plain_picture(const RosImage& image) {
                     image.data.data() + std::size_t{image.step} * row, row_bytes);
     }
     const bool is_little = std::endian::native == std::endian::little;
-    if (picture.elemSize1() > 1 && image.big_endian == is_little) swap_bytes(picture);
+    if (picture.elemSize1() > 1 && image.big_endian == is_little)
+        swap_bytes({picture.ptr(), picture.total() * picture.elemSize()}, picture.elemSize1());
     if (encoding->to_bgr >= 0) cv::cvtColor(picture, picture, encoding->to_bgr);
     return picture;
 }

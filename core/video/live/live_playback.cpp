@@ -196,9 +196,8 @@ bool LivePlayback::measures(const RawFrame& raw) {
 }
 
 void LivePlayback::make_plan() {
-    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
-                               static_cast<std::size_t>(description().depth_rows);
-    CleaningPlan plan = plan_of(options_, noise_.value_or(DepthNoise{}), pixels);
+    CleaningPlan plan =
+        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
     plan.steps.steady = false;  // needs frames that are still to come
     assembly_.set_plan(plan);
 }
@@ -298,16 +297,14 @@ LiveStatus LivePlayback::status(Time now) const {
     status.media = frames_.empty() ? 0 : frames_.front().media;
     const MotionThrottle& throttle = assembly_.throttle();
     status.motion_rests = assembly_.motion().motion && throttle.motion_rests();
-    status.in_betweens_rest = assembly_.motion().in_betweens &&
-                              (throttle.in_betweens_rest() || throttle.motion_rests());
+    status.in_betweens_rest =
+        assembly_.motion().in_betweens && (throttle.in_betweens_rest() || throttle.motion_rests());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }
 
 std::string LivePlayback::cleaning_in_words() const {
-    const std::size_t pixels = static_cast<std::size_t>(description().depth_columns) *
-                               static_cast<std::size_t>(description().depth_rows);
-    CleaningPlan whole = plan_of(options_, assembly_.plan().noise, pixels);
+    CleaningPlan whole = plan_of(options_, assembly_.plan().noise, description().depth_pixels());
     return in_words(options_, whole) + (whole.steps.steady ? "; live: not in time" : "");
 }
 

@@ -16,7 +16,6 @@
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/packed.hpp"
 #include "core/video/picture_kind.hpp"
-#include "core/video/sources/coded_depth.hpp"
 
 namespace dibhr {
 

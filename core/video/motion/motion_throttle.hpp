@@ -30,8 +30,8 @@ class MotionThrottle {
         rest.next = std::min(2 * rest.next, longest_);
     }
 
-    /// That much was done, of a frame that took `busy_s` in all, where they come `interval_s` apart:
-    /// a rest begins unless frames are done well before the next one comes.
+    /// That much was done, of a frame that took `busy_s` in all, where they come `interval_s`
+    /// apart: a rest begins unless frames are done well before the next one comes.
     void took(const MotionWanted& done, double busy_s, double interval_s) noexcept {
         constexpr double kMostShare = 0.7;
         constexpr double kOfNewest = 0.2;  // the weight of the newest of a moving mean

@@ -17,7 +17,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/frames/presentation_time.hpp"
 #include "core/video/playback.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"

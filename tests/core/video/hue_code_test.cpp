@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/video/depth/hue_code.hpp"
-#include "core/video/sources/coded_depth.hpp"
+#include "core/video/packed.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"

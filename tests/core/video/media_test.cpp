@@ -14,7 +14,6 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/frames/presentation_time.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/video/frames/presentation_time.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
