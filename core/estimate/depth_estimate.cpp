@@ -21,7 +21,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/sidecar.hpp"
-#include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/readable.hpp"
 #include "core/video/layouts.hpp"
 
 namespace dibhr {

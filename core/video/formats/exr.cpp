@@ -1,5 +1,5 @@
 // Chooses the channels of OpenEXR files and reads them.
-#include "core/video/formats/exr.hpp"
+#include "core/video/formats/still_picture.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -1,4 +1,4 @@
-// What is refused, how files begin, how large they may claim to be, and light as a screen shows it.
+// How files begin, how large they may claim to be, and light as a screen shows it.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/formats/foreign.hpp"
 
 namespace dibhr {
 
@@ -43,49 +42,7 @@ std::string bytes_of(const fs::path& file, std::size_t most, From from) {
     return text;
 }
 
-/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
-/// would make the decoder open other files. Text pictures (PNM) are not refused.
-bool begins_like_text(const fs::path& file) {
-    constexpr std::size_t kLookedAt_bytes = 512;
-    const std::string head = beginning_of(file, kLookedAt_bytes);
-    if (head.size() >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
-    return std::all_of(head.begin(), head.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
-    });
-}
-
 }  // namespace
-
-void require_readable(const fs::path& file) {
-    std::error_code failed;
-    const auto status = fs::status(file, failed);
-    if (status.type() == fs::file_type::not_found)
-        throw InputError(shown(file) + " does not exist: check the name and the folder");
-    if (failed)
-        throw InputError(shown(file) + " cannot be reached (" + failed.message() +
-                         "): check the name and the permissions of its folder");
-    if (fs::is_directory(status))
-        throw InputError(shown(file) + " is a folder: give the video or picture file in it");
-    if (!fs::is_regular_file(status))
-        throw InputError(shown(file) +
-                         " is a pipe or a device: open it as it runs, as pipe:NAME, or "
-                         "save its data to a file first");
-    if (!std::ifstream(file, std::ios::binary))
-        throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
-    if (fs::file_size(file, failed) == 0)
-        throw InputError(shown(file) + " is empty: record or copy it again");
-    if (const std::string advice = advice_on_foreign(file); !advice.empty())
-        throw InputError(shown(file) + advice);
-    if (begins_like_text(file))
-        throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
-}
-
-void require_size(const fs::path& file, int columns, int rows) {
-    if (columns >= 2 && rows >= 2) return;
-    throw InputError(shown(file) + " is only " + std::to_string(columns) + " x " +
-                     std::to_string(rows) + " pixels: give one of at least 2 x 2");
-}
 
 std::string beginning_of(const fs::path& file, std::size_t most) {
     return bytes_of(file, most, From::beginning);

@@ -1,21 +1,16 @@
-// What the readers of forms share: what is refused before any of them sees it, how a file begins,
-// how large it may claim to be, and pictures of real numbers; inside the room.
+// What the readers of forms share: how a file begins, how large it may claim to be, and pictures of
+// real numbers; inside the room.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 
 namespace dibhr {
-
-/// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
-/// empty, text. Throws InputError: what, which file, what to do next.
-void require_readable(const std::filesystem::path& file);
-
-/// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
-void require_size(const std::filesystem::path& file, int columns, int rows);
 
 /// The first bytes of an ordinary file, or the last ones, at most so many; none when it is none, or
 /// cannot be read.
@@ -27,6 +22,12 @@ void require_size(const std::filesystem::path& file, int columns, int rows);
 
 /// In bytes; 0 when it cannot be told.
 [[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
+
+/// Turns the byte order of each number of so many bytes.
+inline void swap_bytes(std::span<std::uint8_t> numbers, std::size_t bytes) {
+    for (; numbers.size() >= bytes; numbers = numbers.subspan(bytes))
+        std::reverse(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(bytes));
+}
 
 /// The one bound of what is decoded, whatever the form: a picture of 8K, with four 16-bit channels.
 /// To touch a surface of so many pixels takes a gigabyte.

@@ -1,5 +1,5 @@
 // Reads HEIC photos by libheif.
-#include "core/video/formats/heif.hpp"
+#include "core/video/formats/still_picture.hpp"
 
 #include <libheif/heif.h>
 

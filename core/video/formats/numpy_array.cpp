@@ -16,7 +16,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/numbers.hpp"
 
 namespace dibhr {
 

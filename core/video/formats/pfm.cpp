@@ -1,5 +1,5 @@
 // Portable float maps: a header of four words, then rows from the lowest up.
-#include "core/video/formats/pfm.hpp"
+#include "core/video/formats/still_picture.hpp"
 
 #include <bit>
 #include <charconv>
@@ -16,7 +16,6 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/numbers.hpp"
 
 namespace dibhr {
 

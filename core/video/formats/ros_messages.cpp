@@ -16,7 +16,6 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/numbers.hpp"
 #include "core/video/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 

@@ -1,4 +1,4 @@
-// One still picture out of a file, and the reader of the forms that OpenCV knows; inside the room.
+// One still picture out of a file, and who reads it by its form; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -26,5 +26,26 @@ struct StillPicture {
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
+
+/// OpenEXR: depth as renderers and estimators leave it, often beside colours. Of its display
+/// window; outside its data window, and at renderers' infinity, is no data. Depth is the channel Z,
+/// else V, Y or R, of a layer that says depth before others; of R, G and B that differ all three.
+/// Throws InputError.
+[[nodiscard]] StillPicture read_exr(const std::filesystem::path& file, PictureRole role);
+
+/// Channels R, G and B, and a Z or V. False when the file cannot be read.
+[[nodiscard]] bool exr_has_colour_and_depth(const std::filesystem::path& file);
+
+/// Portable float maps (.pfm), as stereo datasets leave them. The values as they stand in the file:
+/// of its scale only the sign counts, which says the byte order, as in the readers of the datasets
+/// themselves (OpenCV divides by it). Throws InputError.
+[[nodiscard]] StillPicture read_pfm(const std::filesystem::path& file, PictureRole role);
+
+/// HEIC photos: the primary picture, or the depth picture that portraits have beside it, each
+/// turned as it says itself. Throws InputError, also when depth is asked for and there is none.
+[[nodiscard]] StillPicture read_heif(const std::filesystem::path& file, PictureRole role);
+
+/// False when the file cannot be read.
+[[nodiscard]] bool heif_has_depth(const std::filesystem::path& file);
 
 }  // namespace dibhr

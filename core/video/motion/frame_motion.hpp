@@ -13,7 +13,13 @@ class FrameMotion {
   public:
     /// Sets the motion of `from` and what lies between it and `to`, the next one; what is not
     /// wanted, or cannot be told of frames that make no surface, is null.
-    void connect(Frame& from, const Frame& to, const MotionWanted& wanted);
+    void connect(Frame& from, const Frame& to, const MotionWanted& wanted) {
+        from.motion.reset();
+        from.between.reset();
+        if (!wanted.any() || !DepthBlend{&from, &to}.makes_surface()) return;
+        from.motion = estimator_.between(from, to);
+        if (wanted.in_betweens) from.between = maker_.between(from, to);
+    }
 
   private:
     MotionEstimator estimator_{};

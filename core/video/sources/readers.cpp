@@ -9,10 +9,8 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_file.hpp"
-#include "core/video/formats/exr.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/heif.hpp"
-#include "core/video/formats/pfm.hpp"
+#include "core/video/formats/readable.hpp"
 #include "core/video/formats/ros_bag.hpp"
 #include "core/video/layouts.hpp"
 #include "core/video/libraries.hpp"

@@ -1,12 +1,16 @@
-// Told by how files begin, and by their names where that says too little.
-#include "core/video/formats/foreign.hpp"
+// What is refused, told by how files begin, and by their names where that says too little.
+#include "core/video/formats/readable.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
 
+#include "core/error.hpp"
+#include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
@@ -76,11 +80,9 @@ bool is_of_librgbd(const fs::path& file) {
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
-}  // namespace
-
+/// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty for
+/// every other file.
 std::string advice_on_foreign(const fs::path& file) {
-    std::error_code failed;
-    if (!fs::is_regular_file(file, failed)) return {};
     const std::string head = head_of(file);
     const std::string ending = lower_case(file.extension().string());
     for (const Foreign& foreign : kForeign) {
@@ -91,6 +93,50 @@ std::string advice_on_foreign(const fs::path& file) {
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     return {};
+}
+
+/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
+/// would make the decoder open other files. Text pictures (PNM) are not refused.
+bool begins_like_text(const fs::path& file) {
+    constexpr std::size_t kLines_bytes = 512;
+    const std::string head = beginning_of(file, kLines_bytes);
+    if (head.size() >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
+    return std::all_of(head.begin(), head.end(), [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
+    });
+}
+
+}  // namespace
+
+void require_readable(const fs::path& file) {
+    std::error_code failed;
+    const auto status = fs::status(file, failed);
+    if (status.type() == fs::file_type::not_found)
+        throw InputError(shown(file) + " does not exist: check the name and the folder");
+    if (failed)
+        throw InputError(shown(file) + " cannot be reached (" + failed.message() +
+                         "): check the name and the permissions of its folder");
+    if (fs::is_directory(status))
+        throw InputError(shown(file) + " is a folder: give the video or picture file in it");
+    if (!fs::is_regular_file(status))
+        throw InputError(shown(file) +
+                         " is a pipe or a device: open it as it runs, as pipe:NAME, or "
+                         "save its data to a file first");
+    if (!std::ifstream(file, std::ios::binary))
+        throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
+    if (fs::file_size(file, failed) == 0)
+        throw InputError(shown(file) + " is empty: record or copy it again");
+    if (const std::string advice = advice_on_foreign(file); !advice.empty())
+        throw InputError(shown(file) + advice);
+    if (begins_like_text(file))
+        throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
+}
+
+void require_size(const fs::path& file, int columns, int rows) {
+    if (columns >= 2 && rows >= 2) return;
+    throw InputError(shown(file) + " is only " + std::to_string(columns) + " x " +
+                     std::to_string(rows) + " pixels: give one of at least 2 x 2");
 }
 
 }  // namespace dibhr
