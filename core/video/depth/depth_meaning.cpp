@@ -1,47 +1,37 @@
 // Names, and one voice over another.
 #include "core/video/depth/depth_meaning.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
+namespace {
+
+using Name = std::string_view;
+
+constexpr std::array<Name, kDepthUnits.size()> kUnitNames{"levels", "disparity", "mm", "m"};
+constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
+    "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
+constexpr std::array<Name, 6> kOriginNames{"assumed", "found",        "sidecar",
+                                           "panel",   "command line", "recorded"};
+
+}  // namespace
+
 std::string_view name_of(NearLevels value) noexcept {
     return value == NearLevels::bright ? "bright" : "dark";
 }
 
 std::string_view name_of(DepthUnit value) noexcept {
-    switch (value) {
-        case DepthUnit::levels:
-            return "levels";
-        case DepthUnit::disparity:
-            return "disparity";
-        case DepthUnit::mm:
-            return "mm";
-        case DepthUnit::m:
-            return "m";
-    }
-    return {};
+    return kUnitNames[static_cast<std::size_t>(value)];
 }
 
 std::string_view name_of(DepthPacking value) noexcept {
-    switch (value) {
-        case DepthPacking::separate:
-            return "separate";
-        case DepthPacking::left_right:
-            return "left-right";
-        case DepthPacking::right_left:
-            return "right-left";
-        case DepthPacking::top_bottom:
-            return "top-bottom";
-        case DepthPacking::bottom_top:
-            return "bottom-top";
-        case DepthPacking::tracks:
-            return "tracks";
-    }
-    return {};
+    return kPackingNames[static_cast<std::size_t>(value)];
 }
 
 std::string_view name_of(DepthCode value) noexcept {
@@ -75,21 +65,7 @@ void DepthStatement::fill_in(const DepthStatement& other) {
 }
 
 std::string_view name_of(Origin value) noexcept {
-    switch (value) {
-        case Origin::assumed:
-            return "assumed";
-        case Origin::found:
-            return "found";
-        case Origin::sidecar:
-            return "sidecar";
-        case Origin::panel:
-            return "panel";
-        case Origin::command_line:
-            return "command line";
-        case Origin::recorded:
-            return "recorded";
-    }
-    return {};
+    return kOriginNames[static_cast<std::size_t>(value)];
 }
 
 DepthStatement DepthMeaning::statement() const {
