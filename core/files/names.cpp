@@ -17,6 +17,11 @@ std::string shown(const fs::path& file) {
     return in_quotes(file.string(), std::string::npos);
 }
 
+bool is_file(const fs::path& place) {
+    std::error_code ignored;
+    return fs::is_regular_file(place, ignored);
+}
+
 bool is_folder(const fs::path& place) {
     std::error_code ignored;
     return fs::is_directory(place, ignored);

@@ -11,7 +11,8 @@ namespace dibhr {
 /// The name in quotes, as messages show it, without control characters: always one line.
 [[nodiscard]] std::string shown(const std::filesystem::path& file);
 
-/// Whether there is a folder of that name.
+/// Whether there is an ordinary file, or a folder, of that name.
+[[nodiscard]] bool is_file(const std::filesystem::path& place);
 [[nodiscard]] bool is_folder(const std::filesystem::path& place);
 
 /// What is in a folder, in natural order. Throws InputError when it cannot be read.

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -121,9 +120,7 @@ std::vector<fs::path> videos_in(const fs::path& folder) {
     if (is_picture_list(folder / "depth.txt") || is_picture_list(folder / "associations.txt"))
         return videos;
     for (const fs::path& entry : entries_of(folder)) {
-        std::error_code ignored;
-        if (named_video(entry) && !entry.filename().string().starts_with('.') &&
-            fs::is_regular_file(entry, ignored))
+        if (named_video(entry) && !entry.filename().string().starts_with('.') && is_file(entry))
             videos.push_back(entry);
     }
     return videos;

@@ -104,11 +104,6 @@ std::optional<std::string> renamed(const std::string& stem, std::string_view wor
     return std::string(stem).replace(at, word.size(), written);
 }
 
-bool is_file(const fs::path& file) {
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored);
-}
-
 bool named_media(const fs::path& file) {
     return named_picture(file) || named_video(file);
 }

@@ -9,7 +9,6 @@
 #include <set>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
@@ -23,9 +22,7 @@ namespace dibhr {
 namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& file) {
-    std::error_code ignored;
-    return named_picture(file) && !file.filename().string().starts_with('.') &&
-           fs::is_regular_file(file, ignored);
+    return named_picture(file) && !file.filename().string().starts_with('.') && is_file(file);
 }
 
 NumberedPicture numbered(const fs::path& file) {

@@ -30,11 +30,9 @@ std::uint8_t screen_level(float light) {
 enum class From { beginning, end };
 
 std::string bytes_of(const fs::path& file, std::size_t most, From from) {
-    std::error_code failed;
-    if (!fs::is_regular_file(file, failed)) return {};
-    const std::uintmax_t bytes = fs::file_size(file, failed);
-    if (failed) return {};
-    std::string text(std::min<std::uintmax_t>(bytes, most), '\0');
+    if (!is_file(file)) return {};
+    const std::uint64_t bytes = size_of(file);
+    std::string text(std::min<std::uint64_t>(bytes, most), '\0');
     std::ifstream in(file, std::ios::binary);
     if (from == From::end) in.seekg(static_cast<std::streamoff>(bytes - text.size()));
     in.read(text.data(), static_cast<std::streamsize>(text.size()));

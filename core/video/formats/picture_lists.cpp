@@ -219,8 +219,7 @@ class ListReader {
 
     void add(const Entry& entry, Kind kind, double time) {
         fs::path file = folder_ / entry.name;
-        std::error_code failed;
-        if (!fs::is_regular_file(file, failed)) {
+        if (!is_file(file)) {
             if (passed_.missing++ == 0) passed_.first_missing = std::string(entry.name);
             return;
         }

@@ -53,27 +53,17 @@ std::string recording_name(const fs::path& depth) {
     return name.empty() ? stem : name;
 }
 
-/// "path/cup" and "path/cup_depth" of path/cup_depth.mp4.
-struct Beside {
-    std::string by_subject;
-    std::string by_whole_name;
-};
-Beside beside(const fs::path& depth) {
+/// Of path/cup_depth.mp4: path/cup_depth with that ending, where that is there, else path/cup with
+/// it.
+fs::path beside(const fs::path& depth, const std::string& ending) {
     const fs::path place = depth.has_filename() ? depth : depth.parent_path();
-    return {(place.parent_path() / recording_name(depth)).string(),
-            (place.parent_path() / (is_folder(place) ? place.filename() : place.stem())).string()};
-}
-
-bool is_there(const fs::path& file) {
-    std::error_code ignored;
-    return fs::is_regular_file(file, ignored);
+    const fs::path name = is_folder(place) ? place.filename() : place.stem();
+    const fs::path whole = place.parent_path() / (name.string() + ending);
+    return is_file(whole) ? whole : place.parent_path() / (recording_name(depth) + ending);
 }
 
 fs::path limits_file(const fs::path& depth) {
-    const Beside names = beside(depth);
-    const std::string ending = "_maps.toml";
-    const fs::path whole = names.by_whole_name + ending;
-    return is_there(whole) ? whole : fs::path(names.by_subject + ending);
+    return beside(depth, "_maps.toml");
 }
 
 using AllLimits = std::map<TouchMapKind, MapLimits>;
@@ -81,7 +71,7 @@ using AllLimits = std::map<TouchMapKind, MapLimits>;
 AllLimits limits_in(const fs::path& file) try {
     AllLimits limits{};
     for (const TouchMapKind kind : all_touch_map_kinds()) limits[kind] = standard_limits(kind);
-    if (!is_there(file)) return limits;
+    if (!is_file(file)) return limits;
     std::ifstream stream(file);
     const toml::table said = toml::parse(stream, file.string());
     for (const TouchMapKind kind : all_touch_map_kinds()) {
@@ -167,9 +157,7 @@ void write_limits(const TouchMaps& maps, const fs::path& file) {
 }  // namespace
 
 fs::path touch_map_file(const fs::path& depth, TouchMapKind kind) {
-    const Beside names = beside(depth);
-    const fs::path whole = names.by_whole_name + ending_of(kind);
-    return is_there(whole) ? whole : fs::path(names.by_subject + ending_of(kind));
+    return beside(depth, ending_of(kind));
 }
 
 bool names_touch_map(const fs::path& file) {
@@ -179,7 +167,7 @@ bool names_touch_map(const fs::path& file) {
         if (!name.ends_with(ending) || name.size() == ending.size()) continue;
         if (kind != TouchMapKind::height) return true;
         const std::string stem = file.filename().string();
-        return is_there(file.parent_path() /
+        return is_file(file.parent_path() /
                         (stem.substr(0, stem.size() - ending.size()) + "_maps.toml"));
     }
     return false;
@@ -192,7 +180,7 @@ std::shared_ptr<const TouchMaps> read_touch_maps(const fs::path& depth, int colu
     for (const TouchMapKind kind : all_touch_map_kinds()) {
         const fs::path file = touch_map_file(depth, kind);
         std::error_code same;
-        if (!is_there(file) || fs::equivalent(file, depth, same)) continue;
+        if (!is_file(file) || fs::equivalent(file, depth, same)) continue;
         if (!limits) limits = limits_in(limits_file(depth));
         maps->of(kind) = read_map(file, limits->at(kind));
     }
