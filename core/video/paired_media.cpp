@@ -12,7 +12,7 @@
 #include "core/video/depth/depth_finding.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/frame_window.hpp"
-#include "core/video/live/taken_pictures.hpp"
+#include "core/video/live/live_join.hpp"
 
 namespace dibhr {
 
@@ -33,8 +33,7 @@ double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
 
 /// Near is light, far is dark, no data is grey.
 ColourImage painted_depth(const DepthImage& depth) {
-    const cv::Mat levels(depth.rows, depth.columns, CV_32FC1,
-                         const_cast<float*>(depth.levels.data()));  // only read
+    const cv::Mat levels = view_of(depth);
     cv::Mat shades;
     levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
     cv::Mat colours;
@@ -225,11 +224,9 @@ void PairedMedia::take_true_shape() {
 
 /// Distances from the camera; elevation is over the farthest one.
 cv::Mat PairedMedia::in_mm(const DepthImage& depth) const {
-    const cv::Mat levels(depth.rows, depth.columns, CV_32FC1,
-                         const_cast<float*>(depth.levels.data()));  // only read
     cv::Mat depth_mm;
-    levels.convertTo(depth_mm, CV_32F, (range_mm_.near - range_mm_.far) / scale_.highest_level(),
-                     range_mm_.far);
+    view_of(depth).convertTo(
+        depth_mm, CV_32F, (range_mm_.near - range_mm_.far) / scale_.highest_level(), range_mm_.far);
     return depth_mm;
 }
 

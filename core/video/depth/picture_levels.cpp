@@ -27,6 +27,10 @@ cv::Mat grey_of(const cv::Mat& picture) {
     return grey;
 }
 
+cv::Mat view_of(const DepthImage& depth) {
+    return {depth.rows, depth.columns, CV_32FC1, const_cast<float*>(depth.levels.data())};
+}
+
 ColourImage colour_of(const cv::Mat& picture) {
     ColourImage colour;
     colour.columns = picture.cols;

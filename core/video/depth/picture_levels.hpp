@@ -3,6 +3,7 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "core/haptics/depth_image.hpp"
 #include "core/video/frames/colour_image.hpp"
 
 namespace dibhr {
@@ -16,6 +17,9 @@ inline constexpr int kRealBits = 32;
 /// One channel of the same bits, of a picture of 1 to 4. Where the channels are equal the level is
 /// exactly theirs, otherwise their luma.
 [[nodiscard]] cv::Mat grey_of(const cv::Mat& picture);
+
+/// The image's own levels, CV_32FC1: only to be read.
+[[nodiscard]] cv::Mat view_of(const DepthImage& depth);
 
 /// RGB of an 8-bit BGR picture.
 [[nodiscard]] ColourImage colour_of(const cv::Mat& picture);

@@ -168,7 +168,7 @@ bool names_touch_map(const fs::path& file) {
         if (kind != TouchMapKind::height) return true;
         const std::string stem = file.filename().string();
         return is_file(file.parent_path() /
-                        (stem.substr(0, stem.size() - ending.size()) + "_maps.toml"));
+                       (stem.substr(0, stem.size() - ending.size()) + "_maps.toml"));
     }
     return false;
 }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
+#include <opencv2/core/mat.hpp>
 #include <optional>
 
 #include "core/video/live/live_input.hpp"
@@ -17,6 +19,14 @@ struct LivePair {
     LivePicture depth{};
     LivePicture colour{};
     std::uint64_t number{0};  ///< one more than that of the pair before it
+};
+
+/// What a live frame is made of, to be kept. Shared with nobody who writes.
+struct TakenPictures {
+    cv::Mat levels{};  ///< of depth, before their meaning is looked up
+    int bits{8};       ///< of a level
+    cv::Mat colour{};  ///< 8-bit blue, green, red, as it came; empty: there is none
+    std::shared_ptr<const LivePair> pair{};
 };
 
 /// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of

@@ -10,7 +10,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/moving_mean.hpp"
 #include "core/video/live/live_name.hpp"
-#include "core/video/live/taken_pictures.hpp"
 
 namespace dibhr {
 

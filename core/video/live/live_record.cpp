@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/live/taken_pictures.hpp"
+#include "core/video/live/live_join.hpp"
 
 namespace dibhr {
 
