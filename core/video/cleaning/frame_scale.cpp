@@ -34,10 +34,6 @@ constexpr double kLeast_px = 0.05;
 constexpr double kFelt_px = 0.15;  ///< as in plan_of: what shakes less is not felt
 constexpr std::size_t kLeastPairs = 3;
 
-bool are_alike(const DepthImage& a, const DepthImage& b) {
-    return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
-}
-
 double middle(std::vector<float>& values) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), at, values.end());

@@ -12,6 +12,11 @@ namespace dibhr {
 /// A frame depends on so many before it, and as many after it.
 inline constexpr std::size_t kReachInTime = 5;
 
+/// Whether levels of the two can be compared pixel by pixel.
+[[nodiscard]] inline bool are_alike(const DepthImage& a, const DepthImage& b) noexcept {
+    return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
+}
+
 /// A frame cleaned as far as it can be on its own.
 struct LoneDepth {
     DepthImage depth{};                   ///< no NaN

@@ -186,10 +186,6 @@ DIBHR_VECTOR_CLONES void divide(const float* reference, const float* sum, const 
         out[i] = reference[i] + (weights[i] > 0.0F ? sum[i] / weights[i] : 0.0F);
 }
 
-bool are_alike(const DepthImage& a, const DepthImage& b) {
-    return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
-}
-
 /// How much of a patch's rim is held by the surface beside it.
 struct Rim {
     int pixels{0};

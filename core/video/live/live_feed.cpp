@@ -50,13 +50,13 @@ LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth, No
         require_camera(live_name(colour_), colour_);
         colour_stream_ = std::make_unique<LiveStream>(
             live_name(colour_), in_quotes(public_name(colour_), kLongestName),
-            [this](LivePicture picture) { return take_colour(std::move(picture)); },
+            [this](LivePicture picture) { return take(std::move(picture), Role::colour); },
             [this] { take_refusal(); });
         colour_stream_->want(true, false);
     }
     depth_stream_ = std::make_unique<LiveStream>(
         std::move(depth_name), in_quotes(public_name(depth_), kLongestName),
-        [this](LivePicture picture) { return take_depth(std::move(picture)); },
+        [this](LivePicture picture) { return take(std::move(picture), Role::depth); },
         [this] { take_refusal(); });
 }
 
@@ -83,28 +83,22 @@ bool LiveFeed::is_of_form(const LivePicture& picture, std::optional<Form>& first
     return !signal_.other_form;
 }
 
-bool LiveFeed::take_depth(LivePicture picture) {
+bool LiveFeed::take(LivePicture picture, Role role) {
     const Clock::time_point now = now_();
+    const bool is_depth = role == Role::depth;
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
-        if (!is_of_form(picture, depth_form_)) {
-            came_.notify_all();
-            return false;
-        }
-        const double since_s = std::chrono::duration<double>(now - signal_.last).count();
-        if (signal_.last != Clock::time_point{} && since_s < kLongestInterval_s)
-            interval_s_ = moving_mean(interval_s_, since_s);
-        signal_.last = now;
-        signal_.refused = false;
-        if (two_) {
-            join_.set_interval(interval_s_);
-            join_.add_depth(std::move(picture));
-            join(now);
-        } else {
+        came_.notify_all();  // one may be due, or none will come
+        if (!is_of_form(picture, is_depth ? depth_form_ : colour_form_)) return false;
+        if (is_depth) heard_depth(now);
+        if (!two_) {
             LivePair pair{.depth = std::move(picture)};
             pair.colour = pair.depth;
             hand_out(std::move(pair));
+        } else {
+            is_depth ? join_.add_depth(std::move(picture)) : join_.add_colour(std::move(picture));
+            join(now);
         }
     }
     const std::lock_guard lock(telling_);
@@ -112,21 +106,13 @@ bool LiveFeed::take_depth(LivePicture picture) {
     return true;
 }
 
-bool LiveFeed::take_colour(LivePicture picture) {
-    stamp(picture);
-    {
-        const std::lock_guard lock(mutex_);
-        if (!is_of_form(picture, colour_form_)) {
-            came_.notify_all();
-            return false;
-        }
-        join_.add_colour(std::move(picture));
-        join(now_());
-        came_.notify_all();  // one may be due now
-    }
-    const std::lock_guard lock(telling_);
-    if (news_) news_();
-    return true;
+void LiveFeed::heard_depth(Clock::time_point now) {
+    const double since_s = std::chrono::duration<double>(now - signal_.last).count();
+    if (signal_.last != Clock::time_point{} && since_s < kLongestInterval_s)
+        interval_s_ = moving_mean(interval_s_, since_s);
+    signal_.last = now;
+    signal_.refused = false;
+    join_.set_interval(interval_s_);
 }
 
 void LiveFeed::take_refusal() {

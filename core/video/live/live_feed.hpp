@@ -60,8 +60,9 @@ class LiveFeed {
     void tell(std::function<void()> news);
 
   private:
-    bool take_depth(LivePicture picture);
-    bool take_colour(LivePicture picture);
+    enum class Role { colour, depth };
+    bool take(LivePicture picture, Role role);
+    void heard_depth(Clock::time_point now);
     void take_refusal();
     /// What pictures of one connection have in common.
     struct Form {

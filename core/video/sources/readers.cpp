@@ -24,10 +24,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool is_row(const fs::path& place, std::string_view /*head*/) {
-    return names_pictures(place);
-}
-
 /// As most videos begin (MP4 and QuickTime, Matroska, AVI, NUT): they need no picture codecs to be
 /// loaded. Other videos are found by what the codecs say.
 bool is_video_container(const fs::path& /*file*/, std::string_view head) {
@@ -40,10 +36,6 @@ bool is_video_container(const fs::path& /*file*/, std::string_view head) {
            (head.starts_with("RIFF") && head.substr(8, 4) == "AVI ");
 }
 
-bool is_exr(const fs::path& /*file*/, std::string_view head) {
-    return head.starts_with("\x76\x2f\x31\x01");
-}
-
 bool is_pfm(const fs::path& /*file*/, std::string_view head) {
     return (head.starts_with("Pf") || head.starts_with("PF")) && head.size() > 2 &&
            (head[2] == '\n' || head[2] == '\r' || head[2] == ' ' || head[2] == '\t');
@@ -53,10 +45,6 @@ bool is_heif(const fs::path& /*file*/, std::string_view head) {
     constexpr std::array<std::string_view, 5> kBrands{"heic", "heix", "heim", "heis", "mif1"};
     return head.size() >= 12 && head.substr(4, 4) == "ftyp" &&
            std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
-}
-
-bool is_what_is_left(const fs::path& /*file*/, std::string_view /*head*/) {
-    return true;
 }
 
 template <typename Source>
@@ -106,19 +94,24 @@ Sources both_tracks(const fs::path& file) {
 /// The first that takes a place reads it; the last one takes whatever is left.
 constexpr std::array kReaders{
     Reader{"bag of ROS 2", Form::bag, is_ros_bag, nullptr, open_ros_topic, both_if<bag_has_colour>},
-    Reader{"row of pictures", Form::row, is_row, nullptr, open_row, both_rows},
+    Reader{"row of pictures", Form::row,
+           [](const fs::path& place, std::string_view) { return names_pictures(place); }, nullptr,
+           open_row, both_rows},
     Reader{"video in a usual container", Form::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", Form::arrays, is_array_file, read_array, open_file<ArrayFile>,
            both_if<arrays_have_colour_and_depth>},
-    Reader{"OpenEXR picture", Form::still, is_exr, read_exr, nullptr,
-           both_if<exr_has_colour_and_depth>},
+    Reader{"OpenEXR picture", Form::still,
+           [](const fs::path&, std::string_view head) {
+               return head.starts_with("\x76\x2f\x31\x01");
+           },
+           read_exr, nullptr, both_if<exr_has_colour_and_depth>},
     Reader{"portable float map", Form::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", Form::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
     Reader{"picture by OpenCV's codecs", Form::still, is_opencv_picture, read_by_opencv, nullptr,
            nullptr},
-    Reader{"video by libav", Form::video, is_what_is_left, nullptr, open_file<VideoFile>,
-           both_tracks}};
+    Reader{"video by libav", Form::video, [](const fs::path&, std::string_view) { return true; },
+           nullptr, open_file<VideoFile>, both_tracks}};
 constexpr std::size_t kOfManyFiles = 2;  ///< readers, the first ones; all others are of one file
 
 }  // namespace
