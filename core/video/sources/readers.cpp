@@ -101,11 +101,10 @@ constexpr std::array kReaders{
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", Form::arrays, is_array_file, read_array, open_file<ArrayFile>,
            both_if<arrays_have_colour_and_depth>},
-    Reader{"OpenEXR picture", Form::still,
-           [](const fs::path&, std::string_view head) {
-               return head.starts_with("\x76\x2f\x31\x01");
-           },
-           read_exr, nullptr, both_if<exr_has_colour_and_depth>},
+    Reader{
+        "OpenEXR picture", Form::still,
+        [](const fs::path&, std::string_view head) { return head.starts_with("\x76\x2f\x31\x01"); },
+        read_exr, nullptr, both_if<exr_has_colour_and_depth>},
     Reader{"portable float map", Form::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", Form::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
     Reader{"picture by OpenCV's codecs", Form::still, is_opencv_picture, read_by_opencv, nullptr,
