@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/relief_grid.hpp"
 
 namespace dibhr {

@@ -8,7 +8,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/words.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -9,7 +9,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/camera.hpp"
 #include "render/relief_paint.hpp"
 

@@ -28,8 +28,8 @@
 #include "core/loop/haptic_tick.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/realtime/tick_timer.hpp"
-#include "core/video/media.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
+#include "core/video/sources/media.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {

@@ -15,7 +15,7 @@
 #include "core/experiment/report.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

@@ -26,6 +26,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/words.hpp"
 #include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 namespace {

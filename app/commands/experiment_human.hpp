@@ -11,6 +11,7 @@
 #include "core/haptics/parameters.hpp"
 #include "core/session/session.hpp"
 #include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

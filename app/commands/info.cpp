@@ -22,8 +22,8 @@
 #include "core/replay/frames.hpp"
 #include "core/report/report_words.hpp"
 #include "core/session/session.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 namespace {

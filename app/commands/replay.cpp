@@ -19,7 +19,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/replay/frames.hpp"
 #include "core/replay/session_replay.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
 
 namespace dibhr {
 

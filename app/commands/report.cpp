@@ -15,8 +15,8 @@
 #include "core/replay/frames.hpp"
 #include "core/report/session_report.hpp"
 #include "core/session/session.hpp"
-#include "core/video/depth/sidecar.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

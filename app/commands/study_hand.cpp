@@ -15,8 +15,8 @@
 #include "core/session/recorder.hpp"
 #include "core/study/protocol.hpp"
 #include "core/video/cleaning/surface_version.hpp"
-#include "core/video/libraries.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

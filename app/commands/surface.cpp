@@ -15,7 +15,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/surface_files/surface_file.hpp"
-#include "core/video/frame_reader.hpp"
+#include "core/video/playing/frame_reader.hpp"
 
 namespace dibhr {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/tick_runner.hpp"
-#include "core/video/depth_in_time.hpp"
+#include "core/video/playing/depth_in_time.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {

@@ -28,9 +28,9 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_name.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "device/hand/guardian.hpp"
 
 namespace dibhr {

@@ -7,7 +7,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

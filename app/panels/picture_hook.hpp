@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/panels/viewer_state.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

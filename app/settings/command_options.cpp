@@ -10,9 +10,9 @@
 
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth/sidecar.hpp"
-#include "core/video/formats/touch_map_files.hpp"
 #include "core/video/sources/picture_files.hpp"
+#include "core/video/sources/sidecar.hpp"
+#include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
 

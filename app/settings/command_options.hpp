@@ -14,8 +14,8 @@
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/words.hpp"
 #include "core/plot/canvas.hpp"
-#include "core/video/media.hpp"
 #include "core/video/motion/motion_wanted.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace CLI {
 class App;

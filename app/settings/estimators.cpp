@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/files/machine.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

@@ -12,7 +12,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/video/depth/kept_choices.hpp"
+#include "core/video/sources/kept_choices.hpp"
 
 namespace dibhr {
 

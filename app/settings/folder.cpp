@@ -11,9 +11,9 @@
 #include "app/settings/recent_files.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/formats/touch_map_files.hpp"
 #include "core/video/live/live_name.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
 

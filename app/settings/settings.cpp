@@ -25,7 +25,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "device/force_devices.hpp"
 
 namespace dibhr {

@@ -8,7 +8,7 @@
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include "app/settings/material.hpp"
 #include "app/settings/study_values.hpp"
 #include "core/error.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/realtime/now.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "render/drawing_threads.hpp"
 

@@ -17,8 +17,8 @@
 #include "core/clip/live_recorder.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
-#include "core/video/media.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
+#include "core/video/sources/media.hpp"
 #include "device/hand/pose_ages.hpp"
 
 namespace dibhr {

@@ -3,7 +3,7 @@
 
 #include "app/settings/settings.hpp"
 #include "app/touching/touch_state.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {

@@ -24,8 +24,8 @@
 #include "core/realtime/heartbeat.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "core/video/media.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
+#include "core/video/sources/media.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
 

@@ -9,7 +9,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/folder.hpp"
 #include "app/viewer/errand.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/gl_objects.hpp"
 
 namespace dibhr {

@@ -15,11 +15,11 @@
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/depth/kept_choices.hpp"
-#include "core/video/depth/sidecar.hpp"
 #include "core/video/live/live_name.hpp"
-#include "core/video/live/live_status.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/playing/live_status.hpp"
+#include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

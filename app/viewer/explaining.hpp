@@ -9,7 +9,7 @@
 #include "app/viewer/input.hpp"
 #include "core/haptics/proxy.hpp"
 #include "core/replay/session_player.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/camera.hpp"
 
 namespace dibhr {

@@ -13,8 +13,8 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_files.hpp"
 
 namespace dibhr {

@@ -17,7 +17,7 @@
 #include "app/viewer/errand.hpp"
 #include "app/viewer/painting.hpp"
 #include "core/replay/session_player.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/video/depth/colour_ramp.hpp"
-#include "core/video/formats/touch_map_files.hpp"
+#include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
 

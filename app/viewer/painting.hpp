@@ -14,7 +14,7 @@
 #include "app/touching/recording.hpp"
 #include "app/viewer/errand.hpp"
 #include "app/viewer/map_stroke.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
 
 namespace dibhr {
 

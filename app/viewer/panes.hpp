@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/panels/viewer_state.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/gl_objects.hpp"
 #include "render/relief_paint.hpp"
 

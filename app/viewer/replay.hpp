@@ -9,7 +9,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/replay/session_player.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

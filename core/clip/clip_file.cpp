@@ -11,8 +11,8 @@
 #include "core/clip/mp4_file.hpp"
 #include "core/clip/picture_encoder.hpp"
 #include "core/error.hpp"
-#include "core/video/frame_window.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

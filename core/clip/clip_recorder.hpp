@@ -11,7 +11,7 @@
 #include <mutex>
 
 #include "core/clip/clip_file.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

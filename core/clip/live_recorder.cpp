@@ -12,7 +12,7 @@
 
 #include "core/clip/live_track.hpp"
 #include "core/error.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
 
 namespace dibhr {
 

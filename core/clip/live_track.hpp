@@ -10,7 +10,7 @@
 #include "core/av/track_encoder.hpp"
 #include "core/av/track_file.hpp"
 #include "core/clip/summed_file.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_record.hpp"
 
 namespace dibhr {

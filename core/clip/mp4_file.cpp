@@ -12,7 +12,7 @@ extern "C" {
 
 #include "core/av/track_encoder.hpp"
 #include "core/error.hpp"
-#include "core/video/video_packets.hpp"
+#include "core/video/formats/video_packets.hpp"
 
 namespace dibhr {
 

@@ -17,7 +17,7 @@ extern "C" {
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

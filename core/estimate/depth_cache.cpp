@@ -20,7 +20,7 @@
 #include "core/files/json.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

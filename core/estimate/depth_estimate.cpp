@@ -20,9 +20,9 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/depth/sidecar.hpp"
 #include "core/video/formats/readable.hpp"
-#include "core/video/layouts.hpp"
+#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
 

@@ -16,8 +16,8 @@
 #include "core/files/output_file.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/media_names.hpp"
 #include "core/video/modules/picture_codecs.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 

@@ -14,7 +14,7 @@
 #include "core/estimate/colour_frames.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media_names.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "core/files/plain_text.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 

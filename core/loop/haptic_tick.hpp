@@ -22,7 +22,7 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/sound/sound_tick.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -16,7 +16,7 @@
 #include "core/haptics/vec.hpp"
 #include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/triple_buffer.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -10,7 +10,7 @@
 #include "core/haptics/touch.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/session/tick_record.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/motion_track.hpp"
 
 namespace dibhr {

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/haptics/vec.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

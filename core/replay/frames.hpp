@@ -14,9 +14,9 @@
 
 #include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
-#include "core/video/frame_reader.hpp"
-#include "core/video/media.hpp"
 #include "core/video/motion/frame_motion.hpp"
+#include "core/video/playing/frame_reader.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

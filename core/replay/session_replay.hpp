@@ -17,7 +17,7 @@
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
 #include "core/session/tick_record.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/frame_motion.hpp"
 
 namespace dibhr {

@@ -9,7 +9,7 @@
 #include "core/plot/canvas.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/tick_record.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -13,7 +13,7 @@
 #include "core/plot/axes.hpp"
 #include "core/report/report_plots.hpp"
 #include "core/report/report_words.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

@@ -11,7 +11,7 @@
 #include "core/report/page_parts.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/session.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

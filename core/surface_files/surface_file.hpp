@@ -8,7 +8,7 @@
 
 #include "core/files/output_file.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -22,8 +22,8 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/libraries.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/cleaning/remembering_media.hpp"
+#include "core/video/playing/remembering_media.hpp"
 #include "tests/support/pressing_finger.hpp"
 
 namespace dibhr::bench {

@@ -12,8 +12,8 @@
 #include <memory>
 #include <string>
 
-#include "core/video/cleaning/cleaning_options.hpp"
-#include "core/video/media.hpp"
+#include "core/video/frames/cleaning_options.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/bench/felt.hpp"
 
 namespace dibhr::bench {

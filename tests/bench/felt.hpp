@@ -8,7 +8,7 @@
 
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/vec.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "tests/bench/lost_contact.hpp"
 
 namespace dibhr::bench {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr::bench {
 

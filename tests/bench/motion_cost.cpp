@@ -14,11 +14,11 @@
 
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/frame_reader.hpp"
-#include "core/video/libraries.hpp"
-#include "core/video/media.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_estimator.hpp"
+#include "core/video/playing/frame_reader.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/video/moving_scene.hpp"
 
 namespace {

@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/temporary_folder.hpp"
 

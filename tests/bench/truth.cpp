@@ -11,7 +11,7 @@
 #include "core/haptics/facet.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
-#include "core/video/frame_reader.hpp"
+#include "core/video/playing/frame_reader.hpp"
 #include "tests/support/listed_media.hpp"
 
 namespace dibhr::bench {

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Include {
-    std::string file;  ///< "core/video/player.cpp", from the source root
+    std::string file;  ///< "core/video/playing/player.cpp", from the source root
     std::string path;  ///< what it includes, as written
     bool quoted{false};
 };
@@ -134,8 +134,8 @@ const std::vector<Ownership> kOwnerships{
     {"GLFW/", {"app/window/", "app/settings/keys.cpp"}},
     {"CLI/", {"app/settings/", "app/commands/"}},
     {"toml",
-     {"app/settings/", "core/study/protocol", "core/study/toml_page", "core/video/depth/sidecar",
-      "core/video/formats/touch_map_files"}},
+     {"app/settings/", "core/study/protocol", "core/study/toml_page", "core/video/sources/sidecar",
+      "core/video/sources/touch_map_files"}},
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/estimate/", "core/video/", "assets/"}},
     {"png.h", {"core/surface_files/"}},
@@ -263,11 +263,11 @@ TEST_CASE("no folder holds more files than one can take in", "[rooms]") {
 
 TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]") {
     CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
-    CHECK(breaks_arrow({"core/video/player.cpp", "render/camera.hpp", true}));
+    CHECK(breaks_arrow({"core/video/playing/player.cpp", "render/camera.hpp", true}));
     CHECK(breaks_arrow({"device/falcon.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
     CHECK(breaks_arrow({"app/main.cpp", "tests/support/catch.hpp", true}));
-    CHECK(breaks_arrow({"core/video/player.cpp", "../../render/camera.hpp", true}));
+    CHECK(breaks_arrow({"core/video/playing/player.cpp", "../../render/camera.hpp", true}));
     CHECK(breaks_arrow({"core/experiment/sweep.cpp", "core/report/session_report.hpp", true}));
     CHECK(breaks_arrow({"core/report/report_page.cpp", "core/experiment/experiment.hpp", true}));
     CHECK(breaks_arrow({"app/panels/touch.cpp", "app/viewer/viewer.hpp", true}));

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/cleaning/remembering_media.hpp"
-#include "core/video/media.hpp"
+#include "core/video/playing/remembering_media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/fuzz/entry.hpp"
 
 namespace dibhr::test {

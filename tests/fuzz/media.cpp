@@ -3,8 +3,8 @@
 #include <string>
 
 #include "core/files/names.hpp"
-#include "core/video/media.hpp"
-#include "core/video/media_names.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "tests/fuzz/entry.hpp"
 #include "tests/fuzz/frames.hpp"

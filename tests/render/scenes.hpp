@@ -12,7 +12,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {

@@ -15,8 +15,8 @@
 #include <thread>
 #include <vector>
 
-#include "core/video/media.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr::test {
 

@@ -9,7 +9,7 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/cleaning_options.hpp"
 #include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/fingertip.hpp"
@@ -20,7 +19,8 @@
 #include "core/video/cleaning/spikes.hpp"
 #include "core/video/cleaning/step_smoothing.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/cleaning_options.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -21,7 +21,7 @@
 #include "core/video/cleaning/fingertip/squares.hpp"
 #include "core/video/cleaning/fingertip/triangles.hpp"
 #include "core/video/cleaning/fingertip/vertices.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -5,7 +5,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/vec.hpp"
-#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr {
 

@@ -12,7 +12,7 @@
 
 #include "core/video/cleaning/patches.hpp"
 #include "core/video/cleaning/small_holes.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

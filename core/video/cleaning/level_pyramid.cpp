@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

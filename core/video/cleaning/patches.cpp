@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

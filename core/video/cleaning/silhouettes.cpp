@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/video/frames/colour_image.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

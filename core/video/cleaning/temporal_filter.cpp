@@ -10,9 +10,9 @@
 #include <optional>
 #include <utility>
 
-#include "core/video/cleaning/motion_search.hpp"
+#include "core/video/cleaning/even_motion.hpp"
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr {
 

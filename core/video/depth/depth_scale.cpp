@@ -9,7 +9,7 @@
 #include <opencv2/core.hpp>
 
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/video/formats/readable.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

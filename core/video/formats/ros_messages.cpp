@@ -16,7 +16,7 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 
 namespace dibhr {

@@ -26,7 +26,7 @@ extern "C" {
 #include "core/error.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "core/video/modules/module.hpp"
 
 namespace dibhr {

@@ -1,7 +1,7 @@
 // Tells a frame how it becomes the next one.
 #pragma once
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_estimator.hpp"
 #include "core/video/motion/motion_wanted.hpp"

@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/video/cleaning/fingertip.hpp"
+#include "core/video/frames/vector_clones.hpp"
 #include "core/video/motion/motion_course.hpp"
 #include "core/video/motion/reused.hpp"
-#include "core/video/vector_clones.hpp"
 
 namespace dibhr {
 

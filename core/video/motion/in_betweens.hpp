@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

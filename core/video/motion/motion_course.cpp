@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 

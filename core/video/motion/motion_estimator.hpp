@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_pictures.hpp"
 #include "core/video/motion/motion_search.hpp"

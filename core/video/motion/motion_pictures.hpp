@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/video/frames/vector_clones.hpp"
 #include "core/video/motion/motion_cells.hpp"
-#include "core/video/vector_clones.hpp"
 
 namespace dibhr {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "core/haptics/surface_motion.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 

@@ -11,10 +11,10 @@
 
 #include "core/realtime/now.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/frame_window.hpp"
-#include "core/video/media.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/frame_motion.hpp"
 #include "core/video/motion/motion_throttle.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 

@@ -12,9 +12,9 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "core/video/formats/readable.hpp"
 #include "core/video/formats/still_picture.hpp"
-#include "core/video/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 #include "core/video/sources/readers.hpp"
 

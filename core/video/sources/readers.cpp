@@ -10,13 +10,13 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "core/video/formats/readable.hpp"
 #include "core/video/formats/ros_bag.hpp"
-#include "core/video/layouts.hpp"
-#include "core/video/libraries.hpp"
-#include "core/video/sources.hpp"
-#include "core/video/video_file.hpp"
-#include "core/video/video_packets.hpp"
+#include "core/video/formats/video_file.hpp"
+#include "core/video/formats/video_packets.hpp"
+#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/sources.hpp"
 
 namespace dibhr {
 

@@ -12,7 +12,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/explanation.hpp"
-#include "core/video/depth_in_time.hpp"
+#include "core/video/playing/depth_in_time.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"

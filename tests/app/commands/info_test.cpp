@@ -8,8 +8,8 @@
 
 #include "core/files/json.hpp"
 #include "core/session/recorder.hpp"
-#include "core/video/depth/kept_choices.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/sources/kept_choices.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"

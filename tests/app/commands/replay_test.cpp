@@ -8,7 +8,7 @@
 
 #include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
-#include "core/video/libraries.hpp"
+#include "core/video/formats/libraries.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/surface_files/surface_file.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/seen_shapes.hpp"

@@ -23,11 +23,11 @@
 #include "core/haptics/touch_maps.hpp"
 #include "core/session/recorder.hpp"
 #include "core/study/study_file.hpp"
-#include "core/video/depth/kept_choices.hpp"
-#include "core/video/depth/sidecar.hpp"
-#include "core/video/formats/touch_map_files.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
+#include "core/video/sources/sidecar.hpp"
+#include "core/video/sources/touch_map_files.hpp"
 #include "tests/core/session/exploration.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include "core/estimate/depth_cache.hpp"
 #include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/app/power_cut/cut_work.hpp"
 #include "tests/app/power_cut/power_cut.hpp"
 #include "tests/core/video/clips.hpp"

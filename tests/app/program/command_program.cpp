@@ -19,7 +19,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "tests/app/program/program_start.hpp"
 #include "tests/support/catch.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "core/haptics/parameters.hpp"
-#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr::test {
 

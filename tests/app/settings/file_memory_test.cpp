@@ -3,7 +3,7 @@
 
 #include <fstream>
 
-#include "core/video/depth/kept_choices.hpp"
+#include "core/video/sources/kept_choices.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -20,7 +20,7 @@
 #include "app/viewer/input.hpp"
 #include "core/error.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "core/video/depth/kept_choices.hpp"
-#include "core/video/depth/sidecar.hpp"
+#include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"

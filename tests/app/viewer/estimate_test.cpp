@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/settings/settings.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/open_dialog.hpp"

@@ -5,7 +5,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/dibhr.hpp"
-#include "core/video/player.hpp"
+#include "core/video/playing/player.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;

@@ -23,7 +23,7 @@
 #include "core/files/content_hash.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"

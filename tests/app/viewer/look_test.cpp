@@ -10,7 +10,7 @@
 
 #include "app/settings/settings.hpp"
 #include "core/plot/axes.hpp"
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/viewer/map_stroke.hpp"
-#include "core/video/formats/touch_map_files.hpp"
+#include "core/video/sources/touch_map_files.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/support/catch.hpp"

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "app/panels/panels.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "render/relief_paint.hpp"
 #include "tests/app/program/command_program.hpp"

@@ -15,7 +15,7 @@
 #include "app/settings/file_memory.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/passing_ticks.hpp"

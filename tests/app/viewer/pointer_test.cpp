@@ -16,7 +16,7 @@
 #include "app/viewer/input.hpp"
 #include "app/viewer/trace.hpp"
 #include "core/error.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "device/hand_device.hpp"
 #include "tests/app/program/command_program.hpp"

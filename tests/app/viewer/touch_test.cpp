@@ -14,7 +14,7 @@
 
 #include "core/haptics/safety.hpp"
 #include "core/session/session.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/passing_ticks.hpp"

@@ -18,9 +18,9 @@
 #include <vector>
 
 #include "core/estimate/depth_cache.hpp"
-#include "core/video/depth/sidecar.hpp"
-#include "core/video/frame_reader.hpp"
-#include "core/video/media.hpp"
+#include "core/video/playing/frame_reader.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"

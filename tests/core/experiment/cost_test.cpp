@@ -16,7 +16,7 @@
 #include "core/experiment/grounds.hpp"
 #include "core/haptics/dibhr.hpp"
 #include "core/haptics/pga.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/haptics/plain_vertex_walk.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"

@@ -14,7 +14,7 @@
 #include "core/error.hpp"
 #include "core/report/report_plots.hpp"
 #include "core/report/session_report.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/report/made_session.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/support/text.hpp"
 
 namespace dibhr::test {

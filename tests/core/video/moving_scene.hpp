@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 
 namespace dibhr::test {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/cleaning_options.hpp"
+#include "core/video/frames/cleaning_options.hpp"
 
 namespace dibhr::fingertip {
 

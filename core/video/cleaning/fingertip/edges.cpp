@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "core/video/cleaning/fingertip/narrowing.hpp"
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr::fingertip {
 

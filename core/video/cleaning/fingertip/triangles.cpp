@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/video/vector_clones.hpp"
+#include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr::fingertip {
 

@@ -10,10 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/frame_window.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_feed.hpp"
-#include "core/video/live/live_playback.hpp"
-#include "core/video/media.hpp"
+#include "core/video/playing/live_playback.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
 

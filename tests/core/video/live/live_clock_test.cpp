@@ -1,6 +1,6 @@
 // When live frames are shown, and how clocks of sources are compared: plain numbers, by a time of
 // the test's own.
-#include "core/video/live/live_clock.hpp"
+#include "core/video/playing/live_clock.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // What is live as it is felt: pictures come over loopback, at a time that the test makes.
-#include "core/video/live/live_playback.hpp"
+#include "core/video/playing/live_playback.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/haptics/safety.hpp"
-#include "core/video/media.hpp"
+#include "core/video/sources/media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/live/live_bench.hpp"
 #include "tests/core/video/live/senders.hpp"

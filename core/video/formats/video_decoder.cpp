@@ -1,0 +1,194 @@
+// libav's decoder, and its pictures as OpenCV's.
+#include "core/video/formats/video_decoder.hpp"
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/display.h>
+#include <libavutil/frame.h>
+#include <libavutil/pixdesc.h>
+}
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <new>
+#include <opencv2/core.hpp>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/video/formats/file_bytes.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kMostFailures = 4096;  ///< packets in a row that cannot be decoded: nothing follows
+
+std::string text_of_tag(std::uint32_t tag) {
+    std::string text;
+    for (int shift = 0; shift < 32; shift += 8) {
+        const char c = static_cast<char>((tag >> shift) & 0xffU);
+        if (c > ' ' && c < 127) text += c;
+    }
+    return text;
+}
+
+const std::uint8_t* display_matrix(const AVStream& stream) {
+#if LIBAVFORMAT_VERSION_INT >= AV_VERSION_INT(60, 15, 100)
+    const AVPacketSideData* const data =
+        av_packet_side_data_get(stream.codecpar->coded_side_data,
+                                stream.codecpar->nb_coded_side_data, AV_PKT_DATA_DISPLAYMATRIX);
+    return data == nullptr ? nullptr : data->data;
+#else
+    return av_stream_get_side_data(&stream, AV_PKT_DATA_DISPLAYMATRIX, nullptr);
+#endif
+}
+
+/// Clockwise, 0 to 3, of a file that was recorded with the camera turned.
+int quarter_turns(const AVStream& stream) {
+    const std::uint8_t* const matrix = display_matrix(stream);
+    if (matrix == nullptr) return 0;
+    std::array<std::int32_t, 9> numbers{};
+    std::memcpy(numbers.data(), matrix, sizeof numbers);
+    const double anticlockwise = av_display_rotation_get(numbers.data());
+    if (!std::isfinite(anticlockwise)) return 0;
+    return (static_cast<int>(std::lround(-anticlockwise / 90.0)) % 4 + 4) % 4;
+}
+
+/// Others have packets that show nothing, pictures of two fields in two packets, or (HEVC) call
+/// non-reference what a higher temporal layer refers to.
+bool marks_non_reference(const AVCodecParameters& coded) {
+    const bool is_whole =
+        coded.field_order == AV_FIELD_PROGRESSIVE || coded.field_order == AV_FIELD_UNKNOWN;
+    return coded.codec_id == AV_CODEC_ID_H264 && is_whole;
+}
+
+/// As its container says; what its packets say instead is bounded by libav.
+void require_plausible_frames(const std::filesystem::path& file, const AVCodecParameters& coded) {
+    const AVPixFmtDescriptor* const kind =
+        av_pix_fmt_desc_get(static_cast<AVPixelFormat>(coded.format));
+    const int bits = kind == nullptr ? 8 : av_get_padded_bits_per_pixel(kind);
+    if (coded.width > 0 && coded.height > 0)
+        require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
+}
+
+}  // namespace
+
+VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packets_(file, track) {
+    const AVCodec* const codec =
+        packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
+    if (codec != nullptr) require_plausible_frames(file, *packets_.stream()->codecpar);
+    if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
+    bool opened = decoder_ != nullptr;
+    if (opened) {
+        opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
+        decoder_->thread_count = 0;  // as many as there are cores
+        decoder_->max_pixels = kMostPixels;
+        opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+    }
+    if (!opened)
+        throw InputError(
+            shown(file) +
+            " cannot be opened as a video: it is cut off, has no video stream or is of "
+            "an unknown kind; record or convert it again");
+    quarter_turns_ = quarter_turns(*packets_.stream());
+    marks_non_reference_ = marks_non_reference(*packets_.stream()->codecpar);
+}
+
+std::string VideoDecoder::codec() const {
+    const AVCodecParameters& coded = *packets_.stream()->codecpar;
+    const std::string tag = text_of_tag(coded.codec_tag);
+    return tag.empty() ? name_of_codec(coded.codec_id) : tag;
+}
+
+bool VideoDecoder::decode() {
+    for (int failures = 0; failures < kMostFailures;) {
+        const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
+        if (given == 0) {
+            ++decoded_;
+            tell_skipped(time_s());
+            return true;
+        }
+        if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) break;
+        if (given != AVERROR(EAGAIN)) {
+            ++failures;
+            continue;
+        }
+        if (!send(packets_.next())) ++failures;
+    }
+    tell_skipped(std::numeric_limits<double>::infinity());
+    return false;
+}
+
+/// Which picture was skipped is told by its time, so that it needs one, and to be shown.
+bool VideoDecoder::may_skip(const AVPacket& packet) const noexcept {
+    return packets_.seconds(packet.pts) < skip_before_s_ &&
+           (packet.flags & (AV_PKT_FLAG_CORRUPT | AV_PKT_FLAG_DISCARD)) == 0;
+}
+
+/// Null: nothing follows. False: it cannot be decoded.
+bool VideoDecoder::send(const AVPacket* packet) {
+    drained_ = packet == nullptr;
+    const bool skip = packet != nullptr && may_skip(*packet);
+    decoder_->skip_frame = skip ? AVDISCARD_NONREF : AVDISCARD_DEFAULT;
+    if (avcodec_send_packet(decoder_.get(), packet) < 0) return false;
+    if (skip) may_be_skipped_s_.insert(packets_.seconds(packet->pts));
+    return true;
+}
+
+/// Pictures come in their order: those before the decoded one that did not come were skipped.
+void VideoDecoder::tell_skipped(double until_s) {
+    const auto begin = may_be_skipped_s_.begin();
+    skipped_s_.assign(begin, may_be_skipped_s_.lower_bound(until_s));
+    may_be_skipped_s_.erase(begin, may_be_skipped_s_.upper_bound(until_s));
+}
+
+bool VideoDecoder::jump(double time_s) {
+    if (!packets_.jump(time_s)) return false;
+    avcodec_flush_buffers(decoder_.get());
+    drained_ = false;
+    skip_before_s_ = kNever_s;
+    may_be_skipped_s_.clear();
+    return true;
+}
+
+void VideoDecoder::skip_non_reference_before(double time_s) noexcept {
+    if (marks_non_reference_) skip_before_s_ = time_s;
+}
+
+void VideoDecoder::keep() {
+    av_frame_unref(kept_.get());
+    if (av_frame_ref(kept_.get(), frame_.get()) < 0) throw std::bad_alloc();
+}
+
+double VideoDecoder::time_s() const noexcept {
+    return packets_.seconds(frame_->best_effort_timestamp);
+}
+
+double VideoDecoder::pixel_aspect() const noexcept {
+    const double aspect = dibhr::pixel_aspect(*frame_, *packets_.stream());
+    return quarter_turns_ % 2 == 0 ? aspect : 1.0 / aspect;
+}
+
+cv::Mat VideoDecoder::colour() {
+    return turned(pictures_.colour(*frame_));
+}
+
+cv::Mat VideoDecoder::levels() {
+    return turned(pictures_.levels(*frame_));
+}
+
+cv::Mat VideoDecoder::turned(cv::Mat picture) const {
+    static constexpr std::array kTurns{cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180,
+                                       cv::ROTATE_90_COUNTERCLOCKWISE};
+    if (quarter_turns_ == 0 || picture.empty()) return picture;
+    cv::Mat turned;
+    cv::rotate(picture, turned, kTurns[static_cast<std::size_t>(quarter_turns_ - 1)]);
+    return turned;
+}
+
+}  // namespace dibhr

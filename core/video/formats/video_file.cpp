@@ -1,0 +1,385 @@
+// A video file as pictures in order of presentation time, with an exact seek.
+#include "core/video/formats/video_file.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/realtime/moving_mean.hpp"
+#include "core/video/cleaning/depth_noise.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/camera_files.hpp"
+#include "core/video/formats/picture_source.hpp"
+#include "core/video/formats/readable.hpp"
+#include "core/video/formats/video_packets.hpp"
+#include "core/video/frames/frame_window.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
+constexpr double kFewFrames = 3.0;     ///< before the wanted one none is skipped
+constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
+constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
+constexpr double kMostSampled = 1e8;   ///< pixels decoded to get samples: a third of a second
+constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
+
+/// A whole file ends there at the earliest.
+double least_end_s(double promised_s) {
+    return promised_s - std::max(kMissing_s, kMissingPart * promised_s);
+}
+
+/// A copy that broke off still opens: its header promises more than the file holds.
+void require_whole(const std::filesystem::path& file, int track, double promised_s) {
+    const double least_s = least_end_s(promised_s);
+    if (!(least_s > 0.0)) return;
+    const std::optional<double> end_s = packets_end_s(file, track, least_s);
+    if (!end_s || *end_s >= least_s) return;
+    throw InputError(shown(file) + " is cut off or has a damaged header: it ends at " +
+                     number_text(*end_s, 1) + " s of " + number_text(promised_s, 1) +
+                     " s; copy or export it again");
+}
+
+}  // namespace
+
+VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int track)
+    : role_(role), track_(track), decoder_(file, track) {
+    facts_.file = file;
+    read_facts();
+    const double promised_s = facts_.duration_s;
+    if (!grab())
+        throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
+    facts_.start_s = decoder_.packets().start_s();
+    facts_.bits = decoder_.bits();
+    if (role == PictureRole::depth) know_live_recording();
+    pixel_aspect_ = decoder_.pixel_aspect();
+    ahead_.push_back(timed(retrieve()));
+    facts_.columns = ahead_.front().picture.cols;
+    facts_.rows = ahead_.front().picture.rows;
+    facts_.channels = decoder_.is_grey() ? 1 : 3;
+    require_size(file, facts_.columns, facts_.rows);
+    require_whole(file, track, promised_s);
+    promised_s_ = promised_s;
+    if (role == PictureRole::depth) know_azure_kinect();
+}
+
+/// By this program.
+void VideoFile::know_live_recording() {
+    const VideoPackets& packets = decoder_.packets();
+    facts_.noise = noise_in(packets.tag(kNoiseTag));
+    const int bits = std::atoi(packets.tag(kBitsTag).c_str());
+    keeps_levels_ = facts_.noise && bits > 0 && bits < facts_.bits;
+    if (keeps_levels_) facts_.bits = bits;
+}
+
+void VideoFile::begin_again() {
+    decoder_ = VideoDecoder(facts_.file, track_);
+    index_ = -1;
+    time_s_ = 0.0;
+    grabbed_ = false;
+    jumped_ = false;
+    counted_ = true;
+    ended_ = false;
+}
+
+void VideoFile::read_facts() {
+    const VideoPackets& packets = decoder_.packets();
+    if (const double rate = packets.frames_per_s(); rate > 0.0) interval_s_ = 1.0 / rate;
+    facts_.frames_per_s = 1.0 / interval_s_;
+    facts_.frames = packets.frames();
+    facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
+    facts_.codec = decoder_.codec();
+}
+
+/// Its recordings name the mode of the depth camera, and carry the calibration of all cameras
+/// (Azure Kinect DK, record file format).
+void VideoFile::know_azure_kinect() {
+    const VideoPackets& packets = decoder_.packets();
+    if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
+    facts_.known.unit = DepthUnit::mm;
+    facts_.known.scale = 1.0;
+    facts_.known.no_data = std::vector<double>{0.0};
+    const std::string calibration = packets.attachment("calibration.json");
+    const cv::Size size(facts_.columns, facts_.rows);
+    if (const auto camera = azure_kinect_depth_camera(calibration, size)) {
+        facts_.known.intrinsics = camera->intrinsics();
+        facts_.lens = camera->lens();
+    }
+    if (auto cameras = azure_kinect_cameras(calibration, size))
+        facts_.cameras = std::make_shared<const CameraPair>(std::move(*cameras));
+    facts_.known_from =
+        facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
+}
+
+/// Its packets were whole when it was opened.
+void VideoFile::notice_early_end() {
+    const double end_s = time_s_ + interval_s_;
+    if (jumped_ || !(end_s < least_end_s(promised_s_))) return;
+    facts_.trouble = shown(facts_.file) + " breaks off at " + number_text(end_s, 1) + " s of " +
+                     number_text(promised_s_, 1) +
+                     " s since it was opened: what is left plays on; copy or export it again";
+}
+
+bool VideoFile::grab() {
+    if (grabbed_) {
+        grabbed_ = false;
+        return true;
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    ended_ = !decoder_.decode();
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    if (!jumped_) count_skipped();
+    if (ended_) {
+        notice_early_end();
+        if (!jumped_ && counted_ && index_ >= 0 &&
+            index_ + 1 == static_cast<std::int64_t>(times_.size())) {
+            facts_.frames = index_ + 1;
+            facts_.frames_exact = true;
+            learn();
+        }
+        return false;
+    }
+    const double last_s = time_s_;
+    const bool follows = index_ >= 0 && !jumped_;
+    // The first one fills the decoder's threads.
+    if (follows && decoder_.skipped_s().empty())
+        decoding_s_ = moving_mean_from_first(decoding_s_, taken.count());
+    time_s_ = decoder_.time_s();
+    if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
+    if (follows && !(time_s_ > last_s)) {
+        timed_ = false;
+        time_s_ = last_s + interval_s_;
+    }
+    if (jumped_)
+        place_at(time_s_);
+    else
+        ++index_;
+    jumped_ = false;
+    know_time();
+    return true;
+}
+
+/// They are frames like others, whose time is known.
+void VideoFile::count_skipped() {
+    for (const double skipped_s : decoder_.skipped_s()) {
+        time_s_ = skipped_s;
+        ++index_;
+        know_time();
+    }
+}
+
+void VideoFile::know_time() {
+    if (!counted_ || index_ != static_cast<std::int64_t>(times_.size())) return;
+    times_.push_back(time_s_);
+    learn();
+}
+
+cv::Mat VideoFile::retrieve() {
+    const bool is_depth = role_ == PictureRole::depth;
+    if (is_depth && decoder_.has_floats())
+        throw InputError(shown(facts_.file) +
+                         " holds floating-point levels: convert it to 16-bit grey");
+    cv::Mat picture = is_depth ? decoder_.levels() : decoder_.colour();
+    if (picture.empty())
+        throw InputError(shown(facts_.file) + " breaks off at " + short_text(time_s_) +
+                         " s: record or convert it again");
+    if (is_depth && !keeps_levels_) picture = with_bits(picture, decoder_.bits(), facts_.bits);
+    return with_square_pixels(picture, pixel_aspect_, role_);
+}
+
+void VideoFile::learn() {
+    const auto known = static_cast<std::int64_t>(times_.size());
+    const double span = times_.back() - times_.front();
+    if (known >= 2 && span > 0.0) facts_.frames_per_s = static_cast<double>(known - 1) / span;
+    const double last_interval =
+        known >= 2 ? times_.back() - times_[times_.size() - 2] : interval_s_;
+    const double end_s = times_.back() + last_interval;
+    facts_.duration_s = facts_.frames_exact ? end_s : std::max(facts_.duration_s, end_s);
+    if (!facts_.frames_exact) facts_.frames = std::max(facts_.frames, known);
+}
+
+void VideoFile::place_at(double time_s) {
+    const auto at = std::lower_bound(times_.begin(), times_.end(), time_s - kTimeTolerance_s);
+    counted_ = at != times_.end();
+    if (counted_) {
+        index_ = at - times_.begin();
+        return;
+    }
+    // Beyond what was read without a gap: an estimate until the gap is read.
+    const double frames_on = std::round((time_s - times_.back()) * facts_.frames_per_s);
+    index_ = static_cast<std::int64_t>(times_.size()) - 1 +
+             std::max<std::int64_t>(1, static_cast<std::int64_t>(frames_on));
+}
+
+std::optional<TimedPicture> VideoFile::next() {
+    if (!ahead_.empty()) {
+        TimedPicture first = std::move(ahead_.front());
+        ahead_.pop_front();
+        return first;
+    }
+    if (!grab()) return std::nullopt;
+    return timed(retrieve());
+}
+
+/// What is passed over is decoded and not converted.
+std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
+    std::optional<TimedPicture> last;  // without a picture: the one that the decoder keeps
+    for (; !ahead_.empty(); ahead_.pop_front()) {
+        last = std::move(ahead_.front());
+        if (last->time_s < earliest_s) continue;
+        ahead_.pop_front();
+        return last;
+    }
+    while (grab()) {
+        if (!(time_s_ < earliest_s)) return timed(retrieve());
+        decoder_.keep();
+        last = timed({});
+    }
+    if (last && last->picture.empty()) last = retrieve_kept(std::move(*last));
+    return last;
+}
+
+TimedPicture VideoFile::timed(cv::Mat picture) const {
+    return {std::move(picture), time_s_, index_, decoding_s_};
+}
+
+TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {
+    decoder_.swap_kept();
+    kept.picture = retrieve();
+    decoder_.swap_kept();
+    return kept;
+}
+
+void VideoFile::rewind_before(double time_s, RunUp run_up) {
+    const auto jump = [&](double to_s) {
+        jumped_ = decoder_.jump(to_s);
+        if (run_up == RunUp::quick) skip_before(time_s);
+        return jumped_;
+    };
+    for (double margin_s = 0.25; timed_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
+        if (!jump(time_s - margin_s)) break;
+        if (!grab()) continue;
+        grabbed_ = time_s_ <= time_s;
+        if (grabbed_) return;
+    }
+    if (timed_ && jump(0.0)) {
+        grabbed_ = grab() && index_ == 0 && time_s_ >= 0.0;
+        if (grabbed_) return;
+    }
+    begin_again();
+}
+
+/// But for a few, as the frame shown then may have begun earlier.
+void VideoFile::skip_before(double time_s) {
+    const double interval_s = std::max(interval_s_, 1.0 / facts_.frames_per_s);
+    if (timed_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
+}
+
+void VideoFile::seek(double time_s) {
+    const double latest_s = facts_.frames_exact ? facts_.duration_s : kLongest_s;
+    const double wanted_s = (time_s > 0.0 ? std::min(time_s, latest_s) : 0.0) + kTimeTolerance_s;
+    const bool near_ahead =
+        !ended_ && ahead_.empty() && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
+    ahead_.clear();
+    if (near_ahead) {
+        decoder_.keep();
+        skip_before(wanted_s);
+        if (run_up_to(wanted_s, timed({}))) return;
+    } else {
+        rewind_before(wanted_s, RunUp::quick);
+        if (run_up_to(wanted_s, {})) return;
+    }
+    rewind_before(wanted_s, RunUp::whole);
+    run_up_to(wanted_s, {});
+}
+
+/// Of what is decoded on the way nothing is converted but what is shown then, the one that the
+/// decoder keeps, and what follows it. False: it was skipped.
+bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_then) {
+    while (grab()) {
+        const bool beyond = time_s_ > wanted_s;
+        if (beyond && skipped_until(wanted_s)) return false;
+        if (beyond && shown_then) {
+            ahead_.push_back(timed(retrieve()));
+            break;
+        }
+        const auto follower = static_cast<std::size_t>(index_) + 1;
+        const bool passed = counted_ && follower < times_.size() && times_[follower] <= wanted_s;
+        if (!passed) {
+            decoder_.keep();
+            shown_then = timed({});
+        }
+        if (beyond) break;
+    }
+    if (ended_ && skipped_until(wanted_s)) return false;
+    if (shown_then) ahead_.push_front(retrieve_kept(std::move(*shown_then)));
+    return true;
+}
+
+/// After the last frame that was not.
+bool VideoFile::skipped_until(double time_s) const {
+    return !decoder_.skipped_s().empty() && decoder_.skipped_s().front() <= time_s;
+}
+
+/// To the key frame before it.
+void VideoFile::seek_near(double time_s) {
+    ahead_.clear();
+    grabbed_ = false;
+    if (!timed_ || !decoder_.jump(std::max(time_s, 0.0))) return seek(time_s);
+    jumped_ = true;
+    if (!grab()) return seek(time_s);
+    ahead_.push_back(timed(retrieve()));
+}
+
+void VideoFile::count_frames(std::int64_t most) {
+    for (std::int64_t read = 0; read < most && grab(); ++read) {
+    }
+}
+
+std::vector<cv::Mat> VideoFile::samples(int most) {
+    std::vector<cv::Mat> pictures;
+    const double pixels = static_cast<double>(facts_.columns) * facts_.rows;
+    const double frames = kMostSampled / pixels;
+    if (!ahead_.empty()) pictures.push_back(ahead_.front().picture);
+    if (most <= static_cast<int>(pictures.size())) return pictures;
+    if (static_cast<double>(facts_.frames) <= frames)
+        sample_evenly(most, pictures);
+    else if (timed_)
+        sample_by_jumps(most, static_cast<int>(frames / most), pictures);
+    seek(0.0);
+    return pictures;
+}
+
+void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {
+    const std::int64_t step = facts_.frames / most + 1;
+    while (grab())
+        if (index_ % step == 0) pictures.push_back(retrieve());
+}
+
+void VideoFile::sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures) {
+    const double duration_s = facts_.duration_s;
+    for (int k = 1; k < most; ++k) {
+        const double wanted_s = duration_s * k / most;
+        // Where key frames are far apart the frames from here on are new, and the key frame is not.
+        const auto key_s = decoder_.packets().key_frame_s(wanted_s);
+        if (!key_s || *key_s > time_s_) {
+            if (!decoder_.jump(wanted_s)) break;
+            jumped_ = true;
+        }
+        for (int n = 0; n <= frames_each && grab(); ++n) {
+        }
+        if (!ended_) pictures.push_back(retrieve());
+    }
+}
+
+}  // namespace dibhr

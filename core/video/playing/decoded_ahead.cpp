@@ -1,0 +1,225 @@
+// A queue of decoded frames, bounded in number and bytes.
+#include "core/video/playing/decoded_ahead.hpp"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "core/realtime/time_slice.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::size_t kInARow = 2;  ///< reads after which more are to be expected
+constexpr std::size_t kMostAhead = 4;
+constexpr double kMostPassed_s = 0.5;  ///< at once, so that its heart beats and it can be stopped
+constexpr std::size_t kMostBytes = std::size_t{24} << 20;  ///< one frame is decoded in any case
+
+std::size_t bytes_of(const RawFrame& frame) {
+    return frame.depth.levels.size() * sizeof(float) + frame.colour.rgb.size() +
+           frame.held.size() * sizeof(HeldLevel);
+}
+
+}  // namespace
+
+DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts, Now now)
+    : media_(std::move(media)),
+      hearts_(hearts),
+      now_(std::move(now)),
+      description_(media_->description()) {
+    thread_ = std::thread([this] { run(); });
+}
+
+DecodedAhead::~DecodedAhead() {
+    {
+        const std::lock_guard lock(mutex_);
+        leaving_ = true;
+    }
+    asked_.notify_one();
+    thread_.join();
+}
+
+std::optional<RawFrame> DecodedAhead::next_from(double earliest_s, double apart_s) {
+    std::optional<RawFrame> passed;
+    do {
+        Decoded taken;
+        {
+            std::unique_lock lock(mutex_);
+            ++read_in_a_row_;
+            from_s_ = apart_s > 0.0 ? std::max(from_s_, earliest_s) : earliest_s;
+            apart_s_ = apart_s;
+            if (!can_be_read()) wait(lock);
+            if (passed && is_at_end()) return passed;
+            taken = take(earliest_s);
+        }
+        description_ = std::move(taken.description);
+        making_s_ = taken.making_s;
+        if (taken.broken) std::rethrow_exception(taken.broken);
+        passed = std::move(taken.frame);
+    } while (passed && passed->media_s < earliest_s);
+    return passed;
+}
+
+bool DecodedAhead::is_at_end() const {
+    return !decoded_.front().frame && !decoded_.front().broken;
+}
+
+DecodedAhead::Decoded DecodedAhead::take(double earliest_s) {
+    Decoded taken = std::move(decoded_.front());
+    decoded_.pop_front();
+    bytes_ -= taken.bytes;
+    const bool given_out = taken.frame && !(taken.frame->media_s < earliest_s);
+    if (given_out) go_on_apart_from(*taken.frame);
+    asked_.notify_one();
+    return taken;
+}
+
+void DecodedAhead::go_on_apart_from(const RawFrame& frame) {
+    if (apart_s_ > 0.0) from_s_ = std::max(from_s_, frame.media_s + apart_s_);
+}
+
+void DecodedAhead::wait(std::unique_lock<std::mutex>& lock) {
+    if (hearts_.reading != nullptr) hearts_.reading->rest();
+    waited_for_ = true;
+    asked_.notify_one();
+    ready_.wait(lock, [this] { return can_be_read(); });
+    waited_for_ = false;
+    if (hearts_.reading != nullptr) hearts_.reading->beat();
+}
+
+void DecodedAhead::seek(double media_s) {
+    jump({media_s, Jump::exact}, Begins::when_read);
+}
+
+void DecodedAhead::decode_from(double media_s) {
+    jump({media_s, Jump::exact}, Begins::at_once);
+}
+
+void DecodedAhead::seek_near(double media_s) {
+    jump({media_s, Jump::near}, Begins::when_read);
+}
+
+void DecodedAhead::jump(Target target, Begins begins) {
+    {
+        const std::lock_guard lock(mutex_);
+        target_ = target;
+        decoded_.clear();
+        bytes_ = 0;
+        from_s_ = apart_s_ = 0.0;
+        read_in_a_row_ = begins == Begins::at_once ? kInARow : 0;
+        ended_ = false;
+    }
+    if (begins == Begins::at_once) asked_.notify_one();
+}
+
+void DecodedAhead::prepare_with(Preparation preparation) {
+    auto shared =
+        preparation ? std::make_shared<const Preparation>(std::move(preparation)) : nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        preparation_ = std::move(shared);
+    }
+    asked_.notify_one();
+}
+
+bool DecodedAhead::can_be_read() const {
+    return !decoded_.empty() && decoded_.front().prepared != Prepared::now;
+}
+
+/// The oldest one that could be; null: there is nothing to do, or it is wanted as it is.
+DecodedAhead::Decoded* DecodedAhead::unprepared() {
+    if (!preparation_ || waited_for_) return nullptr;
+    const auto found = std::find_if(decoded_.begin(), decoded_.end(), [](const Decoded& decoded) {
+        return decoded.frame && decoded.prepared == Prepared::no;
+    });
+    return found == decoded_.end() ? nullptr : &*found;
+}
+
+bool DecodedAhead::has_room() const {
+    if (decoded_.empty() && waited_for_) return true;
+    if (ended_ || read_in_a_row_ < kInARow) return false;
+    return decoded_.empty() ||
+           (decoded_.size() < kMostAhead && bytes_ + decoded_.back().bytes <= kMostBytes);
+}
+
+DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, double from_s) {
+    Decoded decoded;
+    const auto begin = now_();
+    try {
+        if (target && target->jump == Jump::exact) media_->seek(target->media_s);
+        if (target && target->jump == Jump::near) media_->seek_near(target->media_s);
+        if (target) last_s_ = target->media_s;
+        from_s = std::min(from_s, last_s_ + kMostPassed_s);
+        decoded.frame = from_s > last_s_ ? media_->next_from(from_s) : media_->next();
+    } catch (...) {
+        decoded.broken = std::current_exception();
+    }
+    const std::chrono::duration<double> taken = now_() - begin;
+    decoded.description = media_->description();
+    if (!decoded.frame) return decoded;
+    const RawFrame& frame = *decoded.frame;
+    decoded.bytes = bytes_of(frame);
+    const auto frames = static_cast<double>(frame.index - last_index_);
+    if (!target && frame.passing_s > 0.0)
+        decoded.making_s = std::max(taken.count() - frames * frame.passing_s, 0.0);
+    last_s_ = frame.media_s;
+    last_index_ = frame.index;
+    return decoded;
+}
+
+void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
+    const std::optional<Target> target = std::exchange(target_, std::nullopt);
+    const double from_s = from_s_;
+    lock.unlock();
+    Decoded decoded = decode(target, from_s);
+    lock.lock();
+    if (target_) return;  // it was asked for something else meanwhile
+    ended_ = !decoded.frame;
+    bytes_ += decoded.bytes;
+    const bool wanted = decoded.frame && !(decoded.frame->media_s < from_s_);
+    if (wanted) go_on_apart_from(*decoded.frame);
+    decoded_.push_back(std::move(decoded));
+    ready_.notify_one();
+}
+
+/// It keeps its place; who wants to read it waits.
+void DecodedAhead::prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock) {
+    waiting.prepared = Prepared::now;
+    RawFrame frame = std::move(*waiting.frame);
+    const std::shared_ptr<const Preparation> preparation = preparation_;
+    lock.unlock();
+    std::exception_ptr broken;
+    try {
+        (*preparation)(frame);
+    } catch (...) {
+        broken = std::current_exception();
+    }
+    lock.lock();
+    if (target_) return;  // it was dropped meanwhile
+    waiting.frame = std::move(frame);
+    waiting.broken = broken;
+    waiting.prepared = Prepared::yes;
+    ready_.notify_one();
+}
+
+void DecodedAhead::run() {
+    pthread_setname_np(pthread_self(), "dibhr-decode");
+    (void)set_time_slice(kPatientSlice);
+    if (hearts_.decoding != nullptr) hearts_.decoding->also_computes();
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        asked_.wait(lock, [this] { return leaving_ || has_room() || unprepared() != nullptr; });
+        if (leaving_) return;
+        if (hearts_.decoding != nullptr) hearts_.decoding->beat();
+        if (has_room())
+            decode_one(lock);
+        else
+            prepare(*unprepared(), lock);
+        if (hearts_.decoding != nullptr) hearts_.decoding->rest();
+    }
+}
+
+}  // namespace dibhr

@@ -1,0 +1,477 @@
+// Keeps what was read, and what it was cleaned with.
+#include "core/video/playing/frame_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/realtime/moving_mean.hpp"
+#include "core/video/playing/remembering_media.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr std::size_t kMostKept = 48;
+constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beyond what a frame is cleaned with
+constexpr double kMostReadBack = 12.0;                     ///< frames made at once to go back
+constexpr double kReach_s = 0.5;                           ///< what is farther away is another time
+constexpr double kUnknownInterval_s = 1.0 / 25.0;
+/// So many frames in a row fill more than a window: it plays.
+constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
+constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
+constexpr std::int64_t kMostApart = 3;    // frames: what is farther apart is not followed
+constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
+constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
+
+double interval_s(const MediaDescription& description) {
+    return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
+}
+
+/// About as many as are kept then, beside the wanted one and the next.
+double frames_read_back(const MediaDescription& description) {
+    const double depth = 1.0 * description.depth_columns * description.depth_rows;
+    const double colour = 1.0 * description.colour_columns * description.colour_rows;
+    const double bytes = depth * sizeof(float) + 3.0 * colour;
+    return std::clamp(std::floor(kMostBytes / bytes) - 2.0, 1.0, kMostReadBack);
+}
+
+std::size_t bytes_of(const DepthImage& depth) {
+    return depth.levels.size() * sizeof(float);
+}
+
+}  // namespace
+
+FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts,
+                         Now now)
+    : now_(std::move(now)),
+      assembly_(now_, kLongestRest),
+      media_(std::make_unique<RememberingMedia>(std::move(media)), hearts, now_),
+      jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
+      in_time_(kInTime) {
+    assembly_.set_number(number);
+}
+
+double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
+    return std::chrono::duration<double>(now_() - begin).count();
+}
+
+std::size_t FrameReader::Kept::bytes() const {
+    std::size_t bytes = frame.colour ? frame.colour->rgb.size() : 0;
+    bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
+    if (const LoneDepth* lone = raw.lone.get(); lone != nullptr)
+        bytes += bytes_of(lone->depth) + lone->made_up.size() + lone->unseen.size();
+    if (frame.depth) bytes += bytes_of(*frame.depth);
+    if (frame.beneath) bytes += bytes_of(*frame.beneath);
+    return bytes;
+}
+
+void FrameReader::Kept::forget_cleaned() {
+    frame.depth.reset();
+    frame.unseen.reset();
+    frame.beneath.reset();
+}
+
+FrameReader::Kept* FrameReader::find(double media_s) {
+    const auto found = kept_.find(media_s);
+    return found == kept_.end() ? nullptr : &found->second;
+}
+
+FrameReader::Kept* FrameReader::find_shown(double media_s) {
+    const auto shown = [](Kept& kept) { return kept.has(Needs::surface) ? &kept : nullptr; };
+    if (Kept* exactly = find(media_s)) return shown(*exactly);
+    const double wanted_s = media_s + kTimeTolerance_s;
+    const auto after = kept_.upper_bound(wanted_s);
+    if (after == kept_.begin()) return nullptr;
+    Kept& before = std::prev(after)->second;
+    return before.next_s && wanted_s < *before.next_s ? shown(before) : nullptr;
+}
+
+FrameReader::Kept* FrameReader::read(const Pace& pace) {
+    const std::optional<Position> last = std::exchange(position_, std::nullopt);
+    heading_.reset();
+    const auto begin = now_();
+    auto raw = media_.next_from(pace.earliest_s, pace.apart_s);
+    const double waited_s = seconds_since(begin);
+    Kept* before = last ? find(last->media_s) : nullptr;
+    if (!raw) {
+        if (before != nullptr) before->last = true;
+        position_ = last;
+        return nullptr;
+    }
+    const std::int64_t frames =
+        before != nullptr ? std::max<std::int64_t>(raw->index - before->frame.index, 1) : 1;
+    tell_wait(*raw, frames, waited_s);
+    passed_over_ += frames - 1;
+    const bool follows = last && last->gapless && frames == 1;
+    if (follows && before != nullptr) before->next_s = raw->media_s;
+    Kept* kept = keep(std::move(*raw));
+    if (at_beginning_) kept->first = true;
+    if (follows) kept->previous_s = last->media_s;
+    at_beginning_ = false;
+    // What was passed over ahead of time may be missing anywhere from here on.
+    const bool gapless = !(pace.apart_s > 0.0) && (!last || last->gapless);
+    position_ = {kept->frame.media_s, gapless};
+    return kept;
+}
+
+/// For a frame, and for those that were passed over before it.
+void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s) {
+    waited_s = std::max(waited_s - 1e-3 * raw.lone_ms, 0.0);
+    waited_s_ += waited_s;
+    cost_.decode_ms = 1000.0 * waited_s;
+    const auto count = static_cast<double>(frames);
+    const bool only_decoded = raw.passing_s > 0.0 && !plan().steps.steady;
+    const double passing_s = only_decoded ? raw.passing_s : waited_s / count;
+    decoding_s_ = moving_mean(decoding_s_, passing_s);
+    if (!only_decoded)
+        making_s_ = 0.0;
+    else if (const auto making_s = media_.making_s())
+        making_s_ = moving_mean(making_s_, *making_s);
+}
+
+FrameReader::Kept* FrameReader::keep(RawFrame raw) {
+    let_go();
+    Kept& kept = kept_[raw.media_s];
+    const CleaningSteps& steps = plan().steps;
+    const bool needs_colour = steps.sharpen_silhouettes && steps.colour_edges;
+    if (needs_colour && !raw.lone && !kept.can_be_cleaned()) assembly_.clean_alone(raw, plan());
+    // It is new, or nobody had wanted it any more.
+    if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
+    kept.frame.index = raw.index;  // an estimate after some jumps, which frames in a row share
+    raw.colour = {};
+    if (!kept.can_be_cleaned()) kept.raw = std::move(raw);
+    return &kept;
+}
+
+std::size_t FrameReader::reach() const {
+    return plan().steps.steady ? kReachInTime : 0;
+}
+
+/// Makes room for one more. What the wanted frame and the next one depend on stays. Of what else
+/// was cleaned only the result does, and what is farthest from the wanted frame goes first.
+void FrameReader::let_go() {
+    const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
+    const auto wanted = kept_.lower_bound(wanted_s_);
+    auto before = std::distance(kept_.begin(), wanted);
+    auto after = std::distance(wanted, kept_.end());
+    std::ptrdiff_t away = -before;
+    std::size_t bytes = 0;
+    for (auto& [media_s, kept] : kept_) {
+        if (kept.is_cleaned() && std::abs(away) > stays) kept.raw = {};
+        ++away;
+        bytes += kept.bytes();
+    }
+    while (bytes > kMostBytes || kept_.size() > kMostKept) {
+        const double before_s = before > stays ? wanted_s_ - kept_.begin()->first : 0.0;
+        const double after_s = after > stays + 1 ? kept_.rbegin()->first - wanted_s_ : 0.0;
+        if (!(std::max(before_s, after_s) > 0.0)) break;
+        const auto farthest = before_s > after_s ? kept_.begin() : std::prev(kept_.end());
+        (before_s > after_s ? before : after) -= 1;
+        bytes -= farthest->second.bytes();
+        kept_.erase(farthest);
+    }
+    // On those before the one before it only others depend.
+    for (auto at = kept_.begin(); at != wanted && std::next(at) != wanted; ++at) {
+        if (bytes <= kMostBytes) return;
+        Kept& kept = at->second;
+        bytes -= kept.bytes();
+        kept.frame.colour.reset();
+        kept.forget_cleaned();
+        bytes += kept.bytes();
+    }
+}
+
+void FrameReader::jump_to(double media_s) {
+    media_.seek(media_s);
+    at_beginning_ = !(media_s > 0.0);
+    position_.reset();
+    heading_.reset();
+}
+
+bool FrameReader::heads_for(double media_s) const {
+    return heading_ && heading_->from_s <= media_s && media_s <= heading_->kept_to_s;
+}
+
+bool FrameReader::goes_on_after(double media_s) const {
+    return position_ && position_->media_s == media_s;
+}
+
+/// Where all kept frames that follow this one are cleaned, the decoder jumps to the end of their
+/// row while they are shown, early enough for what the next one is cleaned with.
+void FrameReader::go_on_from_kept(double media_s) {
+    std::vector<const Kept*> row{find(media_s)};
+    while (const Kept* next = kept_after(*row.back(), Needs::surface)) row.push_back(next);
+    const double kept_to_s = row.back()->frame.media_s;
+    if (row.back()->last || goes_on_after(kept_to_s) || heads_for(kept_to_s)) return;
+    const auto is_cleaned = [](const Kept* kept) { return kept->is_cleaned(); };
+    if (!std::all_of(row.begin(), row.end(), is_cleaned)) return;
+    const double from_s = row[row.size() - 1 - std::min(reach(), row.size() - 1)]->frame.media_s;
+    media_.decode_from(from_s);
+    at_beginning_ = !(from_s > 0.0);
+    position_.reset();
+    heading_ = {from_s, kept_to_s};
+}
+
+/// Of the frames that follow. Where they break off, of those before: who asks for one is told.
+DepthNoise FrameReader::noise_of(Media& media) {
+    NoiseMeter meter;
+    try {
+        for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k) {
+            std::optional<RawFrame> raw = media.next();
+            if (!raw) break;
+            meter.add(std::move(raw->depth));
+        }
+    } catch (const InputError&) {
+    }
+    return meter.noise();
+}
+
+/// What the clip's noise asks for is known before its first frame is cleaned.
+void FrameReader::make_plan() {
+    if (planned_) return;
+    if (!noise_) noise_ = description().noise;
+    if (needs_noise(options_) && !noise_) {
+        media_.prepare_with(nullptr);
+        const auto begin = now_();
+        jump_to(0.0);
+        noise_ = noise_of(media_);
+        jump_to(0.0);
+        waited_s_ += seconds_since(begin);
+    }
+    const CleaningPlan plan =
+        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
+    if (!same_alone(plan.steps, this->plan().steps)) {
+        kept_.clear();
+        jump_to(0.0);
+    }
+    for (auto& [media_s, kept] : kept_) kept.forget_cleaned();
+    std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
+    assembly_.set_plan(plan);
+    planned_ = true;
+    clean_ahead();
+}
+
+/// Unless the machine is too slow for all frames: then who reads cleans, while the next is decoded.
+void FrameReader::clean_ahead() {
+    if (in_time_ < kInTime && !plan().steps.steady)
+        media_.prepare_with(nullptr);
+    else
+        media_.prepare_with(
+            [this, plan = plan()](RawFrame& raw) { assembly_.clean_alone(raw, plan); });
+}
+
+const std::shared_ptr<const LoneDepth>& FrameReader::lone_of(Kept& kept) {
+    if (!kept.raw.lone) assembly_.clean_alone(kept.raw, plan());
+    cost_.clean_ms += std::exchange(kept.raw.lone_ms, 0.0);
+    return kept.raw.lone;
+}
+
+/// The lone frames around one, in order of time, and which of them it is.
+FrameReader::Around FrameReader::around(double media_s) {
+    Around around;
+    const auto is_near = [media_s](const Kept* kept) {
+        return kept != nullptr && std::fabs(kept->frame.media_s - media_s) <= kReach_s;
+    };
+    around.frames.push_back(lone_of(*find(media_s)));
+    double first_s = media_s;
+    for (std::size_t k = 0; k < reach(); ++k) {
+        Kept* before = looked_back(first_s);
+        if (!is_near(before)) break;
+        around.frames.insert(around.frames.begin(), lone_of(*before));
+        ++around.now;
+        first_s = before->frame.media_s;
+    }
+    double last_s = media_s;
+    for (std::size_t k = 0; k < reach(); ++k) {
+        Kept* after = looked_ahead(last_s);
+        if (!is_near(after)) break;
+        around.frames.push_back(lone_of(*after));
+        last_s = after->frame.media_s;
+    }
+    return around;
+}
+
+Frame FrameReader::cleaned(double media_s) {
+    wanted_s_ = media_s;
+    if (!find(media_s)->is_cleaned()) {
+        cost_.clean_ms = 0.0;
+        const Around around = this->around(media_s);
+        const auto begin = now_();
+        std::vector<const LoneDepth*> frames;
+        frames.reserve(around.frames.size());
+        for (const auto& lone : around.frames) frames.push_back(lone.get());
+        Kept& kept = *find(media_s);
+        kept.frame = assembly_.finished(kept.frame, frames, around.now);
+        cost_.clean_ms += 1000.0 * seconds_since(begin);
+        cost_.cleaned = now_();
+    }
+    return find(media_s)->frame;
+}
+
+void FrameReader::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
+    assembly_.set_maps(maps);
+    for (auto& [media_s, kept] : kept_) kept.frame.maps = maps;
+}
+
+FrameReader::Kept* FrameReader::kept_after(const Kept& kept, Needs needs) {
+    Kept* next = kept.next_s ? find(*kept.next_s) : nullptr;
+    return next != nullptr && next->has(needs) ? next : nullptr;
+}
+
+FrameReader::Kept* FrameReader::next_of(double media_s, Needs needs) {
+    if (const Kept* here = find(media_s)) {
+        if (here->last) return nullptr;
+        if (Kept* next = kept_after(*here, needs)) return next;
+    }
+    if (!goes_on_after(media_s) || !position_->gapless) {
+        if (!heads_for(media_s)) jump_to(media_s);
+        do {
+            if (read() == nullptr) return nullptr;
+        } while (position_->media_s < media_s);
+    }
+    return read();
+}
+
+/// Null also where the file breaks off: who asks for that frame itself is told.
+FrameReader::Kept* FrameReader::looked_ahead(double media_s) {
+    if (broken_ && broken_->after_s == media_s) return nullptr;
+    try {
+        return next_of(media_s, Needs::depth);
+    } catch (const InputError&) {
+        broken_ = {media_s, std::current_exception()};
+        return nullptr;
+    }
+}
+
+/// Null also where what is before cannot be read.
+FrameReader::Kept* FrameReader::looked_back(double media_s) {
+    try {
+        return previous_of(media_s, Needs::depth);
+    } catch (const InputError&) {
+        return nullptr;
+    }
+}
+
+FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
+    if (const Kept* here = find(media_s)) {
+        if (here->first) return nullptr;
+        Kept* previous = here->previous_s ? find(*here->previous_s) : nullptr;
+        if (previous != nullptr && previous->has(needs)) return previous;
+    }
+    double back_s = frames_read_back(description()) * interval_s(description());
+    for (;; back_s *= 2.0) {
+        const double from_s = std::max(0.0, media_s - back_s);
+        jump_to(from_s);
+        std::optional<double> previous_s;
+        const Kept* kept = read();
+        while (kept != nullptr && kept->frame.media_s < media_s) {
+            previous_s = kept->frame.media_s;
+            kept = read();
+        }
+        if (previous_s)
+            if (Kept* previous = find(*previous_s)) return previous;
+        if (!(from_s > 0.0)) return nullptr;
+    }
+}
+
+std::optional<Frame> FrameReader::at(double media_s) {
+    make_plan();
+    in_a_row_ = 0;
+    if (const Kept* kept = find_shown(media_s)) return cleaned(kept->frame.media_s);
+    const auto begin = now_();
+    wanted_s_ = media_s;
+    jump_to(media_s);
+    const Kept* kept = read();
+    if (kept == nullptr) return std::nullopt;
+    const Frame frame = cleaned(kept->frame.media_s);
+    jump_s_ = seconds_since(begin);
+    return frame;
+}
+
+/// What cleans frames with those around them needs them all.
+const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pace) {
+    if (broken_ && broken_->after_s == media_s) {
+        const std::exception_ptr why = std::exchange(broken_, {})->why;
+        std::rethrow_exception(why);
+    }
+    const bool passes = pace.earliest_s > media_s || pace.apart_s > 0.0;
+    const Kept* const here = find(media_s);
+    const bool is_kept = here != nullptr && kept_after(*here, Needs::surface) != nullptr;
+    if (plan().steps.steady || !passes || is_kept || !goes_on_after(media_s))
+        return next_of(media_s, Needs::surface);
+    return here != nullptr && here->last ? nullptr : read(pace);
+}
+
+std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
+    make_plan();
+    const Kept* next = nullptr;
+    const std::int64_t passed_over = passed_over_;
+    for (double from_s = media_s;; from_s = wanted_s_) {
+        const Kept* further = next_wanted(from_s, pace);
+        if (further == nullptr) break;
+        if (next != nullptr) ++passed_over_;
+        next = further;
+        wanted_s_ = next->frame.media_s;
+        if (!(wanted_s_ < pace.earliest_s)) break;
+    }
+    if (next == nullptr) return std::nullopt;
+    keep_pace(passed_over_ - passed_over);
+    Frame frame = cleaned(next->frame.media_s);
+    if (++in_a_row_ >= kPlaying) go_on_from_kept(frame.media_s);
+    return frame;
+}
+
+void FrameReader::keep_pace(std::int64_t passed_over) {
+    if (passed_over > 0) assembly_.begin_rest();  // motion is left out before frames are
+    const bool was_in_time = in_time_ >= kInTime;
+    in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
+    if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
+}
+
+void FrameReader::connect(Frame& from, const Frame& next) {
+    const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
+    const auto begin = now_();
+    assembly_.connect(from, next, follows);
+    waited_s_ += seconds_since(begin);
+}
+
+std::optional<Frame> FrameReader::before(double media_s) {
+    make_plan();
+    in_a_row_ = 0;
+    wanted_s_ = media_s;
+    const Kept* previous = previous_of(media_s, Needs::surface);
+    if (previous == nullptr) return std::nullopt;
+    return cleaned(previous->frame.media_s);
+}
+
+std::optional<Frame> FrameReader::preview(double media_s) {
+    make_plan();
+    if (jump_s_ < kSoon_s || find_shown(media_s) != nullptr) return std::nullopt;
+    media_.seek_near(media_s);
+    position_.reset();
+    heading_.reset();
+    at_beginning_ = false;
+    std::optional<RawFrame> raw = media_.next();
+    if (!raw) return std::nullopt;
+    return assembly_.single(std::move(*raw));
+}
+
+double FrameReader::last_interval_s(double media_s) {
+    const Kept* last = find(media_s);
+    if (last != nullptr && last->previous_s) return media_s - *last->previous_s;
+    return interval_s(description());
+}
+
+void FrameReader::set_cleaning(const CleaningOptions& options) {
+    if (options == options_) return;
+    options_ = options;
+    planned_ = false;
+}
+
+}  // namespace dibhr

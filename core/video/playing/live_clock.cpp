@@ -1,0 +1,95 @@
+// Steers the moment that is shown by when frames were ready.
+#include "core/video/playing/live_clock.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "core/realtime/moving_mean.hpp"
+#include "core/realtime/now.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr double kJump_s = 0.001;        ///< what begins anew is later than all that was shown
+constexpr double kOtherStamps_s = 1.0;   ///< stamps farther apart are of another time
+constexpr std::size_t kRemembered = 64;  ///< frames: two seconds
+constexpr double kLate = 0.05;     ///< the share of frames that may come later than is reckoned
+constexpr double kUnevenly = 1.0;  ///< intervals that are waited for uneven frames, at most
+constexpr double kSlow_s = 0.3, kQuick_s = 2.0;      ///< in which an error is made good
+constexpr double kSlowest = 0.05, kQuickest = 0.02;  ///< by which the speed may differ from 1
+constexpr double kAlike_s = 0.0005;
+
+/// `share` of them are less.
+double quantile(std::vector<double>& values, double share) {
+    const auto at = values.begin() +
+                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+}  // namespace
+
+void LiveClock::begin_with(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames) {
+    frame.time_s =
+        frames.empty() ? 0.0 : std::max(clock_.playback_s(now), frames.back().time_s) + kJump_s;
+    offset_s_ = frame.time_s - stamp_s;
+    clock_ = {now, frame.time_s, 0.0};
+    frames.clear();
+    frames.push_back(std::move(frame));
+    ahead_s_.clear();
+    begins_ = false;
+    alone_ = true;
+}
+
+bool LiveClock::goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept {
+    const double since_s = stamp_s - last_stamp_s_;
+    return !begins_ && !frames.empty() && since_s > 0.0 && since_s < kOtherStamps_s;
+}
+
+bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames) {
+    const bool goes_on = goes_on_to(stamp_s, frames);
+    const double since_s = stamp_s - std::exchange(last_stamp_s_, stamp_s);
+    if (!goes_on) {
+        begin_with(std::move(frame), stamp_s, now, frames);
+        return true;
+    }
+    interval_s_ = moving_mean(interval_s_, std::min(since_s, 2.0 * interval_s_));
+    frame.time_s = stamp_s + offset_s_;
+    if (std::exchange(alone_, false)) {  // held until now: also where frames were missing
+        Frame& held = frames.back();
+        held.time_s = std::max(held.time_s, frame.time_s - interval_s_);
+        clock_ = {now, held.time_s, 1.0};
+    }
+    steer(frame.time_s, now);
+    const double moment_s = clock_.playback_s(now);
+    Frame& newest = frames.back();
+    if (moment_s > newest.time_s) {  // too late: held until now, the surface goes on from there
+        newest.time_s = moment_s;
+        while (frames.size() > 1) frames.pop_front();
+        frame.time_s = std::max(frame.time_s, moment_s + 0.5 * interval_s_);
+    }
+    frame.time_s = std::max(frame.time_s, frames.back().time_s + kJump_s);
+    if (frames.size() < FrameWindow::kFrames) frames.push_back(std::move(frame));
+    return false;
+}
+
+/// So that all but a few frames are ready an interval before they are shown whole.
+void LiveClock::steer(double time_s, Time now) {
+    const double moment_s = clock_.playback_s(now);
+    ahead_s_.push_back(time_s - seconds_of(now));
+    if (ahead_s_.size() > kRemembered) ahead_s_.pop_front();
+    std::vector<double> ahead(ahead_s_.begin(), ahead_s_.end());
+    const double behind_s = moment_s - seconds_of(now);
+    const double of_late_ones_s = quantile(ahead, kLate) - behind_s - interval_s_;
+    const double of_most_s = quantile(ahead, 0.5) - behind_s - (1.0 + kUnevenly) * interval_s_;
+    const double early_s = std::max(of_late_ones_s, of_most_s);
+    double speed = 1.0;
+    if (early_s < -kAlike_s) speed -= std::min(kSlowest, -early_s / kSlow_s);
+    if (early_s > kAlike_s) speed += std::min(kQuickest, early_s / kQuick_s);
+    clock_ = {now, moment_s, speed};
+}
+
+}  // namespace dibhr

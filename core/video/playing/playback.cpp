@@ -1,0 +1,393 @@
+// What is shown when: the frames around now on the playback timeline, and the clock that moves over
+// them.
+#include "core/video/playing/playback.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <utility>
+
+#include "core/error.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/realtime/moving_mean.hpp"
+
+namespace dibhr {
+namespace {
+
+constexpr double kJump_s = 0.001;      ///< a jump begins later: no playback time means two frames
+constexpr double kMostDecoding = 0.8;  ///< of the time from frame to frame
+constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in the means
+constexpr std::chrono::seconds kToldFor{3};
+constexpr double kMuch = 1.5;  ///< intervals: what is made in less comes too late now and then only
+constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
+
+}  // namespace
+
+void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
+    reader->set_cleaning(cleaning_);
+    reader->set_motion(motion_wanted_);
+    auto first = reader->at(0.0);
+    if (!first)
+        throw InputError("'" + reader->description().depth_path.string() +
+                         "' holds no frame: record it again");
+    reader_ = std::move(reader);
+    first_media_s_ = first->media_s;
+    playing_ = true;
+    jump_to(std::move(*first), now);
+}
+
+/// The frames stay, so that the timeline goes on.
+void Playback::close() {
+    reader_.reset();
+    sought_s_.reset();
+    playing_ = false;
+}
+
+void Playback::anchor(double playback_s, Time now) {
+    clock_ = {now, playback_s, playing_ ? speed_ : 0.0};
+}
+
+double Playback::moment(Time now) const {
+    const double playback_s = clock_.playback_s(now);
+    return frames_.empty() ? playback_s : std::min(playback_s, frames_.back().time_s);
+}
+
+/// Behind all frames that there were: while this one was read they were shown on.
+void Playback::jump_to(Frame frame, Time now) {
+    frame.time_s =
+        frames_.empty() ? 0.0 : std::max(clock_.playback_s(now), frames_.back().time_s) + kJump_s;
+    offset_s_ = frame.time_s - frame.media_s;
+    beyond_part_ = part_ && frame.media_s > part_->to_s;
+    frames_.clear();
+    frames_.push_back(std::move(frame));
+    complete_ = false;
+    starts_ = true;
+    ++discontinuity_;
+    anchor(frames_.front().time_s, now);
+}
+
+bool Playback::single() const {
+    return complete_ && frames_.size() == 1 && !(frames_.front().media_s > first_media_s_);
+}
+
+void Playback::play(Time now) {
+    if (!is_open() || playing_) return;
+    const bool at_end = complete_ && frames_.size() == 1;
+    playing_ = !single();
+    if (at_end && playing_)
+        seek(lap_begins_s(), now);
+    else
+        anchor(moment(now), now);
+}
+
+void Playback::pause(Time now) {
+    if (!is_open()) return;
+    const double playback_s = moment(now);
+    playing_ = false;
+    anchor(playback_s, now);
+}
+
+void Playback::seek(double media_s, Time now) {
+    if (!is_open()) return;
+    steps_back_ = false;
+    sought_s_ = std::max(media_s, first_media_s_);
+    if (auto preview = reader_->preview(*sought_s_))
+        jump_to(std::move(*preview), now);
+    else
+        read_sought(now);
+}
+
+bool Playback::read_sought(Time now) {
+    const double media_s = *std::exchange(sought_s_, std::nullopt);
+    auto frame = reader_->at(media_s);
+    if (frame) jump_to(std::move(*frame), now);
+    return frame.has_value();
+}
+
+void Playback::step(int frames, Time now) {
+    if (!is_open()) return;
+    if (sought_s_) read_sought(now);
+    pause(now);
+    Frame reached = frames_.front();
+    for (int k = 0; k < std::abs(frames); ++k) {
+        auto next = frames > 0 ? reader_->after(reached.media_s) : reader_->before(reached.media_s);
+        if (!next) break;
+        reached = std::move(*next);
+    }
+    jump_to(std::move(reached), now);
+    steps_back_ = frames < 0;
+}
+
+void Playback::set_looping(bool looping) {
+    if (looping == looping_) return;
+    looping_ = looping;
+    complete_ = false;  // asked again by the next reading
+    if (looping) return;
+    // Frames of the next lap are forgotten, unless the surface is moving towards one already.
+    for (std::size_t k = 2; k < frames_.size(); ++k) {
+        if (frames_[k].media_s > frames_[k - 1].media_s) continue;
+        frames_.resize(k);
+        offset_s_ = frames_.back().time_s - frames_.back().media_s;
+    }
+}
+
+void Playback::set_part(const std::optional<MediaPart>& part) {
+    if (part == part_) return;
+    part_ = part;
+    beyond_part_ = false;  // also where its end was passed while it was being set
+    complete_ = false;     // asked again by the next reading
+    // Frames that are not of it any more are forgotten, but for one that the surface moves towards.
+    if (frames_.size() <= 2) return;
+    frames_.resize(2);
+    offset_s_ = frames_.back().time_s - frames_.back().media_s;
+}
+
+void Playback::set_speed(double speed, Time now) {
+    speed_ = speed > kSlowestSpeed ? std::min(speed, kFastestSpeed) : kSlowestSpeed;
+    anchor(moment(now), now);
+}
+
+void Playback::set_cleaning(const CleaningOptions& options) {
+    if (options == cleaning_) return;
+    if (is_open()) clean_again(options);
+    cleaning_ = options;
+}
+
+void Playback::set_motion(const MotionWanted& wanted) {
+    const bool other_surface = wanted.in_betweens != motion_wanted_.in_betweens;
+    motion_wanted_ = wanted;
+    if (!is_open()) return;
+    reader_->set_motion(wanted);
+    if (other_surface && put_between(wanted.in_betweens)) ++discontinuity_;
+}
+
+/// Whether any of the frames that are there got in-betweens, or lost them.
+bool Playback::put_between(bool wanted) {
+    bool changed = false;
+    for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
+        const bool had = frames_[k].between != nullptr;
+        if (wanted)
+            reader_->connect(frames_[k], frames_[k + 1]);
+        else
+            frames_[k].between.reset();
+        changed = changed || had != (frames_[k].between != nullptr);
+    }
+    return changed;
+}
+
+void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
+    if (!is_open()) return;
+    reader_->set_maps(maps);
+    for (Frame& frame : frames_) frame.maps = maps;
+}
+
+/// All frames or none: no surface lies between two cleanings.
+void Playback::clean_again(const CleaningOptions& options) {
+    reader_->set_cleaning(options);
+    ready_before_s_.reset();
+    if (sought_s_) return;  // the frame that will be there comes cleaned so
+    std::deque<Frame> cleaned;
+    try {
+        for (const Frame& frame : frames_) {
+            auto again = reader_->at(frame.media_s);
+            if (!again) {
+                throw InputError("the video cannot be read again at " + short_text(frame.media_s) +
+                                 " s: open it again");
+            }
+            again->time_s = frame.time_s;
+            if (!cleaned.empty()) reader_->connect(cleaned.back(), *again);
+            cleaned.push_back(std::move(*again));
+        }
+    } catch (...) {
+        reader_->set_cleaning(cleaning_);
+        throw;
+    }
+    frames_ = std::move(cleaned);
+    ++discontinuity_;  // the surface is another one at once
+}
+
+bool Playback::advance(Time now) {
+    if (!playing_) return false;
+    const double playback_s = clock_.playback_s(now);
+    bool changed = false;
+    while (frames_.size() > 1 && frames_[1].time_s <= playback_s) {
+        frames_.pop_front();
+        changed = true;
+        if (at_seam()) ++discontinuity_;
+    }
+    if (complete_ && frames_.size() == 1) {
+        playing_ = false;
+        anchor(frames_.front().time_s, now);
+        changed = true;
+    }
+    return changed;
+}
+
+bool Playback::needs_frame() const {
+    if (!is_open()) return false;
+    return sought_s_ || (!complete_ && frames_.size() < FrameWindow::kFrames);
+}
+
+bool Playback::read_ahead(Time now) {
+    reading_since_ = now;
+    waited_before_s_ = reader_->waited_s();
+    return sought_s_ ? read_sought(now) : read_next(now);
+}
+
+bool Playback::read_next(Time now) {
+    const Frame& newest = frames_.back();
+    const std::int64_t passed_over = reader_->passed_over();
+    auto next = reader_->after(newest.media_s, pace(now));
+    if (lap_ends_before(next)) {
+        const double lasts_s =
+            next ? next->media_s - newest.media_s : reader_->last_interval_s(newest.media_s);
+        const double begins_s = lap_begins_s();
+        next.reset();
+        if (looping_ && newest.media_s > begins_s) next = reader_->at(begins_s);
+        if (next) offset_s_ += newest.media_s + lasts_s - next->media_s;
+        beyond_part_ = false;
+    }
+    complete_ = !next;
+    if (!next) return false;
+    const auto passed = static_cast<double>(reader_->passed_over() - passed_over);
+    passed_over_ = moving_mean(passed_over_, passed, kNewestPlayed);
+    next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
+    reader_->connect(frames_.back(), *next);
+    frames_.push_back(std::move(*next));
+    if (frames_.size() == 2 && at_seam()) ++discontinuity_;
+    return true;
+}
+
+bool Playback::in_part() const {
+    return part_ && !beyond_part_;
+}
+
+/// With the media, or with the part that is played.
+bool Playback::lap_ends_before(const std::optional<Frame>& next) const {
+    return !next || (in_part() && next->media_s > part_->to_s);
+}
+
+/// Beyond the part that is played it is the media's own.
+double Playback::lap_begins_s() const {
+    return in_part() ? part_->from_s : first_media_s_;
+}
+
+double Playback::interval_s() const {
+    const double rate = description().frames_per_s;
+    return rate > 0.0 ? 1.0 / rate : 0.0;
+}
+
+/// How far apart on the playback timeline frames are that come one after the other in time, when
+/// those between them are passed over. It does not depend on how many were of late: one that came
+/// late would make the next one come later still. Nothing where decoding is what takes so long:
+/// frames passed over take as long as others.
+std::optional<double> Playback::taken_s() const {
+    const double decoding_s = clock_.speed * reader_->decoding_s();
+    const double making_s = clock_.speed * reader_->making_s();
+    const double cleaning_s = clock_.speed * cleaning_s_;
+    const double part = interval_s() > 0.0 ? decoding_s / interval_s() : 1.0;
+    if (part > kMostDecoding) return std::nullopt;
+    if (making_s > 0.0) {  // side by side
+        const double made_s = making_s / (1.0 - part);
+        return std::max(cleaning_s, made_s > kMuch * interval_s() ? made_s : 0.0);
+    }
+    return std::max(decoding_s + cleaning_s, cleaning_s / (1.0 - part));
+}
+
+/// Whatever comes next, and while frames come too late one that does not; those that follow as far
+/// apart as they take.
+Pace Playback::pace(Time now) const {
+    if (!playing_ || starts_) return {};
+    const double next_s = frames_.back().media_s + kTimeTolerance_s;
+    const std::optional<double> takes_s = taken_s();
+    if (!takes_s) return {.earliest_s = next_s};
+    const double apart_s = *takes_s > interval_s() ? *takes_s : 0.0;
+    return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), apart_s};
+}
+
+/// Of the next frame, on the playback timeline. One that would come too late is passed over, with
+/// all up to one that is there a frame before its time, so that the surface moves on to it; from
+/// then on frames are as far apart as they take. Where they are made side by side, the one that is
+/// so far apart is under way already.
+double Playback::earliest_s(Time now, double takes_s) const {
+    const double there_s = clock_.playback_s(now) + takes_s;
+    const double newest_s = frames_.back().time_s;
+    const bool under_way = reader_->making_s() > 0.0;
+    const double next_s = newest_s + (under_way ? std::max(takes_s, interval_s()) : interval_s());
+    if (next_s < there_s) return there_s + takes_s;
+    return frames_.size() < 3 && takes_s > interval_s() ? newest_s + takes_s : 0.0;
+}
+
+void Playback::arrived(Time now) {
+    const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
+                          (reader_->waited_s() - waited_before_s_);
+    cleaning_s_ = moving_mean_from_first(cleaning_s_, std::max(took_s, 0.0), kNewestPlayed);
+    waits_ = waited_ && now - *waited_ < kToldFor;
+    if (frames_.size() < 2) return;
+    const bool starts = std::exchange(starts_, false);
+    if (!playing_ || frames_.size() > 2) return;
+    const double moment_s = clock_.playback_s(now);
+    Frame& held = frames_.front();
+    Frame& next = frames_.back();
+    const double late_s = moment_s - (next.media_s + offset_s_);
+    const bool waits = late_s > kMostBehind_s;
+    if (starts) offset_s_ += moment_s - held.time_s;
+    if (waits && !starts) offset_s_ += late_s;
+    next.time_s = std::max(next.time_s, next.media_s + offset_s_);
+    if (waits) waited_ = now;
+    held.time_s = std::max(held.time_s, moment_s);
+    next.time_s = std::max(next.time_s, held.time_s + std::max(kJump_s, 0.5 * interval_s()));
+}
+
+double Playback::shown_per_s() const {
+    return description().frames_per_s / (1.0 + passed_over_);
+}
+
+bool Playback::has_time() const {
+    return is_open() && !playing_ && steps_back_ && !needs_frame() &&
+           ready_before_s_ != frames_.front().media_s;
+}
+
+void Playback::make_ready_to_step_back() {
+    ready_before_s_ = frames_.front().media_s;
+    try {
+        static_cast<void>(reader_->before(*ready_before_s_));  // it is kept
+    } catch (const InputError&) {                              // told to who takes the step
+    }
+}
+
+void Playback::end_here() {
+    sought_s_.reset();
+    complete_ = true;
+}
+
+bool Playback::at_seam() const {
+    return frames_.size() > 1 && frames_[1].media_s <= frames_[0].media_s;
+}
+
+Playback::Time Playback::next_due() const {
+    if (!playing_) return Time::max();
+    if (frames_.size() < 2) return clock_.anchor;
+    const double wait_s = (frames_[1].time_s - clock_.anchor_s) / clock_.speed;
+    return clock_.anchor + std::chrono::ceil<Time::duration>(std::chrono::duration<double>(wait_s));
+}
+
+FrameWindow Playback::touchable() const {
+    FrameWindow window = this->window();
+    if (!sought_s_) return window;
+    window.frames = {};
+    window.count = 0;
+    return window;
+}
+
+FrameWindow Playback::window() const {
+    FrameWindow window;
+    window.count = std::min(frames_.size(), FrameWindow::kFrames);
+    std::copy_n(frames_.begin(), window.count, window.frames.begin());
+    window.clock = clock_;
+    window.discontinuity = discontinuity_;
+    return window;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,387 @@
+// The thread that cleans frames and hands them over; decoding has one of its own.
+#include "core/video/playing/player.hpp"
+
+#include <malloc.h>
+#include <pthread.h>
+
+#include <condition_variable>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/video/playing/frame_reader.hpp"
+#include "core/video/playing/live_playback.hpp"
+#include "core/video/playing/playback.hpp"
+
+namespace dibhr {
+namespace {
+
+using Time = Playback::Time;
+
+/// What a method asks of the player's thread. Of seeks in a row, of cleanings and of maps, only the
+/// last one counts.
+enum class Kind { step, seek, cleaning, maps };
+struct Command {
+    std::function<void(Playback&, Time)> action{};
+    Kind kind{Kind::step};
+};
+
+/// What was asked for: the status tells it at once, so that who asks again goes on from there.
+struct Asked {
+    std::optional<double> media_s{}, speed{};
+    std::optional<bool> playing{}, looping{};
+    std::optional<std::optional<MediaPart>> part{};
+
+    void replace(const Asked& newer) {
+        if (newer.media_s) media_s = newer.media_s;
+        if (newer.speed) speed = newer.speed;
+        if (newer.playing) playing = newer.playing;
+        if (newer.looping) looping = newer.looping;
+        if (newer.part) part = newer.part;
+    }
+    void tell(PlaybackStatus& status) const {
+        status.media_s = media_s.value_or(status.media_s);
+        status.speed = speed.value_or(status.speed);
+        status.playing = playing.value_or(status.playing);
+        status.looping = looping.value_or(status.looping);
+        if (part) status.part = *part;
+    }
+};
+
+}  // namespace
+
+struct Player::Implementation {
+    void ask(Command command, const Asked& change = {});
+    void run();
+
+    void publish_live();
+    bool take_live(Time now);
+    bool wait_for_work(std::vector<Command>& taken);
+    void work(const std::vector<Command>& taken);
+    template <typename Action>
+    bool attempt(Action action);
+    void publish();
+
+    TripleBuffer<FrameWindow> haptics{};
+    TripleBuffer<FrameWindow> picture{};
+    Heartbeat heart{}, decoding{};
+
+    // The player thread's.
+    Playback playback{};
+    LivePlayback live{};  // while it is open nothing else is shown
+    Time handed_over{};   ///< `cleaned` of the last frame whose hand-over was measured
+    std::string failure{};
+
+    // Everybody's, under the mutex.
+    std::mutex mutex{};
+    std::condition_variable asked{};
+    std::vector<Command> commands{};
+    Asked asked_for{};  ///< by commands whose outcome is not published yet
+    PlaybackStatus status{};
+    FrameWindow shown{};  ///< as last published, for the time line
+    std::optional<double> sought_s{};
+    bool news{false};  ///< of what is live
+    bool leaving{false};
+
+    std::thread thread{};
+};
+
+void Player::Implementation::ask(Command command, const Asked& change) {
+    {
+        const std::lock_guard lock(mutex);
+        asked_for.replace(change);
+        if (command.kind != Kind::step && !commands.empty() && commands.back().kind == command.kind)
+            commands.pop_back();
+        commands.push_back(std::move(command));
+    }
+    asked.notify_one();
+}
+
+/// False when the player is to end.
+bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
+    const bool busy = !live.is_open() && (playback.needs_frame() || playback.has_time());
+    const Time due =
+        live.is_open() ? live.next_due(std::chrono::steady_clock::now()) : playback.next_due();
+    std::unique_lock lock(mutex);
+    const auto called = [this] { return leaving || news || !commands.empty(); };
+    if (!busy) heart.rest();
+    if (!busy && due == Time::max())
+        asked.wait(lock, called);
+    else if (!busy)
+        asked.wait_until(lock, due, called);
+    taken.swap(commands);
+    news = false;
+    heart.beat();
+    return !leaving;
+}
+
+/// Performs the commands, or, without any, reads one frame: they wait for one frame at most.
+void Player::Implementation::work(const std::vector<Command>& taken) {
+    bool changed = !live.is_open() && playback.advance(std::chrono::steady_clock::now());
+    for (const Command& command : taken) {
+        failure.clear();
+        attempt([&] { command.action(playback, std::chrono::steady_clock::now()); });
+        changed = true;
+    }
+    if (live.is_open()) {
+        changed = take_live(std::chrono::steady_clock::now()) || changed;
+    } else if (!changed && playback.needs_frame()) {
+        const bool readable = attempt([&] {
+            if (playback.read_ahead(std::chrono::steady_clock::now()))
+                playback.arrived(std::chrono::steady_clock::now());
+        });
+        if (!readable) playback.end_here();
+        changed = true;
+    } else if (!changed && playback.has_time()) {
+        playback.make_ready_to_step_back();
+    }
+    if (changed) publish();
+}
+
+/// What cannot be had any more is told by the signal.
+bool Player::Implementation::take_live(Time now) {
+    bool changed = false;
+    attempt([&] { changed = live.take(now); });
+    return changed;
+}
+
+/// False when a file could not be read: the failure is kept for the status, and what is shown
+/// stays.
+template <typename Action>
+bool Player::Implementation::attempt(Action action) {
+    try {
+        action();
+        return true;
+    } catch (const Error& error) {
+        failure = error.what();
+    } catch (const std::exception& error) {
+        failure = std::string("playing broke off (") + error.what() + "): open the file again";
+    }
+    return false;
+}
+
+void Player::Implementation::run() {
+    pthread_setname_np(pthread_self(), "dibhr-video");
+    heart.also_computes();
+    std::vector<Command> taken;
+    while (wait_for_work(taken)) {
+        work(taken);
+        taken.clear();
+    }
+    heart.rest();
+}
+
+/// Both readers get the same window; what the old ones held is freed here.
+void Player::Implementation::publish() {
+    const FrameWindow window = live.is_open() ? live.window() : playback.window();
+    haptics.publish(live.is_open() ? window : playback.touchable());
+    const Time published = std::chrono::steady_clock::now();
+    picture.publish(window);
+    const std::lock_guard lock(mutex);
+    if (commands.empty()) asked_for = {};
+    shown = window;
+    sought_s = live.is_open() ? std::nullopt : playback.sought_s();
+    status.failure = failure;
+    status.live.reset();
+    if (live.is_open()) return publish_live();
+    if (!playback.is_open()) return;
+    if (failure.empty()) status.failure = playback.description().trouble;
+    status.open = true;
+    status.playing = playback.playing();
+    status.looping = playback.looping();
+    status.part = playback.part();
+    status.speed = playback.speed();
+    status.duration_s = playback.description().duration_s;
+    status.frames = playback.description().frames;
+    status.frames_per_s = playback.description().frames_per_s;
+    status.shown_per_s = playback.shown_per_s();
+    status.waits = playback.waits();
+    status.cleaning = playback.cleaning_in_words();
+    status.steps = playback.steps();
+    const FrameCost& cost = playback.cost();
+    status.decode_ms = cost.decode_ms + cost.clean_ms;
+    status.clean_ms = cost.clean_ms;
+    if (cost.cleaned == handed_over) return;
+    handed_over = cost.cleaned;
+    status.handover_us =
+        std::chrono::duration<double, std::micro>(published - cost.cleaned).count();
+}
+
+/// Under the mutex.
+void Player::Implementation::publish_live() {
+    const MediaDescription& media = live.description();
+    status.live = live.status(std::chrono::steady_clock::now());
+    status.open = true;
+    status.playing = live.playing();
+    status.part.reset();
+    status.speed = 1.0;
+    status.duration_s = 0.0;
+    status.frames = 0;
+    status.frames_per_s =
+        status.live->arrives_per_s > 0.0 ? status.live->arrives_per_s : media.frames_per_s;
+    status.shown_per_s = status.frames_per_s;
+    status.waits = false;
+    status.cleaning = live.cleaning_in_words();
+    status.steps = live.steps();
+    status.decode_ms = status.clean_ms = live.clean_ms();
+}
+
+Player::Player() : implementation_(std::make_unique<Implementation>()) {
+    implementation_->thread = std::thread([this] { implementation_->run(); });
+}
+
+Player::~Player() {
+    {
+        const std::lock_guard lock(implementation_->mutex);
+        implementation_->leaving = true;
+    }
+    implementation_->asked.notify_one();
+    implementation_->thread.join();
+    implementation_->live.close();  // whose threads tell of news under the mutex
+}
+
+void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
+                        std::shared_ptr<const TouchMaps> maps) {
+    Implementation* const player = implementation_.get();
+    if (media->live()) {
+        auto shared = std::make_shared<std::unique_ptr<Media>>(std::move(media));
+        const auto news = [player] {
+            const std::lock_guard lock(player->mutex);
+            player->news = true;
+            player->asked.notify_one();
+        };
+        player->ask({[=](Playback& playback, Time) {
+            playback.close();
+            player->live.open(std::move(*shared), number, maps, news);
+            malloc_trim(0);
+        }});
+        return;
+    }
+    // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
+    auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
+        std::move(media), number,
+        ReadingHearts{&implementation_->decoding, &implementation_->heart}));
+    (*reader)->set_maps(std::move(maps));
+    implementation_->ask({[reader, player](Playback& playback, Time now) {
+        playback.open(std::move(*reader), now);
+        player->live.close();
+        // Else what the media before took stays with the program.
+        malloc_trim(0);
+    }});
+}
+
+void Player::play() {
+    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.play() : playback.play(now);
+                         }},
+                         {.playing = true});
+}
+
+void Player::pause() {
+    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.pause(now) : playback.pause(now);
+                         }},
+                         {.playing = false});
+}
+
+void Player::seek(double media_s) {
+    implementation_->ask({[player = implementation_.get(), media_s](Playback& playback, Time now) {
+                              if (!player->live.is_open()) playback.seek(media_s, now);
+                          },
+                          Kind::seek},
+                         {.media_s = media_s});
+}
+
+void Player::step(int frames) {
+    implementation_->ask({[player = implementation_.get(), frames](Playback& playback, Time now) {
+                             player->live.is_open() ? player->live.pause(now)
+                                                    : playback.step(frames, now);
+                         }},
+                         {.playing = false});
+}
+
+void Player::set_looping(bool looping) {
+    implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }},
+                         {.looping = looping});
+}
+
+void Player::set_part(const std::optional<MediaPart>& part) {
+    implementation_->ask({[part](Playback& playback, Time) { playback.set_part(part); }},
+                         {.part = part});
+}
+
+void Player::set_speed(double speed) {
+    implementation_->ask(
+        {[speed](Playback& playback, Time now) { playback.set_speed(speed, now); }},
+        {.speed = speed});
+}
+
+void Player::set_cleaning(const CleaningOptions& options) {
+    if (std::exchange(cleaning_, options) == options) return;
+    implementation_->ask({[player = implementation_.get(), options](Playback& playback, Time now) {
+                              player->live.set_cleaning(options, now);
+                              playback.set_cleaning(options);
+                          },
+                          Kind::cleaning});
+}
+
+void Player::set_motion(const MotionWanted& wanted) {
+    if (std::exchange(motion_, wanted) == wanted) return;
+    implementation_->ask({[player = implementation_.get(), wanted](Playback& playback, Time) {
+        player->live.set_motion(wanted);
+        playback.set_motion(wanted);
+    }});
+}
+
+void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
+    implementation_->ask(
+        {[player = implementation_.get(), maps = std::move(maps)](Playback& playback, Time) {
+             player->live.is_open() ? player->live.set_maps(maps) : playback.set_maps(maps);
+         },
+         Kind::maps});
+}
+
+void Player::record_live(std::uint32_t number, LiveSink sink) {
+    implementation_->ask(
+        {[player = implementation_.get(), number, sink = std::move(sink)](Playback&, Time now) {
+            if (player->live.is_open()) player->live.record(number, sink, now);
+        }});
+}
+
+PlaybackStatus Player::status() const {
+    const std::lock_guard lock(implementation_->mutex);
+    PlaybackStatus status = implementation_->status;
+    const FrameWindow& shown = implementation_->shown;
+    const double moment_s = shown.clock.playback_s(std::chrono::steady_clock::now());
+    const DepthBlend pair = shown.at(moment_s);
+    if (pair.from == nullptr) return status;  // nothing to ask anything of
+    // Between two frames the media time moves on, up to the end of the file at the loop's seam.
+    const double lasts_s = pair.to->media_s < pair.from->media_s
+                               ? pair.to->time_s - pair.from->time_s
+                               : pair.to->media_s - pair.from->media_s;
+    const double passed_s = pair.blend * lasts_s;
+    status.frame = pair.from->index;
+    status.media_s = implementation_->sought_s.value_or(pair.from->media_s + passed_s);
+    implementation_->asked_for.tell(status);
+    return status;
+}
+
+const Heartbeat& Player::heart() const noexcept {
+    return implementation_->heart;
+}
+const Heartbeat& Player::decoder_heart() const noexcept {
+    return implementation_->decoding;
+}
+TripleBuffer<FrameWindow>& Player::haptics() noexcept {
+    return implementation_->haptics;
+}
+TripleBuffer<FrameWindow>& Player::picture() noexcept {
+    return implementation_->picture;
+}
+
+}  // namespace dibhr

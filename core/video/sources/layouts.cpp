@@ -1,0 +1,274 @@
+// Looks at names only, but for lists and for cameras' intrinsics.
+#include "core/video/sources/layouts.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/formats/camera_files.hpp"
+#include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/picture_lists.hpp"
+#include "core/video/sources/picture_pattern.hpp"
+#include "core/video/sources/sources.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+LayoutFacts millimetres(std::vector<double> no_data, std::string known_from) {
+    LayoutFacts facts;
+    facts.known.unit = DepthUnit::mm;
+    facts.known.scale = 1.0;
+    facts.known.no_data = std::move(no_data);
+    facts.known_from = std::move(known_from);
+    return facts;
+}
+
+void take_camera(const CameraFile& camera, LayoutFacts& facts) {
+    facts.known.intrinsics = camera.intrinsics;
+    facts.columns = camera.columns;
+    facts.rows = camera.rows;
+    if (camera.levels_per_m) facts.known.scale = 1000.0 / *camera.levels_per_m;
+}
+
+bool all_match(const PictureRow& row, const std::string& pattern) {
+    return !row.empty() &&
+           std::all_of(row.begin(), row.end(), [&pattern](const NumberedPicture& picture) {
+               return fits_number_pattern(picture.file, pattern);
+           });
+}
+
+/// 7-Scenes, and tsdf-fusion, whose pictures of colour are JPEG and whose camera is in a file:
+/// microsoft.com/en-us/research/project/rgb-d-dataset-7-scenes, github.com/andyzeng/tsdf-fusion.
+std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const PictureSet& set) {
+    if (!all_match(set.depth, "frame-%06d.depth.png")) return std::nullopt;
+    const bool is_7_scenes = all_match(set.colour, "frame-%06d.color.png");
+    LayoutFacts facts =
+        millimetres({0.0, 65535.0}, is_7_scenes ? "7-Scenes names" : "tsdf-fusion names");
+    for (const fs::path& place : {folder, folder.parent_path()}) {
+        const auto camera = read_camera_matrix(place / "camera-intrinsics.txt");
+        if (camera && !facts.known.intrinsics) take_camera(*camera, facts);
+    }
+    if (is_7_scenes && !facts.known.intrinsics)
+        take_camera({{585.0, 585.0, 320.0, 240.0}, 640, 480, {}}, facts);
+    facts.other_camera = is_7_scenes;  // "the RGB and depth camera have not been calibrated"
+    return facts;
+}
+
+std::string folder_name(const PictureRow& row) {
+    return lower_case(row.front().file.parent_path().filename().string());
+}
+
+std::optional<CameraFile> open3d_camera(const fs::path& folder) {
+    for (const char* const name :
+         {"camera_intrinsic.json", "camera_intrinsics.json", "intrinsic.json"}) {
+        if (auto camera = read_camera_json(folder / name)) return camera;
+    }
+    return std::nullopt;
+}
+
+/// Folders of colour and of depth: ScanNet's with its camera, Open3D's with its camera or its
+/// names (github.com/ScanNet/ScanNet, www.open3d.org/docs: reconstruction system). `rgb` beside
+/// `depth` says nothing: TUM and others of other scales have it, too.
+std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const PictureSet& set) {
+    if (set.depth.empty() || folder_name(set.depth) != "depth") return std::nullopt;
+    if (const auto camera = read_camera_matrix(folder / "intrinsic" / "intrinsic_depth.txt")) {
+        LayoutFacts facts = millimetres({0.0}, "ScanNet's folders");
+        take_camera(*camera, facts);
+        return facts;
+    }
+    const auto camera = open3d_camera(folder);
+    const std::string colour = set.colour.empty() ? "" : folder_name(set.colour);
+    if (!camera && colour != "color" && colour != "image") return std::nullopt;
+    LayoutFacts facts = millimetres({0.0}, "folders as Open3D has them");
+    if (camera) take_camera(*camera, facts);
+    return facts;
+}
+
+LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
+    if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
+    if (auto facts = facts_of_folders(folder, set)) return *facts;
+    return {};
+}
+
+/// What says depth or colour: the name, or, where that says nothing, its folder's.
+fs::path sayer_of(const fs::path& place) {
+    const fs::path own = place.has_filename() ? place : place.parent_path();
+    return named_depth(own) || named_colour(own) ? own : own.parent_path();
+}
+
+bool are_swapped(const fs::path& colour, const fs::path& depth) {
+    const fs::path first = sayer_of(colour);
+    const fs::path second = sayer_of(depth);
+    return named_depth(first) && !named_colour(first) && named_colour(second) &&
+           !named_depth(second);
+}
+
+/// None where the folder has a list of pictures.
+std::vector<fs::path> videos_in(const fs::path& folder) {
+    std::vector<fs::path> videos;
+    if (is_picture_list(folder / "depth.txt") || is_picture_list(folder / "associations.txt"))
+        return videos;
+    for (const fs::path& entry : entries_of(folder)) {
+        if (named_video(entry) && !entry.filename().string().starts_with('.') && is_file(entry))
+            videos.push_back(entry);
+    }
+    return videos;
+}
+
+/// The colour video that a depth video belongs to: named colour before others; null when none.
+const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>& videos) {
+    const std::string subject = subject_of(depth);
+    const fs::path* found = nullptr;
+    for (const fs::path& video : videos) {
+        if (named_depth(video) || subject_of(video) != subject) continue;
+        if (found == nullptr || (named_colour(video) && !named_colour(*found))) found = &video;
+    }
+    return found;
+}
+
+/// In natural order. One of colour and one of depth belong together whatever else their names say.
+std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
+    std::vector<MediaPlaces> pairs;
+    std::vector<fs::path> colours;
+    std::vector<fs::path> depths;
+    for (const fs::path& video : videos) {
+        if (named_depth(video))
+            depths.push_back(video);
+        else if (named_colour(video))
+            colours.push_back(video);
+    }
+    for (const fs::path& depth : depths) {
+        if (const fs::path* const colour = colour_beside(depth, videos))
+            pairs.push_back({*colour, depth, {}});
+    }
+    if (pairs.empty() && colours.size() == 1 && depths.size() == 1)
+        pairs.push_back({colours.front(), depths.front(), {}});
+    std::stable_sort(pairs.begin(), pairs.end(), [](const MediaPlaces& a, const MediaPlaces& b) {
+        return in_natural_order(a.colour.filename().string(), b.colour.filename().string());
+    });
+    return pairs;
+}
+
+std::string words_for(const MediaPlaces& pair) {
+    return shown(pair.colour.filename()) + " with " + shown(pair.depth.filename());
+}
+
+std::string others_of(const std::vector<MediaPlaces>& pairs) {
+    constexpr std::size_t kMostNamed = 3;
+    if (pairs.size() < 2) return {};
+    std::string said = "opened " + words_for(pairs.front()) + "; the folder also holds ";
+    for (std::size_t k = 1; k < std::min(pairs.size(), kMostNamed + 1); ++k)
+        said += (k > 1 ? ", " : "") + words_for(pairs[k]);
+    const std::size_t unnamed = pairs.size() - std::min(pairs.size(), kMostNamed + 1);
+    return said + (unnamed > 0 ? " and " + std::to_string(unnamed) + " more pairs" : "");
+}
+
+/// Whether it holds them and no pictures of its own.
+bool is_of_videos(const fs::path& folder, const std::vector<fs::path>& videos) {
+    if (videos.empty()) return false;
+    const std::vector<fs::path> entries = entries_of(folder);
+    return std::none_of(entries.begin(), entries.end(), is_picture);
+}
+
+/// Pictures of one kind, where they were found.
+struct PlacedRow {
+    fs::path place{};
+    PictureRow pictures{};
+    LayoutFacts said{};
+};
+
+std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& other,
+                                        PictureRole role) {
+    return std::make_unique<PictureSequence>(
+        row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said);
+}
+
+/// The pictures of that role, or those whose names say nothing. Throws InputError when there are
+/// none.
+PlacedRow row_of(const fs::path& place, PictureRole role) {
+    PictureSet found = pictures_at(place);
+    const bool is_depth = role == PictureRole::depth;
+    PictureRow& named = is_depth ? found.depth : found.colour;
+    PictureRow& row = named.empty() ? found.unnamed : named;
+    const bool has_others = !found.colour.empty() || !found.depth.empty();
+    const std::string kind = !has_others ? "" : is_depth ? "depth " : "colour ";
+    if (row.empty())
+        throw InputError(shown(place) + (is_folder(place) ? " is a folder" : " is a list") +
+                         " without " + kind +
+                         "pictures: give the folder or the file that holds them");
+    return {place, std::move(row), std::move(found.facts)};
+}
+
+Sources pair_of(PlacedRow colour, const PlacedRow& depth) {
+    colour.pictures = nearest_in_time(colour.pictures, depth.pictures);
+    return {sequence(depth, colour.pictures, PictureRole::depth),
+            sequence(colour, depth.pictures, PictureRole::colour)};
+}
+
+}  // namespace
+
+bool names_pictures(const fs::path& place) {
+    return is_folder(place) || is_picture_pattern(place) || is_picture_list(place);
+}
+
+PictureSet pictures_at(const fs::path& place) {
+    if (is_picture_pattern(place)) return pictures_of_pattern(place);
+    if (!is_folder(place)) return read_picture_list(place);
+    if (auto listed = read_lists_in(place)) return std::move(*listed);
+    PictureSet found = look_into(place);
+    const fs::path folder = place.has_filename() ? place : place.parent_path();
+    found.facts = facts_of(folder, found);
+    return found;
+}
+
+std::unique_ptr<PictureSource> open_row(const fs::path& place, PictureRole role) {
+    return sequence(row_of(place, role), {}, role);
+}
+
+Sources both_rows(const fs::path& place) {
+    PictureSet found = pictures_at(place);
+    if (found.colour.empty() || found.depth.empty()) return {};
+    return pair_of({place, std::move(found.colour), {}},
+                   {place, std::move(found.depth), std::move(found.facts)});
+}
+
+Sources rows_of_two(const fs::path& colour, const fs::path& depth) {
+    return pair_of(row_of(colour, PictureRole::colour), row_of(depth, PictureRole::depth));
+}
+
+MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
+    if (are_swapped(colour, depth))
+        return {depth, colour,
+                "taken by their names: " + shown(depth.filename()) + " as colour, " +
+                    shown(colour.filename()) + " as depth"};
+    if (!is_folder(colour) || (!depth.empty() && depth != colour)) return {colour, depth, {}};
+    const std::vector<fs::path> videos = videos_in(colour);
+    const std::vector<MediaPlaces> pairs = pairs_of(videos);
+    if (!pairs.empty()) return {pairs.front().colour, pairs.front().depth, others_of(pairs)};
+    if (videos.size() == 1 && is_of_videos(colour, videos)) return {videos.front(), {}, {}};
+    return {colour, depth, {}};
+}
+
+fs::path depth_place_for(const fs::path& place) {
+    if (!is_folder(place)) return place;
+    const std::vector<fs::path> videos = videos_in(place);
+    const std::vector<MediaPlaces> pairs = pairs_of(videos);
+    if (!pairs.empty()) return pairs.front().depth;
+    if (!is_of_videos(place, videos)) return place;
+    const auto depth = std::find_if(videos.begin(), videos.end(), named_depth);
+    if (depth != videos.end()) return *depth;
+    return videos.size() == 1 ? videos.front() : place;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,223 @@
+// Pictures of a feed by their role, and which role they have.
+#include "core/video/sources/live_source.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/picture_source.hpp"
+#include "core/video/formats/readable.hpp"
+#include "core/video/sources/packed.hpp"
+#include "core/video/sources/picture_kind.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = LiveFeed::Clock;
+
+constexpr std::chrono::seconds kPatience{6};  ///< without a picture, who waits for one is told
+/// Where packets come: for a key frame, which encoders send every 250 frames unless told else.
+constexpr std::chrono::seconds kPatienceWithKey{12};
+constexpr int kMostSamples = 10;  ///< a third of a second
+constexpr int kLookedAtLive = 4;
+
+/// Where one reader of a feed is.
+struct LiveCursor {
+    std::shared_ptr<LiveFeed> feed{};
+    std::shared_ptr<const LivePair> pair{};
+    double first_s{0.0};     ///< stamp of the first depth picture
+    std::int64_t index{-1};  ///< of the pair, counted from the first
+
+    /// Waits for the next one. Throws InputError when none comes.
+    void advance() {
+        if (!goes_on()) throw InputError(why_none());
+    }
+    /// Waits for the next one. False: none will come.
+    bool goes_on() {
+        const std::uint64_t number = pair ? pair->number : 0;
+        const auto begin = Clock::now();
+        auto next = feed->after(number, begin + kPatience);
+        if (!next && feed->signal().heard) next = feed->after(number, begin + kPatienceWithKey);
+        if (!next) return false;
+        if (!pair) first_s = next->depth.stamp_s;
+        pair = std::move(next);
+        ++index;
+        return true;
+    }
+    [[nodiscard]] std::string why_none() const {
+        const LiveSignal signal = feed->signal();
+        if (signal.other_form)
+            return shown(feed->depth()) + " now sends pictures of another form: open it again";
+        if (!signal.trouble.empty()) return signal.trouble;
+        if (signal.heard)
+            return shown(feed->depth()) +
+                   " sends, but no whole key frame has come yet: let it send one more often "
+                   "(-g 30), and lose less on the way";
+        return "no signal from " + shown(feed->depth()) + " for " +
+               std::to_string(kPatience.count()) + " s: start what sends, and check the name";
+    }
+};
+
+/// Which pictures of a pair.
+enum class Which { depth, depth_as_seen, colour };
+
+class LivePictures : public PictureSource {
+  public:
+    /// Waits for the first pair.
+    LivePictures(std::shared_ptr<LiveCursor> cursor, Which which)
+        : cursor_(std::move(cursor)), which_(which) {
+        if (!cursor_->pair) cursor_->advance();
+        const LivePicture& first = picture();
+        facts_.file = which == Which::colour ? colour_place() : cursor_->feed->depth();
+        facts_.columns = mat().cols;
+        facts_.rows = mat().rows;
+        facts_.bits = which == Which::depth ? first.bits : 8;
+        facts_.channels = first.grey || which == Which::depth ? 1 : 3;
+        facts_.codec = first.codec;
+        facts_.start_s = std::numeric_limits<double>::quiet_NaN();
+        facts_.frames_per_s = first.frames_per_s;
+        facts_.live = true;
+        if (mat().empty())
+            throw InputError(shown(facts_.file) +
+                             " holds floating-point levels: let it send 16-bit grey");
+        require_size(facts_.file, facts_.columns, facts_.rows);
+    }
+
+    [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
+    /// Depth leads: its next is the next pair; colour is of the pair that is there.
+    std::optional<TimedPicture> next() override {
+        if (which_ != Which::colour) cursor_->advance();
+        const double time_s = cursor_->pair->depth.stamp_s - cursor_->first_s;
+        TimedPicture taken{mat(), time_s, cursor_->index};
+        taken.pair = cursor_->pair;
+        return taken;
+    }
+    void seek(double /*time_s*/) override {}
+    std::vector<cv::Mat> samples(int most) override {
+        std::vector<cv::Mat> pictures{mat()};
+        const auto wanted = static_cast<std::size_t>(std::clamp(most, 1, kMostSamples));
+        while (pictures.size() < wanted && cursor_->goes_on()) pictures.push_back(mat());
+        return pictures;
+    }
+
+  private:
+    [[nodiscard]] const fs::path& colour_place() const {
+        const LiveFeed& feed = *cursor_->feed;
+        return feed.colour().empty() ? feed.depth() : feed.colour();
+    }
+    [[nodiscard]] const LivePicture& picture() const {
+        return which_ == Which::colour ? cursor_->pair->colour : cursor_->pair->depth;
+    }
+    [[nodiscard]] const cv::Mat& mat() const {
+        return which_ == Which::depth ? picture().levels : picture().colour;
+    }
+
+    std::shared_ptr<LiveCursor> cursor_;
+    Which which_;
+    SourceFacts facts_{};
+};
+
+std::unique_ptr<PictureSource> pictures_of(const std::shared_ptr<LiveCursor>& cursor, Which which) {
+    return std::make_unique<LivePictures>(cursor, which);
+}
+
+/// Depth pictures that are colours are a code, as somebody says or as they look.
+Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
+                const DepthStatement& said) {
+    Sources sources;
+    const bool says_grey = said.code == DepthCode::grey;
+    const bool hue = said.code == DepthCode::hue || (!says_grey && kind == PictureKind::hue_depth);
+    if (hue) {
+        sources.depth =
+            hue_decoded(pictures_of(cursor, Which::depth_as_seen), HueCode{}, "its hues");
+        sources.assumed.code = DepthCode::hue;
+        sources.by_look = true;
+    } else if (!says_grey && kind == PictureKind::ramp_depth) {
+        sources.depth = ramp_decoded(pictures_of(cursor, Which::depth_as_seen), "its colours");
+        sources.by_look = true;
+    } else {
+        sources.depth = pictures_of(cursor, Which::depth);
+    }
+    return sources;
+}
+
+Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form) {
+    auto colour = pictures_of(cursor, Which::colour);
+    return unpack(std::move(colour),
+                  pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth), form);
+}
+
+PictureGuess look_at(const std::shared_ptr<LiveCursor>& cursor) {
+    return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLookedAtLive));
+}
+
+/// One connection: halves as somebody says or as they look, else depth alone.
+Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& said) {
+    const bool says_halves = said.packing && is_of_halves(*said.packing);
+    const PictureGuess look = look_at(cursor);
+    if (says_halves || (!said.packing && look.kind == PictureKind::packed)) {
+        PackedForm form{.packing = says_halves ? *said.packing : look.packing,
+                        .known_from = says_halves ? "" : "its pictures"};
+        const bool looks_hue = look.kind == PictureKind::packed && look.code == DepthCode::hue;
+        if (said.code ? *said.code == DepthCode::hue : looks_hue) form.hue.emplace();
+        Sources sources = halves(cursor, form);
+        if (!says_halves) {
+            sources.assumed = std::exchange(sources.found, {});
+            sources.by_look = true;
+        }
+        return sources;
+    }
+    const LivePicture& first = cursor->pair->depth;
+    const bool is_depth = look.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
+                          said.code == DepthCode::hue || said.packing == DepthPacking::separate;
+    if (!is_depth) {
+        throw InputError(shown(cursor->feed->depth()) +
+                         " shows colour: give what sends its depth as the second, or say how the "
+                         "depth is in it with --packing (separate: it is all depth)");
+    }
+    return decoded(cursor, look.kind, said);
+}
+
+}  // namespace
+
+bool any_live(const fs::path& colour, const fs::path& depth) {
+    return is_live(colour) || is_live(depth);
+}
+
+Sources find_live_sources(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
+                          std::shared_ptr<LiveFeed> feed) {
+    const fs::path& only = depth.empty() ? colour : depth;
+    const bool two = !colour.empty() && colour != only;
+    if (!is_live(only) || (two && !is_live(colour)))
+        throw InputError(shown(two ? colour : only) + " and " + shown(only) +
+                         " do not go together: colour and depth are both live, or both files");
+    if (!feed || !feed->is_of(colour, depth) || feed->signal().other_form)
+        feed = std::make_shared<LiveFeed>(two ? colour : fs::path{}, only);
+    feed->want(true, true);
+    const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
+    cursor->advance();
+    Sources sources;
+    if (two) {
+        sources = decoded(cursor, PictureKind::grey_depth, said);
+        sources.colour = pictures_of(cursor, Which::colour);
+        feed->want(said.code == DepthCode::hue, said.code != DepthCode::hue);
+    } else {
+        sources = of_one(cursor, said);
+        const bool as_seen = sources.colour != nullptr ||
+                             sources.depth->facts().bits == kRealBits || sources.by_look;
+        feed->want(as_seen, true);
+    }
+    sources.live = std::move(feed);
+    return sources;
+}
+
+}  // namespace dibhr

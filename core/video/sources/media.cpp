@@ -1,0 +1,171 @@
+// Checks, opens and describes what people bring.
+#include "core/video/sources/media.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_guess.hpp"
+#include "core/video/sources/depth_finding.hpp"
+#include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/live_source.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/paired_media.hpp"
+#include "core/video/sources/sources.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kPaperRelief = 255.0 / 720.0;  ///< of the width
+constexpr double kPaperWidth_mm = 101.6;
+constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
+
+/// Opens with what was chosen before; where that cannot be understood or does not fit what is there
+/// now, without it, and with a sentence that says so. `open(request, sentence)`.
+template <typename Open>
+auto opened(const DepthRequest& request, const Open& open) {
+    try {
+        return open(request, std::string());
+    } catch (const InputError& error) {
+        if (!is_folder(request.kept_in)) throw;
+        DepthRequest without = request;
+        without.kept_in.clear();
+        return open(without,
+                    std::string("what was chosen for it before is passed over: ") + error.what());
+    }
+}
+
+std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
+                                      const std::string& notice) {
+    const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
+    DepthScale scale = find_scale(sources, request);
+    const bool painted = seen && request.paints && sources.colour == nullptr;
+    auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
+                                               std::move(scale), painted);
+    media->add_notice(sources.notice);
+    media->add_notice(notice);
+    media->panel_said(request.panel);
+    media->comes_from(std::move(sources.live));
+    return media;
+}
+
+/// Where names say that the depth of a pair is: what is said of it counts from the opening on.
+fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
+    if (any_live(colour, depth)) return depth.empty() ? colour : depth;
+    if (colour.empty()) return depth_place_for(depth);
+    const MediaPlaces places = places_for(colour, depth);
+    if (!places.depth.empty()) return places.depth;
+    std::string ignored;
+    return find_depth_beside(places.colour, ignored).value_or(places.colour);
+}
+
+/// What is given, as it is given, or what is found there.
+Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
+                   const DepthRequest& request) {
+    if (any_live(colour, depth)) return find_live_sources(colour, depth, said, request.live);
+    return colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
+}
+
+MediaDescription described(const fs::path& place, const DepthRequest& request,
+                           const std::string& notice) {
+    const MediaPlaces places =
+        is_live(place) ? MediaPlaces{.colour = place} : places_for(place, {});
+    const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
+    const DepthStatement said = said_of(depth, place, request);
+    Sources sources =
+        is_live(place) ? sources_of(place, {}, said, request) : find_content(place, said);
+    if (sources.depth == nullptr) {
+        sources.colour->count_frames(kMostCounted);
+        MediaDescription description;
+        describe_colour(sources.colour->facts(), description);
+        describe_time(sources.colour->facts(), description);
+        description.notice = sources.colour->facts().notice;
+        return description;
+    }
+    const std::vector<cv::Mat> pictures = some_pictures(*sources.depth);
+    const auto media = media_of(std::move(sources), request, false, notice);
+    media->count_frames(kMostCounted);
+    MediaDescription description = media->description();
+    description.levels_used = levels_used(pictures);
+    if (description.meaning) description.holes_share = holes_share(pictures, *description.meaning);
+    return description;
+}
+
+}  // namespace
+
+std::optional<RawFrame> Media::next_from(double earliest_s) {
+    return first_from(earliest_s, *this, &RawFrame::media_s);
+}
+
+std::string motion_trouble(const MediaDescription& media) {
+    if (media.still) return {};
+    if (media.colour_path.empty())
+        return "without colour, motion is seen at the depth's outlines alone";
+    if (media.colour_still) return "the colour stands still: no motion is seen in it";
+    if (media.live) return {};
+    const double rate = media.colour_frames_per_s;
+    constexpr double kSameRate = 0.95;
+    if (rate > 0.0 && rate < kSameRate * media.frames_per_s)
+        return "the colour has " + short_text(rate, 3) + " pictures a second and the depth " +
+               short_text(media.frames_per_s, 3) + ": what moves is seen to go in jerks";
+    const double after_s = media.colour_duration_s;
+    const double frame_s = media.frames_per_s > 0.0 ? 1.0 / media.frames_per_s : 0.0;
+    if (after_s > 0.0 && after_s + 2.0 * frame_s < media.duration_s)
+        return "the colour ends after " + short_text(after_s, 3) + " s, the depth after " +
+               short_text(media.duration_s, 3) + " s: no motion is seen in between";
+    return {};
+}
+
+Fit fit_of(const MediaDescription& media) {
+    if (media.true_fit) return *media.true_fit;
+    const double columns = std::max(media.depth_columns, 2);
+    return {kPaperRelief * columns, kPaperWidth_mm / columns};
+}
+
+CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked) {
+    if (asked.preset != CleaningPreset::automatic || !media.meaning) return asked;
+    const CleaningChoice& said = media.meaning->cleaning.value;
+    return {.preset = said.preset, .own = said.own, .finger = asked.finger};
+}
+
+double finger_mm_on(const MediaDescription& media, double asked_mm) {
+    if (asked_mm > 0.0 || !media.meaning) return asked_mm;
+    return media.meaning->finger_mm.value;
+}
+
+std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
+                                  const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        const DepthStatement said = said_of(depth_of_pair(colour, depth), colour, request);
+        return media_of(sources_of(colour, depth, said, request), request, true, notice);
+    });
+}
+
+std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        const fs::path depth = is_live(place) ? place : depth_place_for(place);
+        Sources sources = sources_of({}, place, said_of(depth, place, request), request);
+        sources.colour.reset();
+        return media_of(std::move(sources), request, false, notice);
+    });
+}
+
+MediaDescription describe_media(const fs::path& place, const DepthRequest& asked) {
+    return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
+        return described(place, request, notice);
+    });
+}
+
+}  // namespace dibhr

@@ -1,0 +1,233 @@
+// Halves of pictures, what names say of them, and colours that are a code.
+#include "core/video/sources/packed.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/readers.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_side_by_side(DepthPacking packing) noexcept {
+    return packing == DepthPacking::left_right || packing == DepthPacking::right_left;
+}
+
+/// Where packed pictures are all that a folder holds.
+std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureRole role) {
+    PictureSet found = look_into(folder);
+    const auto longest =
+        std::max({&found.unnamed, &found.colour, &found.depth},
+                 [](const PictureRow* a, const PictureRow* b) { return a->size() < b->size(); });
+    if (longest->empty())
+        throw InputError(
+            shown(folder) +
+            " is a folder without pictures: give the folder or the file that holds them");
+    std::vector<double> times = times_s(*longest, {}, kPicturesPerSecond);
+    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role);
+}
+
+std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole role) {
+    return is_folder(place) ? open_longest_row(place, role) : open_picture_source(place, role);
+}
+
+std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, DepthPacking packing,
+                                       PictureRole role) {
+    const auto crop = [packing, role](const cv::Mat& picture) {
+        return picture(half_of(picture.size(), packing, role)).clone();
+    };
+    return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
+}
+
+/// The intrinsics of a picture of one size as those of another that shows the same.
+Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
+    const double x = static_cast<double>(to.width) / from.width;
+    const double y = static_cast<double>(to.height) / from.height;
+    return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
+}
+
+/// A half in its own size, with what is known of it.
+std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
+                                          const PackedForm& form, PictureRole role) {
+    const double wide = is_side_by_side(form.packing) ? 2.0 : 0.5;
+    const auto change = [aspect = form.half_size ? wide : 1.0, role](const cv::Mat& picture) {
+        return with_square_pixels(picture, aspect, role);
+    };
+    if (role == PictureRole::colour)
+        return std::make_unique<ChangedPictures>(std::move(half), change, [](SourceFacts&) {});
+    const auto tell = [form](SourceFacts& facts) {
+        DepthStatement known = form.known;
+        const cv::Size size(facts.columns, facts.rows);
+        if (known.intrinsics && !form.intrinsics_size.empty())
+            known.intrinsics = resized(*known.intrinsics, form.intrinsics_size, size);
+        known.fill_in(facts.known);
+        facts.known = std::move(known);
+        if (!form.known_from.empty()) facts.known_from = form.known_from;
+    };
+    return std::make_unique<ChangedPictures>(std::move(half), change, tell);
+}
+
+/// What the code says of the levels that it becomes.
+DepthStatement meaning_of(const HueCode& code) {
+    DepthStatement meaning;
+    meaning.code = DepthCode::hue;
+    meaning.near = NearLevels::dark;
+    meaning.unit = code.metres ? DepthUnit::m : DepthUnit::levels;
+    meaning.scale = 1.0;
+    meaning.range = code.metres;
+    meaning.no_data.emplace();  // 0 is a level
+    return meaning;
+}
+
+/// Letters and digits between other characters, as small letters.
+std::vector<std::string> plain_words_of(const std::string& name) {
+    std::vector<std::string> words(1);
+    for (const char c : lower_case(name)) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
+}
+
+struct PackingWord {
+    std::string_view word;
+    std::optional<DepthPacking> packing;
+    bool half_size;
+    bool says_depth;
+};
+
+constexpr std::array<PackingWord, 18> kPackingWords{{
+    {"rgbd", std::nullopt, false, true},
+    {"hrgbd", std::nullopt, true, true},
+    {"half", std::nullopt, true, false},
+    {"full", std::nullopt, false, false},
+    {"lr", DepthPacking::left_right, false, false},
+    {"lrf", DepthPacking::left_right, false, false},
+    {"sbs", DepthPacking::left_right, false, false},
+    {"hsbs", DepthPacking::left_right, true, false},
+    {"rl", DepthPacking::right_left, false, false},
+    {"rlf", DepthPacking::right_left, false, false},
+    {"cross", DepthPacking::right_left, false, false},
+    {"tb", DepthPacking::top_bottom, false, false},
+    {"tbf", DepthPacking::top_bottom, false, false},
+    {"fulltb", DepthPacking::top_bottom, false, false},
+    {"htb", DepthPacking::top_bottom, true, false},
+    {"ou", DepthPacking::top_bottom, false, false},
+    {"hou", DepthPacking::top_bottom, true, false},
+    {"bt", DepthPacking::bottom_top, false, false},
+}};
+
+const PackingWord* packing_word(const std::string& word) {
+    const auto* const found =
+        std::find_if(kPackingWords.begin(), kPackingWords.end(),
+                     [&](const PackingWord& known) { return known.word == word; });
+    return found == kPackingWords.end() ? nullptr : found;
+}
+
+bool is_number(const std::string& word) {
+    return std::all_of(word.begin(), word.end(),
+                       [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+}  // namespace
+
+std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,
+                                           std::string known_from) {
+    const auto decode = [code](const cv::Mat& picture) {
+        cv::Mat depth = hues_of(picture, code);
+        if (!code.metres) return depth;
+        const double near = code.metres->near;
+        depth.convertTo(depth, CV_32F, code.metres->far - near, near);
+        return depth;
+    };
+    const auto tell = [code, from = std::move(known_from)](SourceFacts& facts) {
+        facts.bits = kRealBits;
+        facts.channels = 1;
+        facts.known_from = from;
+        facts.known.fill_in(meaning_of(code));
+    };
+    return std::make_unique<ChangedPictures>(std::move(colours), decode, tell);
+}
+
+std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
+                                            std::string known_from) {
+    const auto tell = [from = std::move(known_from)](SourceFacts& facts) {
+        facts.bits = 8;
+        facts.channels = 1;
+        facts.known_from = from;
+        DepthStatement ramp;
+        ramp.near = NearLevels::bright;
+        ramp.unit = DepthUnit::levels;
+        ramp.no_data = {0.0};
+        facts.known.fill_in(ramp);
+    };
+    return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, tell);
+}
+
+bool is_of_halves(DepthPacking packing) noexcept {
+    return packing != DepthPacking::separate && packing != DepthPacking::tracks;
+}
+
+cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role) {
+    const bool beside = is_side_by_side(packing);
+    const bool colour_first =
+        packing == DepthPacking::left_right || packing == DepthPacking::top_bottom;
+    const bool first = colour_first == (role == PictureRole::colour);
+    const cv::Size half(beside ? picture.width / 2 : picture.width,
+                        beside ? picture.height : picture.height / 2);
+    const cv::Point last(picture.width - half.width, picture.height - half.height);
+    return {first ? cv::Point() : last, half};
+}
+
+Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<PictureSource> for_depth,
+               const PackedForm& form) {
+    auto colour = cropped(std::move(for_colour), form.packing, PictureRole::colour);
+    auto depth = cropped(std::move(for_depth), form.packing, PictureRole::depth);
+    if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
+    Sources sources;
+    sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);
+    sources.depth = unsqueezed(std::move(depth), form, PictureRole::depth);
+    sources.found.packing = form.packing;
+    sources.found.code = form.hue ? DepthCode::hue : DepthCode::grey;
+    return sources;
+}
+
+Sources open_packed(const fs::path& place, const PackedForm& form) {
+    const PictureRole read_as = form.hue ? PictureRole::colour : PictureRole::depth;
+    auto for_colour = open_whole(place, PictureRole::colour);
+    return unpack(std::move(for_colour), open_whole(place, read_as), form);
+}
+
+std::optional<NamedPacking> packing_by_name(const fs::path& file) {
+    const std::vector<std::string> words = plain_words_of(file.stem().string());
+    NamedPacking said;
+    bool says = false;
+    // From the end: words inside a name may mean anything.
+    for (auto word = words.rbegin(); word != words.rend(); ++word) {
+        const PackingWord* const known = packing_word(*word);
+        if (known == nullptr && !is_number(*word)) break;
+        if (known == nullptr) continue;
+        if (known->packing) said.packing = *known->packing;
+        said.half_size = said.half_size || known->half_size;
+        said.says_depth = said.says_depth || known->says_depth;
+        says = says || known->packing || known->says_depth;
+    }
+    if (!says) return std::nullopt;
+    return said;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,272 @@
+// Pairs frames by their presentation times.
+#include "core/video/sources/paired_media.hpp"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/frames/frame_window.hpp"
+#include "core/video/live/live_join.hpp"
+#include "core/video/sources/depth_finding.hpp"
+
+namespace dibhr {
+
+namespace {
+
+/// A colour frame up to this part of an interval later than the depth frame still belongs to it:
+/// streams that run together may be a little apart. Less than half, so that halfway the earlier one
+/// is taken.
+constexpr double kNotLater = 0.4;
+constexpr double kFarAhead = 2.5;  ///< intervals; what is between is decoded only
+
+/// How much later than the depth the colour begins [s]: as both files say, when they overlap.
+double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
+    const double later_s = colour.start_s - depth.start_s;
+    const bool overlap = later_s < depth.duration_s && -later_s < colour.duration_s;
+    return overlap ? later_s : 0.0;
+}
+
+/// Near is light, far is dark, no data is grey.
+ColourImage painted_depth(const DepthImage& depth) {
+    const cv::Mat levels = view_of(depth);
+    cv::Mat shades;
+    levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
+    cv::Mat colours;
+    cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
+    colours.setTo(cv::Scalar::all(kNoColour), levels != levels);
+    return colour_of(colours);
+}
+
+double interval_of(const SourceFacts& facts) {
+    return facts.frames_per_s > 0.0 ? 1.0 / facts.frames_per_s : 1.0;
+}
+
+}  // namespace
+
+void describe_depth(const SourceFacts& facts, MediaDescription& description) {
+    description.depth_path = facts.file;
+    description.depth_columns = facts.columns;
+    description.depth_rows = facts.rows;
+    description.depth_codec = facts.codec;
+    description.depth_bits = facts.bits;
+    description.noise = facts.noise;
+}
+
+void describe_colour(const SourceFacts& facts, MediaDescription& description) {
+    description.colour_path = facts.file;
+    description.colour_columns = facts.columns;
+    description.colour_rows = facts.rows;
+    description.colour_codec = facts.codec;
+    description.colour_frames_per_s = facts.still ? 0.0 : facts.frames_per_s;
+    description.colour_duration_s = facts.duration_s;
+    description.colour_still = facts.still;
+}
+
+void describe_time(const SourceFacts& facts, MediaDescription& description) {
+    description.duration_s = facts.duration_s;
+    description.frames_per_s = facts.still ? 0.0 : facts.frames_per_s;
+    description.frames = facts.frames;
+    description.frames_exact = facts.frames_exact;
+    description.still = facts.still;
+    description.live = facts.live;
+}
+
+ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
+    : source_(std::move(source)),
+      starts_later_s_(colour_start_s(source_->facts(), depth)),
+      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
+
+const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
+    if (source_->facts().live) {  // it comes with the depth
+        now_ = source_->next().value_or(now_);
+        return now_.picture;
+    }
+    const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s_;
+    if (std::exchange(near_, false)) {
+        source_->seek_near(latest_s);
+        now_ = source_->next().value_or(now_);
+        return now_.picture;
+    }
+    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < latest_s)) {
+        source_->seek(latest_s);
+        now_ = source_->next().value_or(now_);
+        later_ = source_->next();
+        placed_ = true;
+    }
+    while (later_ && later_->time_s <= latest_s + kTimeTolerance_s) {  // as after a jump
+        now_ = std::move(*later_);
+        later_ = source_->next();
+    }
+    return now_.picture;
+}
+
+PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
+                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted)
+    : depth_(std::move(depth)), scale_(std::move(scale)), painted_(painted) {
+    describe_depth(depth_->facts(), description_);
+    size_ = {description_.depth_columns, description_.depth_rows};
+    describe_time(depth_->facts(), description_);
+    description_.meaning = scale_.meaning();
+    if (colour != nullptr) describe_colour(colour->facts(), description_);
+    take_range();
+    take_true_shape();
+    if (painted_ || (shape_ && colour != nullptr)) {
+        description_.colour_columns = description_.depth_columns;
+        description_.colour_rows = description_.depth_rows;
+    }
+    add_notice(depth_->facts().notice);
+    if (colour == nullptr) return;
+    add_notice(colour->facts().notice);
+    colour_of_view_ = true;
+    take_registration(colour->facts());
+    colour_.emplace(std::move(colour), depth_->facts());
+}
+
+std::optional<RawFrame> PairedMedia::next() {
+    return frame_of(depth_->next());
+}
+
+std::optional<RawFrame> PairedMedia::next_from(double earliest_s) {
+    return frame_of(depth_->next_from(earliest_s));
+}
+
+std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken) {
+    describe_time(depth_->facts(), description_);
+    tell_trouble(depth_->facts());
+    if (!taken) return std::nullopt;
+    keep_size(taken->picture);
+    RawFrame frame;
+    frame.depth = scale_.image_of(taken->picture);
+    frame.media_s = taken->time_s;
+    frame.index = taken->index;
+    frame.colour_of_view = colour_of_view_;
+    frame.always_whole = scale_.is_always_data() && !shape_;
+    cv::Mat colour;
+    const cv::Mat as_taken = colour_ ? colour_->shown_at(taken->time_s) : cv::Mat();
+    if (colour_) colour = colour_for(*taken, as_taken);
+    if (taken->pair)
+        frame.taken = std::make_shared<const TakenPictures>(
+            TakenPictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
+    if (frame.always_whole && taken->decoding_s > 0.0)
+        frame.passing_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
+    if (shape_)
+        put_straight(frame, colour);
+    else if (colour_)
+        frame.colour = colour_of(colour);
+    if (painted_) frame.colour = painted_depth(frame.depth);
+    return frame;
+}
+
+/// The colour picture as the depth camera would see it.
+cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour) {
+    tell_trouble(colour_->facts());
+    if (cameras_ && !colour.empty())
+        return moved(cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour),
+                     registration_, size_);
+    return moved(colour, registration_, size_);
+}
+
+void PairedMedia::take_range() {
+    const auto& meaning = description_.meaning;
+    if (!meaning || !meaning->is_metric()) return;
+    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
+    range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
+}
+
+/// The calibration of a recording is of its own pictures only.
+void PairedMedia::take_registration(const SourceFacts& colour) {
+    const auto& meaning = description_.meaning;
+    if (!meaning) return;
+    registration_ = meaning->registration.value;
+    const SourceFacts& facts = depth_->facts();
+    if (colour.file != facts.file) return;
+    if (facts.cameras && meaning->is_metric()) {
+        cameras_.emplace(size_, *facts.cameras, range_mm_.far);
+        description_.registered_by = facts.cameras->known_from;
+    } else if (facts.other_camera && registration_ == Registration{}) {
+        colour_of_view_ = false;
+        add_notice(shown(facts.file) +
+                   " has colour and depth of two cameras, and does not tell how they stand: record "
+                   "depth that is aligned to the colour, or shift the colour (--registration)");
+    }
+}
+
+void PairedMedia::take_true_shape() {
+    const auto& meaning = description_.meaning;
+    if (!meaning || meaning->geometry.value != Geometry::true_shape) return;
+    const std::string file = shown(description_.depth_path);
+    if (!meaning->is_metric())
+        throw InputError(file +
+                         " has no distances, so its true shape is not known: give its unit, mm or "
+                         "m, with the scale (--depth-unit), or the relief (--geometry relief)");
+    if (!meaning->intrinsics.value)
+        throw InputError(file +
+                         " does not say through which camera it was seen: give the intrinsics "
+                         "FX,FY,CX,CY or a field of view, as in 60deg (--intrinsics), or the "
+                         "relief (--geometry relief)");
+    std::vector<cv::Mat> samples_mm;
+    const std::vector<cv::Mat> pictures = some_pictures(*depth_);
+    samples_mm.reserve(pictures.size());
+    for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
+    const SourceFacts& facts = depth_->facts();
+    const bool is_its_own = meaning->intrinsics.value == facts.known.intrinsics;
+    const Camera camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
+    shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
+    description_.depth_columns = shape_->grid().columns;
+    description_.depth_rows = shape_->grid().rows;
+    description_.true_fit = Fit{shape_->relief_px(), shape_->grid().pitch_mm};
+}
+
+/// Distances from the camera; elevation is over the farthest one.
+cv::Mat PairedMedia::in_mm(const DepthImage& depth) const {
+    cv::Mat depth_mm;
+    view_of(depth).convertTo(
+        depth_mm, CV_32F, (range_mm_.near - range_mm_.far) / scale_.highest_level(), range_mm_.far);
+    return depth_mm;
+}
+
+void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
+    StraightPicture straight = shape_->seen_straight_on(in_mm(frame.depth), colour);
+    frame.depth = std::move(straight.depth);
+    frame.colour = std::move(straight.colour);
+}
+
+void PairedMedia::seek(double media_s) {
+    depth_->seek(media_s);
+    if (colour_) colour_->forget();
+}
+
+void PairedMedia::seek_near(double media_s) {
+    depth_->seek_near(media_s);
+    if (colour_) colour_->forget_near();
+}
+
+void PairedMedia::count_frames(std::int64_t most) {
+    depth_->count_frames(most);
+    describe_time(depth_->facts(), description_);
+}
+
+void PairedMedia::add_notice(const std::string& sentence) {
+    std::string& notice = description_.notice;
+    if (sentence.empty() || notice.find(sentence) != std::string::npos) return;
+    notice += (notice.empty() ? "" : "; ") + sentence;
+}
+
+void PairedMedia::tell_trouble(const SourceFacts& facts) {
+    if (description_.trouble.empty()) description_.trouble = facts.trouble;
+}
+
+/// A stream may change its size on the way; a surface may not. Levels are never mixed.
+void PairedMedia::keep_size(cv::Mat& picture) const {
+    if (picture.size() == size_) return;
+    cv::Mat resized;
+    cv::resize(picture, resized, size_, 0.0, 0.0, cv::INTER_NEAREST);
+    picture = resized;
+}
+
+}  // namespace dibhr

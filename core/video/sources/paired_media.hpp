@@ -1,0 +1,96 @@
+// A source of depth and one of colour as one media; inside the room.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/video/depth/colour_registration.hpp"
+#include "core/video/depth/depth_scale.hpp"
+#include "core/video/depth/true_shape.hpp"
+#include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/media.hpp"
+
+namespace dibhr {
+
+/// The facts of a source that gives depth, or colour, in the words of a description.
+void describe_depth(const SourceFacts& facts, MediaDescription& description);
+void describe_colour(const SourceFacts& facts, MediaDescription& description);
+void describe_time(const SourceFacts& facts, MediaDescription& description);
+
+/// The colour that belongs to each depth frame: the newest one of its time.
+class ColourTrack {
+  public:
+    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
+
+    [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
+    void forget() { placed_ = near_ = false; }
+    /// The picture returned next, and no other, is one near the depth's time.
+    void forget_near() {
+        forget();
+        near_ = true;
+    }
+    const cv::Mat& shown_at(double depth_time_s);
+    /// So long decoding one picture takes, as of late; 0: not known.
+    [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
+
+  private:
+    std::unique_ptr<PictureSource> source_;
+    double starts_later_s_;  ///< than the depth
+    double interval_s_;      ///< as known at the opening: later it may be known better
+    TimedPicture now_{};
+    std::optional<TimedPicture> later_{};
+    bool placed_{false};
+    bool near_{false};
+};
+
+/// Depth drives.
+class PairedMedia : public Media {
+  public:
+    /// `colour` may be null: then frames have none, or `painted` in colours of their depth.
+    PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour,
+                DepthScale scale, bool painted = false);
+
+    [[nodiscard]] const MediaDescription& description() const override { return description_; }
+    std::optional<RawFrame> next() override;
+    std::optional<RawFrame> next_from(double earliest_s) override;
+    void seek(double media_s) override;
+    void seek_near(double media_s) override;
+    [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
+
+    /// Reads depth on, at most `most` frames, so that the description becomes exact.
+    void count_frames(std::int64_t most);
+
+    /// Adds to the description's notice what that does not say yet.
+    void add_notice(const std::string& sentence);
+    void comes_from(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
+    /// For the description.
+    void panel_said(const DepthStatement& panel) { description_.panel = panel; }
+
+  private:
+    std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
+    void take_range();
+    void take_true_shape();
+    void take_registration(const SourceFacts& colour);
+    [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
+    [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
+    void put_straight(RawFrame& frame, const cv::Mat& colour);
+    void tell_trouble(const SourceFacts& facts);
+    void keep_size(cv::Mat& picture) const;
+
+    std::unique_ptr<PictureSource> depth_;
+    std::optional<ColourTrack> colour_{};
+    DepthScale scale_;
+    cv::Size size_{};                              ///< of the depth's pictures
+    DepthRange range_mm_{};                        ///< of distances; zeros: they are none
+    std::optional<ColourRegistration> cameras_{};  ///< where the two are calibrated
+    Registration registration_{};                  ///< beyond that
+    std::optional<TrueShape> shape_{};             ///< for `--geometry true`
+    bool painted_;
+    bool colour_of_view_{false};  ///< as far as is known
+    MediaDescription description_{};
+    std::shared_ptr<LiveFeed> live_{};
+};
+
+}  // namespace dibhr

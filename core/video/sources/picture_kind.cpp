@@ -1,0 +1,342 @@
+// Measures of pictures, and the bounds that tell depth from all else. The bounds were set between
+// real recordings and what is no depth: photographs, also in grey, drawings, text, test pictures.
+#include "core/video/sources/picture_kind.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/video/depth/hue_code.hpp"
+#include "core/video/sources/packed.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kLongSide = 320;  ///< of pictures as they are looked at
+constexpr std::size_t kMostLooked = 24;
+
+// Of single pixels, levels of 255.
+constexpr int kDark = 40;       ///< the highest channel below
+constexpr int kGrey = 16;       ///< channels that differ by less
+constexpr int kPure = 170;      ///< by more
+constexpr float kFlat = 0.15F;  ///< rises a pixel
+constexpr float kSlope = 4.0F;
+constexpr float kEdge = 8.0F;
+
+constexpr double kMostlyPure = 0.5;  ///< share of a picture whose hues may say something
+
+cv::Mat reduced(const cv::Mat& picture, int long_side, int how) {
+    const double scale = static_cast<double>(long_side) / std::max(picture.cols, picture.rows);
+    if (scale >= 1.0) return picture;
+    const cv::Size size(std::max(1, static_cast<int>(std::lround(picture.cols * scale))),
+                        std::max(1, static_cast<int>(std::lround(picture.rows * scale))));
+    cv::Mat small;
+    cv::resize(picture, small, size, 0.0, 0.0, how);
+    return small;
+}
+
+double share(int count, double of) {
+    return of > 0.0 ? count / of : 0.0;
+}
+
+/// Percentiles 2 to 98 of the levels in the mask.
+double range_of(const cv::Mat& levels, const cv::Mat& mask) {
+    std::array<int, 256> counts{};
+    int total = 0;
+    for (int j = 0; j < levels.rows; ++j) {
+        for (int i = 0; i < levels.cols; ++i) {
+            if (mask.at<std::uint8_t>(j, i) == 0) continue;
+            ++counts[levels.at<std::uint8_t>(j, i)];
+            ++total;
+        }
+    }
+    const auto percentile = [&](double part) {
+        int level = 0;
+        for (int below = counts[0]; level < 255 && below <= part * total;)
+            below += counts[static_cast<std::size_t>(++level)];
+        return level;
+    };
+    return total == 0 ? 0.0 : percentile(0.98) - percentile(0.02);
+}
+
+/// Levels of 8 bits where the mask is not 0.
+SurfaceLook surface_look(const cv::Mat& levels, const cv::Mat& mask) {
+    SurfaceLook look;
+    look.covered = share(cv::countNonZero(mask), static_cast<double>(mask.total()));
+    look.range = range_of(levels, mask);
+    cv::Mat inner;  // pixels whose neighbours have levels, too
+    cv::erode(mask, inner, cv::Mat::ones(5, 5, CV_8U));
+    const int count = cv::countNonZero(inner);
+    if (count == 0 || look.range < 1.0) return look;
+    cv::Mat around;
+    cv::medianBlur(levels, around, 5);
+    cv::Mat apart;
+    cv::absdiff(levels, around, apart);
+    cv::Mat across;
+    cv::Mat down;
+    cv::Sobel(around, across, CV_32F, 1, 0, 3, 1.0 / 8.0);
+    cv::Sobel(around, down, CV_32F, 0, 1, 3, 1.0 / 8.0);
+    cv::Mat rise;
+    cv::magnitude(across, down, rise);
+    const cv::Mat edges = (rise >= kEdge) & inner;
+    const cv::Mat slopes = (rise >= kFlat) & (rise < kSlope) & inner;
+    look.edges = share(cv::countNonZero(edges), count);
+    look.slopes = share(cv::countNonZero(slopes), count);
+    look.texture = cv::mean(apart, inner & ~edges)[0] / look.range;
+    return look;
+}
+
+SurfaceLook brightness_look(const cv::Mat& small) {
+    cv::Mat grey;
+    cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
+    return surface_look(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
+}
+
+/// Hues are never mixed.
+SurfaceLook hue_look(const cv::Mat& picture) {
+    const cv::Mat hues = hues_of(reduced(picture, kLongSide, cv::INTER_NEAREST), HueCode{});
+    const cv::Mat mask = hues == hues;  // not NaN
+    cv::Mat levels;
+    hues.convertTo(levels, CV_8U, 255.0);
+    levels.setTo(0, ~mask);
+    return surface_look(levels, mask);
+}
+
+/// The mean of several pictures' numbers, one after the other.
+void add(SurfaceLook& sum, const SurfaceLook& one, double weight) {
+    sum.covered += weight * one.covered;
+    sum.range += weight * one.range;
+    sum.texture += weight * one.texture;
+    sum.slopes += weight * one.slopes;
+    sum.edges += weight * one.edges;
+}
+
+void add(PictureLook& sum, const PictureLook& one, double weight) {
+    sum.lit += weight * one.lit;
+    sum.coloured += weight * one.coloured;
+    sum.pure += weight * one.pure;
+    sum.ramp += weight * one.ramp;
+    add(sum.brightness, one.brightness, weight);
+    add(sum.hue, one.hue, weight);
+}
+
+// What a look says.
+
+/// What a surface has at least, and at most.
+struct SurfaceBounds {
+    double slopes;
+    double edges;
+    double texture;
+};
+
+// Real depth: slopes 0.25 to 0.39 of brightness and 0.86 of hue, texture 0.0016 to 0.0025 (beside
+// its colour picture to 0.005). Soft grey photographs have texture from 0.0036 on, test pictures
+// hue slopes to 0.17. Mixed hues at silhouettes are no data, so few edges are left of them.
+constexpr SurfaceBounds kGreyDepth{0.18, 0.008, 0.003};
+constexpr SurfaceBounds kHueDepth{0.35, 0.003, 0.006};
+constexpr SurfaceBounds kGreyHalf{0.18, 0.008, 0.008};
+
+/// Neither bare nor rough.
+bool is_surface(const SurfaceLook& look, const SurfaceBounds& bounds) {
+    constexpr double kLeastRange = 40.0;
+    constexpr double kMostEdges = 0.2;
+    return look.range >= kLeastRange && look.edges >= bounds.edges && look.edges <= kMostEdges &&
+           look.slopes >= bounds.slopes && look.texture <= bounds.texture;
+}
+
+bool looks_grey_depth(const PictureLook& look, const SurfaceBounds& bounds) {
+    return look.coloured <= 0.01 && is_surface(look.brightness, bounds);
+}
+
+bool looks_hue_depth(const PictureLook& look) {
+    return look.pure >= 0.8 && look.hue.covered >= 0.05 && is_surface(look.hue, kHueDepth);
+}
+
+bool looks_ramp_depth(const PictureLook& look) {
+    return look.ramp >= 0.9 && look.coloured >= 0.2 && is_surface(look.brightness, kGreyDepth);
+}
+
+// Halves.
+
+/// Where brightness, or another channel, changes, in coarse squares.
+cv::Mat edges_of(const cv::Mat& half) {
+    const cv::Mat small = reduced(half, kLongSide / 2, cv::INTER_AREA);
+    cv::Mat strongest(small.size(), CV_32F, cv::Scalar(0.0));
+    std::vector<cv::Mat> channels;
+    cv::split(small, channels);
+    for (const cv::Mat& channel : channels) {
+        cv::Mat across;
+        cv::Mat down;
+        cv::Sobel(channel, across, CV_32F, 1, 0);
+        cv::Sobel(channel, down, CV_32F, 0, 1);
+        cv::Mat rise;
+        cv::magnitude(across, down, rise);
+        strongest = cv::max(strongest, rise);
+    }
+    cv::GaussianBlur(strongest, strongest, {}, 1.5);
+    return strongest;
+}
+
+/// Of two pictures of the same size, -1 to 1; 0 for a bare one.
+double correlation(const cv::Mat& a, const cv::Mat& b) {
+    cv::Mat result;
+    cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
+    const double value = static_cast<double>(result.at<float>(0, 0));
+    return std::isfinite(value) ? value : 0.0;
+}
+
+/// Brightness without details.
+cv::Mat soft(const cv::Mat& half) {
+    cv::Mat grey;
+    cv::cvtColor(reduced(half, kLongSide / 4, cv::INTER_AREA), grey, cv::COLOR_BGR2GRAY);
+    return grey;
+}
+
+/// The picture moved to the right and down, what leaves it coming in on the other side.
+cv::Mat rolled(const cv::Mat& picture, double right, double down) {
+    const int x = static_cast<int>(picture.cols * right);
+    const int y = static_cast<int>(picture.rows * down);
+    cv::Mat twice;
+    cv::repeat(picture, 2, 2, twice);
+    return twice(cv::Rect(x, y, picture.cols, picture.rows)).clone();
+}
+
+/// The highest correlation that says nothing.
+double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
+    cv::Mat mirrored;
+    cv::flip(b, mirrored, 1);
+    double highest = correlation(a, mirrored);
+    for (const double part : {0.25, 0.5, 0.75}) {
+        highest = std::max(highest, correlation(a, rolled(b, part, 0.0)));
+        highest = std::max(highest, correlation(a, rolled(b, 0.0, part)));
+    }
+    return highest;
+}
+
+/// The mean of the part of each picture that would be depth; without a packing of the whole.
+PictureLook mean_look(std::span<const cv::Mat> pictures, std::optional<DepthPacking> packing = {}) {
+    PictureLook mean;
+    for (const cv::Mat& picture : pictures) {
+        const cv::Rect whole({}, picture.size());
+        const cv::Rect part =
+            packing ? half_of(picture.size(), *packing, PictureRole::depth) : whole;
+        add(mean, look_of(picture(part)), 1.0 / static_cast<double>(pictures.size()));
+    }
+    return mean;
+}
+
+/// How much the halves are of the same things.
+void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
+    const double weight = 1.0 / static_cast<double>(pictures.size());
+    for (const cv::Mat& picture : pictures) {
+        const cv::Size size = picture.size();
+        const cv::Mat colour = picture(half_of(size, halves.packing, PictureRole::colour));
+        const cv::Mat depth = picture(half_of(size, halves.packing, PictureRole::depth));
+        const cv::Mat colour_edges = edges_of(colour);
+        const cv::Mat depth_edges = edges_of(depth);
+        halves.brightness_alike += weight * std::abs(correlation(soft(colour), soft(depth)));
+        halves.edges_agree += weight * correlation(colour_edges, depth_edges);
+        halves.edges_by_chance += weight * correlation_by_chance(colour_edges, depth_edges);
+    }
+}
+
+/// Whether one half looks like depth, then of which code, and the other like a photograph.
+bool could_be_packed(PictureGuess& halves) {
+    constexpr double kRougher = 2.5;
+    const PictureLook& colour = halves.colour_half;
+    const PictureLook& depth = halves.depth_half;
+    if (looks_hue_depth(depth)) {
+        halves.code = DepthCode::hue;
+        return colour.lit >= 0.02 && colour.pure <= 0.3;
+    }
+    return looks_grey_depth(depth, kGreyHalf) && colour.coloured >= 0.05 &&
+           colour.brightness.texture >= kRougher * depth.brightness.texture;
+}
+
+bool belong_together(const PictureGuess& halves) {
+    constexpr double kLeastAgreement = 0.2;
+    constexpr double kMoreThanChance = 0.05;
+    constexpr double kMostAlike = 0.9;  // else the grey half is a copy of the coloured one
+    return halves.edges_agree >= kLeastAgreement &&
+           halves.edges_agree - halves.edges_by_chance >= kMoreThanChance &&
+           (halves.code == DepthCode::hue || halves.brightness_alike <= kMostAlike);
+}
+
+/// The packing whose halves agree most; a photograph where none could be.
+PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
+    // Each beside the one that has the halves the other way round.
+    static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
+                                          DepthPacking::top_bottom, DepthPacking::bottom_top};
+    std::array<PictureLook, kPackings.size()> looks;
+    std::transform(kPackings.begin(), kPackings.end(), looks.begin(),
+                   [pictures](DepthPacking packing) { return mean_look(pictures, packing); });
+    PictureGuess best;
+    for (std::size_t k = 0; k < kPackings.size(); ++k) {
+        PictureGuess halves;
+        halves.packing = kPackings[k];
+        halves.depth_half = looks[k];
+        halves.colour_half = looks[k ^ 1U];
+        if (!could_be_packed(halves)) continue;
+        compare_halves(pictures, halves);
+        if (!belong_together(halves) || halves.edges_agree < best.edges_agree) continue;
+        best = halves;
+        best.kind = PictureKind::packed;
+    }
+    return best;
+}
+
+bool is_large_enough(const cv::Mat& picture) {
+    constexpr int kLeast = 16;  // a half of it shows something
+    return picture.type() == CV_8UC3 && std::min(picture.cols, picture.rows) >= kLeast;
+}
+
+}  // namespace
+
+PictureLook look_of(const cv::Mat& picture) {
+    const cv::Mat small = reduced(picture, kLongSide, cv::INTER_AREA);
+    int lit = 0;
+    int coloured = 0;
+    int pure = 0;
+    for (int j = 0; j < small.rows; ++j) {
+        for (int i = 0; i < small.cols; ++i) {
+            const auto& bgr = small.at<cv::Vec3b>(j, i);
+            const int highest = std::max({bgr[0], bgr[1], bgr[2]});
+            const int chroma = highest - std::min({bgr[0], bgr[1], bgr[2]});
+            if (highest < kDark) continue;
+            ++lit;
+            coloured += static_cast<int>(chroma >= kGrey);
+            pure += static_cast<int>(chroma >= kPure);
+        }
+    }
+    PictureLook look;
+    look.lit = share(lit, static_cast<double>(small.total()));
+    look.coloured = share(coloured, lit);
+    look.pure = share(pure, lit);
+    look.ramp = share_on_ramp(small);
+    look.brightness = brightness_look(small);
+    if (look.pure >= kMostlyPure) look.hue = hue_look(picture);
+    return look;
+}
+
+PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
+    pictures = pictures.first(std::min(pictures.size(), kMostLooked));
+    if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))
+        return {};
+    PictureGuess guess = guess_packing(pictures);
+    guess.whole = mean_look(pictures);
+    if (guess.kind == PictureKind::packed) return guess;
+    if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
+    if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
+    // Blue hues are on it.
+    if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
+    return guess;
+}
+
+}  // namespace dibhr

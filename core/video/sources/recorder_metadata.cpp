@@ -1,0 +1,273 @@
+// Depthkit's and Record3D's words.
+#include "core/video/sources/recorder_metadata.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "core/files/json.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/formats/file_bytes.hpp"
+
+namespace dibhr {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostText = 1U << 20U;  ///< such files have a few thousand letters
+constexpr double kFarthest_m = 1000.0;
+
+// Reading.
+
+std::string_view trimmed(std::string_view text, std::string_view what) {
+    const auto first = text.find_first_not_of(what);
+    if (first == std::string_view::npos) return {};
+    return text.substr(first, text.find_last_not_of(what) - first + 1);
+}
+
+/// "key: 3" as a member of the object, unless it has that member.
+void add_member(Json& object, std::string_view member) {
+    const auto colon = member.find(':');
+    if (colon == std::string_view::npos) return;
+    const std::string key(trimmed(member.substr(0, colon), " -"));
+    const auto number = number_of_text(trimmed(member.substr(colon + 1), " \r"));
+    if (number && !object.contains(key)) object[key] = *number;
+}
+
+/// The numbers, and those in braces, of a Unity asset, each key once: as Depthkit's JSON of one
+/// camera has them.
+Json asset_of(const std::string& text) {
+    Json asset = Json::object();
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        const auto brace = line.find('{');
+        const auto end = line.find('}');
+        if (brace == std::string::npos || end == std::string::npos || end < brace) {
+            add_member(asset, line);
+            continue;
+        }
+        const std::string key(trimmed(std::string_view(line).substr(0, brace), " -:"));
+        if (asset.contains(key)) {
+            if (key == "depthImageSize") return {};  // of another camera
+            continue;
+        }
+        Json& group = asset[key] = Json::object();
+        std::istringstream members(line.substr(brace + 1, end - brace - 1));
+        for (std::string member; std::getline(members, member, ',');) add_member(group, member);
+    }
+    return asset;
+}
+
+std::optional<double> number_in(const Json& object, const char* key) {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_number()) return std::nullopt;
+    const double number = found->get<double>();
+    return std::isfinite(number) ? std::optional(number) : std::nullopt;
+}
+
+struct Pair {
+    double x{0.0}, y{0.0};
+};
+
+/// Of an object of x and y, from those two members of it.
+std::optional<Pair> pair_in(const Json& object, const char* key, const char* x = "x",
+                            const char* y = "y") {
+    const auto found = object.find(key);
+    if (found == object.end() || !found->is_object()) return std::nullopt;
+    const auto first = number_in(*found, x);
+    const auto second = number_in(*found, y);
+    if (!first || !second) return std::nullopt;
+    return Pair{*first, *second};
+}
+
+std::optional<DepthRange> range_of(std::optional<double> near, std::optional<double> far) {
+    if (!near || !far || *near < 0.0 || !(*far > *near) || *far > kFarthest_m) return std::nullopt;
+    return DepthRange{*near, *far};
+}
+
+// Depthkit.
+
+/// The part of the depth camera's picture that the video shows [its pixels].
+struct Crop {
+    Pair corner{};
+    Pair size{};
+};
+
+bool has_pixels(const Crop& crop) {
+    constexpr double kMostAlong = 1e6;
+    return std::min(crop.size.x, crop.size.y) >= 1.0 &&
+           std::max(crop.size.x, crop.size.y) <= kMostAlong;
+}
+
+std::optional<Crop> crop_of(const Json& camera) {
+    const auto whole = pair_in(camera, "depthImageSize");
+    if (!whole || !(whole->x >= 2.0) || !(whole->y >= 2.0)) return std::nullopt;
+    const Pair corner = pair_in(camera, "crop").value_or(Pair{0.0, 0.0});
+    const Pair part = pair_in(camera, "crop", "z", "w").value_or(Pair{1.0, 1.0});
+    if (!(part.x > 0.0) || !(part.y > 0.0) || part.x > 1.0 || part.y > 1.0) return std::nullopt;
+    const Crop crop{{corner.x * whole->x, corner.y * whole->y},
+                    {part.x * whole->x, part.y * whole->y}};
+    return has_pixels(crop) ? std::optional(crop) : std::nullopt;
+}
+
+/// The lower half of such a picture shows the crop with square pixels.
+bool has_proportions(cv::Size picture, const Crop& crop) {
+    constexpr double kAlike = 0.02;
+    const double shown = 2.0 * picture.width / std::max(picture.height, 1);
+    return std::abs(shown / (crop.size.x / crop.size.y) - 1.0) < kAlike;
+}
+
+void tell_camera(const Json& camera, const Crop& crop, PackedForm& form) {
+    const auto focal = pair_in(camera, "depthFocalLength");
+    const auto centre = pair_in(camera, "depthPrincipalPoint");
+    if (!focal || !centre) return;
+    const Intrinsics intrinsics{focal->x, focal->y, centre->x - crop.corner.x,
+                                centre->y - crop.corner.y};
+    if (!is_camera(intrinsics)) return;
+    form.known.intrinsics = intrinsics;
+    form.intrinsics_size = {static_cast<int>(std::lround(crop.size.x)),
+                            static_cast<int>(std::lround(crop.size.y))};
+}
+
+/// Of metadata of one camera: its members stand alone (version 0.1) or in `perspectives`.
+std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, bool of_that_name) {
+    const auto perspectives = metadata.find("perspectives");
+    const bool nested = perspectives != metadata.end() && perspectives->is_array();
+    if (nested && perspectives->size() != 1) return std::nullopt;
+    const Json& camera = nested ? perspectives->front() : metadata;
+    if (!camera.is_object()) return std::nullopt;
+    const auto range = range_of(number_in(camera, "nearClip"), number_in(camera, "farClip"));
+    const auto crop = crop_of(camera);
+    if (!range || !crop || !(of_that_name || has_proportions(picture, *crop))) return std::nullopt;
+    PackedForm form;
+    form.packing = DepthPacking::top_bottom;
+    form.hue = HueCode{range};
+    if (has_proportions(picture, *crop)) tell_camera(camera, *crop, form);
+    return form;
+}
+
+// Record3D.
+
+/// Column after column, or row after row: the skew and the last row are 0.
+std::optional<Intrinsics> matrix_of(const Json& metadata) {
+    const auto found = metadata.find("intrinsicMatrix");
+    if (found == metadata.end() || !found->is_array() || found->size() != 9) return std::nullopt;
+    std::array<double, 9> k{};
+    for (std::size_t at = 0; at < k.size(); ++at) {
+        if (!(*found)[at].is_number()) return std::nullopt;
+        k[at] = (*found)[at].get<double>();
+    }
+    const Intrinsics camera{k[0], k[4], k[2] + k[6], k[5] + k[7]};
+    return is_camera(camera) ? std::optional(camera) : std::nullopt;
+}
+
+/// Whether the camera looks through about the middle of half of the picture.
+bool looks_through(const Intrinsics& camera, cv::Size picture) {
+    const double x = 2.0 * camera.cx / std::max(picture.width / 2, 1);
+    const double y = 2.0 * camera.cy / std::max(picture.height, 1);
+    return x > 0.7 && x < 1.3 && y > 0.7 && y < 1.3;
+}
+
+std::optional<PackedForm> record3d_form(const Json& metadata, cv::Size picture) {
+    const auto camera = matrix_of(metadata);
+    if (!camera || !looks_through(*camera, picture)) return std::nullopt;
+    std::optional<DepthRange> range;
+    const auto said = metadata.find("rangeOfEncodedDepth");
+    if (said != metadata.end() && said->is_array() && said->size() == 2 && (*said)[0].is_number() &&
+        (*said)[1].is_number())
+        range = range_of((*said)[0].get<double>(), (*said)[1].get<double>());
+    PackedForm form;
+    form.packing = DepthPacking::right_left;
+    form.hue = record3d_code(range);
+    form.known.intrinsics = camera;
+    return form;
+}
+
+/// The metadata at the end of an .mp4, where its container keeps such texts.
+std::optional<PackedForm> form_inside(const fs::path& video, cv::Size picture) {
+    static constexpr std::array kEndings{".mp4", ".mov", ".m4v"};
+    const std::string ending = lower_case(video.extension().string());
+    if (std::find(kEndings.begin(), kEndings.end(), ending) == kEndings.end()) return std::nullopt;
+    const std::string text = end_of(video, kMostText);
+    const auto begin = text.rfind("{\"intrinsic");
+    if (begin == std::string::npos) return std::nullopt;
+    const auto end = text.find('}', begin);  // it holds no other braces
+    if (end == std::string::npos) return std::nullopt;
+    const Json metadata = parsed_json(std::string_view(text).substr(begin, end - begin + 1));
+    if (!metadata.is_object()) return std::nullopt;
+    return record3d_form(metadata, picture);
+}
+
+// Beside the video.
+
+constexpr std::array<std::string_view, 4> kMetadataEndings{".metadata.asset", "_meta.txt",
+                                                           "metadata.json", "metadata.txt"};
+
+/// The name before what makes it metadata: "take" of "take_meta.txt"; nothing when it is none.
+std::optional<std::string> described_by(const fs::path& file) {
+    const std::string name = lower_case(file.filename().string());
+    for (const std::string_view ending : kMetadataEndings) {
+        if (name.ends_with(ending))
+            return std::string(trimmed(name.substr(0, name.size() - ending.size()), " ._-"));
+    }
+    return std::nullopt;
+}
+
+struct MetadataFile {
+    fs::path file{};
+    bool of_that_name{false};
+};
+
+/// The one of the video's name, or else the only one.
+std::optional<MetadataFile> metadata_beside(const fs::path& video) {
+    const std::string stem = lower_case(video.stem().string());
+    std::vector<fs::path> found;
+    std::error_code failed;
+    const fs::path folder = video.has_parent_path() ? video.parent_path() : fs::path(".");
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        const auto described = described_by(entry->path());
+        if (!described) continue;
+        if (*described == stem) return MetadataFile{entry->path(), true};
+        found.push_back(entry->path());
+    }
+    if (found.size() != 1) return std::nullopt;
+    return MetadataFile{found.front(), false};
+}
+
+std::optional<PackedForm> form_beside(const fs::path& video, cv::Size picture) {
+    const auto beside = metadata_beside(video);
+    if (!beside) return std::nullopt;
+    const std::string text = beginning_of(beside->file, kMostText);
+    const bool is_asset = lower_case(beside->file.extension().string()) == ".asset";
+    const Json metadata = is_asset ? asset_of(text) : parsed_json(text);
+    if (!metadata.is_object()) return std::nullopt;
+    auto form = depthkit_form(metadata, picture, beside->of_that_name);
+    if (!form) form = record3d_form(metadata, picture);
+    if (form) form->known_from = shown(beside->file.filename());
+    return form;
+}
+
+}  // namespace
+
+std::optional<PackedForm> form_by_recorder(const fs::path& video, cv::Size picture) {
+    auto form = form_beside(video, picture);
+    if (!form) {
+        form = form_inside(video, picture);
+        if (form) form->known_from = "Record3D's metadata in the file";
+    }
+    if (!form) return std::nullopt;
+    form->known.packing = form->packing;
+    form->known.code = DepthCode::hue;
+    return form;
+}
+
+}  // namespace dibhr

@@ -1,0 +1,252 @@
+// Chooses what to read: tracks, halves, pictures, arrays, and which file belongs to which.
+#include "core/video/sources/sources.hpp"
+
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/video/depth/hue_code.hpp"
+#include "core/video/formats/file_bytes.hpp"
+#include "core/video/formats/libraries.hpp"
+#include "core/video/formats/ros_bag.hpp"
+#include "core/video/formats/video_file.hpp"
+#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/packed.hpp"
+#include "core/video/sources/picture_kind.hpp"
+#include "core/video/sources/readers.hpp"
+#include "core/video/sources/recorder_metadata.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int kLookedAt = 6;  ///< pictures that tell of what kind they are
+
+/// A place as it was named, and who reads it.
+struct Place {
+    explicit Place(const fs::path& named) : path(named), reader(reader_of(named)) {}
+
+    [[nodiscard]] bool is(Form form) const { return reader.form == form; }
+
+    const fs::path& path;
+    const Reader& reader;
+};
+
+cv::Size picture_size(const fs::path& place) {
+    const auto source = open_picture_source(place, PictureRole::colour);
+    return {source->facts().columns, source->facts().rows};
+}
+
+/// A place as it looks; of a video that track.
+std::unique_ptr<PictureSource> open_look(const fs::path& place, int track = 0) {
+    if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
+    return open_picture_source(place, PictureRole::colour);
+}
+
+/// Pictures of a place as they look; none of what does not look like anything (real numbers).
+std::vector<cv::Mat> looks_of(const fs::path& place, int most, int track = 0) {
+    try {
+        return open_look(place, track)->samples(most);
+    } catch (const InputError&) {
+        return {};  // it is depth of a form that has no colours
+    }
+}
+
+/// What somebody says of halves, or a recorder's metadata, or the name; nothing when none does.
+std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& said) {
+    std::optional<PackedForm> form;
+    if (said.packing && !is_of_halves(*said.packing)) return form;
+    if (place.is(Form::video)) form = form_by_recorder(place.path, picture_size(place.path));
+    const auto named = packing_by_name(place.path);
+    if (!form && named && (named->says_depth || said.packing))
+        form = PackedForm{
+            .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
+    if (!said.packing) return form;
+    if (!form) form.emplace();
+    form->packing = *said.packing;
+    if (said.code == DepthCode::hue && !form->hue) form->hue.emplace();
+    if (said.code == DepthCode::grey) form->hue.reset();
+    return form;
+}
+
+/// As its pictures look, in halves; nothing when they do not.
+std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess& look) {
+    if (look.kind != PictureKind::packed) return std::nullopt;
+    PackedForm form{.packing = look.packing, .known_from = "its pictures"};
+    if (look.code == DepthCode::hue) form.hue.emplace();
+    Sources sources = open_packed(place, form);
+    sources.assumed = std::exchange(sources.found, {});
+    sources.by_look = true;
+    return sources;
+}
+
+/// Whether it is worth while to look at more pictures.
+bool begins_in_colours(const fs::path& place, int track) {
+    constexpr double kGrey = 0.01;  // share of pixels that compression colours
+    const std::vector<cv::Mat> first = looks_of(place, 1, track);
+    return !first.empty() && look_of(first.front()).coloured > kGrey;
+}
+
+/// A source of colours is decoded where they are a code, as somebody says or as they look.
+Sources decoded(const Place& place, Sources sources, const DepthStatement& said) {
+    const int track = sources.depth_track;
+    const bool may_be_coded = said.code != DepthCode::hue && sources.depth->facts().channels != 1 &&
+                              (place.is(Form::video) || place.is(Form::still)) &&
+                              begins_in_colours(place.path, track);
+    PictureKind kind = PictureKind::grey_depth;
+    if (may_be_coded) kind = guess_kind(looks_of(place.path, kLookedAt, track)).kind;
+    if (said.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
+    sources.by_look = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
+    const bool is_hue = said.code == DepthCode::hue || kind == PictureKind::hue_depth;
+    if (is_hue) {
+        sources.depth = hue_decoded(open_look(place.path, track), HueCode{}, "its hues");
+        sources.assumed.code = DepthCode::hue;
+    } else if (kind == PictureKind::ramp_depth) {
+        sources.depth = ramp_decoded(open_look(place.path, track), "its colours");
+    }
+    return sources;
+}
+
+/// The colour and the depth of one place; nothing when it does not hold both.
+Sources both_in(const Place& place, const DepthStatement& said) {
+    if (place.reader.open_both == nullptr) return {};
+    Sources both = place.reader.open_both(place.path);
+    if (both.depth == nullptr || !place.is(Form::video)) return both;
+    return decoded(place, std::move(both), said);
+}
+
+/// The depth of a place that holds no colour.
+Sources depth_in(const Place& place, const DepthStatement& said) {
+    return decoded(place, {open_picture_source(place.path, PictureRole::depth), nullptr}, said);
+}
+
+/// Whether a single place is depth as its name, its levels or its look say. The last is a guess.
+bool is_depth(const Place& place, const PictureGuess& look) {
+    if (named_depth(place.path) || place.is(Form::bag)) return true;
+    if (place.is(Form::row)) {
+        const PictureSet found = pictures_at(place.path);
+        if (!found.depth.empty()) return true;
+        if (found.unnamed.empty()) return false;
+    }
+    if (look.kind == PictureKind::grey_depth || look.kind == PictureKind::hue_depth ||
+        look.kind == PictureKind::ramp_depth)
+        return true;
+    const auto source = open_picture_source(place.path, PictureRole::depth);
+    return source->facts().bits > 8 && source->facts().channels == 1;
+}
+
+[[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
+    throw DepthMissing(shown(colour) +
+                       " needs a depth file beside it: give one as the second file (looked for " +
+                       looked_for +
+                       "), say how the depth is in it with --packing, or let an estimator make it "
+                       "(dibhr help depth)");
+}
+
+bool is_row(const fs::path& place) {
+    return names_pictures(place) && !is_ros_bag(place, head_of(place));
+}
+
+/// Colour pictures of a folder, a list or a pattern, or a file of colour, and the place of the
+/// depth that belongs to them.
+Sources of_two_places(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
+    if (is_row(colour) && is_row(depth)) return rows_of_two(colour, depth);
+    // First, so that a colour file that cannot be read is not blamed on the depth.
+    auto colour_source = open_picture_source(colour, PictureRole::colour);
+    Sources sources = depth_in(Place(depth), said);
+    sources.colour = std::move(colour_source);
+    return sources;
+}
+
+/// Colour and depth of one place as its tracks, its names or its metadata say, or as somebody says;
+/// nothing where they do not.
+Sources both_as_said(const Place& place, const DepthStatement& said) {
+    if (!said.packing || !is_of_halves(*said.packing)) {
+        if (Sources both = both_in(place, said); both.depth) return both;
+    }
+    if (place.is(Form::bag)) return {};
+    const auto form = packed_form(place, said);
+    return form ? open_packed(place.path, *form) : Sources{};
+}
+
+/// What a place holds where nothing says it: halves, depth alone, or colour alone.
+Sources as_it_looks(const Place& place, const DepthStatement& said) {
+    PictureGuess look;
+    if (!place.is(Form::bag)) look = guess_kind(looks_of(place.path, kLookedAt));
+    if (!said.packing) {
+        if (auto halves = halves_by_look(place.path, look)) return std::move(*halves);
+    }
+    if (is_depth(place, look) || said.code == DepthCode::hue) return depth_in(place, said);
+    return {nullptr, open_picture_source(place.path, PictureRole::colour)};
+}
+
+/// Given as both: a place of both, or else one whose pictures are colour and depth at once.
+Sources of_the_same_place(const fs::path& place, const DepthStatement& said) {
+    if (Sources both = both_as_said(Place(place), said); both.depth) return both;
+    const PictureGuess look = guess_kind(looks_of(place, kLookedAt));
+    if (auto halves = halves_by_look(place, look)) return std::move(*halves);
+    return of_two_places(place, place, said);
+}
+
+/// Both in one place, the depth beside it, or depth alone.
+Sources of_one_place(const Place& place, const DepthStatement& said) {
+    if (Sources both = both_as_said(place, said); both.depth) return both;
+    std::string looked_for;
+    if (const auto depth = find_depth_beside(place.path, looked_for))
+        return of_two_places(place.path, *depth, said);
+    Sources sources = as_it_looks(place, said);
+    if (!sources.depth) refuse_without_depth(place.path, looked_for);
+    return sources;
+}
+
+}  // namespace
+
+Sources find_sources(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
+    set_up_libraries();
+    const MediaPlaces places = places_for(colour, depth);
+    Sources sources;
+    if (places.depth.empty())
+        sources = of_one_place(Place(places.colour), said);
+    else if (places.depth == places.colour)
+        sources = of_the_same_place(places.colour, said);
+    else
+        sources = of_two_places(places.colour, places.depth, said);
+    sources.notice = places.notice;
+    return sources;
+}
+
+Sources find_depth(const fs::path& place, const DepthStatement& said) {
+    set_up_libraries();
+    const fs::path found = depth_place_for(place);
+    const Place depth(found);
+    Sources sources = both_as_said(depth, said);
+    if (!sources.depth) sources = depth_in(depth, said);
+    sources.colour.reset();
+    return sources;
+}
+
+Sources find_content(const fs::path& place, const DepthStatement& said) {
+    set_up_libraries();
+    const MediaPlaces places = places_for(place, {});
+    Sources sources;
+    if (!places.depth.empty()) {
+        sources = of_two_places(places.colour, places.depth, said);
+    } else {
+        const Place only(place);
+        sources = both_as_said(only, said);
+        if (!sources.depth) sources = as_it_looks(only, said);
+    }
+    sources.notice = places.notice;
+    return sources;
+}
+
+}  // namespace dibhr

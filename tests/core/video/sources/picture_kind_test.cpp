@@ -1,0 +1,319 @@
+// Depth is told from what is not, by content alone; in doubt pictures are photographs.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/video/sources/media.hpp"
+#include "core/video/sources/picture_kind.hpp"
+#include "core/video/sources/readers.hpp"
+#include "tests/core/video/clips.hpp"
+#include "tests/core/video/coded_scene.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
+
+using namespace dibhr;
+using namespace dibhr::test;
+
+namespace {
+
+PictureGuess guess(const cv::Mat& picture) {
+    const std::array pictures{picture};
+    return guess_kind(pictures);
+}
+
+cv::Mat grey_of(const cv::Mat& picture) {
+    cv::Mat grey;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(grey, grey, cv::COLOR_GRAY2BGR);
+    return grey;
+}
+
+cv::Mat blurred(const cv::Mat& picture, double by) {
+    cv::Mat soft;
+    cv::GaussianBlur(picture, soft, {}, by);
+    return soft;
+}
+
+cv::Mat sheet(int level) {
+    return {kSceneRows, kSceneColumns, CV_8UC3, cv::Scalar(level, level, level)};
+}
+
+cv::Mat page_of_text(int ink, int paper) {
+    cv::Mat page = sheet(paper);
+    for (int line = 0; line < 12; ++line)
+        cv::putText(page, "the quick brown fox jumps over it", {8, 20 + 18 * line},
+                    cv::FONT_HERSHEY_SIMPLEX, 0.45, cv::Scalar(ink, ink, ink), 1, cv::LINE_AA);
+    return page;
+}
+
+cv::Mat screenshot() {
+    cv::Mat screen = sheet(236);
+    cv::rectangle(screen, {0, 0, kSceneColumns, 18}, cv::Scalar(90, 60, 40), cv::FILLED);
+    cv::rectangle(screen, {10, 30, 90, 190}, cv::Scalar(250, 250, 250), cv::FILLED);
+    cv::rectangle(screen, {110, 30, 200, 190}, cv::Scalar(255, 255, 255), cv::FILLED);
+    for (int k = 0; k < 10; ++k) {
+        cv::putText(screen, "Item", {16, 48 + 17 * k}, cv::FONT_HERSHEY_PLAIN, 0.8,
+                    cv::Scalar(40, 40, 40));
+        cv::putText(screen, "a value, and another", {118, 48 + 17 * k}, cv::FONT_HERSHEY_PLAIN, 0.8,
+                    cv::Scalar(70, 70, 70));
+    }
+    return screen;
+}
+
+cv::Mat diagram(bool coloured) {
+    cv::Mat drawn = sheet(255);
+    const cv::Scalar first = coloured ? cv::Scalar(200, 60, 30) : cv::Scalar(90, 90, 90);
+    const cv::Scalar second = coloured ? cv::Scalar(40, 160, 250) : cv::Scalar(180, 180, 180);
+    cv::line(drawn, {30, 210}, {300, 210}, cv::Scalar(0, 0, 0), 1, cv::LINE_AA);
+    cv::line(drawn, {30, 210}, {30, 20}, cv::Scalar(0, 0, 0), 1, cv::LINE_AA);
+    for (int k = 0; k < 6; ++k)
+        cv::rectangle(drawn, {45 + 42 * k, 210 - 25 * k, 26, 25 * k + 1}, k % 2 ? first : second,
+                      cv::FILLED);
+    cv::circle(drawn, {90, 70}, 35, second, cv::FILLED, cv::LINE_AA);
+    return drawn;
+}
+
+cv::Mat chessboard(int square) {
+    cv::Mat board = sheet(20);
+    for (int j = 0; j < kSceneRows; ++j)
+        for (int i = 0; i < kSceneColumns; ++i)
+            if ((i / square + j / square) % 2 == 0) board.at<cv::Vec3b>(j, i) = {230, 230, 230};
+    return board;
+}
+
+cv::Mat grey_gradient() {
+    cv::Mat gradient = sheet(0);
+    for (int j = 0; j < kSceneRows; ++j)
+        for (int i = 0; i < kSceneColumns; ++i)
+            gradient.at<cv::Vec3b>(j, i) =
+                cv::Vec3b::all(static_cast<std::uint8_t>(255 * i / (kSceneColumns - 1)));
+    return gradient;
+}
+
+cv::Mat colour_wheel() {
+    cv::Mat wheel(kSceneRows, kSceneColumns, CV_32FC3);
+    for (int j = 0; j < kSceneRows; ++j) {
+        for (int i = 0; i < kSceneColumns; ++i) {
+            const float angle =
+                cv::fastAtan2(static_cast<float>(j - 120), static_cast<float>(i - 160));
+            const auto away = static_cast<float>(cv::norm(cv::Point(i - 160, j - 120)) / 120.0);
+            wheel.at<cv::Vec3f>(j, i) =
+                away > 1.0F ? cv::Vec3f(0, 0, 1) : cv::Vec3f(angle, away, 1);
+        }
+    }
+    cv::cvtColor(wheel, wheel, cv::COLOR_HSV2BGR);
+    wheel.convertTo(wheel, CV_8U, 255.0);
+    return wheel;
+}
+
+cv::Mat white_noise(bool coloured) {
+    cv::Mat noise(kSceneRows, kSceneColumns, CV_8UC3);
+    cv::RNG random(5);
+    random.fill(noise, cv::RNG::UNIFORM, 0, 256);
+    return coloured ? noise : grey_of(noise);
+}
+
+cv::Mat landscape(bool coloured) {
+    cv::Mat view = scene_photo();
+    for (int j = 0; j < kSceneRows / 2; ++j)  // a bare sky over a rough ground
+        view.row(j).setTo(cv::Scalar(250.0 - j / 4.0, 225.0 - j / 3.0, 200.0 - j / 2.0));
+    return coloured ? view : grey_of(view);
+}
+
+/// Three pictures of each input, or as many as it has, by one run of ffmpeg.
+void code(const std::vector<std::string>& inputs, const std::vector<std::string>& videos) {
+    std::string arguments;
+    for (const std::string& input : inputs) arguments += input + " ";
+    for (std::size_t k = 0; k < videos.size(); ++k)
+        arguments += "-map " + std::to_string(k) +
+                     " -frames:v 3 -c:v libx264 -threads 1 -crf 20 -pix_fmt yuv420p '" + videos[k] +
+                     "' ";
+    ffmpeg(arguments);
+}
+
+struct Named {
+    const char* name;
+    cv::Mat picture;
+};
+
+std::vector<Named> no_depth() {
+    const cv::Mat left = scene_photo();
+    const cv::Mat right = scene_photo(9.0);
+    return {
+        {"photograph", left},
+        {"black-and-white photograph", grey_of(left)},
+        {"soft black-and-white photograph", blurred(grey_of(left), 2.0)},
+        {"stereo pair", beside(left, right)},
+        {"stereo pair, one above the other", above(left, right)},
+        {"black-and-white stereo pair", grey_of(beside(left, right))},
+        {"stereo pair, one eye grey", beside(left, grey_of(right))},
+        {"photograph beside its grey copy", beside(left, grey_of(left))},
+        {"photograph beside its soft grey copy", beside(left, blurred(grey_of(left), 3.0))},
+        {"photograph beside its very soft grey copy", beside(left, blurred(grey_of(left), 6.0))},
+        {"landscape", landscape(true)},
+        {"black-and-white landscape", landscape(false)},
+        {"text", page_of_text(10, 250)},
+        {"light text on dark paper", page_of_text(230, 25)},
+        {"photograph beside text", beside(left, page_of_text(10, 250))},
+        {"screenshot", screenshot()},
+        {"diagram", diagram(true)},
+        {"grey diagram", diagram(false)},
+        {"photograph beside a grey diagram", beside(left, diagram(false))},
+        {"photograph beside a grey gradient", beside(left, grey_gradient())},
+        {"chessboard", chessboard(24)},
+        {"soft chessboard", blurred(chessboard(24), 2.0)},
+        {"grey gradient", grey_gradient()},
+        {"colour wheel", colour_wheel()},
+        {"noise", white_noise(true)},
+        {"grey noise", white_noise(false)},
+        {"rough surface", grey_of(blurred(white_noise(false), 1.0))},
+        {"black", sheet(0)},
+        {"white", sheet(255)},
+        {"one hue", cv::Mat(kSceneRows, kSceneColumns, CV_8UC3, cv::Scalar(0, 255, 0))},
+        {"photograph beside black", beside(left, sheet(0))},
+        {"photograph beside the depth of another one", [&] {
+             cv::Mat mirrored;
+             cv::flip(painted(scene_depth(), as_grey), mirrored, 1);
+             return beside(left, mirrored);
+         }()}};
+}
+
+}  // namespace
+
+TEST_CASE("photographs, stereo pairs, text and drawings are not taken for depth", "[kind]") {
+    for (const Named& no : no_depth()) {
+        const PictureGuess guessed = guess(no.picture);
+        CAPTURE(no.name, static_cast<int>(guessed.kind), guessed.edges_agree,
+                guessed.whole.brightness.texture, guessed.whole.brightness.slopes);
+        CHECK(guessed.kind == PictureKind::photo);
+    }
+    CHECK(no_depth().size() >= 20);
+}
+
+TEST_CASE("what is no depth is not opened alone, and the line says what is missing", "[kind]") {
+    const auto [ending, bits] = GENERATE(
+        table<std::string, int>({{"png", 8}, {"png", 16}, {"jpg", 8}, {"tiff", 8}, {"mp4", 8}}));
+    const TemporaryFolder folder;
+    const auto number_of = [&](std::size_t k, const std::string& form) {
+        return folder / (std::to_string(k) + "/IMG_0001." + form);
+    };
+    const std::vector<Named> all = no_depth();
+    std::vector<std::string> stills, videos;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto still = number_of(k, ending == "mp4" ? "png" : ending);
+        std::filesystem::create_directory(still.parent_path());
+        cv::Mat picture;
+        all[k].picture.convertTo(picture, bits == 16 ? CV_16U : CV_8U, bits == 16 ? 257.0 : 1.0);
+        REQUIRE(cv::imwrite(still.string(), picture));
+        stills.push_back("-i '" + still.string() + "'");
+        videos.push_back(number_of(k, ending).string());
+    }
+    if (ending == "mp4") {
+        code(stills, videos);
+        for (std::size_t k = 0; k < all.size(); ++k) std::filesystem::remove(number_of(k, "png"));
+    }
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const auto file = number_of(k, ending);
+        CAPTURE(all[k].name, ending, bits);
+        const std::string line = refusal([&] { (void)open_media(file, {}, {.find_out = true}); });
+        CHECK(contains(line, "needs a depth file"));
+        CHECK(contains(line, file.string()));
+        CHECK(line.find('\n') == std::string::npos);
+    }
+}
+
+TEST_CASE("test pictures are not taken for depth, also compressed", "[kind]") {
+    const TemporaryFolder folder;
+    const std::vector<std::string> names{"testsrc",    "testsrc2",   "smptebars", "smptehdbars",
+                                         "rgbtestsrc", "mandelbrot", "cellauto",  "life",
+                                         "gradients",  "pal100bars"};
+    std::vector<std::string> sources, videos;
+    for (const std::string& name : names) {
+        sources.push_back("-f lavfi -i " + name);
+        videos.push_back((folder / (name + ".mp4")).string());
+    }
+    code(sources, videos);
+    for (const std::string& name : names) {
+        const auto source = open_picture_source(folder / (name + ".mp4"), PictureRole::colour);
+        std::vector<cv::Mat> pictures;
+        while (auto taken = source->next()) pictures.push_back(taken->picture);
+        REQUIRE(pictures.size() == 3);
+        CAPTURE(name);
+        CHECK(guess_kind(pictures).kind == PictureKind::photo);
+    }
+}
+
+TEST_CASE("depth alone in a picture is told, with its code", "[kind]") {
+    const cv::Mat depth = scene_depth();
+    CHECK(guess(painted(depth, as_grey)).kind == PictureKind::grey_depth);
+    CHECK(guess(painted(depth, as_hue)).kind == PictureKind::hue_depth);
+    CHECK(guess(painted(depth, as_ramp)).kind == PictureKind::ramp_depth);
+    cv::Mat inverse;
+    cv::bitwise_not(painted(depth, as_grey), inverse);
+    CHECK(guess(inverse).kind == PictureKind::grey_depth);
+}
+
+TEST_CASE("colour and depth in halves are told, with packing and code", "[kind]") {
+    const cv::Mat colour = scene_photo();
+    const auto [code, paint] = GENERATE(table<DepthCode, cv::Vec3b (*)(float)>(
+        {{DepthCode::grey, as_grey}, {DepthCode::hue, as_hue}}));
+    const cv::Mat depth = painted(scene_depth(), paint);
+    const auto [packing, picture] = GENERATE_COPY(
+        table<DepthPacking, cv::Mat>({{DepthPacking::left_right, beside(colour, depth)},
+                                      {DepthPacking::right_left, beside(depth, colour)},
+                                      {DepthPacking::top_bottom, above(colour, depth)},
+                                      {DepthPacking::bottom_top, above(depth, colour)}}));
+    CAPTURE(name_of(code), name_of(packing));
+    cv::Mat shown = picture;
+    if (GENERATE(false, true))  // both halves squeezed
+        cv::resize(picture, shown, {kSceneColumns, kSceneRows}, 0.0, 0.0, cv::INTER_AREA);
+    const PictureGuess guessed = guess(shown);
+    CAPTURE(guessed.edges_agree, guessed.edges_by_chance, guessed.depth_half.brightness.texture,
+            guessed.depth_half.hue.slopes);
+    CHECK(guessed.kind == PictureKind::packed);
+    CHECK(guessed.packing == packing);
+    CHECK(guessed.code == code);
+}
+
+TEST_CASE("depth is told in compressed video, too", "[kind]") {
+    const TemporaryFolder folder;
+    const cv::Mat depth = scene_depth();
+    const auto [name, picture, kind] = GENERATE_COPY(table<const char*, cv::Mat, PictureKind>(
+        {{"grey", painted(depth, as_grey), PictureKind::grey_depth},
+         {"hue", painted(depth, as_hue), PictureKind::hue_depth},
+         {"ramp", painted(depth, as_ramp), PictureKind::ramp_depth},
+         {"packed", beside(scene_photo(), painted(depth, as_grey)), PictureKind::packed},
+         {"packed hue", beside(painted(depth, as_hue), scene_photo()), PictureKind::packed}}));
+    CAPTURE(name);
+    cv::imwrite((folder / "still.png").string(), picture);
+    ffmpeg("-loop 1 -i '" + (folder / "still.png").string() +
+           "' -frames:v 2 -c:v libx264 -crf 23 -pix_fmt yuv420p '" +
+           (folder / "clip.mp4").string() + "'");
+    const auto source = open_picture_source(folder / "clip.mp4", PictureRole::colour);
+    CHECK(guess(source->next()->picture).kind == kind);
+}
+
+TEST_CASE("no pictures, tiny ones and ones of another type are photographs", "[kind]") {
+    CHECK(guess_kind({}).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat()).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat(1, 1, CV_8UC3, cv::Scalar(1, 2, 3))).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat(1, 4000, CV_8UC3, cv::Scalar(1, 2, 3))).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat(17, 3001, CV_8UC3, cv::Scalar(1, 2, 3))).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat(40, 40, CV_8UC1, cv::Scalar(9))).kind == PictureKind::photo);
+    CHECK(guess(cv::Mat(40, 40, CV_16UC3, cv::Scalar(9))).kind == PictureKind::photo);
+}
+
+TEST_CASE("pictures of several sizes are looked at one by one", "[kind]") {
+    cv::Mat large;
+    cv::resize(painted(scene_depth(), as_grey), large, {1280, 960}, 0.0, 0.0, cv::INTER_LINEAR);
+    const std::vector<cv::Mat> pictures{painted(scene_depth(), as_grey), large};
+    CHECK(guess_kind(pictures).kind == PictureKind::grey_depth);
+}
