@@ -25,7 +25,6 @@
 #include "core/estimate/estimator_command.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/words.hpp"
-#include "core/video/media.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {

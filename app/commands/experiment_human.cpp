@@ -10,8 +10,6 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/experiment/hand_motion.hpp"
-#include "core/session/session.hpp"
-#include "core/video/media.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {

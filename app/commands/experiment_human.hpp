@@ -10,7 +10,6 @@
 #include "core/experiment/hand_motion.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/session/session.hpp"
-#include "core/video/frame_window.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {

@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/video/depth/picture_levels.hpp"
+
 namespace dibhr {
 
 namespace {

@@ -23,9 +23,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kMostPictures = 24;
-constexpr int kLeastPictures = 4;
-constexpr double kMostPixels = 2.4e7;  ///< decoded in about half a second
+constexpr int kMostSampled = 24;
+constexpr int kLeastSampled = 4;
+constexpr double kPixelsDecoded = 2.4e7;  ///< decoded in about half a second
 
 DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     DepthStatement said;
@@ -107,7 +107,7 @@ void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) 
 std::vector<cv::Mat> some_pictures(PictureSource& source) {
     const double pixels = static_cast<double>(source.facts().columns) * source.facts().rows;
     const double most =
-        std::clamp<double>(kMostPixels / std::max(pixels, 1.0), kLeastPictures, kMostPictures);
+        std::clamp<double>(kPixelsDecoded / std::max(pixels, 1.0), kLeastSampled, kMostSampled);
     return source.samples(static_cast<int>(most));
 }
 

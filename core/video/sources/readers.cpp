@@ -93,24 +93,26 @@ Sources both_tracks(const fs::path& file) {
 
 /// The first that takes a place reads it; the last one takes whatever is left.
 constexpr std::array kReaders{
-    Reader{"bag of ROS 2", Form::bag, is_ros_bag, nullptr, open_ros_topic, both_if<bag_has_colour>},
-    Reader{"row of pictures", Form::row,
+    Reader{"bag of ROS 2", PictureForm::bag, is_ros_bag, nullptr, open_ros_topic,
+           both_if<bag_has_colour>},
+    Reader{"row of pictures", PictureForm::row,
            [](const fs::path& place, std::string_view) { return names_pictures(place); }, nullptr,
            open_row, both_rows},
-    Reader{"video in a usual container", Form::video, is_video_container, nullptr,
+    Reader{"video in a usual container", PictureForm::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
-    Reader{"numpy arrays", Form::arrays, is_array_file, read_array, open_file<ArrayFile>,
+    Reader{"numpy arrays", PictureForm::arrays, is_array_file, read_array, open_file<ArrayFile>,
            both_if<arrays_have_colour_and_depth>},
     Reader{
-        "OpenEXR picture", Form::still,
+        "OpenEXR picture", PictureForm::still,
         [](const fs::path&, std::string_view head) { return head.starts_with("\x76\x2f\x31\x01"); },
         read_exr, nullptr, both_if<exr_has_colour_and_depth>},
-    Reader{"portable float map", Form::still, is_pfm, read_pfm, nullptr, nullptr},
-    Reader{"HEIC photo", Form::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
-    Reader{"picture by OpenCV's codecs", Form::still, is_opencv_picture, read_by_opencv, nullptr,
-           nullptr},
-    Reader{"video by libav", Form::video, [](const fs::path&, std::string_view) { return true; },
-           nullptr, open_file<VideoFile>, both_tracks}};
+    Reader{"portable float map", PictureForm::still, is_pfm, read_pfm, nullptr, nullptr},
+    Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
+    Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
+           nullptr, nullptr},
+    Reader{"video by libav", PictureForm::video,
+           [](const fs::path&, std::string_view) { return true; }, nullptr, open_file<VideoFile>,
+           both_tracks}};
 constexpr std::size_t kOfManyFiles = 2;  ///< readers, the first ones; all others are of one file
 
 }  // namespace

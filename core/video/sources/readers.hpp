@@ -17,12 +17,12 @@ namespace dibhr {
 struct Sources;
 
 /// What makes a difference to where colour and depth are looked for.
-enum class Form { bag, row, video, arrays, still };
+enum class PictureForm { bag, row, video, arrays, still };
 
 /// Who reads one form.
 struct Reader {
     std::string_view name;  ///< of the form, for people
-    Form form;
+    PictureForm form;
     /// Whether a place is of that form: by `head`, how a file begins, which is empty for a folder;
     /// where that says too little, by its name or what it holds.
     bool (*is_own)(const std::filesystem::path& place, std::string_view head);

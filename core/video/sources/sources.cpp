@@ -35,7 +35,7 @@ constexpr int kLookedAt = 6;  ///< pictures that tell of what kind they are
 struct Place {
     explicit Place(const fs::path& named) : path(named), reader(reader_of(named)) {}
 
-    [[nodiscard]] bool is(Form form) const { return reader.form == form; }
+    [[nodiscard]] bool is(PictureForm form) const { return reader.form == form; }
 
     const fs::path& path;
     const Reader& reader;
@@ -65,7 +65,7 @@ std::vector<cv::Mat> looks_of(const fs::path& place, int most, int track = 0) {
 std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& said) {
     std::optional<PackedForm> form;
     if (said.packing && !is_of_halves(*said.packing)) return form;
-    if (place.is(Form::video)) form = form_by_recorder(place.path, picture_size(place.path));
+    if (place.is(PictureForm::video)) form = form_by_recorder(place.path, picture_size(place.path));
     const auto named = packing_by_name(place.path);
     if (!form && named && (named->says_depth || said.packing))
         form = PackedForm{
@@ -91,16 +91,16 @@ std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess&
 
 /// Whether it is worth while to look at more pictures.
 bool begins_in_colours(const fs::path& place, int track) {
-    constexpr double kGrey = 0.01;  // share of pixels that compression colours
+    constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
     const std::vector<cv::Mat> first = looks_of(place, 1, track);
-    return !first.empty() && look_of(first.front()).coloured > kGrey;
+    return !first.empty() && look_of(first.front()).coloured > kMostColoured;
 }
 
 /// A source of colours is decoded where they are a code, as somebody says or as they look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& said) {
     const int track = sources.depth_track;
     const bool may_be_coded = said.code != DepthCode::hue && sources.depth->facts().channels != 1 &&
-                              (place.is(Form::video) || place.is(Form::still)) &&
+                              (place.is(PictureForm::video) || place.is(PictureForm::still)) &&
                               begins_in_colours(place.path, track);
     PictureKind kind = PictureKind::grey_depth;
     if (may_be_coded) kind = guess_kind(looks_of(place.path, kLookedAt, track)).kind;
@@ -120,7 +120,7 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& said)
 Sources both_in(const Place& place, const DepthStatement& said) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
-    if (both.depth == nullptr || !place.is(Form::video)) return both;
+    if (both.depth == nullptr || !place.is(PictureForm::video)) return both;
     return decoded(place, std::move(both), said);
 }
 
@@ -131,8 +131,8 @@ Sources depth_in(const Place& place, const DepthStatement& said) {
 
 /// Whether a single place is depth as its name, its levels or its look say. The last is a guess.
 bool is_depth(const Place& place, const PictureGuess& look) {
-    if (named_depth(place.path) || place.is(Form::bag)) return true;
-    if (place.is(Form::row)) {
+    if (named_depth(place.path) || place.is(PictureForm::bag)) return true;
+    if (place.is(PictureForm::row)) {
         const PictureSet found = pictures_at(place.path);
         if (!found.depth.empty()) return true;
         if (found.unnamed.empty()) return false;
@@ -173,7 +173,7 @@ Sources both_as_said(const Place& place, const DepthStatement& said) {
     if (!said.packing || !is_of_halves(*said.packing)) {
         if (Sources both = both_in(place, said); both.depth) return both;
     }
-    if (place.is(Form::bag)) return {};
+    if (place.is(PictureForm::bag)) return {};
     const auto form = packed_form(place, said);
     return form ? open_packed(place.path, *form) : Sources{};
 }
@@ -181,7 +181,7 @@ Sources both_as_said(const Place& place, const DepthStatement& said) {
 /// What a place holds where nothing says it: halves, depth alone, or colour alone.
 Sources as_it_looks(const Place& place, const DepthStatement& said) {
     PictureGuess look;
-    if (!place.is(Form::bag)) look = guess_kind(looks_of(place.path, kLookedAt));
+    if (!place.is(PictureForm::bag)) look = guess_kind(looks_of(place.path, kLookedAt));
     if (!said.packing) {
         if (auto halves = halves_by_look(place.path, look)) return std::move(*halves);
     }

@@ -42,7 +42,7 @@ TEST_CASE("folders, lists and patterns are rows of pictures, but for a bag's fol
     write_text(folder / "depth.txt", "0.5 depth/0.5.png\n");
     CHECK(reader_of(folder / "depth.txt").name == "row of pictures");
     write_text(folder / "walk_0.db3", "SQLite format 3");
-    CHECK(reader_of(folder.path()).form == Form::bag);
+    CHECK(reader_of(folder.path()).form == PictureForm::bag);
 }
 
 TEST_CASE("what no reader could read is refused before any is asked", "[readers]") {
