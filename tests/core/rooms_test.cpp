@@ -33,9 +33,32 @@ const std::vector<Room> kRooms{
     {"core/av/", {"core/av/", "core/error.hpp"}},
     {"core/sqlite/", {"core/sqlite/", "core/files/"}},
     {"core/sound/", {"core/sound/", "core/haptics/", "core/realtime/"}},
-    {"core/video/",
-     {"core/video/", "core/av/", "core/files/", "core/haptics/", "core/realtime/", "core/sqlite/",
+    {"core/video/modules/", {"core/video/modules/", "core/error.hpp"}},
+    {"core/video/frames/", {"core/video/frames/", "core/haptics/"}},
+    {"core/video/cleaning/",
+     {"core/video/cleaning/", "core/video/frames/", "core/files/", "core/haptics/"}},
+    {"core/video/motion/",
+     {"core/video/motion/", "core/video/cleaning/", "core/video/frames/", "core/haptics/",
+      "core/realtime/"}},
+    {"core/video/depth/",
+     {"core/video/depth/", "core/video/cleaning/", "core/video/frames/", "core/files/",
+      "core/haptics/", "core/error.hpp"}},
+    {"core/video/formats/",
+     {"core/video/formats/", "core/video/cleaning/", "core/video/depth/", "core/video/frames/",
+      "core/video/modules/", "core/av/", "core/files/", "core/realtime/", "core/sqlite/",
       "core/error.hpp"}},
+    {"core/video/live/",
+     {"core/video/live/", "core/video/cleaning/", "core/video/depth/", "core/video/formats/",
+      "core/video/frames/", "core/video/modules/", "core/av/", "core/files/", "core/realtime/",
+      "core/error.hpp"}},
+    {"core/video/sources/",
+     {"core/video/sources/", "core/video/cleaning/", "core/video/depth/", "core/video/formats/",
+      "core/video/frames/", "core/video/live/", "core/video/modules/", "core/files/",
+      "core/haptics/", "core/error.hpp"}},
+    {"core/video/playing/",
+     {"core/video/playing/", "core/video/cleaning/", "core/video/frames/", "core/video/live/",
+      "core/video/motion/", "core/video/sources/", "core/files/", "core/haptics/",
+      "core/realtime/", "core/error.hpp"}},
     {"core/clip/", {"core/clip/", "core/av/", "core/files/", "core/video/", "core/error.hpp"}},
     {"core/estimate/",
      {"core/estimate/", "core/av/", "core/files/", "core/video/", "core/error.hpp"}},
@@ -139,9 +162,9 @@ const std::vector<Ownership> kOwnerships{
     {"pybind11/", {"app/python/"}},
     {"opencv2/", {"core/estimate/", "core/video/", "assets/"}},
     {"png.h", {"core/surface_files/"}},
-    {"Imf", {"core/video/"}},
-    {"libheif/", {"core/video/"}},
-    {"zip.h", {"core/video/"}},
+    {"Imf", {"core/video/formats/"}},
+    {"libheif/", {"core/video/formats/"}},
+    {"zip.h", {"core/video/formats/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };
@@ -264,6 +287,10 @@ TEST_CASE("no folder holds more files than one can take in", "[rooms]") {
 TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]") {
     CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
     CHECK(breaks_arrow({"core/video/playing/player.cpp", "render/camera.hpp", true}));
+    CHECK(breaks_arrow({"core/video/media.cpp", "core/video/sources/media.hpp", true}));
+    CHECK(breaks_arrow({"core/video/formats/exr.cpp", "core/video/sources/readers.hpp", true}));
+    CHECK(breaks_arrow({"core/video/depth/camera.cpp", "core/video/formats/exr.hpp", true}));
+    CHECK(breaks_arrow({"core/video/live/live_feed.cpp", "core/video/playing/player.hpp", true}));
     CHECK(breaks_arrow({"device/falcon.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
     CHECK(breaks_arrow({"app/main.cpp", "tests/support/catch.hpp", true}));
@@ -276,6 +303,7 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"app/python/session.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"device/falcon/link.cpp", "device/mouse_hand.hpp", true}));
     CHECK_FALSE(breaks_arrow({"app/main.cpp", "core/error.hpp", true}));
+    CHECK_FALSE(breaks_arrow({"core/video/sources/media.cpp", "core/video/live/x.hpp", true}));
     CHECK_FALSE(breaks_arrow({"render/relief_pass.cpp", "shader_sources.hpp", true}));
     CHECK(breaks_ownership({"app/window/window.cpp", "epoxy/gl.h", false}));
     CHECK(breaks_ownership({"render/relief.cpp", "GLFW/glfw3.h", false}));
