@@ -1,7 +1,6 @@
 // The steps of cleaning, one after the other.
 #include "core/video/cleaning/cleaning_chain.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <memory>

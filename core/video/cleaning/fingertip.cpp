@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
-#include <vector>
 
 #include "core/video/cleaning/fingertip/ball.hpp"
 #include "core/video/cleaning/fingertip/edges.hpp"

@@ -8,7 +8,6 @@
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 
 #include "core/video/cleaning/patches.hpp"
 #include "core/video/cleaning/small_holes.hpp"

@@ -2,13 +2,11 @@
 #include "core/video/depth/hue_code.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
-#include <utility>
 #include <vector>
 
 #include "core/video/depth/picture_levels.hpp"

@@ -2,7 +2,6 @@
 #include "core/video/playing/live_clock.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

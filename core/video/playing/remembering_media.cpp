@@ -2,8 +2,6 @@
 #include "core/video/playing/remembering_media.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "core/video/cleaning/patches.hpp"
 #include "core/video/frames/frame_window.hpp"

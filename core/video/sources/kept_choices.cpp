@@ -2,7 +2,6 @@
 #include "core/video/sources/kept_choices.hpp"
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <system_error>
 

@@ -12,7 +12,6 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 #include "core/error.hpp"

@@ -1,6 +1,5 @@
 #include "core/video/cleaning/fingertip/edges.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
