@@ -287,9 +287,9 @@ TEST_CASE("no folder holds more files than one can take in", "[rooms]") {
 TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]") {
     CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
     CHECK(breaks_arrow({"core/video/playing/player.cpp", "render/camera.hpp", true}));
-    CHECK(breaks_arrow({"core/video/media.cpp", "core/video/sources/media.hpp", true}));
-    CHECK(breaks_arrow({"core/video/formats/exr.cpp", "core/video/sources/readers.hpp", true}));
-    CHECK(breaks_arrow({"core/video/depth/camera.cpp", "core/video/formats/exr.hpp", true}));
+    CHECK(breaks_arrow({"core/video/any.cpp", "core/video/sources/media.hpp", true}));
+    CHECK(breaks_arrow({"core/video/formats/exr.cpp", "core/video/sources/any.hpp", true}));
+    CHECK(breaks_arrow({"core/video/depth/camera.cpp", "core/video/formats/any.hpp", true}));
     CHECK(breaks_arrow({"core/video/live/live_feed.cpp", "core/video/playing/player.hpp", true}));
     CHECK(breaks_arrow({"device/falcon.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"core/error.hpp", "core/haptics/vec.hpp", true}));
