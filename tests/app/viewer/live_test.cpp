@@ -53,6 +53,7 @@ PictureSender::Asked camera() {
     return asked;
 }
 
+constexpr std::uint64_t kInAndOut = 1400;  // ticks, in which the goals come into the surface
 /// In and out of the surface, and over it.
 void write_goals(const fs::path& file) {
     std::ofstream out(file);
@@ -148,7 +149,7 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     sender.go_on();
     wait_for_words(folder / "told.txt", "live: Signal from 'tcp://", 2);
     viewer.wait_until([](const Seen& now) { return now.cut == 0; });
-    wait_for_rows(viewer, 300);
+    wait_for_rows(viewer, kInAndOut);
     desk.press("key q");
     REQUIRE(viewer.wait() == 0);
     CHECK(fs::exists(folder / "a.depth.mkv"));
