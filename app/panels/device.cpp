@@ -86,8 +86,8 @@ void draw_device_panel(ViewerState& state) {
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
     if (has_falcon || has_inverse3) {
-        flag_row("Force only while the window is in front",
-                 state.settings.force_in_front_only, Settings{}.force_in_front_only,
+        flag_row("Force only while the window is in front", state.settings.force_in_front_only,
+                 Settings{}.force_in_front_only,
                  "No force while the keyboard goes to another window, or this one is an icon: the "
                  "hand is safe while nobody looks. Switch it off when one person touches and "
                  "another works in another window, in an experiment say");

@@ -108,8 +108,8 @@ void draw_materials(ViewerState& state) {
     for (const std::string& name : state.ui.materials.own)
         draw_material(state, name, own_materials_folder().c_str());
     const Material& material = state.touch.material;
-    const bool changed = state.touch.bump_file != material.map ||
-                         !is_made_of(material, state.settings.touch);
+    const bool changed =
+        state.touch.bump_file != material.map || !is_made_of(material, state.settings.touch);
     if (changed) {
         const bool done =
             text_field("##keep", "Changed: keep as a material called ...", state.ui.fields.material,

@@ -212,9 +212,9 @@ void draw_playback(const ViewerState& state, Transport& player, float right_of_l
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
     if (playback.live) return draw_live(*playback.live, playback.playing, right_of_line);
-    const auto wanted_s = draw_line_and_time(
-        line_of(playback.course()), "frame " + std::to_string(playback.frame + 1),
-        ImGui::CalcTextSize("frame 00000").x, right_of_line);
+    const auto wanted_s = draw_line_and_time(line_of(playback.course()),
+                                             "frame " + std::to_string(playback.frame + 1),
+                                             ImGui::CalcTextSize("frame 00000").x, right_of_line);
     if (wanted_s) player.seek(*wanted_s);
 }
 

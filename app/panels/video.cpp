@@ -59,8 +59,8 @@ void draw_open(ViewerState& state) {
                    "Empty: the file called like the colour file, with depth in place of color");
     const bool named = state.ui.fields.colour[0] != '\0';
     const bool opening = state.media.opening;
-    const bool pressed = button_or_drop(opening ? "Opening" : "Open", !opening, "files",
-                                        button_width(kRecent));
+    const bool pressed =
+        button_or_drop(opening ? "Opening" : "Open", !opening, "files", button_width(kRecent));
     if (pressed && !named) state.commands.push(Action::open_file);
     if ((from_colour || from_depth || pressed) && named) {
         state.commands.push(OpenRequest{typed_path(state.ui.fields.colour.data()),

@@ -179,8 +179,8 @@ struct ExplainedNews {
 
 /// The window's own.
 struct UiState {
-    std::vector<Doubt> doubts{};  ///< of the settings file; a person is asked
-    MaterialNames materials{};    ///< to choose from
+    std::vector<Doubt> doubts{};                ///< of the settings file; a person is asked
+    MaterialNames materials{};                  ///< to choose from
     std::optional<PixelShown> under_hand{};     ///< nothing: the hand is beside the picture
     std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
     PanesShown panes{};
@@ -219,9 +219,7 @@ struct ViewerState {
     CommandQueue commands{};
 
     /// As TouchState::shape().
-    [[nodiscard]] const SurfaceShape& shape() const noexcept {
-        return touch.shape(settings.touch);
-    }
+    [[nodiscard]] const SurfaceShape& shape() const noexcept { return touch.shape(settings.touch); }
     /// Of what plays: the session, in a replay, or the video.
     [[nodiscard]] Course course() const {
         return touch.replay ? touch.replay->playback.course() : media.playback.course();

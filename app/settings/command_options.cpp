@@ -145,11 +145,9 @@ void add_choice_of_touch(CLI::App& app, const TouchChoice& choice, GivenParamete
                          const char* otherwise) {
     const std::string name = "--" + std::string(choice.name);
     if (app.get_option_no_throw(name) != nullptr) return;  // it takes several of the words
-    add_choice_option(app, name, choice.names(),
-                      std::string(choice.help) + ": " + listed(choice.names()),
-                      [&choice, &given](const std::string& word) {
-                          given.words.emplace_back(&choice, word);
-                      })
+    add_choice_option(
+        app, name, choice.names(), std::string(choice.help) + ": " + listed(choice.names()),
+        [&choice, &given](const std::string& word) { given.words.emplace_back(&choice, word); })
         ->type_name("NAME")
         ->default_str(otherwise != nullptr ? otherwise : std::string(choice.standard()));
 }
@@ -158,7 +156,9 @@ void add_switch_of_touch(CLI::App& app, const TouchSwitch& entry, GivenParameter
                          const char* otherwise) {
     add_on_off_option(app, "--" + std::string(entry.name), std::string(entry.help),
                       [&entry, &given](bool on) { given.switches.emplace_back(&entry, on); })
-        ->default_str(otherwise != nullptr ? otherwise : entry.standard() ? "on" : "off");
+        ->default_str(otherwise != nullptr ? otherwise
+                      : entry.standard()   ? "on"
+                                           : "off");
 }
 
 void add_entries_of_touch(CLI::App& app, GivenParameters& given, const char* otherwise,

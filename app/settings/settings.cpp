@@ -426,23 +426,25 @@ std::vector<Setting> list_of(Settings& s) {
                               {"panels", "loop", &s.panels.loop},
                               {"panels", "paint", &s.panels.paint}};
     for (const TouchChoice& choice : touch_choices()) {
-        std::visit([&](auto* word) { list.push_back({"touch", choice.name, word}); },
-                   choice.in(s.touch));
+        std::visit(
+            [&](auto* word) {
+                list.push_back({"touch", choice.name, word});
+            },
+            choice.in(s.touch));
     }
     for (const TouchSwitch& entry : touch_switches())
         list.push_back({"touch", entry.name, &entry.in(s.touch)});
-    list.insert(list.end(),
-                {{"touch", "material", &s.material},
-                 {.table = "touch",
-                  .name = "stability",
-                  .value = &s.stability,
-                  .protection = Protection{Less::other, "Stability control"}},
-                 {.table = "touch",
-                  .name = "damping-as-needed",
-                  .value = &s.damping_as_needed,
-                  .protection = Protection{Less::other, "Damping as the hand needs"}},
-                 {"touch", "fit-relief", &s.fit_relief},
-                 {"touch", "fit-pixel-pitch", &s.fit_pitch}});
+    list.insert(list.end(), {{"touch", "material", &s.material},
+                             {.table = "touch",
+                              .name = "stability",
+                              .value = &s.stability,
+                              .protection = Protection{Less::other, "Stability control"}},
+                             {.table = "touch",
+                              .name = "damping-as-needed",
+                              .value = &s.damping_as_needed,
+                              .protection = Protection{Less::other, "Damping as the hand needs"}},
+                             {"touch", "fit-relief", &s.fit_relief},
+                             {"touch", "fit-pixel-pitch", &s.fit_pitch}});
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }

@@ -109,9 +109,9 @@ struct Settings {
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
     bool force_in_front_only{true};  ///< of every device: none while people work in another window
-    double sound_volume{SoundChoice{}.volume};                 ///< 0 .. 1
-    bool mute{false};                                          ///< no sound of touch
-    bool game_pad{true};                                       ///< rumbles, when there is one
+    double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
+    bool mute{false};                           ///< no sound of touch
+    bool game_pad{true};                        ///< rumbles, when there is one
     FalconSettings falcon{};
     Inverse3Settings inverse3{};
     std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be

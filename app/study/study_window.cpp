@@ -492,8 +492,7 @@ void StudyWindow::show_hand_only(TouchMarkers& markers) const {
 void StudyWindow::draw_relief() {
     const StudyView view = run_.block().view;
     const bool seen = felt() && !view_.waits && view != StudyView::blank;
-    SceneContent content =
-        scene_content(surface_.settings(), surface_.touch(), surface_.shown());
+    SceneContent content = scene_content(surface_.settings(), surface_.touch(), surface_.shown());
     if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
     hide_condition(content);
     if (content.markers.visible && view == StudyView::relief) show_hand_only(content.markers);

@@ -96,8 +96,8 @@ class DeviceEnd {
         for (std::size_t k = 0; k < status.presses.size(); ++k) {
             const std::uint32_t times = status.presses[k] - taken_[k];
             if (times > 0)
-                into.push_back({static_cast<int>(k), Kind::buttons(settings)[k], times,
-                                status.pressed_at[k]});
+                into.push_back(
+                    {static_cast<int>(k), Kind::buttons(settings)[k], times, status.pressed_at[k]});
         }
         taken_ = status.presses;
     }

@@ -53,8 +53,8 @@ Touching touching(const TouchState& touch) {
 }
 
 bool a_device_touches(const TouchState& touch) {
-    return any_device(
-        touch, [&](const auto& news, Touching as) { return touches(touch, news, as); });
+    return any_device(touch,
+                      [&](const auto& news, Touching as) { return touches(touch, news, as); });
 }
 
 bool may_touch(const TouchState& touch) {

@@ -229,12 +229,12 @@ void TouchRecording::break_off(const std::string& failure) {
 void TouchRecording::hand_over(const HapticSettings& settings) {
     if (!recorder_ || told_version_ == settings.version) return;
     told_version_ = settings.version;
-    recorder_->parameters({.version = settings.version,
-                           .touch = settings.parameters,
-                           .limits = settings.limits,
-                           .force_enabled = settings.force_enabled,
-                           .bump = {settings.bump ? state_.touch.bump_file
-                                                  : std::filesystem::path{}}});
+    recorder_->parameters(
+        {.version = settings.version,
+         .touch = settings.parameters,
+         .limits = settings.limits,
+         .force_enabled = settings.force_enabled,
+         .bump = {settings.bump ? state_.touch.bump_file : std::filesystem::path{}}});
 }
 
 void TouchRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) {

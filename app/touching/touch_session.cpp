@@ -164,9 +164,8 @@ void TouchSession::publish_to_outputs() {
 
 void TouchSession::publish_to_player() {
     const Settings& settings = state_.settings;
-    player_.set_motion(motion_wanted(settings.touch.carry, state_.media.as_recorded
-                                                               ? InBetweens::off
-                                                               : settings.in_betweens));
+    player_.set_motion(motion_wanted(
+        settings.touch.carry, state_.media.as_recorded ? InBetweens::off : settings.in_betweens));
     player_.set_cleaning(wanted_cleaning(settings, state_.media));
 }
 
@@ -232,8 +231,7 @@ bool TouchSession::by_mouse() const noexcept {
 }
 
 bool TouchSession::may_record() const noexcept {
-    return !published_.recording &&
-           (!loop_ || state_.touch.haptic.ticks > recording_ended_at_ + 1);
+    return !published_.recording && (!loop_ || state_.touch.haptic.ticks > recording_ended_at_ + 1);
 }
 
 }  // namespace dibhr

@@ -166,8 +166,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
         state_.ui.message = maps.refusal + "\n\nIt is touched without touch maps.";
-    if (now.live)
-        maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
+    if (now.live) maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
     touch_.play(std::move(media),
                 painting_.begin(std::move(maps), now, remembered_file(now).empty()));
     if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });

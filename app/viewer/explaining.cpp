@@ -130,7 +130,7 @@ bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& stat
 void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
     const DepthBlend pair = shown.shown();
     Asked asked{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
-                state.touch.bump,       proxy_,         goal_,      state.settings.touch.friction};
+                state.touch.bump, proxy_,         goal_,      state.settings.touch.friction};
     if (asked_ == asked) return;
     const DepthSurface surface = shown.surface(asked.shape, asked.bump.get());
     ExplainedNews& news = *state.ui.explained;

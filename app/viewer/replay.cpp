@@ -62,11 +62,11 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
                                    [](const SessionSource& one) { return one.source.in_betweens; });
     state.settings.in_betweens = moves ? InBetweens::on : InBetweens::off;
     state.touch.replay = ReplayNews{.file = session.file(),
-                              .participant = session.fact("participant"),
-                              .note = session.fact("note"),
-                              .started = session.fact("started"),
-                              .device = session.fact("device"),
-                              .marks = session.marks()};
+                                    .participant = session.fact("participant"),
+                                    .note = session.fact("note"),
+                                    .started = session.fact("started"),
+                                    .device = session.fact("device"),
+                                    .marks = session.marks()};
     state.media.describe(opened->frames.description());
     state.touch.strips = {};
     state.touch.haptic = {};
@@ -124,9 +124,9 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     state.touch.haptic.touchable = tick.surface;
     state.touch.others = moment.others;
     state.touch.haptic.hand = {.goal_in_grid = tick.goal,
-                         .buttons = tick.buttons,
-                         .ready = tick.device_ready,
-                         .stand_in = tick.stand_in};
+                               .buttons = tick.buttons,
+                               .ready = tick.device_ready,
+                               .stand_in = tick.stand_in};
     state.touch.bump = moment.bump;
     if (moment.parameters != nullptr) {
         recorded_ = moment.parameters->touch;

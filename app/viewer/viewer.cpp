@@ -170,15 +170,13 @@ void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_t
     keep_memory();
     keeper_.finish(lasting_settings());
     TouchRecording& recording = touch_.recording();
-    try_to("saving the settings", [&] {
-        lasting_.finish(at_once ? kPatienceAtAnEnd : std::chrono::milliseconds(10000));
-    });
+    try_to("saving the settings",
+           [&] { lasting_.finish(at_once ? kPatienceAtAnEnd : std::chrono::milliseconds(10000)); });
     try_to("writing pictures", [&] { screenshots_.finish(); });
     try_to("saving what was painted", [&] {
         at_once ? painting_.finish(recording, kPatienceAtAnEnd) : painting_.finish(recording);
     });
-    try_to("finishing the clip",
-           [&] { clip_.finish(at_once ? ClipEnd::at_once : ClipEnd::well); });
+    try_to("finishing the clip", [&] { clip_.finish(at_once ? ClipEnd::at_once : ClipEnd::well); });
     try_to("closing the recording",
            [&] { recording.finish(at_once ? kPatienceAtAnEnd : Recorder::kPatience); });
 }
@@ -212,8 +210,7 @@ void Viewer::show_one_picture() {
     require_graphics();
     beat();
     if (options_.after_picture)
-        options_.after_picture(
-            {state_.settings, state_.touch, state_.media, shown_, &state_.ui});
+        options_.after_picture({state_.settings, state_.touch, state_.media, shown_, &state_.ui});
 }
 
 /// The relief and all that is over it, for whoever wants to save it, too.
@@ -232,8 +229,8 @@ void Viewer::poll() {
     take_opened();
     take_desktop_answer();
     follow_live();
-    const std::string& failure = state_.touch.replay ? state_.touch.replay->playback.failure
-                                                     : state_.media.playback.failure;
+    const std::string& failure =
+        state_.touch.replay ? state_.touch.replay->playback.failure : state_.media.playback.failure;
     if (!failure.empty() && failure != playback_failure_) {
         state_.ui.message = failure;
         print_error_line(failure);
@@ -282,8 +279,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches =
-        shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
+    const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
     if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
         !state_.ui.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);

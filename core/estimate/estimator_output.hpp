@@ -11,7 +11,6 @@
 
 #include "core/video/formats/picture_source.hpp"
 
-
 namespace dibhr {
 
 /// Pictures whose names differ in one number only: of one form, a frame each.

@@ -42,8 +42,7 @@ std::string source_table() {
 }
 
 std::string parameters_table() {
-    std::string table =
-        "CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER";
+    std::string table = "CREATE TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER";
     const auto add = [&table](std::string_view column, const char* type) {
         table += ", " + std::string(column) + type;
     };
@@ -120,8 +119,8 @@ std::string shortened_of(const std::string& axis) {
 std::string time_between() {
     return "CASE WHEN d.dt IS NULL THEN (d.t - (SELECT b.t FROM tick_data b WHERE b.tick = d.tick "
            "- 1)) / " +
-           real_text(kNanosecondsPerSecond) + " ELSE " +
-           time_of("d.dt", kNanosecondsPerSecond) + " END";
+           real_text(kNanosecondsPerSecond) + " ELSE " + time_of("d.dt", kNanosecondsPerSecond) +
+           " END";
 }
 
 /// The pixel the proxy is in, for a primitive.

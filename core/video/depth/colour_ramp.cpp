@@ -5,7 +5,6 @@
 
 #include "core/video/depth/picture_levels.hpp"
 
-
 namespace dibhr {
 
 ColourImage colours_of(ColourRamp ramp) {

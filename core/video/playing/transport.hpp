@@ -33,7 +33,7 @@ class Transport {
     virtual void pause() = 0;
     /// Keeps playing or paused; of many in a row the last one counts.
     virtual void seek(double t_s) = 0;
-    virtual void step(int by) = 0;      ///< pauses, then moves by frames or ticks, back or forth
+    virtual void step(int by) = 0;  ///< pauses, then moves by frames or ticks, back or forth
     virtual void set_looping(bool looping) = 0;
     /// Plays only that part: stops at its end, or begins it again. What is beyond it already goes
     /// on to the end of all.

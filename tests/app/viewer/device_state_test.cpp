@@ -119,7 +119,7 @@ TEST_CASE("the window says over the relief what an attached or lost Falcon needs
     CHECK(banner_of(state).empty());
     state.touch.falcon.emplace();
     state.touch.falcon->status.sentence = "plug it in";
-    CHECK(banner_of(state).empty());  // none has been there: only the panel says so
+    CHECK(banner_of(state).empty());            // none has been there: only the panel says so
     state.touch.falcon->status.trouble = true;  // one could not be brought up
     CHECK(banner_of(state) == "plug it in");
     state.touch.falcon->status.trouble = false;

@@ -1,6 +1,6 @@
 // Reading videos: pairing by time, exact seeking, levels that survive.
-#include "core/error.hpp"
 #include "core/video/sources/media.hpp"
+#include "core/error.hpp"
 #include "core/video/sources/media_names.hpp"
 
 #include <algorithm>

@@ -161,8 +161,8 @@ TEST_CASE("depth alone is shown in colours of its own, light where it is near", 
     const TemporaryFolder folder;
     make_flat_clip(folder / "depth_a.mkv", 3, 25, kLossless);  // frame n has level 5 n
     const bool as_depth = GENERATE(true, false);
-    const auto media = as_depth ? open_media({}, folder / "depth_a.mkv")
-                                : open_media(folder / "depth_a.mkv");
+    const auto media =
+        as_depth ? open_media({}, folder / "depth_a.mkv") : open_media(folder / "depth_a.mkv");
     const auto brightness = [](const RawFrame& frame) {
         return frame.colour.rgb[0] + frame.colour.rgb[1] + frame.colour.rgb[2];
     };
