@@ -57,7 +57,7 @@ class StudySurface {
     /// Whether the mouse is all that touches now.
     [[nodiscard]] bool by_mouse() const noexcept { return session_.by_mouse(); }
 
-    /// Sends no force any more, for good.
+    /// Sends no force any more. Nothing is to be shown after it.
     void stop() noexcept { session_.stop(); }
 
   private:

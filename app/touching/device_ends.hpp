@@ -95,7 +95,7 @@ class DeviceEnd {
         const auto& status = Kind::news(touch)->status;
         for (std::size_t k = 0; k < status.presses.size(); ++k) {
             const std::uint32_t times = status.presses[k] - taken_[k];
-            if (times > 0)
+            if (status.presses[k] > taken_[k])
                 into.push_back(
                     {static_cast<int>(k), Kind::buttons(settings)[k], times, status.pressed_at[k]});
         }

@@ -139,11 +139,13 @@ void TouchSession::publish() {
     asked.recording = recording_.active();
     asked.followed = settings.others;
     if (!same || published_.recording != asked.recording || published_.followed != asked.followed) {
-        if (published_.recording && !asked.recording) recording_ended_at_ = touch.haptic.ticks;
+        const bool recording_ends = published_.recording && !asked.recording;
         asked.version = published_.version + (same ? 0 : 1);
         published_ = asked;
         recording_.hand_over(published_);
         haptic_settings_.publish(published_);
+        // The tick after that one may have begun before.
+        if (recording_ends) recording_ended_at_ = haptic_state_.front().ticks;
     }
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
     if (falcon_.is_retuned(settings, touch)) falcon_.publish(settings, touch);

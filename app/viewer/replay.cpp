@@ -79,6 +79,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     state.settings.touch = wanted;
     outline_ = std::make_unique<SessionOutline>(session.file(), session.begin_s(), session.end_s());
     player_ = std::make_unique<SessionPlayer>(std::move(opened));
+    state.touch.replay->playback = player_->playback();  // for a key in this picture
     if (chosen_) player_->compute(chosen_);
 }
 

@@ -166,6 +166,7 @@ void Viewer::finish() {
 /// Each step by `try_to`, which is told what it is. `at_once`: from then on nothing waits for long.
 template <typename Try>
 void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to) {
+    ending_.words().doing("saving the settings");
     explaining_.end(state_, camera_);
     keep_memory();
     keeper_.finish(lasting_settings());
@@ -202,6 +203,7 @@ void Viewer::show_one_picture() {
     move_hand(input, viewport);
     draw_picture(input);
     carry_out_commands();
+    show_recording_trouble();  // a command may have ended it
     publish();
     keep_settings();
     keep_told();
@@ -260,7 +262,11 @@ void Viewer::poll_touch() {
     TouchRecording& recording = touch_.recording();
     recording.poll();
     if (const auto notice = recording.take_finished()) tell(*notice);
-    if (const std::string trouble = recording.take_trouble(); !trouble.empty())
+    show_recording_trouble();
+}
+
+void Viewer::show_recording_trouble() {
+    if (const std::string trouble = touch_.recording().take_trouble(); !trouble.empty())
         state_.ui.message = trouble + ". The force is off until it is switched on again" +
                             state_.keys.in_brackets(Action::toggle_force) + ".";
 }

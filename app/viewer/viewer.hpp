@@ -116,6 +116,7 @@ class Viewer {
     void wear_look();
     void poll();
     void poll_touch();
+    void show_recording_trouble();
     void take_opened();
     void follow_live();
     void take_keys(const WindowInput& input);

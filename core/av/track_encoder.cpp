@@ -48,7 +48,8 @@ int TrackEncoder::encode(std::int64_t shown_ms, const Sink& sink) {
 }
 
 int TrackEncoder::flush(const Sink& sink) {
-    return send(nullptr, sink);
+    const int result = send(nullptr, sink);
+    return result == AVERROR_EOF ? 0 : result;  // nothing was kept back
 }
 
 int TrackEncoder::send(const AVFrame* frame, const Sink& sink) {
