@@ -97,10 +97,7 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
 RecorderStatus finish_both(Recorder& recorder, LiveRecorder& live,
                            std::chrono::milliseconds for_sums) {
     live.finish();
-    std::vector<SessionMedia> contents;
-    for (const FileContent& content : live.contents())
-        contents.push_back({content.file, content.bytes, content.sha256, content.head_bytes});
-    recorder.media_is_whole(std::move(contents));
+    recorder.media_is_whole(live.contents());
     RecorderStatus recorded = recorder.finish(for_sums);
     if (recorded.failure.empty()) recorded.failure = live.failure();
     return recorded;

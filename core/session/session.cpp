@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <concepts>
-#include <cstddef>
 #include <set>
-#include <string>
 #include <string_view>
 #include <utility>
 
@@ -169,16 +167,12 @@ std::string Session::warning() const {
 }
 
 const SessionParameters* Session::parameters_of(std::uint64_t version) const noexcept {
-    const auto found =
-        std::find_if(parameters_.begin(), parameters_.end(),
-                     [version](const SessionParameters& each) { return each.version == version; });
+    const auto found = std::ranges::find(parameters_, version, &SessionParameters::version);
     return found == parameters_.end() ? nullptr : &*found;
 }
 
 const SessionSource* Session::source_of(const FrameSource& source) const noexcept {
-    const auto found =
-        std::find_if(sources_.begin(), sources_.end(),
-                     [&source](const SessionSource& each) { return each.source == source; });
+    const auto found = std::ranges::find(sources_, source, &SessionSource::source);
     return found == sources_.end() ? nullptr : &*found;
 }
 

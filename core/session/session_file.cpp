@@ -11,9 +11,7 @@
 #include <cmath>
 #include <cstring>
 #include <ctime>
-#include <string>
 #include <string_view>
-#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/machine.hpp"

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
-#include <string_view>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -38,7 +37,7 @@ SessionReader::SessionReader(const std::filesystem::path& file)
 /// could go on for ever.
 void SessionReader::check_tables() const {
     std::string names;
-    for (const std::string_view name : session_tables()) {
+    for (const std::string_view name : kSessionTables) {
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
     }
     // A view has no pages of its own, nor has a table that a module makes up; a hidden column may
@@ -49,7 +48,7 @@ void SessionReader::check_tables() const {
             "(type = 'table' AND rootpage > 0)") == 0 &&
         database_.number(
             "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND name IN " +
-            names + ")") == static_cast<std::int64_t>(session_tables().size()) &&
+            names + ")") == std::ssize(kSessionTables) &&
         database_.number(
             "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
             "WHERE m.name IN " +

@@ -1,8 +1,6 @@
 // The tables, the view over the ticks, and what explains their columns.
 #include "core/session/session_schema.hpp"
 
-#include <array>
-#include <string_view>
 #include <type_traits>
 
 #include "core/files/plain_text.hpp"
@@ -219,14 +217,7 @@ std::string explanations() {
     return text;
 }
 
-constexpr std::array<std::string_view, 8> kSessionTables{
-    "session", "media", "source", "pair", "parameters", "tick_data", "clock", "mark"};
-
 }  // namespace
-
-std::span<const std::string_view> session_tables() noexcept {
-    return kSessionTables;
-}
 
 std::string tick_view() {
     std::string select;
@@ -243,17 +234,12 @@ std::string tick_view() {
            " LEFT JOIN parameters s ON s.version = d.settings";
 }
 
-std::string tick_data_columns() {
-    return "tick, t, dt, lateness, ns, state, pair, blend, settings, moves, i, j, "
-           "gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, ox, oy, oz";
-}
-
 std::string session_schema() {
-    std::string typed = tick_data_columns();
-    typed.replace(typed.find("tick,"), 4, "tick INTEGER PRIMARY KEY");
-    typed.replace(typed.find("settings"), 8, "settings INTEGER");
-    return std::string(kTables) + source_table() + parameters_table() + "CREATE TABLE tick_data(" +
-           typed + ");\n" + tick_view() + ";\n" + explanations() +
+    return std::string(kTables) + source_table() + parameters_table() +
+           "CREATE TABLE tick_data(tick INTEGER PRIMARY KEY, t, dt, lateness, ns, state, pair, "
+           "blend, settings INTEGER, moves, i, j, gx, gy, gz, px, py, pz, fx, fy, fz, cx, cy, cz, "
+           "ox, oy, oz);\n" +
+           tick_view() + ";\n" + explanations() +
            "PRAGMA application_id = " + std::to_string(kSessionApplicationId) +
            ";\nPRAGMA user_version = " + std::to_string(kSessionSchemaVersion) + ";\n";
 }

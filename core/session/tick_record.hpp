@@ -4,12 +4,12 @@
 
 #include <bit>
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/files/content_hash.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/realtime/spsc_ring.hpp"
@@ -118,15 +118,10 @@ using TickRing = SpscRing<TickRecord, 16384>;
 /// Name/value pairs that describe a session.
 using SessionFacts = std::map<std::string, std::string>;
 
-/// A file that was touched, and its content. Path empty: none.
-struct SessionMedia {
-    std::filesystem::path file{};  ///< absolute
-    std::uint64_t bytes{0};
-    std::string sha256{};  ///< empty: the recording ended before it was known
-    /// So many bytes at its begin are not in that sum: a video that was recorded live got its
-    /// length there when it ended.
-    std::uint64_t head_bytes{0};
-};
+/// A file that was touched, by its absolute path, and its content. Path empty: none; sum empty: the
+/// recording ended before it was known. A video that was recorded live has a head that is not in
+/// the sum: it got its length there when it ended.
+using SessionMedia = FileContent;
 
 /// Everything a person can tune that a force depends on.
 struct SessionParameters {
