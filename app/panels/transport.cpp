@@ -249,7 +249,7 @@ void draw_replay_bar(ViewerState& state, Transport& replay) {
         replay.set_looping(!playback.looping);
     }
     ImGui::SameLine();
-    TimeLineContents line = line_of(playback.course());
+    TimeLineContents line = line_of(playback);
     line.contacts = state.touch.replay->contacts;
     line.marks = state.touch.replay->marks;
     for (SessionMark& mark : line.marks) mark.t_s -= playback.begin_s;

@@ -222,7 +222,7 @@ struct ViewerState {
     [[nodiscard]] const SurfaceShape& shape() const noexcept { return touch.shape(settings.touch); }
     /// Of what plays: the session, in a replay, or the video.
     [[nodiscard]] Course course() const {
-        return touch.replay ? touch.replay->playback.course() : media.playback.course();
+        return touch.replay ? Course(touch.replay->playback) : media.playback.course();
     }
 };
 

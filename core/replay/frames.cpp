@@ -2,8 +2,6 @@
 #include "core/replay/frames.hpp"
 
 #include <algorithm>
-#include <exception>
-#include <optional>
 #include <system_error>
 #include <utility>
 

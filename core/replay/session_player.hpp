@@ -46,19 +46,11 @@ struct SessionMoment {
 };
 
 /// What the window shows of it. Times are those of the ticks.
-struct SessionPlayback {
-    bool playing{true};
-    bool looping{false};
-    double speed{1.0};
-    double now_s{0.0};
-    double begin_s{0.0}, end_s{0.0};
-    std::optional<MediaPart> part{};  ///< only that is played; nothing: all of it
-    bool waiting{false};              ///< for ticks that are being read
-    std::string failure{};            ///< a plain sentence when reading broke off; empty otherwise
+struct SessionPlayback : Course {
+    SessionPlayback() noexcept : Course{.playing = true} {}
 
-    [[nodiscard]] Course course() const {
-        return {playing, looping, speed, now_s, begin_s, end_s, part};
-    }
+    bool waiting{false};    ///< for ticks that are being read
+    std::string failure{};  ///< a plain sentence when reading broke off; empty otherwise
 };
 
 /// All of it belongs to the window's thread; nothing waits for a disk or for decoding. Its clock is

@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <glm/geometric.hpp>
 #include <iomanip>
 #include <sstream>
-#include <string>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/metrics/force_variation.hpp"
 
 namespace dibhr {
 
