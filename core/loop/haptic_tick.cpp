@@ -2,7 +2,6 @@
 #include "core/loop/haptic_tick.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <glm/geometric.hpp>
 
 namespace dibhr {

@@ -55,17 +55,15 @@ void OtherProxies::see(const FrameWindow& window) {
 }
 
 const Frame* OtherProxies::known(const FrameMark& mark) const {
-    const auto found = std::find_if(seen_.begin(), seen_.end(),
-                                    [&mark](const Frame& seen) { return mark_of(seen) == mark; });
+    const auto found = std::ranges::find(seen_, mark, mark_of);
     return found == seen_.end() ? nullptr : &*found;
 }
 
 std::optional<DepthSurface> OtherProxies::surface_of(const WalkedTick& tick) const {
     const Frame* const from = known(tick.from);
     const Frame* const to = known(tick.to);
-    const auto held = std::find_if(bumps_.begin(), bumps_.end(),
-                                   [&tick](const auto& bump) { return bump.get() == tick.bump; });
-    const bool knows_bump = tick.bump == nullptr || held != bumps_.end();
+    const auto is_its = [&tick](const auto& bump) { return bump.get() == tick.bump; };
+    const bool knows_bump = tick.bump == nullptr || std::ranges::any_of(bumps_, is_its);
     if (from == nullptr || to == nullptr || !knows_bump) return std::nullopt;
     return DepthBlend{from, to, tick.blend}.surface(tick.parameters.shape, tick.bump);
 }
