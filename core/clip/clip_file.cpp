@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <exception>
-#include <string>
 
 #include "core/av/track_encoder.hpp"
 #include "core/clip/mp4_file.hpp"
