@@ -50,13 +50,6 @@ struct Episode {
     }
 };
 
-/// An episode going on; what will be means are sums over time.
-struct OpenEpisode {
-    Episode episode{};
-    std::int64_t last_tick{0};
-    Vec3 last_proxy_px{0.0};
-};
-
 /// An episode also ends where the hand lets go or another video comes.
 class ContactEpisodes {
   public:
@@ -71,6 +64,12 @@ class ContactEpisodes {
     void go_on(const TickRecord& tick, double pitch_mm);
     void end();
 
+    /// An episode going on; what will be means are sums over time.
+    struct OpenEpisode {
+        Episode episode{};
+        std::int64_t last_tick{0};
+        Vec3 last_proxy_px{0.0};
+    };
     std::vector<Episode> episodes_{};
     std::optional<OpenEpisode> open_{};
 };

@@ -25,9 +25,7 @@ struct Bar {
 };
 
 double highest_of(const std::vector<Bar>& bars) {
-    double highest = 0.0;
-    for (const Bar& bar : bars) highest = std::max(highest, bar.height);
-    return highest;
+    return std::ranges::max(bars, {}, &Bar::height).height;
 }
 
 void draw_bars(Canvas& canvas, const Axes& axes, const std::vector<Bar>& bars) {

@@ -6,7 +6,6 @@
 #include <numeric>
 #include <set>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "core/files/plain_text.hpp"

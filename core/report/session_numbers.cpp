@@ -2,15 +2,12 @@
 #include "core/report/session_numbers.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/report/contact_episodes.hpp"
 
 namespace dibhr {
 
@@ -255,8 +252,7 @@ void TouchedPlaces::add(Vec2 place_px, double media_s, double seconds) {
 
 double TouchedPlaces::longest_frame_s() const {
     const auto longest =
-        std::max_element(frame_s_.begin(), frame_s_.end(),
-                         [](const auto& a, const auto& b) { return a.second < b.second; });
+        std::ranges::max_element(frame_s_, {}, [](const auto& frame) { return frame.second; });
     return longest == frame_s_.end() ? 0.0 : longest->first;
 }
 

@@ -2,9 +2,7 @@
 #include "core/report/session_report.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
-#include <string>
 #include <utility>
 
 #include "core/error.hpp"
@@ -70,13 +68,9 @@ HeatMapGround ground_of(const Session& session, RecordedPicture picture, PixelBo
 
 /// What is known of the media; a session may lack it.
 SessionSource source_of(const Session& session, std::uint32_t media) {
-    const auto found =
-        std::find_if(session.sources().begin(), session.sources().end(),
-                     [media](const SessionSource& source) { return source.source.media == media; });
-    if (found != session.sources().end()) return *found;
-    SessionSource unknown;
-    unknown.source.media = media;
-    return unknown;
+    const auto is_it = [media](const SessionSource& one) { return one.source.media == media; };
+    const auto found = std::ranges::find_if(session.sources(), is_it);
+    return found != session.sources().end() ? *found : SessionSource{.source = {.media = media}};
 }
 
 // So long that a plot's second line has room for it.
