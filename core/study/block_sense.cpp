@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <vector>
 
 #include "core/files/plain_text.hpp"
@@ -147,9 +146,8 @@ void require_sense(const PageTable& table, const Block& block) {
 
 void require_worth(PageTable& table, const Protocol& protocol, const TouchValues& base,
                    const Block& block, const StudyChecks& checks) {
-    for (const Block& other : protocol.blocks)
-        if (other.name == block.name)
-            table.refuse("name", "there are two blocks " + in_quotes(block.name));
+    if (std::ranges::find(protocol.blocks, block.name, &Block::name) != protocol.blocks.end())
+        table.refuse("name", "there are two blocks " + in_quotes(block.name));
     require_judged(table, block);
     require_telling_levels(table, block);
     const Variation& vary = block.variation;

@@ -12,18 +12,6 @@ static_assert(has_all_in_order(kTrialForms, TrialForm::rating));
 static_assert(has_all_in_order(kTrialOrders, TrialOrder::listed));
 static_assert(has_all_in_order(kStudyViews, StudyView::touch));
 
-const char* name_of(TrialForm form) noexcept {
-    return entry_of(kTrialForms, form).name;
-}
-
-const char* name_of(TrialOrder order) noexcept {
-    return entry_of(kTrialOrders, order).name;
-}
-
-const char* name_of(StudyView view) noexcept {
-    return entry_of(kStudyViews, view).name;
-}
-
 std::string in_words(const TouchValues& values) {
     std::vector<std::string> all;
     for (const auto& [name, word] : values.words) all.push_back(name + " " + word);

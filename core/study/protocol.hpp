@@ -91,9 +91,12 @@ inline constexpr std::array<Word<StudyView>, 3> kStudyViews{
      {StudyView::blank, "blank", "Nothing"},
      {StudyView::touch, "touch", "The relief and the touch"}}};
 
-[[nodiscard]] const char* name_of(TrialForm form) noexcept;
-[[nodiscard]] const char* name_of(TrialOrder order) noexcept;
-[[nodiscard]] const char* name_of(StudyView view) noexcept;
+[[nodiscard]] constexpr const char* name_of(TrialForm form) noexcept {
+    return entry_of(kTrialForms, form).name;
+}
+[[nodiscard]] constexpr const char* name_of(TrialOrder order) noexcept {
+    return entry_of(kTrialOrders, order).name;
+}
 
 /// One parameter whose value differs from interval to interval: in the comparison it is
 /// `reference` + level. Where `levels` is empty and there is no staircase, nothing varies.

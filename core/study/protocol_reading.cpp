@@ -1,6 +1,5 @@
 // Reads study.toml.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <system_error>
 #include <utility>
@@ -90,16 +89,12 @@ class ProtocolReading {
             StudyMedia media{.name = table.needed_name("name"),
                              .colour = beside(table.needed_text("colour"))};
             if (const auto depth = table.text("depth")) media.depth = beside(*depth);
-            if (has_media(media.name)) table.refuse("name", "there are two media of that name");
+            if (std::ranges::find(to_.media, media.name, &StudyMedia::name) != to_.media.end())
+                table.refuse("name", "there are two media of that name");
             require(names_.checks.media, media, table, "colour");
             to_.media.push_back(std::move(media));
             table.done();
         }
-    }
-
-    bool has_media(const std::string& name) const {
-        return std::any_of(to_.media.begin(), to_.media.end(),
-                           [&](const StudyMedia& media) { return media.name == name; });
     }
 
     void take_word(PageTable& table, const std::string& key, const std::vector<std::string>& words,
@@ -192,9 +187,8 @@ class ProtocolReading {
         std::vector<Condition> levels;
         for (PageTable& table : factor.tables("levels", "a level")) {
             Condition level{.name = table.needed_name("name"), .values = read_values(table)};
-            for (const Condition& other : levels)
-                if (other.name == level.name)
-                    table.refuse("name", "there are two levels " + in_quotes(level.name));
+            if (std::ranges::find(levels, level.name, &Condition::name) != levels.end())
+                table.refuse("name", "there are two levels " + in_quotes(level.name));
             levels.push_back(std::move(level));
             table.done();
         }

@@ -149,10 +149,6 @@ void StudyRun::find_next_trial() {
         return;
     }
     trial_ = *next;
-    show_block_page();
-}
-
-void StudyRun::show_block_page() {
     if (block().instructions.empty())
         begin_trial();
     else

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "core/study/protocol.hpp"
@@ -73,7 +72,6 @@ class StudyRun {
   private:
     /// The trial after those answered: its block's page first, or thanks.
     void find_next_trial();
-    void show_block_page();
     void begin_trial();
     void leave_trial();
 

@@ -2,7 +2,6 @@
 #include "core/study/toml_page.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "core/error.hpp"

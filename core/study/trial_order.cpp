@@ -185,9 +185,8 @@ std::optional<Trial> next_trial(const Protocol& protocol, int number,
     int block_number = answered.empty() ? 0 : answered.back().trial.block;
     for (; block_number < static_cast<int>(protocol.blocks.size()); ++block_number) {
         const Block& block = block_at(protocol, block_number);
-        const auto first =
-            std::find_if(answered.begin(), answered.end(),
-                         [&](const AnsweredTrial& one) { return one.trial.block == block_number; });
+        const auto first = std::ranges::find(
+            answered, block_number, [](const AnsweredTrial& one) { return one.trial.block; });
         const auto in_block = answered.subspan(static_cast<std::size_t>(first - answered.begin()));
         const int position = static_cast<int>(in_block.size());
         std::optional<Task> task;
