@@ -113,11 +113,9 @@ Study read_studies(const std::vector<std::filesystem::path>& files) {
     const StudyRecord& first = study.participants.front();
     study.protocol = protocol_of(first.identity.protocol_text, first.file, {});
     for (const StudyRecord& record : study.participants) require_trials_of(study.protocol, record);
-    std::sort(study.participants.begin(), study.participants.end(),
-              [](const StudyRecord& a, const StudyRecord& b) {
-                  return std::pair(a.identity.number, a.identity.participant) <
-                         std::pair(b.identity.number, b.identity.participant);
-              });
+    std::ranges::sort(study.participants, {}, [](const StudyRecord& one) {
+        return std::pair(one.identity.number, one.identity.participant);
+    });
     return study;
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -115,10 +114,6 @@ std::vector<double> known(std::span<const double> values) {
     for (const double value : values)
         if (std::isfinite(value)) kept.push_back(value);
     return kept;
-}
-
-double plain_median(std::vector<double> values) {
-    return values.empty() ? kNotKnown : median_of(values).value;
 }
 
 Interval clamped(const Interval& interval, double low, double high) {
@@ -249,8 +244,7 @@ LevelCounts counts_by_size(const Block& block, const Answers& own, std::size_t i
         if (!OfItem{item}(*one) || !has_difference(block, *one)) continue;
         add_answer(counts, std::abs(*one->trial.level), one->right.value_or(false));
     }
-    std::sort(counts.begin(), counts.end(),
-              [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
+    std::ranges::sort(counts, {}, &LevelCount::x);
     return counts;
 }
 
@@ -504,7 +498,7 @@ Estimate median_reaction(const BlockAnswers& answers) {
         std::vector<double> times;
         for (const AnsweredTrial* const one : own)
             if (has_answer(*one)) times.push_back(one->answer.reaction_s);
-        if (!times.empty()) medians.push_back(plain_median(times));
+        if (!times.empty()) medians.push_back(median_of(times).value);
     }
     return median_of(medians);
 }
@@ -550,9 +544,7 @@ bool ParticipantThreshold::bounded() const noexcept {
 double ParticipantThreshold::threshold_or_side() const noexcept {
     const double threshold = fit.function.threshold;
     if (bounded() || counts.empty()) return threshold;
-    const auto [low, high] =
-        std::minmax_element(counts.begin(), counts.end(),
-                            [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
+    const auto [low, high] = std::ranges::minmax_element(counts, {}, &LevelCount::x);
     constexpr double kOutside = std::numeric_limits<double>::infinity();
     return threshold < low->x ? -kOutside : threshold > high->x ? kOutside : threshold;
 }

@@ -2,13 +2,11 @@
 #include "core/study_report/study_motion.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include <unistd.h>

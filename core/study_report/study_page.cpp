@@ -23,11 +23,6 @@ std::string figures_html(const StudyReport& report, const std::string& of) {
     return html;
 }
 
-/// "block-2-": how its pictures' names begin.
-std::string pictures_of(const BlockFindings& found) {
-    return "block-" + std::to_string(found.block + 1) + "-";
-}
-
 std::string block_section(const StudyReport& report, const BlockFindings& found) {
     const Block& block = report.study.protocol.blocks[found.block];
     std::string body = "<p class=\"quiet\">" + html_text(block.question.text) + " (" +
@@ -36,7 +31,8 @@ std::string block_section(const StudyReport& report, const BlockFindings& found)
                        number_cell(found.reaction_s.value, 2) + " s in the median)</p>\n";
     if (found.trials == 0)
         return section(html_text(block.name), "<p>Nobody has come so far.</p>\n");
-    body += list_html(conclusions_of(report, found)) + figures_html(report, pictures_of(found)) +
+    const std::string pictures = "block-" + std::to_string(found.block + 1) + "-";
+    body += list_html(conclusions_of(report, found)) + figures_html(report, pictures) +
             table_of(found.shares, kRow) + table_of(found.values, kRow) +
             table_of(found.pairs,
                      [&found](const PairTest& pair) { return fields_of(pair, found.compared); });

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <iomanip>
 #include <limits>
 #include <map>
 #include <optional>

@@ -56,8 +56,7 @@ ValueSpan span_of(const RowsPlot& plot) {
 LevelCounts grouped(const LevelCounts& counts) {
     constexpr std::size_t kMostGroups = 14;
     LevelCounts sorted = counts;
-    std::sort(sorted.begin(), sorted.end(),
-              [](const LevelCount& a, const LevelCount& b) { return a.x < b.x; });
+    std::ranges::sort(sorted, {}, &LevelCount::x);
     while (sorted.size() > kMostGroups) {
         std::size_t nearest = 0;
         double least = std::numeric_limits<double>::infinity();
@@ -119,11 +118,6 @@ void draw_fitting_title(Canvas& canvas, const std::string& title, const std::str
     const TextStyle bold{kTextInk, kTitleCap_px, Align::left, true};
     draw_title(canvas, shortened(one_line(title), widest_px, bold),
                shortened(subtitle, widest_px, {kQuietInk, kLabelCap_px}));
-}
-
-/// Where half of what is not guessed nor lapsed is right.
-double height_at_threshold(const PsychometricFunction& function) {
-    return function.share(function.threshold);
 }
 
 }  // namespace
@@ -215,7 +209,7 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
     const Estimate& of_people = has_median ? finding.median : finding.across;
     const Interval interval = alone ? finding.fits.front().fit.threshold : of_people.interval;
     const double threshold = alone ? first.threshold : of_people.value;
-    const double height = height_at_threshold(first);
+    const double height = first.share(first.threshold);  // half of what is not guessed nor lapsed
     if (std::isfinite(threshold)) {
         const Vec2 at = axes.at(threshold, height);
         canvas.clip_to(kArea);

@@ -117,11 +117,8 @@ std::string group_text(const ThresholdFinding& finding) {
 }
 
 std::string few_trials_text(const ThresholdFinding& finding) {
-    const auto fewest =
-        std::min_element(finding.fits.begin(), finding.fits.end(),
-                         [](const ParticipantThreshold& a, const ParticipantThreshold& b) {
-                             return a.fit.trials < b.fit.trials;
-                         });
+    const auto fewest = std::ranges::min_element(
+        finding.fits, {}, [](const ParticipantThreshold& one) { return one.fit.trials; });
     if (fewest->fit.trials >= kFewestTrialsOfThreshold) return {};
     return " An interval of " + std::to_string(fewest->fit.trials) +
            " trials covers the threshold less often than in 95 % of studies (of 12 trials in some "
@@ -225,9 +222,8 @@ std::string summary_of(const StudyReport& report) {
     int answering = 0;
     std::vector<std::string> silent;
     for (const StudyRecord& record : study.participants) {
-        const auto of_practice = static_cast<std::size_t>(
-            std::count_if(record.answered.begin(), record.answered.end(),
-                          [](const AnsweredTrial& one) { return one.trial.practice; }));
+        const auto of_practice = static_cast<std::size_t>(std::ranges::count_if(
+            record.answered, [](const AnsweredTrial& one) { return one.trial.practice; }));
         trials += record.answered.size();
         practice += of_practice;
         if (record.answered.size() > of_practice)
