@@ -2,9 +2,8 @@
 #include "app/study/study_window.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "app/touching/force_law.hpp"
 #include "app/touching/picture_time.hpp"
@@ -273,12 +272,9 @@ void StudyWindow::begin_if_there() {
 /// Whatever is limited ends by itself, when it is over at `now`.
 void StudyWindow::look_at_time(Clock::time_point now) {
     if (view_.waits || view_.asks_to_leave || view_.before_start || !since_) return;
-    const Block* const block =
-        run_.step() == StudyStep::interval || run_.step() == StudyStep::question ? &run_.block()
-                                                                                 : nullptr;
-    if (block == nullptr) return;
     const bool question = run_.step() == StudyStep::question;
-    const double limit_s = question ? block->answer_s : block->interval_s;
+    if (!question && run_.step() != StudyStep::interval) return;
+    const double limit_s = question ? run_.block().answer_s : run_.block().interval_s;
     view_.has_limit = limit_s > 0.0;
     if (!view_.has_limit) return;
     const double passed_s = seconds(now - *since_);

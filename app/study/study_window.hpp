@@ -3,9 +3,7 @@
 
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
