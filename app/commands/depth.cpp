@@ -1,8 +1,6 @@
 // `dibhr depth`: depth for a colour video, by an estimator that a person has installed.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <chrono>
-#include <exception>
 #include <filesystem>
 #include <future>
 #include <iostream>

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <deque>
-#include <string>
 #include <utility>
 
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
-#include "core/experiment/hand_motion.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {

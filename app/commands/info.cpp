@@ -46,10 +46,6 @@ void print_and_drop(std::initializer_list<std::string_view> names, SessionFacts&
     }
 }
 
-bool is_file(const SessionFacts::value_type& fact) {
-    return fact.first == "colour" || fact.first == "depth";
-}
-
 /// How long, how many ticks, and what was marked on the way.
 void print_extent(const Session& session) {
     print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
@@ -82,7 +78,8 @@ void describe_session(const fs::path& file) {
         tell("colour", source.colour);
         tell("depth", source.depth);
     }
-    if (!session.sources().empty()) std::erase_if(facts, is_file);
+    if (!session.sources().empty())
+        for (const char* const name : {"colour", "depth"}) facts.erase(name);
     print_and_drop({"colour", "depth", "started", "participant", "note"}, facts);
     print_extent(session);
     if (const auto device = facts.find("device"); device != facts.end())

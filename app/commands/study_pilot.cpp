@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "app/commands/output.hpp"
 #include "app/commands/study_hand.hpp"
@@ -15,7 +13,6 @@
 #include "core/files/spelling.hpp"
 #include "core/haptics/words.hpp"
 #include "core/realtime/now.hpp"
-#include "core/study/simulated_participant.hpp"
 
 namespace dibhr {
 

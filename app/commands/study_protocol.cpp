@@ -88,18 +88,14 @@ void tell_unknown_guesses(const Block& block) {
                  "rate is then taken as 0\n";
 }
 
-void tell_only_practice(const Protocol& protocol) {
-    if (std::ranges::all_of(protocol.blocks, &Block::practice))
-        std::cout << "all of it is practice: no answer will count\n";
-}
-
 }  // namespace
 
 void print_protocol(const Protocol& protocol) {
     print_summary(protocol);
     tell_same_conditions(protocol);
     for (const Block& block : protocol.blocks) tell_unknown_guesses(block);
-    tell_only_practice(protocol);
+    if (std::ranges::all_of(protocol.blocks, &Block::practice))
+        std::cout << "all of it is practice: no answer will count\n";
 }
 
 }  // namespace dibhr
