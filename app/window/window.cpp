@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <thread>
-#include <utility>
 
 #include "app/settings/settings.hpp"
 #include "app/window/x_server.hpp"
