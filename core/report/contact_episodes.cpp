@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "core/haptics/surface.hpp"
@@ -31,6 +33,14 @@ void add_primitive(PrimitiveShares& sum, std::uint8_t primitive, double held_s) 
 constexpr double kLongestWindow_s = 3.0 * kSpeedWindow_s;  // longer: something is missing
 
 }  // namespace
+
+std::vector<std::size_t> longest_first(const std::vector<Episode>& episodes) {
+    std::vector<std::size_t> order(episodes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&episodes](std::size_t k) { return episodes[k].contact_s; });
+    return order;
+}
 
 void ContactEpisodes::add(const TickRecord& tick, double held_s, double pitch_mm) {
     if (open_ &&

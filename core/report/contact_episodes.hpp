@@ -1,6 +1,7 @@
 // Contact episodes: from the first tick in contact to the last, one tick after the other.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -49,6 +50,9 @@ struct Episode {
         return contact_s > 0.0 ? path_mm / contact_s : 0.0;
     }
 };
+
+/// Their numbers from 0, the longest time in contact first.
+[[nodiscard]] std::vector<std::size_t> longest_first(const std::vector<Episode>& episodes);
 
 /// An episode also ends where the hand lets go or another video comes.
 class ContactEpisodes {

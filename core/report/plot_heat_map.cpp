@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -149,13 +148,8 @@ void number_episodes(Canvas& canvas, Box box, const HeatMapGround& ground,
                      const std::vector<Episode>& episodes, std::uint32_t media) {
     constexpr std::size_t kMostNumbers = 12;
     constexpr double kRadius_px = 12.0;
-    std::vector<std::size_t> order(episodes.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return episodes[a].contact_s > episodes[b].contact_s;
-    });
     std::vector<Vec2> taken;
-    for (const std::size_t k : order) {
+    for (const std::size_t k : longest_first(episodes)) {
         if (taken.size() == kMostNumbers) break;
         const Vec2 centre = episodes[k].centre_px;
         const Vec2 at{box.left + (centre.x + 0.5) / ground.columns * box.width(),

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <numeric>
 #include <set>
 #include <span>
 #include <vector>
@@ -53,13 +52,8 @@ constexpr std::size_t kMostRows = 300;
 
 /// Which episodes are shown, in order: all, or the longest.
 std::vector<std::size_t> shown_episodes(const std::vector<Episode>& episodes) {
-    std::vector<std::size_t> shown(episodes.size());
-    std::iota(shown.begin(), shown.end(), std::size_t{0});
-    if (shown.size() <= kMostRows) return shown;
-    std::stable_sort(shown.begin(), shown.end(), [&](std::size_t a, std::size_t b) {
-        return episodes[a].contact_s > episodes[b].contact_s;
-    });
-    shown.resize(kMostRows);
+    std::vector<std::size_t> shown = longest_first(episodes);
+    shown.resize(std::min(shown.size(), kMostRows));
     std::sort(shown.begin(), shown.end());
     return shown;
 }
