@@ -14,7 +14,6 @@
 #include "app/commands/experiment_human.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
-#include "core/error.hpp"
 #include "core/experiment/experiment.hpp"
 #include "core/experiment/plots.hpp"
 #include "core/experiment/report.hpp"

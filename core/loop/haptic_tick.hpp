@@ -17,7 +17,6 @@
 #include "core/loop/standstill.hpp"
 #include "core/loop/tick_runner.hpp"
 #include "core/loop/tick_strip.hpp"
-#include "core/realtime/spsc_ring.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/session/tick_record.hpp"

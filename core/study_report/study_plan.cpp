@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/files/plain_text.hpp"
 #include "core/psychophysics/random.hpp"
 #include "core/report/report_words.hpp"
 #include "core/study_report/study_findings.hpp"
