@@ -71,9 +71,8 @@ CatchUpCost cost_of(const Ground& ground, const Jump& jump, Algorithm which) {
 
 JumpCost cost_of(const Ground& ground, const Jump& jump) {
     JumpCost cost{ground.name, jump.name, ground.clip.columns(), ground.clip.rows()};
-    for (const Algorithm algorithm : all_algorithms()) {
+    for (const Algorithm algorithm : all_algorithms())
         cost.algorithms.push_back(cost_of(ground, jump, algorithm));
-    }
     return cost;
 }
 
@@ -150,11 +149,10 @@ std::string mean_table(const UpdateCosts& costs) {
                        }) +
                 right(number_text(cost.dibhr_to_pga(), 2), kRatioWidth) + "\n";
     }
-    for (const char* path : {"linear", "circle"}) {
+    for (const char* path : {"linear", "circle"})
         text += name_cell("the paper", path, kPaperColumns, kPaperRows) +
                 std::string(kCellWidth * all_algorithms().size(), ' ') +
                 right(number_text(paper_dibhr_to_pga(path).value_or(0.0), 2), kRatioWidth) + "\n";
-    }
     return text + "  DIBHR from a TRIANGLE to the next one of its plane, two moves: " +
            number_text(costs.crossing_ns, 1) + " ns in this run, the least a crossing can take\n" +
            "  Two blended images each. near-flat: a 16-bit level of noise; bumpy: 16-bit waves; "

@@ -74,14 +74,12 @@ std::pair<int, int> parse_size(const std::string& text) {
     for (std::size_t k = 0; k < size.size(); ++k) {
         const auto [stop, error] = std::from_chars(at, end, size[k]);
         const bool ends_well = k == 0 ? stop != end && *stop == 'x' : stop == end;
-        if (error != std::errc{} || !ends_well) {
+        if (error != std::errc{} || !ends_well)
             throw CLI::ValidationError("--size", "'" + text + "' is not a size like 1280x800");
-        }
-        if (size[k] < kSmallestWindow || size[k] > kLargestWindow) {
+        if (size[k] < kSmallestWindow || size[k] > kLargestWindow)
             throw CLI::ValidationError("--size", text + " is not in " +
                                                      std::to_string(kSmallestWindow) + " to " +
                                                      std::to_string(kLargestWindow));
-        }
         at = stop + 1;
     }
     return {size[0], size[1]};

@@ -27,9 +27,8 @@ void tell(const std::string& line) {
 
 /// What a person gives for a device is kept before anything else is done with it.
 void keep_files(const std::filesystem::path& file) {
-    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+    for (const ForceDeviceKind* const kind : force_device_kinds())
         if (!file.empty() && kind->keep_file != nullptr) kind->keep_file(file);
-    }
 }
 
 /// 0: a device can be used, or none is attached and the mouse can be. Throws DeviceError.
@@ -50,9 +49,8 @@ int survey() {
 /// Of the first kind of which one is attached, whether or not it can be used; where none is, the
 /// check of the first kind says what to do.
 std::size_t kind_to_check(const std::vector<const DeviceSettings*>& chosen) {
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
+    for (std::size_t k = 0; k < chosen.size(); ++k)
         if (force_device_kinds()[k]->attached(*chosen[k])) return k;
-    }
     return 0;
 }
 
@@ -122,9 +120,8 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
         "  dibhr devices --simulate inverse3");
     if (!parse(app, arguments)) return 0;
     if (!simulated.empty()) return simulate(simulated);
-    if (!checks) {
+    if (!checks)
         tell("mouse: usable (point at the relief in the viewer, hold the left button to touch)");
-    }
     keep_files(firmware_file);
     return checks ? check(record) : survey();
 }

@@ -87,9 +87,7 @@ void add_command(std::ostringstream& page, const DocumentedCommand& command) {
     page << ".SS dibhr " << troff(command.name) << ' ' << troff(command.arguments) << '\n'
          << troff(command.summary) << ".\n";
     for (const DocumentedOption& option : command.options) add_option(page, option);
-    if (!command.examples.empty()) {
-        page << ".PP\n.nf\n" << troff(command.examples) << "\n.fi\n";
-    }
+    if (!command.examples.empty()) page << ".PP\n.nf\n" << troff(command.examples) << "\n.fi\n";
 }
 
 std::string names_of(const std::vector<DocumentedCommand>& commands) {
@@ -320,11 +318,10 @@ std::string keys_help(const KeyTable& keys) {
     }
     std::ostringstream text;
     text << std::left;
-    for (const KeyJob& job : key_jobs()) {
+    for (const KeyJob& job : key_jobs())
         text << "  " << std::setw(static_cast<int>(names) + 2) << job.name
              << std::setw(static_cast<int>(shown) + 2) << keys.names_for(job.action) << job.help
              << '\n';
-    }
     text << '\n' << kOwnKeys << '\n' << kOwnKeysExample << '\n' << kOwnKeysRules << '\n';
     return text.str();
 }

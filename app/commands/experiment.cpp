@@ -103,12 +103,10 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
         human = human_goals(hand, *sample, mu);
     }
     const DepthClip plane = paper_plane();
-    if (all || options.path == "linear") {
+    if (all || options.path == "linear")
         paths.push_back(run_path(linear_path(mu, depth_px), plane, options));
-    }
-    if (all || options.path == "circle") {
+    if (all || options.path == "circle")
         paths.push_back(run_path(circle_path(mu, depth_px), plane, options));
-    }
     if (human) paths.push_back(run_path(std::move(*human), sample->depth, options));
     if (outputs.plots() != nullptr) {
         write_plots(paths, sample ? &sample->colour : nullptr,
@@ -168,23 +166,19 @@ void check_options(ExperimentOptions& options) {
     const std::string& path = options.path;
     const bool has_session = !options.human.session.empty();
     const bool has_trace = !options.human.trace.empty();
-    if ((has_session || has_trace) && path != "human" && path != "all") {
+    if ((has_session || has_trace) && path != "human" && path != "all")
         throw UsageError("--session and --trace are the hand of human, not of " + path +
                          " (see dibhr experiment --help)");
-    }
-    if (has_session && has_trace) {
+    if (has_session && has_trace)
         throw UsageError(
             "--session and --trace are two hands; give one (see dibhr experiment --help)");
-    }
-    if (path == "sweep" && (options.mu || options.depth_px)) {
+    if (path == "sweep" && (options.mu || options.depth_px))
         throw UsageError(
             "sweep goes through its own --friction and --depth; leave them out (see dibhr "
             "experiment --help)");
-    }
     std::vector<Algorithm>& all = options.algorithms;
-    for (auto one = all.begin(); one != all.end(); ++one) {
+    for (auto one = all.begin(); one != all.end(); ++one)
         all.erase(std::remove(one + 1, all.end(), *one), all.end());
-    }
 }
 
 }  // namespace
@@ -195,11 +189,10 @@ int run_experiment(CLI::App& app, const Arguments& arguments) {
     if (!parse(app, arguments)) return 0;
     check_options(options);
     Outputs outputs(options);
-    if (options.path == "sweep") {
+    if (options.path == "sweep")
         run_sweep_command(options, outputs);
-    } else {
+    else
         run_paths(options, outputs);
-    }
     return 0;
 }
 

@@ -83,10 +83,9 @@ std::vector<RecordedGoal> read_session_goals(const Session& session, int lead_in
         goals.push_back(one);
         if (goals.size() >= most) break;
     }
-    if (!touched) {
+    if (!touched)
         throw InputError(session.file().string() +
                          ": nothing is touched in it; record a session with contact");
-    }
     goals.resize(std::min(goals.size(), most));
     return goals;
 }

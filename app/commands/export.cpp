@@ -63,9 +63,8 @@ int run_export(CLI::App& app, const Arguments& arguments) {
     add_row([&](int column) { rows.text() += csv_cell(ticks.name(column)); });
     for (std::int64_t done = 0; ticks.next(); ++done) {
         add_row([&](int column) { append_cell(rows.text(), ticks, column); });
-        if (done % kRowsPerStep == 0) {
+        if (done % kRowsPerStep == 0)
             bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
-        }
     }
     rows.commit();
     return 0;

@@ -52,10 +52,9 @@ void print_extent(const Session& session) {
     print_fact("ticks", std::to_string(session.rows()));
     print_fact("late ticks", std::to_string(late_ticks(session.reader())));
     if (session.missing() > 0) print_fact("missing ticks", std::to_string(session.missing()));
-    for (const SessionMark& mark : session.marks()) {
+    for (const SessionMark& mark : session.marks())
         print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
                                (mark.text.empty() ? "" : ": " + mark.text));
-    }
 }
 
 /// What a person wants to know first comes first: what was touched, when and how long, with what

@@ -56,9 +56,8 @@ void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     for (const std::filesystem::path& input : inputs) {
         std::error_code missing;
-        if (std::filesystem::equivalent(input, target, missing)) {
+        if (std::filesystem::equivalent(input, target, missing))
             throw InputError(target.string() + ": " + why);
-        }
     }
 }
 

@@ -69,9 +69,8 @@ Run make_run(const Session& session, const ReplayOptions& options,
         if (!(changed == recorded.touch)) run.as_recorded = false;
         // Without an algorithm of its own, the run goes by those of the recording.
         const std::string name = name_of(recorded.touch.algorithm);
-        if (!algorithm && run.name.find(name) == std::string::npos) {
+        if (!algorithm && run.name.find(name) == std::string::npos)
             run.name += (run.name.empty() ? "" : "+") + name;
-        }
     }
     if (run.as_recorded) run.change = nullptr;  // ranges do not touch what was recorded
     return run;
@@ -79,9 +78,8 @@ Run make_run(const Session& session, const ReplayOptions& options,
 
 std::vector<Run> make_runs(const Session& session, const ReplayOptions& options) {
     std::vector<Run> runs;
-    for (const Algorithm algorithm : options.algorithms) {
+    for (const Algorithm algorithm : options.algorithms)
         runs.push_back(make_run(session, options, algorithm));
-    }
     if (runs.empty()) runs.push_back(make_run(session, options, std::nullopt));
     return runs;
 }
@@ -124,17 +122,15 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
     ProgressBar bar("Replaying");
     for (std::int64_t done = 0; replay.next(); ++done) {
         const TickRecord& tick = replay.recorded();
-        for (std::size_t k = 0; k < runs.size(); ++k) {
+        for (std::size_t k = 0; k < runs.size(); ++k)
             runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
-        }
         if (rows.wanted()) {
             append_row(rows.text(), {tick.t_s, replay.touch(0),
                                      static_cast<std::int64_t>(replay.update_us(0) * 1e3)});
             rows.rows_done();
         }
-        if (done % kTicksPerStep == 0) {
+        if (done % kTicksPerStep == 0)
             bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
-        }
     }
     rows.commit();
 }
@@ -186,26 +182,23 @@ std::string difference_of(const Session& session, const Run& run) {
          << " s: proxy " << text_of(touch.proxy.position) << " instead of "
          << text_of(recorded.proxy) << ", force sent " << text_of(touch.sent_force_newton)
          << " instead of " << text_of(recorded.sent_newton);
-    if (session.missing() > 0) {
+    if (session.missing() > 0)
         text << "; " << session.missing()
              << " ticks are missing in it, so that it cannot be "
                 "replayed exactly";
-    }
     text << library_changes(session);
     return text.str();
 }
 
 int replay_all(const ReplayOptions& options) {
-    if (!options.csv.empty() && options.algorithms.size() > 1) {
+    if (!options.csv.empty() && options.algorithms.size() > 1)
         throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
-    }
     refuse_meanings(options.touch);
     const Session session(options.session);
     session.check();
-    if (session.rows() == 0) {
+    if (session.rows() == 0)
         throw InputError(options.session.string() +
                          ": holds no tick to replay; record a longer one");
-    }
     std::vector<Run> runs = make_runs(session, options);
     SessionFrames video(session, frames_options(session, options));
     print_warning(session.warning());

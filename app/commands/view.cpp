@@ -173,10 +173,9 @@ void require_writable_outputs(const ViewOptions& options) {
     require_writable_folder(options.record, "--record");
     require_apart(options.record, options.screenshot, "recording and screenshot");
     require_apart(options.record, options.clip, "recording and clip");
-    if (fs::exists(options.record)) {
+    if (fs::exists(options.record))
         throw InputError(options.record.string() +
                          " exists already: move it away or give --record another name");
-    }
 }
 
 void take_sample_for_nothing(OpenRequest& open) {

@@ -30,18 +30,16 @@ constexpr std::array<std::pair<int, const char*>, 5> kCrashes{{{SIGSEGV, "segmen
 std::atomic<const CrashHandler*> living{nullptr};
 
 const char* name_of_signal(int signal) noexcept {
-    for (const auto& [number, name] : kCrashes) {
+    for (const auto& [number, name] : kCrashes)
         if (number == signal) return name;
-    }
     return "file-size limit";
 }
 
 void on_crash(int signal, siginfo_t* info, void*) noexcept {
     // The kernel tells the limit in the name of the thread that wrote: the write fails.
     if (signal == SIGXFSZ && (info->si_code == SI_KERNEL || info->si_pid == getpid())) return;
-    if (const CrashHandler* const handler = living.exchange(nullptr)) {
+    if (const CrashHandler* const handler = living.exchange(nullptr))
         handler->crashed(name_of_signal(signal));
-    }
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // pending until this returns
 }

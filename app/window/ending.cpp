@@ -30,10 +30,9 @@ std::optional<std::chrono::milliseconds> EndRequests::patience_left(Time now) co
 }
 
 Ending::Ending(LastWords& words) : words_(words), told_(eventfd(0, EFD_CLOEXEC)) {
-    if (told_ < 0) {
+    if (told_ < 0)
         throw DeviceError(std::string("the thread for signals cannot be made (") +
                           std::strerror(errno) + "): close other programs");
-    }
     thread_ = std::thread([this] { run(); });
 }
 

@@ -169,11 +169,10 @@ Fonts load_fonts(float scale) {
 void set_style(const GuiLook& look) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
-    if (look.theme == Theme::dark) {
+    if (look.theme == Theme::dark)
         ImGui::StyleColorsDark();
-    } else {
+    else
         ImGui::StyleColorsLight();
-    }
     set_spacing(style, look.scale);
     set_colours(style, look.theme);
 }

@@ -55,9 +55,8 @@ EndingSignals::~EndingSignals() {
     while (arrived()) {
     }
     close(descriptor_);
-    for (const int signal : kHeld) {
+    for (const int signal : kHeld)
         if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
-    }
     const sigset_t signals = held_signals();
     pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
 }

@@ -80,10 +80,9 @@ glm::ivec2 grown(glm::ivec2 size, double asked) {
 Window::Window(const WindowSize& size, bool sync, const std::string& title)
     : size_{size.width, size.height} {
     choose_display_server();
-    if (glfwInit() != GLFW_TRUE) {
+    if (glfwInit() != GLFW_TRUE)
         throw DeviceError(
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
-    }
     when_display_goes(display_lost_);
     if (size.times) size_ = grown(size_, *size.times);
     window_ = open_window(size_.x, size_.y, title);

@@ -65,10 +65,9 @@ SessionMediaFinder::SessionMediaFinder(fs::path session, bool any_content)
     : session_(std::move(session)), any_content_(any_content) {}
 
 fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& what) {
-    if (media.file.empty()) {
+    if (media.file.empty())
         throw InputError(session_.string() + ": does not say over which " + what +
                          " it was recorded; record it again");
-    }
     const fs::path beside = fs::absolute(session_).parent_path() / media.file.filename();
     std::optional<fs::path> found;
     for (const fs::path& candidate : {media.file, beside}) {
@@ -76,11 +75,10 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
         if (!media.sha256.empty() && has_content(candidate, media)) return candidate;
         if (!found) found = candidate;
     }
-    if (!found) {
+    if (!found)
         throw InputError(
             session_.string() + ": the " + what + " it was recorded over, " + media.file.string() +
             ", is not there; put it back, or beside the session as " + beside.string());
-    }
     if (media.sha256.empty()) {
         warn(found->string() + " is taken for the " + what +
              " of the recording, which ended before its content was known");
@@ -173,11 +171,10 @@ void SessionFrames::read_maps(const Session& session) {
         const std::uint32_t version = each.source.maps;
         if (version == 0 || maps_.contains(version)) continue;
         std::vector<SessionMap> maps = session.maps_of(version);
-        if (maps.empty()) {
+        if (maps.empty())
             throw InputError(session.file().string() +
                              ": does not hold the touch maps that were felt, as its recording was "
                              "broken off; replay it with --maps off");
-        }
         maps_.emplace(version, std::move(maps));
     }
 }
@@ -215,10 +212,9 @@ Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
     while (near_ahead && frame && frame->media_s < media_s) frame = reader.after(frame->media_s);
     video.last_s.reset();
     if (frame) video.last_s = frame->media_s;
-    if (!frame || frame->media_s != media_s) {
+    if (!frame || frame->media_s != media_s)
         throw InputError(video.depth.string() + ": has no frame at " + short_text(media_s) +
                          " s, which was touched; put the video back that was recorded over");
-    }
     frame->media = source.media;
     keep(source, *frame);
     return *frame;

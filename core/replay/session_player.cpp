@@ -125,9 +125,8 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
 
 OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
     : session(file), frames((session.check(), session), {.any_media = any_media, .colour = true}) {
-    if (session.rows() == 0 || session.sources().empty()) {
+    if (session.rows() == 0 || session.sources().empty())
         throw InputError(file.string() + ": holds no tick over a video; record a longer one");
-    }
 }
 
 struct SessionPlayer::Implementation {

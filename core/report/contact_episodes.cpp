@@ -50,11 +50,10 @@ void ContactEpisodes::add(const TickRecord& tick, double held_s, double pitch_mm
     if (!touches(tick)) return;
     const bool gap = open_ && tick.tick != open_->last_tick + 1;
     if (gap && tick.t_s - open_->episode.end_s >= kJoinedGap_s - kRounding_s) end();
-    if (open_) {
+    if (open_)
         go_on(tick, gap ? 0.0 : pitch_mm);
-    } else {
+    else
         begin(tick);
-    }
     Episode& episode = open_->episode;
     episode.end_s = tick.t_s + held_s;
     episode.video_end_s = tick.video_s;

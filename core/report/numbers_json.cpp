@@ -32,9 +32,8 @@ Json values_json(const Distribution& values) {
 
 Json ticks_json(const TickCounts& ticks) {
     Json cut = Json::object();
-    for (std::size_t k = 1; k < ticks.cut.size(); ++k) {
+    for (std::size_t k = 1; k < ticks.cut.size(); ++k)
         cut[name_of(static_cast<SafetyCut>(k))] = ticks.cut[k];
-    }
     return {{"all", ticks.all},
             {"missing", ticks.missing},
             {"in_contact", ticks.in_contact},

@@ -92,10 +92,9 @@ ColourImage heated(const ColourImage& picture, const PixelValues& map, HeatScale
             const double share = scale.share(value_at(map, x, y));
             const double cover = share < 0.0 ? 0.0 : kOpacity;
             const Ink heat = heat_ink(share);
-            for (const std::uint8_t ink : {heat.red, heat.green, heat.blue}) {
+            for (const std::uint8_t ink : {heat.red, heat.green, heat.blue})
                 image.rgb.push_back(
                     static_cast<std::uint8_t>(std::lround(grey + cover * (ink - grey))));
-            }
         }
     }
     return image;

@@ -43,9 +43,7 @@ Box lowered(Box box, double by_px) {
 
 double highest_of(const TimeLine& line, ValueRange TimePiece::*range) {
     double highest = 0.0;
-    for (const TimePiece& piece : line.pieces()) {
-        highest = std::fmax(highest, (piece.*range).high);
-    }
+    for (const TimePiece& piece : line.pieces()) highest = std::fmax(highest, (piece.*range).high);
     return highest;
 }
 
@@ -58,9 +56,8 @@ std::vector<Vec2> line_of(const TimeLine& line, ValueRange TimePiece::*range) {
         const ValueRange& values = line.pieces()[k].*range;
         if (values.empty()) continue;
         const double t_s = line.middle_s(k);
-        if (!points.empty() && t_s - last_s > std::max(kLongestHole_s, 1.5 * line.piece_s())) {
+        if (!points.empty() && t_s - last_s > std::max(kLongestHole_s, 1.5 * line.piece_s()))
             points.emplace_back(t_s, kNothing);
-        }
         last_s = t_s;
         points.emplace_back(t_s, values.low);
         if (values.high > values.low) points.emplace_back(t_s, values.high);
@@ -105,9 +102,8 @@ std::vector<Vec2> video_line(const TimeLine& line) {
 
 double highest_video_s(const TimeLine& line) {
     double highest = 0.0;
-    for (const TimePiece& piece : line.pieces()) {
+    for (const TimePiece& piece : line.pieces())
         highest = std::fmax(highest, std::fmax(piece.video_first_s, piece.video_last_s));
-    }
     return highest;
 }
 
@@ -163,9 +159,8 @@ Canvas plot_over_time(const std::string& title, const std::string& label,
     Canvas canvas(1200, 652 + static_cast<int>(down_px), kPaper);
     draw_title(canvas, title, words.subtitle);
     double highest = 0.0;
-    for (const Curve& curve : curves) {
+    for (const Curve& curve : curves)
         highest = std::max(highest, highest_of(numbers.time_line, curve.range));
-    }
     const Axes axes(lowered(kPanel, down_px), time_axis(numbers.duration_s, false),
                     {{0.0, round_top(1.02 * highest)}, label});
     axes.draw_ground(canvas);

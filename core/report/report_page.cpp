@@ -20,9 +20,8 @@ namespace {
 std::string figures_html(const SessionReport& report) {
     std::string whole;
     std::string pair;
-    for (const Figure& figure : report.figures) {
+    for (const Figure& figure : report.figures)
         (figure.name.ends_with("-histogram") ? pair : whole) += figure_html(figure);
-    }
     return pair.empty() ? whole : whole + "<div class=\"pair\">\n" + pair + "</div>\n";
 }
 
@@ -36,14 +35,12 @@ std::string opening_html(const SessionReport& report, const std::string& title) 
     std::string text = "<h1>" + html_text(title) + "</h1>\n";
     std::string when = wall_time_text(report.numbers.begin_utc_s);
     if (!when.empty()) when = "Recorded from " + when;
-    if (const std::string who = session.fact("participant"); !who.empty()) {
+    if (const std::string who = session.fact("participant"); !who.empty())
         when += (when.empty() ? "Participant " : ", participant ") + who;
-    }
     text += "<p class=\"quiet\">" + html_text(when) + "</p>\n<p class=\"summary\">" +
             html_text(summary_of(report)) + "</p>\n";
-    if (const std::string note = session.fact("note"); !note.empty()) {
+    if (const std::string note = session.fact("note"); !note.empty())
         text += "<p class=\"note text\">" + html_text(note) + "</p>\n";
-    }
     return text;
 }
 
@@ -124,18 +121,16 @@ std::string files_section(const SessionReport& report) {
     std::set<std::string> cleanings;
     std::set<std::filesystem::path> told;
     const auto add = [&](const char* what, const SessionMedia& media) {
-        if (!media.file.empty() && told.insert(media.file).second) {
+        if (!media.file.empty() && told.insert(media.file).second)
             rows.push_back(media_row(what, media));
-        }
     };
     for (const SessionSource& source : report.session.sources()) {
         add("colour", source.colour);
         add("depth", source.depth);
         cleanings.insert(cleaning_text(source.source));
     }
-    for (const SessionParameters& parameters : report.session.parameters()) {
+    for (const SessionParameters& parameters : report.session.parameters())
         add("bump map", parameters.bump);
-    }
     if (rows.empty()) return section("Files", "<p>No file was touched.</p>\n");
     std::string body = table_of({"what", "file", "bytes", "SHA-256"}, rows);
     for (const std::string& cleaning : cleanings) body += "<p>Depth: " + cleaning + ".</p>\n";

@@ -72,17 +72,15 @@ std::string summary_of(const SessionReport& report) {
     std::string text = begin + " touched " + times(numbers.episodes.size()) + " for " +
                        number_text(numbers.contact_s, 1) + " s in all (" +
                        percent_text(numbers.contact_share()) + " of the ticks). ";
-    if (numbers.episodes.size() > 1) {
+    if (numbers.episodes.size() > 1)
         text += "Half of the contacts lasted " + number_text(median_length_s(numbers.episodes), 2) +
                 " s or longer, the longest " + number_text(longest_s(numbers.episodes), 2) + " s. ";
-    }
     text += "While touching, the force sent to the hand was " +
             number_text(numbers.sent_newton.mean(), 2) + " N on average and " +
             number_text(numbers.sent_newton.peak(), 2) +
             " N at its peak, and the point on the surface went " + way_text(path_mm(numbers));
-    if (numbers.contact_s > 0.0) {
+    if (numbers.contact_s > 0.0)
         text += ", " + number_text(path_mm(numbers) / numbers.contact_s, 1) + " mm/s on average";
-    }
     return text + ".";
 }
 
@@ -92,10 +90,9 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     const auto say = [&](std::int64_t count, const std::string& what) {
         if (count > 0) remarks.push_back(counted(count, "tick") + what);
     };
-    if (report.session.fact("complete") == "0") {
+    if (report.session.fact("complete") == "0")
         remarks.emplace_back(
             "The recording was broken off, or still goes on: this is what was written so far.");
-    }
     say(ticks.missing, " between the first and the last were not recorded.");
     say(ticks.without_surface, " had no surface to touch.");
     say(ticks.device_not_ready, " had no device that was ready.");
@@ -105,14 +102,12 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(ticks.catching_up, " ended before the proxy had caught up with its goal.");
     say(ticks.late, " began late, a millisecond or more after the deadline; the worst " +
                         number_text(ticks.worst_lateness_us / 1000.0, 1) + " ms.");
-    for (std::size_t cut = 1; cut < ticks.cut.size(); ++cut) {
+    for (std::size_t cut = 1; cut < ticks.cut.size(); ++cut)
         say(ticks.cut[cut], std::string(" had the force taken away: ") +
                                 name_of(static_cast<SafetyCut>(cut)) + ".");
-    }
     for (const HeatMapFacts& map : report.maps) {
-        if (!map.remark.empty()) {
+        if (!map.remark.empty())
             remarks.push_back("A heat map lies over plain ground: " + map.remark + ".");
-        }
     }
     remarks.insert(remarks.end(), report.remarks.begin(), report.remarks.end());
     return remarks;

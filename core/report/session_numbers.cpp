@@ -38,10 +38,9 @@ class Counter {
 
     SessionNumbers finish(double end_s) {
         numbers_.duration_s = end_s - session_.begin_s();
-        if (!std::isfinite(numbers_.duration_s)) {
+        if (!std::isfinite(numbers_.duration_s))
             throw InputError(session_.file().string() +
                              ": is damaged (times that are no numbers); copy it again");
-        }
         numbers_.episodes = episodes_.finish();
         return std::move(numbers_);
     }
@@ -57,9 +56,8 @@ class Counter {
         ticks.late += tick.lateness_us >= kLate_us ? 1 : 0;
         ticks.goal_refused += tick.goal_refused ? 1 : 0;
         ticks.catching_up += tick.catching_up ? 1 : 0;
-        if (std::isfinite(tick.lateness_us)) {
+        if (std::isfinite(tick.lateness_us))
             ticks.worst_lateness_us = std::max(ticks.worst_lateness_us, tick.lateness_us);
-        }
         if (tick.cut < kSafetyCuts) ++ticks.cut[tick.cut];
     }
 
@@ -109,9 +107,8 @@ constexpr double kMostBins = 200000.0;
 std::size_t round_bins(double bins, int most) {
     for (std::size_t power = 1;; power *= 10) {
         for (const std::size_t factor : {1U, 2U, 5U}) {
-            if (std::ceil(bins / static_cast<double>(factor * power)) <= most) {
+            if (std::ceil(bins / static_cast<double>(factor * power)) <= most)
                 return factor * power;
-            }
         }
     }
 }
@@ -156,9 +153,8 @@ void spread_line(float* line, int count, std::size_t step, const std::vector<flo
                 value * weights[static_cast<std::size_t>(std::abs(to - k))];
         }
     }
-    for (int k = 0; k < count; ++k) {
+    for (int k = 0; k < count; ++k)
         line[static_cast<std::size_t>(k) * step] = spread[static_cast<std::size_t>(k)];
-    }
 }
 
 }  // namespace
@@ -175,9 +171,8 @@ SessionNumbers numbers_of(const Session& session, const std::function<void(doubl
         const double held_s = held(more ? next.t_s - tick.t_s : tick.dt_s);
         counter.add(tick, held_s);
         end_s = tick.t_s + held_s;
-        if (++number % kProgressTicks == 0 && progress) {
+        if (++number % kProgressTicks == 0 && progress)
             progress(static_cast<double>(number) / static_cast<double>(session.rows()));
-        }
     }
     return counter.finish(end_s);
 }
@@ -220,9 +215,8 @@ double Distribution::quantile(double share) const {
     double below_s = 0.0;
     for (std::size_t bin = 0; bin < bin_s_.size(); ++bin) {
         below_s += bin_s_[bin];
-        if (below_s >= share * total_s_) {
+        if (below_s >= share * total_s_)
             return std::min((static_cast<double>(bin) + 0.5) * resolution_, peak_);
-        }
     }
     return peak_;
 }
@@ -286,12 +280,10 @@ PixelValues TouchedPlaces::smoothed(int columns, int rows, double sigma_px) cons
     }
     const std::vector<float> weights = gaussian(sigma_px);
     std::vector<float> line;
-    for (int row = 0; row < rows; ++row) {
+    for (int row = 0; row < rows; ++row)
         spread_line(&map.values[static_cast<std::size_t>(row) * width], columns, 1, weights, line);
-    }
-    for (int column = 0; column < columns; ++column) {
+    for (int column = 0; column < columns; ++column)
         spread_line(&map.values[static_cast<std::size_t>(column)], rows, width, weights, line);
-    }
     return map;
 }
 

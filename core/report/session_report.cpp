@@ -27,9 +27,8 @@ std::string map_name(std::size_t number) {
 std::vector<std::string> all_names() {
     std::vector<std::string> pictures{"force-over-time", "speed-over-time", "force-histogram",
                                       "speed-histogram", "contact-histogram"};
-    for (std::size_t number = 1; number <= kMostMaps; ++number) {
+    for (std::size_t number = 1; number <= kMostMaps; ++number)
         pictures.push_back(map_name(number));
-    }
     return report_files({"report.html", "report.json"}, pictures);
 }
 
@@ -60,9 +59,8 @@ HeatMapGround ground_of(const Session& session, RecordedPicture picture, PixelBo
     }
     ground.columns = std::max(ground.columns, 2);
     ground.rows = std::max(ground.rows, 2);
-    if (!session.parameters().empty()) {
+    if (!session.parameters().empty())
         ground.pitch_mm = session.parameters().front().touch.coupling.pixel_pitch_mm;
-    }
     return ground;
 }
 
@@ -134,14 +132,11 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
 void draw_maps(const Making& making) {
     const SessionNumbers& numbers = making.report.numbers;
     std::vector<std::pair<double, std::uint32_t>> longest;
-    for (const auto& [media, places] : numbers.places) {
+    for (const auto& [media, places] : numbers.places)
         longest.emplace_back(-places.total_s(), media);
-    }
     std::sort(longest.begin(), longest.end());
     if (longest.size() > kMostMaps) longest.resize(kMostMaps);
-    for (const auto& [time, media] : longest) {
-        draw_map(making, numbers.places.at(media), media);
-    }
+    for (const auto& [time, media] : longest) draw_map(making, numbers.places.at(media), media);
 }
 
 PlotWords plot_words(const SessionReport& report) {
@@ -169,34 +164,30 @@ void draw_plots(const Making& making) {
                     range,
                 plot_force_over_time(numbers, words));
     const bool speeds = numbers.proxy_mm_per_s.total_s() > 0.0;
-    if (speeds) {
+    if (speeds)
         figures.add("speed-over-time", "Speed over time",
                     "Speed of the hand and of the point on the surface, while in contact." + range,
                     plot_speed_over_time(numbers, words));
-    }
-    if (numbers.sent_newton.total_s() > 0.0) {
+    if (numbers.sent_newton.total_s() > 0.0)
         figures.add("force-histogram", "Histogram of the force sent",
                     "For how long which force was sent while in contact.",
                     plot_force_histogram(numbers, words));
-    }
     if (numbers.episodes.empty()) return;
     figures.add("contact-histogram", "Histogram of the contacts' lengths",
                 "How many contacts lasted how long (logarithmic).",
                 plot_contact_histogram(numbers, words));
-    if (speeds) {
+    if (speeds)
         figures.add("speed-histogram", "Histogram of the speed",
                     "For how long the point on the surface had which speed.",
                     plot_speed_histogram(numbers, words));
-    }
 }
 
 }  // namespace
 
 void write_session_report(const Session& session, const ReportRequest& request) {
-    if (session.rows() == 0) {
+    if (session.rows() == 0)
         throw InputError(session.file().string() +
                          ": holds no ticks, so there is nothing to report; record it again");
-    }
     OutputFolder files(request.folder, all_names());
     session.check();
     SessionReport report{session, numbers_of(session, request.progress), {}, {}, request.program};

@@ -178,9 +178,8 @@ struct Recorder::Implementation {
     void take_ticks() {
         batch.clear();
         high_water = std::max(high_water, ring.size());
-        for (TickRecord record; batch.size() < kMostInDrain && ring.pop(record);) {
+        for (TickRecord record; batch.size() < kMostInDrain && ring.pop(record);)
             batch.push_back(record);
-        }
     }
 
     /// Whatever a tick of the batch refers to was left before the tick was pushed.
@@ -201,9 +200,8 @@ struct Recorder::Implementation {
         for (const auto& note : left) note(*this);
         for (const TickRecord& record : batch) session->add(record);
         uncommitted += batch.size();
-        if (zero_ns && now() - clock_set >= kBetweenClocks) {
+        if (zero_ns && now() - clock_set >= kBetweenClocks)
             set_clock(nanoseconds(now()) - *zero_ns);
-        }
         add_contents();
     }
 
@@ -261,9 +259,8 @@ struct Recorder::Implementation {
         const std::lock_guard lock(mutex);
         status.rows += std::exchange(uncommitted, 0);
         status.bytes = bytes;
-        if (passed.count() > 1.0) {
+        if (passed.count() > 1.0)
             status.bytes_per_minute = 60.0 * static_cast<double>(grown) / passed.count();
-        }
     }
 
     void close() {

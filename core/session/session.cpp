@@ -259,11 +259,10 @@ std::vector<SessionMap> Session::maps_of(std::uint32_t version) const {
             maps.push_back({std::move(kind), query.real(1), query.real(2), {}});
         const std::string part = query.bytes(3);
         bytes += part.size();
-        if (bytes > kMost_bytes) {
+        if (bytes > kMost_bytes)
             throw InputError(file().string() +
                              ": holds larger touch maps than any recording has; choose a file that "
                              "dibhr recorded");
-        }
         maps.back().png += part;
     }
     return maps;
@@ -297,11 +296,10 @@ void Session::read_extent() {
     first_tick_ = count.integer(1);
     last_tick_ = count.integer(2);
     constexpr std::int64_t kFarTick = std::int64_t{1} << 62;  // differences stay numbers
-    if (first_tick_ < 0 || last_tick_ > kFarTick) {
+    if (first_tick_ < 0 || last_tick_ > kFarTick)
         throw InputError(file().string() + ": is damaged (its ticks are numbered from " +
                          std::to_string(first_tick_) + " to " + std::to_string(last_tick_) +
                          "); copy it again");
-    }
     missing_ = last_tick_ - first_tick_ + 1 - rows_;
     begin_s_ = time_from(first_tick_);
     end_s_ = time_from(last_tick_);

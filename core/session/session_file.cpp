@@ -37,9 +37,8 @@ const std::filesystem::path& made(const std::filesystem::path& file) {
         close(descriptor);
         return file;
     }
-    if (errno == EEXIST) {
+    if (errno == EEXIST)
         throw InputError(file.string() + ": exists already; choose another name for the session");
-    }
     throw InputError(file.string() + ": the session cannot be recorded there (" +
                      std::strerror(errno) + "); choose a folder that can be written to");
 }
@@ -172,11 +171,10 @@ SessionFile::~SessionFile() {
 }
 
 void SessionFile::begin() {
-    if (keeper_) {
+    if (keeper_)
         keeper_->begin(database_);
-    } else {
+    else
         database_.execute("BEGIN");
-    }
 }
 
 void SessionFile::add(const TickRecord& record) {

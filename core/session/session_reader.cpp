@@ -37,9 +37,8 @@ SessionReader::SessionReader(const std::filesystem::path& file)
 /// could go on for ever.
 void SessionReader::check_tables() const {
     std::string names;
-    for (const std::string_view name : kSessionTables) {
+    for (const std::string_view name : kSessionTables)
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
-    }
     // A view has no pages of its own, nor has a table that a module makes up; a hidden column may
     // be computed. Recordings of before there were touch maps have no such table.
     const bool plain =
@@ -54,18 +53,16 @@ void SessionReader::check_tables() const {
             "WHERE m.name IN " +
             names + ")") == 0;
     Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
-    if (!plain || !view.next() || view.text(0) != tick_view()) {
+    if (!plain || !view.next() || view.text(0) != tick_view())
         refuse("its tables are not those of a recording");
-    }
 }
 
 /// The head of a file that was closed says how long it is, which is refused when it is shorter, and
 /// whether a log belongs to it.
 SessionReader::Log SessionReader::log_by_head() const {
     std::error_code failed;
-    if (!std::filesystem::exists(file_, failed)) {
+    if (!std::filesystem::exists(file_, failed))
         throw InputError(file_.string() + ": no such file; check its name");
-    }
     if (!std::filesystem::is_regular_file(file_, failed)) refuse("no ordinary file");
     // SQLite's file format, section 1.3: at 16 the size of a page, 1 for 65536; at 18 and 19 a 2
     // each for a write-ahead log; at 28 the number of pages, valid if the numbers at 24 and 92 are
@@ -77,11 +74,10 @@ SessionReader::Log SessionReader::log_by_head() const {
     // Asked after the head was read: a recording that ends meanwhile has no log any more.
     const bool logged = std::filesystem::exists(file_.string() + "-wal", failed);
     // SQLite would take the log of an empty file for one that was left behind, and delete it.
-    if (stream.gcount() == 0 && logged) {
+    if (stream.gcount() == 0 && logged)
         throw InputError(file_.string() + ": is empty, and only " + file_.filename().string() +
                          "-wal, the log of its recording, is beside it; copy both again from where "
                          "it was recorded");
-    }
     if (stream.gcount() == 0) refuse("it is empty");
     if (!is_database(file_)) refuse("no SQLite file");
     const auto number = [&head](std::size_t at, std::size_t bytes) {
@@ -105,21 +101,17 @@ void SessionReader::check_kind() const {
     if (application == 0 && database_.number("SELECT count(*) FROM sqlite_master") == 0) {
         std::error_code failed;
         const std::string log = file_.filename().string() + "-wal";
-        if (log_ == Log::absent) {
+        if (log_ == Log::absent)
             throw InputError(file_.string() +
                              ": its recording was broken off, and all of it is in " + log +
                              ", which is not here; copy both files");
-        }
-        if (std::filesystem::exists(file_.string() + "-wal", failed)) {
+        if (std::filesystem::exists(file_.string() + "-wal", failed))
             throw InputError(file_.string() +
                              ": its recording was broken off before anything was "
                              "written, also into " +
                              log + "; record it again");
-        }
     }
-    if (application != kSessionApplicationId) {
-        refuse("another program's database");
-    }
+    if (application != kSessionApplicationId) refuse("another program's database");
     const std::int64_t version = database_.number("PRAGMA user_version");
     if (version == kSessionSchemaVersion) return;
     const bool newer = version > kSessionSchemaVersion;
@@ -141,12 +133,11 @@ void SessionReader::refuse(const DatabaseError& error) const {
     if (error.cause() == Cause::damaged) refuse_damaged(words);
     if (error.cause() == Cause::endless) refuse("reading it would not end");
     if (error.cause() == Cause::too_long) refuse("it holds a value of more than a megabyte");
-    if (error.cause() == Cause::cannot_open) {
+    if (error.cause() == Cause::cannot_open)
         throw InputError(file_.string() +
                          ": its recording was broken off, and its log cannot be opened; copy both, "
                          "the file and " +
                          file_.filename().string() + "-wal, into a folder that can be written to");
-    }
     refuse(words);
 }
 

@@ -128,10 +128,9 @@ std::string pixel_of(const std::string& index, const std::string& axis) {
 
 std::string primitive_name() {
     std::string text = "CASE " + bits(tick_state::kPrimitive, 3);
-    for (int kind = 0; kind <= static_cast<int>(kLastPrimitiveKind); ++kind) {
+    for (int kind = 0; kind <= static_cast<int>(kLastPrimitiveKind); ++kind)
         text += " WHEN " + std::to_string(kind) + " THEN '" +
                 name_of(static_cast<PrimitiveKind>(kind)) + "'";
-    }
     return text + " END";
 }
 
@@ -206,14 +205,12 @@ std::string quoted(std::string_view text) {
 
 std::string explanations() {
     std::string text;
-    for (const Column& column : columns()) {
+    for (const Column& column : columns())
         text += "INSERT INTO tick_column VALUES(" + quoted(column.name) + "," +
                 quoted(column.unit) + "," + quoted(column.meaning) + ");\n";
-    }
-    for (int code = 0; code <= static_cast<int>(kLastSafetyCut); ++code) {
+    for (int code = 0; code <= static_cast<int>(kLastSafetyCut); ++code)
         text += "INSERT INTO cut VALUES(" + std::to_string(code) + "," +
                 quoted(name_of(static_cast<SafetyCut>(code))) + ");\n";
-    }
     return text;
 }
 

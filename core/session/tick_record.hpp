@@ -136,9 +136,8 @@ struct SessionParameters {
 /// Every number of them, in the order of the columns of table `parameters`: visit(column, number).
 template <typename Visit>
 void visit_numbers(SessionParameters& parameters, const Visit& visit) {
-    for (const TouchNumber& number : touch_numbers()) {
+    for (const TouchNumber& number : touch_numbers())
         visit(number.column, number.in(parameters.touch));
-    }
     SafetyLimits& limits = parameters.limits;
     visit(std::string_view("max_force_newton"), limits.max_force_newton);
     visit(std::string_view("max_change_newton_per_ms"), limits.max_change_newton_per_ms);

@@ -264,9 +264,8 @@ double mean_of_reversals(const Block& block, const Answers& own, std::size_t ite
 }
 
 void add_all(LevelCounts& all, const LevelCounts& some) {
-    for (const LevelCount& level : some) {
+    for (const LevelCount& level : some)
         for (int k = 0; k < level.count.trials; ++k) add_answer(all, level.x, k < level.count.hits);
-    }
 }
 
 /// A curve of two parameters needs two levels, and some answers more than it has parameters.
