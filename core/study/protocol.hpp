@@ -43,7 +43,6 @@ struct StudyPage {
     std::filesystem::path picture{};  ///< absolute
 
     [[nodiscard]] bool empty() const noexcept { return text.empty() && picture.empty(); }
-    bool operator==(const StudyPage&) const = default;
 };
 
 /// Files of a name; the built-in sample has none and the name "sample".
@@ -51,8 +50,6 @@ struct StudyMedia {
     std::string name{};
     std::filesystem::path colour{};  ///< absolute, as `depth`
     std::filesystem::path depth{};   ///< empty: found beside the colour
-
-    bool operator==(const StudyMedia&) const = default;
 };
 
 /// The media that is always there, and is taken where none is named.
@@ -63,8 +60,6 @@ struct Condition {
     std::string name{};  ///< of crossed factors "dibhr+smooth"
     TouchValues values{};
     std::map<std::string, std::string> levels{};  ///< its level in each factor, if it is of such
-
-    bool operator==(const Condition&) const = default;
 };
 
 enum class TrialForm : std::uint8_t { explore, two_interval, three_interval, adjust, rating };
