@@ -428,7 +428,6 @@ void compare_conditions(BlockFindings& found) {
     std::vector<std::vector<double>> rows;
     for (std::size_t who = 0; who < values.front().by_participant.size(); ++who) {
         std::vector<double> row;
-        row.reserve(values.size());
         for (const ValueFinding& value : values) row.push_back(value.by_participant[who]);
         if (known(row).size() == row.size()) rows.push_back(std::move(row));
     }
@@ -443,7 +442,6 @@ void compare_conditions(BlockFindings& found) {
     for (std::size_t a = 0; a < values.size(); ++a) {
         for (std::size_t b = a + 1; b < values.size(); ++b) {
             std::vector<double> differences;
-            differences.reserve(rows.size());
             for (const auto& row : rows) differences.push_back(row[a] - row[b]);
             found.pairs.push_back({values[a].name, values[b].name, mean_of(differences),
                                    signed_rank_test(differences)});

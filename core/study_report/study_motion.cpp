@@ -223,16 +223,11 @@ std::vector<MotionFinding> motion_findings(const std::vector<IntervalRow>& rows)
     std::vector<MotionFinding> findings;
     for (const auto& [condition, by_participant] : by_condition) {
         MotionFinding found{.condition = condition, .intervals = intervals[condition]};
-        std::vector<IntervalMotion> each;
-        each.reserve(by_participant.size());
-        for (const auto& [who, motion] : by_participant) {
-            each.push_back(motion);
-            found.all = joined(found.all, motion);
-        }
-        const auto mean = [&each](const auto& quantity) {
+        const auto& people = by_participant;
+        for (const auto& [who, motion] : people) found.all = joined(found.all, motion);
+        const auto mean = [&people](const auto& quantity) {
             std::vector<double> values;
-            values.reserve(each.size());
-            for (const IntervalMotion& motion : each) values.push_back(quantity(motion));
+            for (const auto& [who, motion] : people) values.push_back(quantity(motion));
             return mean_of(values);
         };
         found.contact_share = mean([](const IntervalMotion& m) { return m.contact_share(); });
