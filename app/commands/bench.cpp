@@ -164,7 +164,6 @@ LoopRun measure_loops() {
     player.play_media(std::make_unique<GeneratedMedia>(kVideo));
 
     std::vector<TimedGoal> goals;
-    goals.reserve(kExperimentUpdates);
     for (int k = 0; k < kExperimentUpdates; ++k) {
         goals.push_back(
             {k * 1e-3, circle_goal({0.5 * kVideo.columns, 0.5 * kVideo.rows, 90.0, 10.0}, k)});

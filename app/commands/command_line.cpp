@@ -162,7 +162,6 @@ class Documenting : public CLI::Formatter {
 
 std::vector<DocumentedCommand> documented_commands() {
     std::vector<DocumentedCommand> all;
-    all.reserve(kCommands.size());
     for (const Command& command : kCommands) {
         all.push_back({.name = std::string(command.name),
                        .arguments = std::string(command.arguments),

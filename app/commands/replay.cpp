@@ -114,7 +114,6 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
 void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs,
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
-    changes.reserve(runs.size());
     for (const Run& run : runs) changes.push_back(run.change);
     SessionReplay replay(session, video, std::move(changes));
     RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");

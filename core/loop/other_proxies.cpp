@@ -94,7 +94,6 @@ void OtherProxies::take(const WalkedTick& tick) {
 std::vector<AlgorithmProxy> OtherProxies::proxies() const {
     std::vector<AlgorithmProxy> others;
     if (!begun_) return others;
-    others.reserve(walkers_.size());
     for (const Walker& walker : walkers_)
         if (walker.algorithm != running_) others.push_back({walker.algorithm, walker.proxy});
     return others;

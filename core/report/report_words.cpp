@@ -13,7 +13,6 @@ namespace {
 
 double median_length_s(const std::vector<Episode>& episodes) {
     std::vector<double> lengths;
-    lengths.reserve(episodes.size());
     for (const Episode& episode : episodes) lengths.push_back(episode.length_s());
     const auto middle = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
     std::nth_element(lengths.begin(), middle, lengths.end());

@@ -134,7 +134,6 @@ std::vector<float> gaussian(double sigma_px) {
         sum += (k == 0 ? 1.0 : 2.0) * weights.back();
     }
     std::vector<float> shares;
-    shares.reserve(weights.size());
     for (const double weight : weights) shares.push_back(static_cast<float>(weight / sum));
     return shares;
 }
