@@ -32,12 +32,9 @@ cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size 
     const double across = 1.0 * source.cols / depth_size.width;
     const double down = 1.0 * source.rows / depth_size.height;
     const double stays = 1.0 - registration.scale;
-    const cv::Matx23d place{registration.scale,
-                            0.0,
-                            registration.right_px * across + stays * 0.5 * (source.cols - 1),
-                            0.0,
-                            registration.scale,
-                            registration.down_px * down + stays * 0.5 * (source.rows - 1)};
+    const double x = registration.right_px * across + stays * 0.5 * (source.cols - 1);
+    const double y = registration.down_px * down + stays * 0.5 * (source.rows - 1);
+    const cv::Matx23d place{registration.scale, 0.0, x, 0.0, registration.scale, y};
     cv::Mat result;
     cv::warpAffine(source, result, place, source.size(), cv::INTER_LINEAR, cv::BORDER_CONSTANT,
                    cv::Scalar::all(kNoColour));

@@ -107,23 +107,10 @@ std::string end_text(double value) {
 }  // namespace
 
 std::string in_words(const DepthMeaning& meaning) {
-    std::string words;
     const DepthRange& range = meaning.range.value;
     const std::string ends = end_text(range.near) + " to " + end_text(range.far);
-    switch (meaning.unit.value) {
-        case DepthUnit::levels:
-            words = "levels " + ends;
-            break;
-        case DepthUnit::disparity:
-            words = "disparity " + ends;
-            break;
-        case DepthUnit::mm:
-            words = "distance " + ends + " mm";
-            break;
-        case DepthUnit::m:
-            words = "distance " + ends + " m";
-            break;
-    }
+    const std::string unit(name_of(meaning.unit.value));
+    std::string words = meaning.is_metric() ? "distance " + ends + " " + unit : unit + " " + ends;
     words += ", near is " + std::string(name_of(meaning.near.value));
     const std::vector<double>& nothing = meaning.no_data.value;
     for (std::size_t k = 0; k < nothing.size(); ++k) {

@@ -25,7 +25,7 @@ constexpr float kBesideRed = 0.25F;
 /// A side is certain with so many times the neighbours of the other.
 constexpr int kCertain = 4;
 
-/// Blue, green and red from 0 to 1, of a picture of 3 or 4 channels.
+/// Blue, green and red from 0 to 1, without gaps between rows, of a picture of 3 or 4 channels.
 cv::Mat as_real(const cv::Mat& picture) {
     cv::Mat colours = picture;
     if (picture.channels() == 4) cv::cvtColor(picture, colours, cv::COLOR_BGRA2BGR);
@@ -195,12 +195,9 @@ cv::Mat hues_of(const cv::Mat& picture, const HueCode& code) {
     cv::Mat hues(picture.rows, picture.cols, CV_32F, cv::Scalar(kNone));
     if (picture.channels() < 3) return hues;
     const cv::Mat colours = hue_saturation_value(picture);
-    for (int j = 0; j < hues.rows; ++j) {
-        const auto* const pixels = colours.ptr<cv::Vec3f>(j);
-        auto* const row = hues.ptr<float>(j);
-        std::transform(pixels, pixels + hues.cols, row,
-                       [&code](const cv::Vec3f& pixel) { return hue_at(pixel, code); });
-    }
+    const auto* const pixels = colours.ptr<cv::Vec3f>();
+    std::transform(pixels, pixels + colours.total(), hues.ptr<float>(),
+                   [&code](const cv::Vec3f& pixel) { return hue_at(pixel, code); });
     if (code.red_is_data) settle_red(hues);
     drop_mixtures(colours, hues);
     return hues;
@@ -218,13 +215,10 @@ cv::Mat ramp_levels(const cv::Mat& picture) {
     cv::Mat levels(picture.rows, picture.cols, CV_32F, cv::Scalar(0.0));
     if (picture.channels() < 3) return levels;
     const cv::Mat colours = as_real(picture);
-    for (int j = 0; j < levels.rows; ++j) {
-        const auto* const pixels = colours.ptr<cv::Vec3f>(j);
-        std::transform(
-            pixels, pixels + levels.cols, levels.ptr<float>(j), [](const cv::Vec3f& bgr) {
-                return std::max({bgr[0], bgr[1], bgr[2]}) < kBlack ? 0.0F : 255.0F * mean_of(bgr);
-            });
-    }
+    const auto* const pixels = colours.ptr<cv::Vec3f>();
+    std::transform(pixels, pixels + colours.total(), levels.ptr<float>(), [](const cv::Vec3f& bgr) {
+        return std::max({bgr[0], bgr[1], bgr[2]}) < kBlack ? 0.0F : 255.0F * mean_of(bgr);
+    });
     return levels;
 }
 
@@ -233,13 +227,10 @@ double share_on_ramp(const cv::Mat& picture) {
     const cv::Mat colours = as_real(picture);
     std::size_t coloured = 0;
     std::size_t on_ramp = 0;
-    for (int j = 0; j < colours.rows; ++j) {
-        for (int i = 0; i < colours.cols; ++i) {
-            const auto& pixel = colours.at<cv::Vec3f>(j, i);
-            if (!has_colour(pixel)) continue;
-            ++coloured;
-            on_ramp += static_cast<std::size_t>(is_on_ramp(pixel));
-        }
+    for (const cv::Vec3f& pixel : cv::Mat_<cv::Vec3f>(colours)) {
+        if (!has_colour(pixel)) continue;
+        ++coloured;
+        on_ramp += static_cast<std::size_t>(is_on_ramp(pixel));
     }
     if (static_cast<double>(coloured) < kLeastColoured * static_cast<double>(colours.total()))
         return 0.0;

@@ -32,15 +32,18 @@ constexpr double kMostStep = 0.05;
 /// So far outside its border a triangle still counts, so that between two there is no gap [share].
 constexpr float kOverlap = 1e-4F;
 
-/// The outermost rays along one side: sideways over forwards.
-struct Span {
-    double first;
-    double last;
+/// Along one side: of the outermost rays (sideways over forwards), or of what they see [mm].
+struct Extent {
+    double begin{0.0};
+    double end{0.0};
+
+    [[nodiscard]] double length() const { return end - begin; }
 };
 
-Span span_of(const cv::Mat& rays) {
-    Span span{0.0, 0.0};
-    cv::minMaxLoc(rays, &span.first, &span.last, nullptr, nullptr, rays == rays);
+/// Of rays.
+Extent span_of(const cv::Mat& rays) {
+    Extent span;
+    cv::minMaxLoc(rays, &span.begin, &span.end, nullptr, nullptr, rays == rays);
     return span;
 }
 
@@ -51,9 +54,9 @@ void require_camera(bool is_camera) {
             "its centre in depth pixels, FX,FY,CX,CY");
 }
 
-void require_view(const Span& rays) {
-    require_camera(rays.last - rays.first >= kNarrowestView && rays.first >= -kWidestRay &&
-                   rays.last <= kWidestRay);
+void require_view(const Extent& rays) {
+    require_camera(rays.length() >= kNarrowestView && rays.begin >= -kWidestRay &&
+                   rays.end <= kWidestRay);
 }
 
 void require_range(const DepthRange& range_mm) {
@@ -65,16 +68,9 @@ void require_range(const DepthRange& range_mm) {
 }
 
 /// What rays see between two distances [mm].
-struct Extent {
-    double begin;
-    double end;
-
-    [[nodiscard]] double length() const { return end - begin; }
-};
-
-Extent extent_of(const Span& rays, const DepthRange& range_mm) {
-    return {std::min(rays.first * range_mm.near, rays.first * range_mm.far),
-            std::max(rays.last * range_mm.near, rays.last * range_mm.far)};
+Extent extent_of(const Extent& rays, const DepthRange& range_mm) {
+    return {std::min(rays.begin * range_mm.near, rays.begin * range_mm.far),
+            std::max(rays.end * range_mm.near, rays.end * range_mm.far)};
 }
 
 /// Where samples have something in the range [mm].
@@ -149,8 +145,8 @@ StraightGrid straight_grid(cv::Size depth_size, const Camera& camera, const Dept
     require_range(range_mm);
     require_camera(is_camera(camera.intrinsics()));
     const Rays rays = rays_of(depth_size, camera);
-    const Span across = span_of(rays.right);
-    const Span down = span_of(rays.down);
+    const Extent across = span_of(rays.right);
+    const Extent down = span_of(rays.down);
     require_view(across);
     require_view(down);
     Places places = places_in(samples_mm, rays, range_mm);
