@@ -2,9 +2,11 @@
 #include "core/video/cleaning/cleaning_chain.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/patches.hpp"
@@ -92,21 +94,18 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
            (plan.noise.of_scale ? ", a scale a frame" : "");
 }
 
-void CleaningChain::fill_holes(DepthImage& image, std::span<const HeldLevel> held,
-                               std::vector<std::uint8_t>& unseen) {
-    seen_ = image;
-    held_.fill(image, held);
-    small_holes_.fill(image);
-    large_holes_.fill(image, seen_, spikes_.refused(), unseen);
-}
-
 /// What is left without data becomes the farthest.
 void CleaningChain::close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held) {
     std::vector<float>& levels = lone.depth.levels;
     lone.made_up.resize(levels.size());
     (void)mark_holes(levels.data(), lone.made_up.data(), levels.size());
     lone.unseen.assign(levels.size(), 0);
-    if (fill) fill_holes(lone.depth, held, lone.unseen);
+    if (fill) {
+        seen_ = lone.depth;
+        held_.fill(lone.depth, held);
+        small_holes_.fill(lone.depth);
+        large_holes_.fill(lone.depth, seen_, spikes_.refused(), lone.unseen);
+    }
     if (has_holes(lone.depth)) make_farthest(levels.data(), lone.unseen.data(), levels.size());
     if (std::memchr(lone.unseen.data(), 1, lone.unseen.size()) == nullptr) lone.unseen.clear();
 }

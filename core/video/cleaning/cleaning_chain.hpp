@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/cleaning/depth_memory.hpp"
@@ -79,8 +77,6 @@ class CleaningChain {
     [[nodiscard]] DepthImage steadied(std::span<const LoneDepth* const> frames, std::size_t now,
                                       const DepthNoise& noise);
     void close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held);
-    void fill_holes(DepthImage& image, std::span<const HeldLevel> held,
-                    std::vector<std::uint8_t>& unseen);
 
     SpikeRemover spikes_{};
     DepthImage seen_{};  ///< without anything filled

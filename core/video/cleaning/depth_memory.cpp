@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "core/video/frames/vector_clones.hpp"
@@ -117,32 +119,21 @@ void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
 void HeldFiller::find_farthest(const DepthImage& image) {
     const int columns = squares_in(image.columns);
     const int rows = squares_in(image.rows);
-    const auto at = [columns](int i, int j) {
-        return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) +
-               static_cast<std::size_t>(i);
-    };
     const auto width = static_cast<std::size_t>(columns);
-    lowest_.assign(at(0, rows), kInfinity);
+    lowest_.resize(width * static_cast<std::size_t>(rows));
     for (int j = 0; j < rows; ++j) {
         in_row_.assign(width * kSquare_px, kInfinity);
         for (int y = j * kSquare_px; y < std::min((j + 1) * kSquare_px, image.rows); ++y)
             lower(in_row_.data(), image.levels.data() + image.index(0, y),
                   static_cast<std::size_t>(image.columns));
-        lowest_of_squares(in_row_.data(), lowest_.data() + at(0, j), width);
+        lowest_of_squares(in_row_.data(), lowest_.data() + width * static_cast<std::size_t>(j),
+                          width);
     }
-    in_column_.assign(at(0, rows), kInfinity);
-    for (int j = 0; j < rows; ++j)
-        for (int y = std::max(j - kSquares, 0); y <= std::min(j + kSquares, rows - 1); ++y)
-            lower(in_column_.data() + at(0, j), lowest_.data() + at(0, y), width);
-    farthest_.assign(at(0, rows), kInfinity);
-    for (int j = 0; j < rows; ++j)
-        for (int x = -kSquares; x <= kSquares; ++x) {
-            const int begin = std::max(-x, 0);
-            const int end = std::min(columns - x, columns);
-            if (begin < end)
-                lower(farthest_.data() + at(begin, j), in_column_.data() + at(begin + x, j),
-                      static_cast<std::size_t>(end - begin));
-        }
+    farthest_.resize(lowest_.size());
+    cv::Mat farthest(rows, columns, CV_32F, farthest_.data());
+    cv::erode(cv::Mat(rows, columns, CV_32F, lowest_.data()), farthest,
+              cv::Mat::ones(2 * kSquares + 1, 2 * kSquares + 1, CV_8U), {-1, -1}, 1,
+              cv::BORDER_REPLICATE);
 }
 
 void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const HeldLevel> held) {

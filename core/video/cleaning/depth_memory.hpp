@@ -53,9 +53,8 @@ class HeldFiller {
     Patches patches_{};
     std::vector<std::int32_t> patch_of_{};  ///< each held level
     std::vector<std::size_t> held_in_{};    ///< pixels of each patch
-    // The lowest levels of pixels in a column, a square, squares in a column and all around;
-    // infinity: no data.
-    std::vector<float> in_row_{}, lowest_{}, in_column_{}, farthest_{};
+    // The lowest levels of pixels in a column, a square and all around; infinity: no data.
+    std::vector<float> in_row_{}, lowest_{}, farthest_{};
     std::vector<HeldLevel> used_{};
 };
 

@@ -75,16 +75,6 @@ LevelMap mean_of(std::span<const LevelMap> maps) {
 
 }  // namespace
 
-void FrameScale::Samples::clear() {
-    from.clear();
-    change.clear();
-}
-
-void FrameScale::Samples::add(float level, float higher) {
-    from.push_back(level);
-    change.push_back(higher);
-}
-
 /// Levels on a grid, NaN for what is no data; nothing of a frame that is not like that one.
 void FrameScale::sample(std::span<const LoneDepth* const> frames, const DepthImage& like) {
     const auto pixels = static_cast<double>(like.levels.size());

@@ -64,8 +64,14 @@ class FrameScale {
     struct Samples {
         std::vector<float> from{}, change{};
 
-        void clear();
-        void add(float level, float higher);
+        void clear() {
+            from.clear();
+            change.clear();
+        }
+        void add(float level, float higher) {
+            from.push_back(level);
+            change.push_back(higher);
+        }
     };
 
     void sample(std::span<const LoneDepth* const> frames, const DepthImage& like);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <opencv2/core/matx.hpp>
 #include <optional>
 
 #include "core/video/frames/colour_image.hpp"
@@ -210,18 +211,8 @@ int half_way_up(const Line& line, const Ramp& ramp) {
     return step;
 }
 
-using Rgb = std::array<float, 3>;
-
-float dot(const Rgb& a, const Rgb& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Rgb difference(const Rgb& a, const Rgb& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-/// Of the place of a pixel of the depth image.
-Rgb colour_at(const ColourImage& colour, const DepthImage& image, Pixel at) {
+/// Red, green and blue of the place of a pixel of the depth image.
+cv::Vec3f colour_at(const ColourImage& colour, const DepthImage& image, Pixel at) {
     const auto place = [](int pixel, int count, int colour_count) {
         const std::int64_t middle = 2 * std::int64_t{std::clamp(pixel, 0, count - 1)} + 1;
         return static_cast<std::size_t>(middle * colour_count / (2 * std::int64_t{count}));
@@ -237,14 +228,14 @@ Rgb colour_at(const ColourImage& colour, const DepthImage& image, Pixel at) {
 /// different one. `colour_of(k)`: of the pixel k of the line.
 template <typename ColourOf>
 std::optional<int> colour_edge(const ColourOf& colour_of, const Ramp& ramp) {
-    const Rgb low = colour_of(ramp.low.end - 1);
-    const Rgb across = difference(colour_of(ramp.high.end + 1), low);
-    const float square = dot(across, across);
+    const cv::Vec3f low = colour_of(ramp.low.end - 1);
+    const cv::Vec3f across = colour_of(ramp.high.end + 1) - low;
+    const float square = across.dot(across);
     if (square < kColours * kColours) return std::nullopt;
     std::optional<int> edge;
     int on_neither = 0;
     for (int k = ramp.low.end; k <= ramp.high.end; ++k) {
-        const float part = dot(difference(colour_of(k), low), across) / square;
+        const float part = (colour_of(k) - low).dot(across) / square;
         if (part <= 0.5F && edge) return std::nullopt;  // and back again
         if (part > 0.5F && !edge) edge = k;
         if (part > kOwnSide && part < 1.0F - kOwnSide) ++on_neither;

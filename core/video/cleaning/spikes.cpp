@@ -25,30 +25,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// In an order of comparisons that is always the same (Batcher's odd-even mergesort).
 void sort_eight(std::array<float, 8>& values) {
-    constexpr std::array<std::array<std::size_t, 2>, 19> kPairs{{{0, 1},
-                                                                 {2, 3},
-                                                                 {4, 5},
-                                                                 {6, 7},
-                                                                 {0, 2},
-                                                                 {1, 3},
-                                                                 {4, 6},
-                                                                 {5, 7},
-                                                                 {1, 2},
-                                                                 {5, 6},
-                                                                 {0, 4},
-                                                                 {1, 5},
-                                                                 {2, 6},
-                                                                 {3, 7},
-                                                                 {2, 4},
-                                                                 {3, 5},
-                                                                 {1, 2},
-                                                                 {3, 4},
-                                                                 {5, 6}}};
-    for (const auto& [one, other] : kPairs) {
-        const float low = std::min(values[one], values[other]);
-        values[other] = std::max(values[one], values[other]);
-        values[one] = low;
-    }
+    for (std::size_t p = 1; p < 8; p *= 2)
+        for (std::size_t k = p; k > 0; k /= 2)
+            for (std::size_t j = k % p; j + k < 8; j += 2 * k)
+                for (std::size_t one = j; one < j + k && one + k < 8; ++one) {
+                    if (one / (2 * p) != (one + k) / (2 * p)) continue;
+                    const float low = std::min(values[one], values[one + k]);
+                    values[one + k] = std::max(values[one], values[one + k]);
+                    values[one] = low;
+                }
 }
 
 /// The levels of the pixels around one that have data.

@@ -108,10 +108,7 @@ struct Mean {
         weight += more;
     }
     void add(float level, float reference, float per_bound) {
-        const float off = level - reference;
-        const float more = weight_of(off, per_bound);
-        sum += more * off;
-        weight += more;
+        add(level, 1.0F, reference, per_bound);
     }
 };
 
@@ -463,7 +460,7 @@ void TemporalFilter::average(const float* reference, std::size_t at, std::size_t
         const Four rows{n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at};
         const FourMadeUp made_up{made_up_of(n[0], at), made_up_of(n[1], at), made_up_of(n[2], at),
                                  made_up_of(n[3], at)};
-        if (any_made_up(k, 4))
+        if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.made_up != nullptr; }))
             add_four(rows, made_up, reference, per_bound_.data(), sum_.data(), weights_.data(),
                      count);
         else
@@ -479,11 +476,6 @@ void TemporalFilter::average(const float* reference, std::size_t at, std::size_t
                     weights_.data(), count);
     }
     divide(reference, sum_.data(), weights_.data(), out.levels.data() + at, count);
-}
-
-bool TemporalFilter::any_made_up(std::size_t first, std::size_t count) const {
-    const Neighbour* n = neighbours_.data() + first;
-    return std::any_of(n, n + count, [](const Neighbour& one) { return one.made_up != nullptr; });
 }
 
 const std::uint8_t* TemporalFilter::made_up_of(const Neighbour& n, std::size_t at) const {

@@ -52,7 +52,6 @@ class TemporalFilter {
                         float* reference) const;
     [[nodiscard]] bool average_rows(const LoneDepth& here, DepthImage& out);
     void average(const float* reference, std::size_t at, std::size_t count, DepthImage& out);
-    [[nodiscard]] bool any_made_up(std::size_t first, std::size_t count) const;
     [[nodiscard]] const std::uint8_t* made_up_of(const Neighbour& n, std::size_t at) const;
     void follow_parts(const LoneDepth& here, DepthImage& out);
     void follow_motion(const LoneDepth& here, DepthImage& out);

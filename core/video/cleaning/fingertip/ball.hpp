@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -34,7 +35,12 @@ inline float held(float x, float limit) {
 
 struct Ball {
     Ball() = default;
-    Ball(const Fingertip& finger, double highest_level);
+    Ball(const Fingertip& finger, double highest_level)
+        : radius_px(finger.radius_px),
+          radius(static_cast<float>(finger.radius_px)),
+          radius_levels(static_cast<float>(finger.radius_px * highest_level / finger.relief_px)),
+          px_per_level(static_cast<float>(finger.relief_px / highest_level)),
+          levels_per_px(static_cast<float>(highest_level / finger.relief_px)) {}
 
     double radius_px{0.0};
     float radius{0.0F};         ///< the same
@@ -43,14 +49,27 @@ struct Ball {
     float levels_per_px{0.0F};
 
     /// Of the ball over a distance from its axis [px]; 0 beyond.
-    [[nodiscard]] double height_px(double away_px) const;
+    [[nodiscard]] double height_px(double away_px) const {
+        return std::sqrt(std::max(0.0, radius_px * radius_px - away_px * away_px));
+    }
 };
 
 /// An image with room on all sides. What is in the room is not kept.
 class RoomyImage {
   public:
-    void fit(int columns, int rows, int room, float in_room);
-    void copy(const DepthImage& image);
+    void fit(int columns, int rows, int room, float in_room) {
+        if (columns == columns_ && rows == rows_ && room == room_) return;
+        columns_ = columns;
+        rows_ = rows;
+        room_ = room;
+        pitch_ = columns + 2 * room;
+        levels_.assign(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows + 2 * room),
+                       in_room);
+    }
+    void copy(const DepthImage& image) {
+        for (int j = 0; j < rows_; ++j)
+            std::copy_n(image.levels.data() + image.index(0, j), columns_, pixel(0, j));
+    }
 
     [[nodiscard]] float* pixel(int i, int j) { return levels_.data() + at(i, j); }
     [[nodiscard]] const float* pixel(int i, int j) const { return levels_.data() + at(i, j); }

@@ -78,23 +78,14 @@ struct Across {
     return down(lean * of.lines_per_px + kOverlap_px);
 }
 
-DIBHR_VECTOR_CLONES void narrow_last(const Across& across, const int* __restrict number,
+/// The lines that the ball touches to that side, counted away from each EDGE.
+DIBHR_VECTOR_CLONES void narrow_side(const Across& across, const int* __restrict number,
                                      const float* __restrict cosine, std::size_t count,
                                      int* __restrict last) {
     const Across of = across;
     for (std::size_t k = 0; k < count; ++k) {
         const int most = most_lines(of, number[k], cosine[k]);
         last[k] = last[k] < most ? last[k] : most;
-    }
-}
-
-DIBHR_VECTOR_CLONES void narrow_first(const Across& across, const int* __restrict number,
-                                      const float* __restrict cosine, std::size_t count,
-                                      int* __restrict first) {
-    const Across of = across;
-    for (std::size_t k = 0; k < count; ++k) {
-        const int least = -most_lines(of, number[k], cosine[k]);
-        first[k] = first[k] > least ? first[k] : least;
     }
 }
 
@@ -221,7 +212,8 @@ void EdgePass::find(const float* before, const float* after, const float* begins
          edges_.sine.data(), edges_.cosine.data(), edges_.first.data(), edges_.last.data());
 }
 
-/// What is over many lines is worth another look.
+/// What is over many lines is worth another look; the first line is counted away from the EDGE
+/// meanwhile, as the last one is.
 void EdgePass::narrow_wide(const float* begins) {
     wide_.count = 0;
     for (std::size_t k = 0; k < edges_.count; ++k) {
@@ -233,14 +225,14 @@ void EdgePass::narrow_wide(const float* begins) {
         const auto k = static_cast<std::size_t>(wide_at_[w]);
         wide_.number[w] = edges_.number[k];
         wide_.cosine[w] = edges_.cosine[k];
-        wide_.first[w] = edges_.first[k];
+        wide_.first[w] = -edges_.first[k];
         wide_.last[w] = edges_.last[k];
     }
     for (const int distance : kDistances)
         if (distance <= ball_.radius_px) narrow(begins, distance);
     for (std::size_t w = 0; w < wide_.count; ++w) {
         const auto k = static_cast<std::size_t>(wide_at_[w]);
-        edges_.first[k] = wide_.first[w];
+        edges_.first[k] = -wide_.first[w];
         edges_.last[k] = wide_.last[w];
     }
 }
@@ -254,10 +246,10 @@ void EdgePass::narrow(const float* begins, int distance) {
                   ball_.px_per_level,
                   static_cast<float>(1.0 / family_.line_px),
                   Neighbour(distance * family_.aside_px, ball_)};
-    narrow_last(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.last.data());
+    narrow_side(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.last.data());
     across.other_begins = begins - aside;
     across.other_ends = begins - aside + family_.to_end;
-    narrow_first(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.first.data());
+    narrow_side(across, wide_.number.data(), wide_.cosine.data(), wide_.count, wide_.first.data());
 }
 
 }  // namespace dibhr::fingertip
