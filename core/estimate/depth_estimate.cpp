@@ -20,7 +20,7 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/formats/readable.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/sidecar.hpp"
 

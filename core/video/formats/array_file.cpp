@@ -19,7 +19,6 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/readable.hpp"
 
 namespace dibhr {
 

@@ -14,10 +14,10 @@ extern "C" {
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numeric>
 #include <opencv2/core.hpp>
 #include <string_view>
-#include <utility>
 
 #include "core/video/formats/file_bytes.hpp"
 
@@ -105,19 +105,12 @@ cv::Mat stretched_bytes(const cv::Mat& levels) {
 
 std::string name_of_codec(int id) {
     const auto codec = static_cast<AVCodecID>(id);
-    static constexpr std::array<std::pair<AVCodecID, std::string_view>, 9> kNames{
-        {{AV_CODEC_ID_VP8, "VP8"},
-         {AV_CODEC_ID_VP9, "VP9"},
-         {AV_CODEC_ID_AV1, "AV1"},
-         {AV_CODEC_ID_FFV1, "FFV1"},
-         {AV_CODEC_ID_H264, "H.264"},
-         {AV_CODEC_ID_HEVC, "HEVC"},
-         {AV_CODEC_ID_MJPEG, "MJPEG"},
-         {AV_CODEC_ID_THEORA, "Theora"},
-         {AV_CODEC_ID_PNG, "PNG"}}};
-    for (const auto& [known, name] : kNames)
-        if (known == codec) return std::string(name);
-    return avcodec_get_name(codec);
+    static const std::map<AVCodecID, std::string> kNames{
+        {AV_CODEC_ID_VP8, "VP8"},     {AV_CODEC_ID_VP9, "VP9"},       {AV_CODEC_ID_AV1, "AV1"},
+        {AV_CODEC_ID_FFV1, "FFV1"},   {AV_CODEC_ID_H264, "H.264"},    {AV_CODEC_ID_HEVC, "HEVC"},
+        {AV_CODEC_ID_MJPEG, "MJPEG"}, {AV_CODEC_ID_THEORA, "Theora"}, {AV_CODEC_ID_PNG, "PNG"}};
+    const auto found = kNames.find(codec);
+    return found == kNames.end() ? avcodec_get_name(codec) : found->second;
 }
 
 bool holds_floats(const AVFrame& frame) noexcept {

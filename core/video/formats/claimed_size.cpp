@@ -1,5 +1,5 @@
 // Looks up two numbers in headers.
-#include "core/video/formats/claimed_size.hpp"
+#include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
 #include <array>

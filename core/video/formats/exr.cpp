@@ -9,7 +9,6 @@
 #include <ImfPartType.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -24,7 +23,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/formats/exr_header.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -48,8 +46,6 @@ struct DepthKind {
     std::string_view name;
     std::string_view not_beside;
 };
-constexpr std::array kDepthKinds{DepthKind{"Z", "X"}, DepthKind{"V", "U"}};
-constexpr DepthKind kLuminance{"Y", "X"};
 
 /// "ViewLayer.Depth.Z": "ViewLayer.Depth." and "Z".
 std::pair<std::string, std::string> layer_and_name(const std::string& channel) {
@@ -100,9 +96,8 @@ std::optional<Channels> find_kind(const Imf::MultiPartInputFile& input, const De
 }
 
 std::optional<Channels> find_depth(const Imf::MultiPartInputFile& input) {
-    for (const DepthKind& kind : kDepthKinds)
-        if (auto found = find_kind(input, kind)) return found;
-    return std::nullopt;
+    if (auto z = find_kind(input, {"Z", "X"})) return z;
+    return find_kind(input, {"V", "U"});
 }
 
 std::optional<Channels> find_colour(const Imf::MultiPartInputFile& input) {
@@ -117,7 +112,7 @@ std::optional<Channels> find_colour(const Imf::MultiPartInputFile& input) {
 
 /// What serves as depth where no channel is called so.
 std::optional<Channels> find_grey(const Imf::MultiPartInputFile& input) {
-    if (auto luminance = find_kind(input, kLuminance)) return luminance;
+    if (auto luminance = find_kind(input, {"Y", "X"})) return luminance;
     if (auto colour = find_colour(input)) return colour;
     return find_kind(input, {"R", "G"});
 }

@@ -1,5 +1,5 @@
 // Walks through the attributes of OpenEXR headers: a name, a type, a length, a value.
-#include "core/video/formats/exr_header.hpp"
+#include "core/video/formats/still_picture.hpp"
 
 #include <algorithm>
 #include <array>

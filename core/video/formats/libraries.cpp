@@ -36,6 +36,12 @@ std::mutex& only_one() {
     return mutex;
 }
 
+std::string text_of(unsigned version) {
+    return std::to_string(AV_VERSION_MAJOR(version)) + "." +
+           std::to_string(AV_VERSION_MINOR(version)) + "." +
+           std::to_string(AV_VERSION_MICRO(version));
+}
+
 }  // namespace
 
 void set_up_libraries() {
@@ -69,16 +75,6 @@ QuietErrors::~QuietErrors() {
     ::dup2(kept_, STDERR_FILENO);
     ::close(kept_);
 }
-
-namespace {
-
-std::string text_of(unsigned version) {
-    return std::to_string(AV_VERSION_MAJOR(version)) + "." +
-           std::to_string(AV_VERSION_MINOR(version)) + "." +
-           std::to_string(AV_VERSION_MICRO(version));
-}
-
-}  // namespace
 
 std::map<std::string, std::string> library_versions() {
     int major = 0;

@@ -118,17 +118,13 @@ std::optional<std::int64_t> count_of(const NumpyHeader& header, std::uint64_t mo
 
 /// OpenCV's type of the numbers; whole ones of four bytes as if they had a sign, of eight none.
 int mat_type(const NumpyHeader& header) {
-    const bool has_sign = header.kind == 'i';
-    switch (header.number_bytes) {
-        case 1:
-            return has_sign ? CV_8S : CV_8U;
-        case 2:
-            return header.kind == 'f' ? CV_16F : has_sign ? CV_16S : CV_16U;
-        case 4:
-            return header.kind == 'f' ? CV_32F : CV_32S;
-        default:
-            return CV_64F;
-    }
+    // By the bytes: 1, 2, 4 or 8, of real numbers at least 2.
+    constexpr std::array kReal{CV_8U, CV_16F, CV_32F, CV_64F};
+    constexpr std::array kSigned{CV_8S, CV_16S, CV_32S, CV_64F};
+    constexpr std::array kUnsigned{CV_8U, CV_16U, CV_32S, CV_64F};
+    const auto& types = header.kind == 'f' ? kReal : header.kind == 'i' ? kSigned : kUnsigned;
+    const int doublings = std::countr_zero(static_cast<unsigned>(header.number_bytes));
+    return types[static_cast<std::size_t>(doublings)];
 }
 
 /// OpenCV has no whole numbers of eight bytes.

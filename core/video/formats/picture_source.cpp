@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "core/video/formats/readable.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {

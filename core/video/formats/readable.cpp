@@ -1,5 +1,5 @@
 // What is refused, told by how files begin, and by their names where that says too little.
-#include "core/video/formats/readable.hpp"
+#include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 

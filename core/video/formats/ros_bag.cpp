@@ -17,7 +17,6 @@
 #include "core/sqlite/database.hpp"
 #include "core/video/formats/bag_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/readable.hpp"
 #include "core/video/formats/ros_messages.hpp"
 
 namespace dibhr {

@@ -14,7 +14,6 @@
 #include <string_view>
 
 #include "core/video/formats/camera_files.hpp"
-#include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"

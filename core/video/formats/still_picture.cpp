@@ -9,7 +9,6 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
-#include "core/video/formats/claimed_size.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"

@@ -33,6 +33,11 @@ struct StillPicture {
 /// Throws InputError.
 [[nodiscard]] StillPicture read_exr(const std::filesystem::path& file, PictureRole role);
 
+/// Whether every attribute of an OpenEXR header lies in the file and is as long as its type. The
+/// library takes memory for what an attribute claims before it reads it, and goes on elsewhere when
+/// a length is wrong.
+[[nodiscard]] bool has_sound_exr_header(const std::filesystem::path& file);
+
 /// Channels R, G and B, and a Z or V. False when the file cannot be read.
 [[nodiscard]] bool exr_has_colour_and_depth(const std::filesystem::path& file);
 

@@ -48,25 +48,15 @@ class VideoDecoder {
     /// The one kept last becomes the decoded one, and the other way round.
     void swap_kept() noexcept { std::swap(frame_, kept_); }
 
-    // Of the decoded picture.
+    // Of the decoded picture, as av_frame.hpp has it, but turned.
 
     /// From the track's beginning [s]; NaN when the file does not say.
     [[nodiscard]] double time_s() const noexcept;
-    /// 8 bits: blue, green, red. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat colour();
-    /// Every level that was coded: of a grey picture, or of the luma of another, one channel of 8
-    /// or 16 bits, or float where a limited ("TV") range is stretched to the whole one, which
-    /// rounds nothing. Of pictures coded in red, green and blue those, blue first, of 8 or 16
-    /// bits. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat levels();
-    /// Of a level, of which the highest is 2^bits - 1.
     [[nodiscard]] int bits() const noexcept { return bits_of(*frame_); }
-    /// Coded as floating-point numbers, which have no levels.
     [[nodiscard]] bool has_floats() const noexcept { return holds_floats(*frame_); }
-    /// How many times as wide as high a pixel is to be shown, of colour() and levels(); 1 where the
-    /// file does not say, or nothing that can be.
     [[nodiscard]] double pixel_aspect() const noexcept;
-    /// Coded without colours.
     [[nodiscard]] bool is_grey() const noexcept { return dibhr::is_grey(*frame_); }
 
   private:

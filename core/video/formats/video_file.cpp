@@ -18,8 +18,8 @@
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/formats/readable.hpp"
 #include "core/video/formats/video_packets.hpp"
 #include "core/video/frames/frame_window.hpp"
 

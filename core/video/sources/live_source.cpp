@@ -12,8 +12,8 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/formats/readable.hpp"
 #include "core/video/sources/packed.hpp"
 #include "core/video/sources/picture_kind.hpp"
 

@@ -11,7 +11,6 @@
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
-#include "core/video/formats/readable.hpp"
 #include "core/video/formats/ros_bag.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/formats/video_packets.hpp"

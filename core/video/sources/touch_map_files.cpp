@@ -19,7 +19,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/formats/claimed_size.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
 #include "core/video/sources/readers.hpp"

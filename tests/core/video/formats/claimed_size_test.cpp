@@ -1,5 +1,5 @@
 // The sizes that headers claim, as OpenCV writes them and as liars do.
-#include "core/video/formats/claimed_size.hpp"
+#include "core/video/formats/file_bytes.hpp"
 
 #include <cstdint>
 #include <opencv2/core.hpp>
