@@ -10,9 +10,6 @@
 
 namespace dibhr {
 
-/// What touches: HandReading::which.
-enum class Touching : std::uint8_t { mouse, falcon, inverse3 };
-
 /// A device touches from when it is ready until it is lost, and then another one that is ready; the
 /// mouse while none is. All others rest without force. When the hand changes, the proxy lets go and
 /// the force begins from zero (HandReading::taken_over).

@@ -13,9 +13,24 @@ std::span<const ForceDeviceKind* const> force_device_kinds() noexcept {
     return kForceDevices;
 }
 
-DeviceFacts number_facts(DeviceSettings& settings) {
+AllDeviceSettings::AllDeviceSettings() {
+    for (const ForceDeviceKind* const kind : kForceDevices) all_.push_back(kind->make_settings());
+}
+
+AllDeviceSettings::AllDeviceSettings(const AllDeviceSettings& other) {
+    for (const auto& settings : other.all_) all_.push_back(settings->clone());
+}
+
+AllDeviceSettings& AllDeviceSettings::operator=(const AllDeviceSettings& other) {
+    AllDeviceSettings copy(other);
+    all_.swap(copy.all_);
+    return *this;
+}
+
+DeviceFacts number_facts(const DeviceSettings& settings) {
     DeviceFacts facts;
-    for (const DeviceRow& row : settings.rows()) {
+    const auto copy = settings.clone();
+    for (const DeviceRow& row : copy->rows()) {
         if (const double* const* number = std::get_if<double*>(&row.value))
             facts.emplace_back(row.name, number_text(**number));
     }

@@ -7,7 +7,6 @@
 
 #include "core/error.hpp"
 #include "device/device_or_mouse.hpp"
-#include "device/force_devices.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {
@@ -52,15 +51,13 @@ HandDevice device_hand(const DeviceChoice& choice, const Named& meant) {
         const ForceDeviceKind& kind = *force_device_kinds()[k];
         auto& device = devices.emplace_back();
         if (meant.kind != nullptr && meant.kind != &kind) continue;
-        const auto usual = kind.make_settings();
-        const DeviceSettings& settings = k < choice.settings.size() ? *choice.settings[k] : *usual;
         if (meant.kind != nullptr) {
-            const std::string refusal = kind.why_none(settings, given);
+            const std::string refusal = kind.why_none(choice.settings[k], given);
             if (!refusal.empty()) throw DeviceError(refusal);
         }
-        device = kind.make(settings, given);
-        hand.devices.push_back(device.get());
+        device = kind.make(choice.settings[k], given);
     }
+    for (const auto& device : devices) hand.devices.push_back(device.get());
     auto all = std::make_unique<DeviceOrMouse>(std::move(devices));
     hand.mouse = &all->mouse();
     hand.device = std::move(all);

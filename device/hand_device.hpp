@@ -6,34 +6,27 @@
 #include <string>
 #include <vector>
 
-#include "device/force_device.hpp"
+#include "device/force_devices.hpp"
 #include "device/mouse_hand.hpp"
 
 namespace dibhr {
 
 /// How devices are to be found and started.
 struct DeviceChoice {
-    /// One a kind, in the order of force_device_kinds(); where there is none, the usual ones hold.
-    std::vector<const DeviceSettings*> settings{};
+    AllDeviceSettings settings{};
     std::filesystem::path firmware{};  ///< --firmware; empty: the kept one
 };
 
 /// What touches, and its ends for the window thread.
 struct HandDevice {
     std::unique_ptr<Device> device{};
-    MouseHand* mouse{nullptr};            ///< it, or what stands in for it; null: no mouse
-    std::vector<ForceDevice*> devices{};  ///< it, or parts of it: those that are looked for
+    MouseHand* mouse{nullptr};  ///< it, or what stands in for it; null: no mouse
+    /// Parts of it, in the order of force_device_kinds(), null where none is looked for; empty: no
+    /// force device is.
+    std::vector<ForceDevice*> devices{};
 
     /// A force device is looked for, and the mouse is only what stands in.
     [[nodiscard]] bool looks_for_device() const noexcept { return !devices.empty(); }
-    /// Null: no such device is looked for.
-    template <typename Kind>
-    [[nodiscard]] Kind* find() const noexcept {
-        for (ForceDevice* const one : devices) {
-            if (Kind* const found = dynamic_cast<Kind*>(one)) return found;
-        }
-        return nullptr;
-    }
 };
 
 /// `auto`, `mouse`, a kind, one of a kind (`falcon:SERIAL`, `inverse3:ID`, also `left` and `right`)

@@ -60,7 +60,7 @@ constexpr std::array kCommands{
     Command{"study", "check|plan|run|report|sessions PROTOCOL|FILE...",
             "Do people feel a difference? Conditions, trials, answers, statistics", run_study},
     Command{"info", "FILE...", "What a media or session file holds", headless<run_info>},
-    Command{"devices", "[--check] [--simulate inverse3]",
+    Command{"devices", "[--check] [--simulate DEVICE]",
             "What is attached, its state and the next step", headless<run_devices>},
     Command{"bench", "[--json FILE]", "Updates, frame hand-over and loop timing on this machine",
             headless<run_bench>},

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <iostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -27,18 +26,18 @@ void tell(const std::string& line) {
 
 /// What a person gives for a device is kept before anything else is done with it.
 void keep_files(const std::filesystem::path& file) {
-    for (const ForceDeviceKind* const kind : force_device_kinds())
-        if (!file.empty() && kind->keep_file != nullptr) kind->keep_file(file);
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        if (!file.empty() && kind->keep_firmware != nullptr) kind->keep_firmware(file);
+    }
 }
 
 /// 0: a device can be used, or none is attached and the mouse can be. Throws DeviceError.
 int survey() {
-    const Settings settings = load_settings(settings_path());
-    const std::vector<const DeviceSettings*> chosen = device_settings(settings);
+    const AllDeviceSettings chosen = load_settings(settings_path()).devices;
     bool usable = false;
     std::string refusal;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const DevicesFound found = force_device_kinds()[k]->survey(*chosen[k], tell);
+        const DevicesFound found = force_device_kinds()[k]->survey(chosen[k], tell);
         usable = usable || found.usable;
         if (refusal.empty()) refusal = found.refusal;
     }
@@ -48,9 +47,10 @@ int survey() {
 
 /// Of the first kind of which one is attached, whether or not it can be used; where none is, the
 /// check of the first kind says what to do.
-std::size_t kind_to_check(const std::vector<const DeviceSettings*>& chosen) {
-    for (std::size_t k = 0; k < chosen.size(); ++k)
-        if (force_device_kinds()[k]->attached(*chosen[k])) return k;
+std::size_t kind_to_check(const AllDeviceSettings& chosen) {
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        if (force_device_kinds()[k]->attached(chosen[k])) return k;
+    }
     return 0;
 }
 
@@ -62,11 +62,11 @@ int check(const std::filesystem::path& record) {
                             {"program_sha256", sha256_of_file("/proc/self/exe")},
                             {"thread_priority", become_realtime("dibhr check").priority.answer}}};
     Settings settings = load_settings(settings_file);
-    const std::vector<const DeviceSettings*> chosen = device_settings(std::as_const(settings));
+    const AllDeviceSettings& chosen = settings.devices;
     const std::size_t k = kind_to_check(chosen);
     const ForceDeviceKind& kind = *force_device_kinds()[k];
     if (kind.check_needs_consent) Consent().hold_and_warn(settings, settings_file);
-    const CheckResult result = kind.check(*chosen[k], paper, tell, *guide);
+    const CheckResult result = kind.check(chosen[k], paper, tell, *guide);
     std::cout << "The settings file: " << settings_file.string() << '\n';
     if (!result.fault.empty()) throw DeviceError(result.fault);
     return 0;
@@ -81,11 +81,10 @@ std::vector<std::string> simulated_kinds() {
 }
 
 int simulate(const std::string& name) {
-    const Settings settings = load_settings(settings_path());
-    const std::vector<const DeviceSettings*> chosen = device_settings(settings);
+    const AllDeviceSettings chosen = load_settings(settings_path()).devices;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const ForceDeviceKind& kind = *force_device_kinds()[k];
-        if (name == kind.name) kind.simulate(*chosen[k], std::cin, tell);
+        if (name == kind.name) kind.simulate(chosen[k], std::cin, tell);
     }
     return 0;
 }

@@ -6,7 +6,6 @@
 #include <iostream>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "app/settings/settings.hpp"
 #include "app/settings/study_values.hpp"
@@ -27,13 +26,12 @@ void print_line(const std::string& line) {
 }
 
 /// The last kind first.
-void print_devices(const Settings& settings) {
+void print_devices(const AllDeviceSettings& chosen) {
     const auto kinds = force_device_kinds();
-    const std::vector<const DeviceSettings*> chosen = device_settings(settings);
     bool any = false;
     std::string none;
     for (std::size_t k = kinds.size(); k-- > 0;) {
-        const bool there = kinds[k]->glance(*chosen[k], print_line);
+        const bool there = kinds[k]->glance(chosen[k], print_line);
         any = any || there;
         none = (k == 0 ? "no " : ", and no ") + std::string(kinds[k]->title) +
                (k == 0 ? " is attached" : "") + none;
@@ -77,12 +75,11 @@ void print_stability(const Protocol& protocol, const ForceDeviceKind& kind,
 }  // namespace
 
 void print_readiness(const Protocol& protocol) {
-    const Settings settings = load_settings(settings_path());
-    print_devices(settings);
+    const AllDeviceSettings chosen = load_settings(settings_path()).devices;
+    print_devices(chosen);
     print_rate();
-    const std::vector<const DeviceSettings*> chosen = device_settings(settings);
     for (std::size_t k = 0; k < chosen.size(); ++k)
-        print_stability(protocol, *force_device_kinds()[k], chosen[k]->limits());
+        print_stability(protocol, *force_device_kinds()[k], chosen[k].limits());
 }
 
 }  // namespace dibhr

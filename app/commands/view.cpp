@@ -280,8 +280,7 @@ bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands
         parts.trouble = error.what();
         print_error_line(parts.trouble);
     }
-    parts.hand =
-        make_hand_device(options.device, {device_settings(options.settings), options.firmware});
+    parts.hand = make_hand_device(options.device, {options.settings.devices, options.firmware});
     return true;
 }
 

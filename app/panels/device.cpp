@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
+#include <vector>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/touching/device_state.hpp"
 #include "app/touching/force_law.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -17,19 +19,16 @@ std::string point_text(const Vec3& p) {
                      decimal(p.z, 1).c_str());
 }
 
-const char* no_pose_text(const ViewerState& state) {
-    return state.touch.falcon && state.touch.falcon->status.stage == falcon::Stage::ready
-               ? "no pose: pull the grip in, or see Calibration"
-               : "no fresh pose: no force";
-}
-
 std::string state_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
     if (!haptic.touchable) return "waiting for a surface";
     if (waits_for_front(state.settings, state.touch)) return "not in front: no force";
     if (clutched(state.settings, state.touch)) return "held by the clutch: no force";
-    if (!haptic.hand.ready)
-        return a_device_touches(state.touch) ? no_pose_text(state) : "not ready: no force";
+    if (!haptic.hand.ready) {
+        return a_device_touches(state.touch)
+                   ? force_device_kinds()[touching_device(state.touch)->kind]->no_pose
+                   : "not ready: no force";
+    }
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
@@ -74,18 +73,17 @@ void draw_force_switch(ViewerState& state, float width) {
 void draw_device_panel(ViewerState& state) {
     if (!section(state, "Device", state.settings.panels.device, &state.touch.needs_person)) return;
     ImGui::PushID("device");
-    const bool has_falcon = falcon_in_sight(state.touch);
-    const bool has_inverse3 = inverse3_in_sight(state.touch);
-    const bool looks = state.touch.falcon || state.touch.inverse3;
-    if (has_falcon) draw_falcon_state(state);
-    if (has_inverse3) draw_inverse3_state(state);
-    if (!has_falcon && !has_inverse3) {
+    std::vector<DeviceNews> devices = state.touch.devices;
+    std::erase_if(devices, [](const DeviceNews& news) { return !in_sight(news); });
+    for (const DeviceNews& news : devices) draw_force_device(state, news);
+    if (devices.empty()) {
+        const bool looks = !state.touch.devices.empty();
         fact_row("Device", looks ? "mouse" : state.touch.device.name);
         if (looks) quiet_text("A force device takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
-    if (has_falcon || has_inverse3) {
+    if (!devices.empty()) {
         flag_row("Force only while the window is in front", state.settings.force_in_front_only,
                  Settings{}.force_in_front_only,
                  "No force while the keyboard goes to another window, or this one is an icon: the "
@@ -106,8 +104,7 @@ void draw_device_panel(ViewerState& state) {
     fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)),
              "What is sent to the hand");
     if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut), "Why no force is sent");
-    if (has_falcon) draw_falcon_settings(state);
-    if (has_inverse3) draw_inverse3_settings(state);
+    for (const DeviceNews& news : devices) draw_force_device_settings(state, news);
     ImGui::PopID();
 }
 

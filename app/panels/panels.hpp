@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/surface.hpp"
@@ -37,14 +38,11 @@ void draw_loop_panel(ViewerState& state);
 /// Recording: start, stop, who, notes and marks, and how it goes.
 void draw_session_panel(ViewerState& state);
 
-/// Parts of the Device panel while a Falcon is looked for: what it does and needs, with the guided
-/// homing and the firmware; then its workspace, buttons and constants.
-void draw_falcon_state(ViewerState& state);
-void draw_falcon_settings(ViewerState& state);
-
-/// The same of an Inverse3: with its service and its grip; then its workspace, buttons and service.
-void draw_inverse3_state(ViewerState& state);
-void draw_inverse3_settings(ViewerState& state);
+/// Parts of the Device panel, of a device that is in sight: what it does and needs, with the guided
+/// homing and the firmware; then its rows by topic.
+void draw_force_device(ViewerState& state, const DeviceNews& news);
+void draw_homing_guide(const std::vector<HomedAxis>& axes);
+void draw_force_device_settings(ViewerState& state, const DeviceNews& news);
 
 /// Starts and ends a clip of the window, as wide as there is room.
 void draw_clip_button(ViewerState& state);

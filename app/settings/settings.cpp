@@ -26,7 +26,6 @@
 #include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/sources/sidecar.hpp"
-#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -402,14 +401,6 @@ void save_settings(const Settings& settings, const fs::path& file) {
     }
 }
 
-std::vector<DeviceSettings*> device_settings(Settings& settings) {
-    return {&settings.falcon, &settings.inverse3};
-}
-
-std::vector<const DeviceSettings*> device_settings(const Settings& settings) {
-    return {&settings.falcon, &settings.inverse3};
-}
-
 std::vector<Setting> list_of(Settings& s) {
     std::vector<Setting> list{{"window", "width", &s.width, kSmallestWindow, kLargestWindow},
                               {"window", "height", &s.height, kSmallestWindow, kLargestWindow},
@@ -453,16 +444,15 @@ std::vector<Setting> list_of(Settings& s) {
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
-    // In this table since the Falcon was the only force device.
+    // In this table since that was the only force device.
     list.push_back(
         {.table = "falcon",
          .name = "force-in-front-only",
          .value = &s.force_in_front_only,
          .protection = Protection{Less::other, "Force only while the window is in front"}});
     const auto kinds = force_device_kinds();
-    const std::vector<DeviceSettings*> devices = device_settings(s);
-    for (std::size_t k = 0; k < devices.size(); ++k) {
-        for (const DeviceRow& row : devices[k]->rows()) {
+    for (std::size_t k = 0; k < s.devices.size(); ++k) {
+        for (const DeviceRow& row : s.devices[k].rows()) {
             std::visit(
                 [&](const auto& value) {
                     list.push_back(

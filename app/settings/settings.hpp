@@ -23,14 +23,10 @@
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/motion/motion_wanted.hpp"
 #include "core/video/sources/media.hpp"
-#include "device/falcon/settings.hpp"
-#include "device/inverse3/settings.hpp"
+#include "device/force_devices.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {
-
-using falcon::FalconSettings;
-using inverse3::Inverse3Settings;
 
 /// Least width and height of a window; on the command line, in the settings and by hand.
 inline constexpr int kSmallestWindow = 160;
@@ -112,15 +108,10 @@ struct Settings {
     double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
     bool mute{false};                           ///< no sound of touch
     bool game_pad{true};                        ///< rumbles, when there is one
-    FalconSettings falcon{};
-    Inverse3Settings inverse3{};
+    AllDeviceSettings devices{};
     std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be
     std::vector<Estimator> estimators{};  ///< as written, in that order
 };
-
-/// Of every force device, in the order of force_device_kinds().
-[[nodiscard]] std::vector<DeviceSettings*> device_settings(Settings& settings);
-[[nodiscard]] std::vector<const DeviceSettings*> device_settings(const Settings& settings);
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
 [[nodiscard]] std::filesystem::path settings_path();

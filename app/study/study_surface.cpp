@@ -1,6 +1,7 @@
 // Wears a condition's values, plays its media, and records.
 #include "app/study/study_surface.hpp"
 
+#include <cstddef>
 #include <utility>
 
 #include "app/settings/assets_path.hpp"
@@ -28,8 +29,8 @@ void free_buttons(ButtonActions& buttons) {
 
 /// Of a person's settings: no button, game pad or other algorithm comes between.
 Settings usable_in_study(Settings settings) {
-    free_buttons(settings.falcon.buttons);
-    free_buttons(settings.inverse3.buttons);
+    for (std::size_t k = 0; k < settings.devices.size(); ++k)
+        free_buttons(settings.devices[k].buttons);
     settings.game_pad = false;
     settings.others = false;
     return settings;

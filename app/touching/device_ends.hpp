@@ -1,4 +1,4 @@
-// The window thread's ends of the force devices: what they tell, their buttons, their tuning.
+// The window thread's ends of the force devices: their state, their buttons, their tuning.
 #pragma once
 
 #include <chrono>
@@ -11,11 +11,8 @@
 
 #include "app/settings/grip_buttons.hpp"
 #include "app/settings/settings.hpp"
-#include "app/touching/device_state.hpp"
 #include "app/touching/touch_state.hpp"
-#include "device/falcon/falcon_device.hpp"
-#include "device/hand_device.hpp"
-#include "device/inverse3/inverse3_device.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -27,97 +24,69 @@ struct GripPress {
     std::chrono::steady_clock::time_point at{};  ///< the last time
 };
 
-/// What a device has of its own.
-struct FalconKind {
-    using Device = falcon::FalconDevice;
-    using Tuning = falcon::Tuning;
-    using Stage = falcon::Stage;
-    static constexpr const char* kName = "The Falcon";
-
-    static auto& news(auto& touch) { return touch.falcon; }
-    static const ButtonActions& buttons(const Settings& all) { return all.falcon.buttons; }
-    static Tuning tuning(const Settings& all, const TouchState& touch) {
-        return tuning_of(all.falcon, touch.centred);
-    }
-};
-struct Inverse3Kind {
-    using Device = inverse3::Inverse3Device;
-    using Tuning = inverse3::Tuning;
-    using Stage = inverse3::Stage;
-    static constexpr const char* kName = "The Inverse3";
-
-    static auto& news(auto& touch) { return touch.inverse3; }
-    static const ButtonActions& buttons(const Settings& all) { return all.inverse3.buttons; }
-    static Tuning tuning(const Settings& all, const TouchState& touch) {
-        return tuning_of(all.inverse3, all.max_force_newton, touch.centred);
-    }
-};
-
-/// Does nothing where the device is not looked for.
-template <typename Kind>
 class DeviceEnd {
   public:
-    /// Publishes the tuning. `device` null: it is not looked for; else it outlives this.
-    DeviceEnd(typename Kind::Device* device, const Settings& settings, TouchState& touch)
-        : device_(device) {
-        if (device_ == nullptr) return;
-        Kind::news(touch).emplace();
+    /// Publishes the tuning, and adds the device to those of the state. `kind`: its place in
+    /// force_device_kinds(). `device` outlives this.
+    DeviceEnd(std::size_t kind, ForceDevice& device, const Settings& settings, TouchState& touch)
+        : kind_(kind), place_(touch.devices.size()), device_(device) {
+        touch.devices.push_back({.kind = kind});
         publish(settings, touch);
     }
 
-    /// Null: it is not looked for.
-    [[nodiscard]] typename Kind::Device* device() const noexcept { return device_; }
+    [[nodiscard]] std::size_t kind() const noexcept { return kind_; }
+    [[nodiscard]] ForceDevice& device() const noexcept { return device_; }
 
-    /// Once a picture: its status into the state. Says once for each need that it needs its person.
-    /// A short notice when it begins to touch.
+    /// Once a picture: its state into that of the window. Says once for each need that it needs its
+    /// person. A short notice when it begins to touch.
     [[nodiscard]] std::optional<std::string> poll(TouchState& touch) {
-        if (device_ == nullptr) return {};
-        auto& news = *Kind::news(touch);
-        news.status = device_->status();
+        DeviceNews& news = touch.devices[place_];
+        news.state = device_.state();
         news.asked = true;
-        const auto stage = news.status.stage;
+        const int stage = news.state.stage;
         if (std::exchange(stage_, stage) == stage) return {};
         // One that comes again and again must not keep moving the panels.
-        if (needs_its_person(stage) && shown_ != stage) {
+        if (news.state.needs_person && shown_ != stage) {
             touch.needs_person = true;
             shown_ = stage;
         }
-        if (stage != Kind::Stage::ready) return {};
+        if (!news.state.ready) return {};
         shown_ = stage;
         const bool again = std::exchange(news.was_ready, true);
-        return std::string(Kind::kName) + " touches" + (again ? " again" : "");
+        return std::string("The ") + force_device_kinds()[kind_]->called + " touches" +
+               (again ? " again" : "");
     }
 
     /// Adds the buttons that went down since the last call, the lowest first.
     void take_presses(const Settings& settings, const TouchState& touch,
                       std::vector<GripPress>& into) {
-        if (device_ == nullptr) return;
-        const auto& status = Kind::news(touch)->status;
-        for (std::size_t k = 0; k < status.presses.size(); ++k) {
-            const std::uint32_t times = status.presses[k] - taken_[k];
-            if (status.presses[k] > taken_[k])
-                into.push_back(
-                    {static_cast<int>(k), Kind::buttons(settings)[k], times, status.pressed_at[k]});
+        const DeviceState& state = touch.devices[place_].state;
+        const ButtonActions& actions = settings.devices[kind_].buttons;
+        for (std::size_t k = 0; k < state.presses.size(); ++k) {
+            const std::uint32_t times = state.presses[k] - taken_[k];
+            if (state.presses[k] > taken_[k])
+                into.push_back({static_cast<int>(k), actions[k], times, state.pressed_at[k]});
         }
-        taken_ = status.presses;
+        taken_ = state.presses;
     }
 
     /// Whether publish() has something new.
     [[nodiscard]] bool is_retuned(const Settings& settings, const TouchState& touch) const {
-        return device_ != nullptr && !(published_ == Kind::tuning(settings, touch));
+        return device_.is_retuned(settings.devices[kind_],
+                                  {settings.max_force_newton, touch.centred});
     }
     /// The settings to the next tick; to be called after the haptic loop was told to ramp.
     void publish(const Settings& settings, const TouchState& touch) {
-        published_ = Kind::tuning(settings, touch);
-        device_->tuning().publish(published_);
+        device_.publish(settings.devices[kind_], {settings.max_force_newton, touch.centred});
     }
 
   private:
-    typename Kind::Device* device_;
-    typename Kind::Tuning published_{};
+    std::size_t kind_;
+    std::size_t place_;  // in TouchState::devices
+    ForceDevice& device_;
     ButtonPresses taken_{};
-    typename Kind::Stage stage_{Kind::Stage::looking};  // as told
-    typename Kind::Stage shown_{Kind::Stage::looking};  // for which the panel came into sight
+    int stage_{0};  // as told
+    int shown_{0};  // for which the panel came into sight
 };
 
 }  // namespace dibhr

@@ -1,99 +1,53 @@
 // What the state of the force devices means.
 #include "app/touching/device_state.hpp"
 
+#include <algorithm>
+#include <cstddef>
+
+#include "device/force_devices.hpp"
+
 namespace dibhr {
 
-namespace {
-
-template <typename News>
-bool is_ready(const News& news) {
-    return news.status.stage == decltype(news.status.stage)::ready;
+const DeviceNews* touching_device(const TouchState& touch) {
+    const auto found =
+        std::find_if(touch.devices.begin(), touch.devices.end(), [&touch](const DeviceNews& news) {
+            return news.kind + 1 == std::size_t{touch.haptic.hand.which};
+        });
+    return found == touch.devices.end() ? nullptr : &*found;
 }
 
-/// None is there.
-bool is_absent(const FalconNews& news) {
-    return news.status.stage == falcon::Stage::looking;
-}
-bool is_absent(const Inverse3News& news) {
-    using inverse3::Stage;
-    return news.status.stage == Stage::looking || news.status.stage == Stage::no_device;
-}
-
-/// Before the next picture.
-bool may_be_ready(const FalconNews& news) {
-    return is_ready(news) || news.status.stage == falcon::Stage::homing;
-}
-bool may_be_ready(const Inverse3News& news) {
-    return !news.status.id.empty();
-}
-
-/// It did so in the last tick that is known of.
-template <typename News>
-bool touches(const TouchState& touch, const News& news, Touching as) {
-    return is_ready(news) && !touch.haptic.hand.stand_in && touching(touch) == as;
-}
-
-template <typename News>
-bool in_sight(const TouchState& touch, const News& news, Touching as) {
-    return !is_absent(news) || news.status.trouble || news.was_ready || touches(touch, news, as);
-}
-
-/// Whether that is so of a device. In a replay none is there.
-template <typename Is>
-bool any_device(const TouchState& touch, Is is) {
-    if (touch.replay) return false;
-    return (touch.falcon && is(*touch.falcon, Touching::falcon)) ||
-           (touch.inverse3 && is(*touch.inverse3, Touching::inverse3));
-}
-
-}  // namespace
-
-Touching touching(const TouchState& touch) {
-    return static_cast<Touching>(touch.haptic.hand.which);
-}
+// In a replay no device is there.
 
 bool a_device_touches(const TouchState& touch) {
-    return any_device(touch,
-                      [&](const auto& news, Touching as) { return touches(touch, news, as); });
+    const DeviceNews* const device = touching_device(touch);
+    return !touch.replay && device != nullptr && device->state.ready && !touch.haptic.hand.stand_in;
 }
 
 bool may_touch(const TouchState& touch) {
-    return any_device(touch, [](const auto& news, Touching) {
-        return !news.asked || news.was_ready || may_be_ready(news);
-    });
+    return !touch.replay &&
+           std::any_of(touch.devices.begin(), touch.devices.end(), [](const DeviceNews& news) {
+               return !news.asked || news.was_ready || news.state.may_be_ready;
+           });
 }
 
-bool needs_its_person(falcon::Stage stage) {
-    return stage != falcon::Stage::looking && stage != falcon::Stage::ready;
+bool in_sight(const DeviceNews& news) {
+    return !news.state.absent || news.state.trouble || news.was_ready;
 }
 
-bool needs_its_person(inverse3::Stage stage) {
-    using inverse3::Stage;
-    return stage != Stage::looking && stage != Stage::no_device && stage != Stage::ready;
-}
-
-bool falcon_in_sight(const TouchState& touch) {
-    return touch.falcon && in_sight(touch, *touch.falcon, Touching::falcon);
-}
-
-bool inverse3_in_sight(const TouchState& touch) {
-    return touch.inverse3 && in_sight(touch, *touch.inverse3, Touching::inverse3);
-}
-
-const char* touching_text(const TouchState& touch) {
-    if (touch.haptic.hand.stand_in) return "the mouse, meanwhile";
-    return touching(touch) == Touching::inverse3 ? "the Inverse3" : "the Falcon";
+std::string touching_text(const TouchState& touch) {
+    const DeviceNews* const device = touching_device(touch);
+    if (device == nullptr || touch.haptic.hand.stand_in) return "the mouse, meanwhile";
+    return std::string("the ") + force_device_kinds()[device->kind]->called;
 }
 
 std::string lacking_text(const TouchState& touch) {
-    if (a_device_touches(touch)) return {};
-    std::string text;
-    static_cast<void>(any_device(touch, [&text](const auto& news, Touching) {
-        const bool lost = is_absent(news) && (news.was_ready || news.status.trouble);
-        if (lost || needs_its_person(news.status.stage)) text = news.status.sentence;
-        return !text.empty();
-    }));
-    return text;
+    if (touch.replay || a_device_touches(touch)) return {};
+    for (const DeviceNews& news : touch.devices) {
+        const DeviceState& state = news.state;
+        const bool lost = state.absent && (news.was_ready || state.trouble);
+        if ((lost || state.needs_person) && !state.sentence.empty()) return state.sentence;
+    }
+    return {};
 }
 
 }  // namespace dibhr

@@ -9,11 +9,10 @@ namespace dibhr {
 
 namespace {
 
+/// Of the device that touched last, or of the first one. At least one is looked for.
 double scale_of_hand(const Settings& settings, const TouchState& touch) {
-    const bool inverse3_alone = touch.inverse3 && !touch.falcon;
-    return inverse3_alone || touching(touch) == Touching::inverse3
-               ? settings.inverse3.tuning.workspace.scale
-               : settings.falcon.workspace.scale;
+    const DeviceNews* const device = touching_device(touch);
+    return settings.devices[(device == nullptr ? touch.devices.front() : *device).kind].scale();
 }
 
 }  // namespace
@@ -56,8 +55,7 @@ bool waits_for_front(const Settings& settings, const TouchState& touch) {
 
 bool clutched(const Settings& settings, const TouchState& touch) {
     if (!a_device_touches(touch)) return false;
-    const ButtonActions& buttons =
-        touching(touch) == Touching::inverse3 ? settings.inverse3.buttons : settings.falcon.buttons;
+    const ButtonActions& buttons = settings.devices[touching_device(touch)->kind].buttons;
     return (touch.haptic.hand.buttons & unsigned{buttons_for(ButtonAction::clutch, buttons)}) != 0;
 }
 

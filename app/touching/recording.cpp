@@ -13,10 +13,7 @@
 #include "core/video/formats/libraries.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/sources/sidecar.hpp"
-#include "device/device_or_mouse.hpp"
-#include "device/falcon/falcon_device.hpp"
 #include "device/force_devices.hpp"
-#include "device/inverse3/inverse3_device.hpp"
 
 namespace dibhr {
 
@@ -28,20 +25,16 @@ constexpr const char* kNote = "note";
 /// For the loop to see that it is over: until then ticks may touch what comes.
 constexpr std::chrono::milliseconds kLastTicks{100};
 
-/// The one that was asked for; an Inverse3 that touches, by its name.
-std::string device_name(const TouchedState& state) {
-    const TouchState& touch = state.touch;
-    const bool inverse3_touches = touch.inverse3 && touching(touch) == Touching::inverse3;
-    return inverse3_touches ? "Haply " + name_of(touch.inverse3->status) : touch.device.name;
+/// The one that touches, by its full name where it has one; else the one that was asked for.
+std::string device_name(const TouchState& touch) {
+    const DeviceNews* const device = touching_device(touch);
+    return device == nullptr || device->state.full_name.empty() ? touch.device.name
+                                                                : device->state.full_name;
 }
 
-/// What is known of a device, and its numbers, under its own name.
-template <typename OwnSettings>
-void add_facts(std::map<std::string, std::string>& facts, const std::string& device,
-               const DeviceState& state, OwnSettings settings) {
-    for (const auto& [name, value] : state.facts) facts.emplace(device + "-" + name, value);
-    for (const auto& [name, value] : number_facts(settings))
-        facts.emplace(device + "-" + name, value);
+/// What the names of its facts begin with.
+std::string prefix_of(const DeviceNews& device) {
+    return std::string(force_device_kinds()[device.kind]->name) + "-";
 }
 
 std::string fact_of(double number) {
@@ -63,7 +56,7 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
     const DeviceSpecification& device = state.touch.device;
     std::map<std::string, std::string> facts{
         {"program", "dibhr " DIBHR_VERSION},
-        {"device", device_name(state)},
+        {"device", device_name(state.touch)},
         {"device-max-force", number_text(device.limits.max_force_newton)},
         {"device-max-stiffness", number_text(device.limits.max_stiffness_newton_per_mm)},
         {"device-workspace-mm", number_text(device.workspace_mm.x) + " x " +
@@ -86,10 +79,10 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
     facts.emplace("cleaning", name_of(cleaning_on(media, settings.cleaning).preset));
     facts.emplace("finger", number_text(finger_mm_on(media, settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
-    if (state.touch.falcon)
-        add_facts(facts, "falcon", state_of(state.touch.falcon->status), settings.falcon);
-    if (state.touch.inverse3)
-        add_facts(facts, "inverse3", state_of(state.touch.inverse3->status), settings.inverse3);
+    for (const DeviceNews& one : state.touch.devices) {
+        for (const DeviceFacts& known : {one.state.facts, number_facts(settings.devices[one.kind])})
+            for (const auto& [name, value] : known) facts.emplace(prefix_of(one) + name, value);
+    }
     return facts;
 }
 
@@ -157,10 +150,9 @@ void TouchRecording::start(const std::filesystem::path& file) {
     for (const Opened& opened : opened_) tell_media(++number, opened);
     if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
     told_version_ = 0;
-    falcon_serial_.clear();
-    inverse3_id_.clear();
-    ages_told_ = 0;
-    ages_before_ = state_.touch.inverse3 ? state_.touch.inverse3->ages : PoseAges{};
+    told_devices_.clear();
+    for (const DeviceNews& one : state_.touch.devices)
+        told_devices_.push_back({.ages_before = one.state.ages.value_or(PoseAges{})});
     device_.clear();
     start_ = std::chrono::steady_clock::now();
     state_.touch.recording_trouble.clear();
@@ -268,24 +260,13 @@ void TouchRecording::poll() {
     const TouchState& touch = state_.touch;
     tell_changed(kParticipant, touch.session_fields.participant, participant_);
     tell_changed(kNote, touch.session_fields.note, note_);
-    const std::string serial = touch.falcon ? touch.falcon->status.serial : std::string{};
-    if (!serial.empty() && serial != falcon_serial_) {
-        falcon_serial_ = serial;
-        recorder_->set_fact("falcon-serial", serial);
-    }
     // As the last one that touched, which may not be the one that was asked for.
-    if (const std::string device = device_name(state_);
+    if (const std::string device = device_name(touch);
         device != device_ && device != touch.device.name) {
         device_ = device;
         recorder_->set_fact("device", device);
     }
-    const std::string id = touch.inverse3 ? touch.inverse3->status.id : std::string{};
-    if (!id.empty() && id != inverse3_id_) {
-        inverse3_id_ = id;
-        for (const auto& [name, value] : state_of(touch.inverse3->status).facts)
-            recorder_->set_fact("inverse3-" + name, value);
-    }
-    tell_ages();
+    tell_devices();
     RecordingNews& news = *state_.touch.recording;
     news.status = recorder_->status();
     news.time_s = now_s();
@@ -295,15 +276,25 @@ void TouchRecording::poll() {
     if (!failure.empty()) break_off(failure);
 }
 
-/// Of the poses that the recorded ticks used, while the recording goes on.
-void TouchRecording::tell_ages() {
-    if (!state_.touch.inverse3) return;
-    const PoseAges ages = state_.touch.inverse3->ages.since(ages_before_);
-    if (ages.count() == 0 || ages.count() == ages_told_) return;
-    ages_told_ = ages.count();
-    for (const auto& [name, part] : {std::pair{"half", 0.5}, {"most", 0.99}, {"worst", 1.0}}) {
-        recorder_->set_fact(std::string("inverse3-pose-age-") + name + "-ms",
-                            number_text(ages.quantile_ms(part), 2));
+/// What was found of the devices, and how old the poses were that the recorded ticks used.
+void TouchRecording::tell_devices() {
+    for (std::size_t k = 0; k < told_devices_.size(); ++k) {
+        const DeviceNews& one = state_.touch.devices[k];
+        const DeviceState& state = one.state;
+        ToldDevice& told = told_devices_[k];
+        if (!state.id.empty() && state.id != told.id) {
+            told.id = state.id;
+            for (const auto& [name, value] : state.facts)
+                recorder_->set_fact(prefix_of(one) + name, value);
+        }
+        if (!state.ages) continue;
+        const PoseAges ages = state.ages->since(told.ages_before);
+        if (ages.count() == 0 || ages.count() == told.ages_told) continue;
+        told.ages_told = ages.count();
+        for (const auto& [name, part] : {std::pair{"half", 0.5}, {"most", 0.99}, {"worst", 1.0}}) {
+            recorder_->set_fact(prefix_of(one) + "pose-age-" + name + "-ms",
+                                number_text(ages.quantile_ms(part), 2));
+        }
     }
 }
 

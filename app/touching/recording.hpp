@@ -82,6 +82,12 @@ class TouchRecording {
         MediaDescription media{};
         bool grows{false};  ///< it is a video that is being recorded
     };
+    /// Of a force device, in the file.
+    struct ToldDevice {
+        PoseAges ages_before{};      ///< when the recording began
+        std::uint64_t ages_told{0};  ///< how many since then
+        std::string id{};            ///< known only when it has been found
+    };
     /// Until its first frame is there.
     struct Waiting {
         std::filesystem::path file{};
@@ -91,7 +97,7 @@ class TouchRecording {
     void tell_media(std::uint32_t number, const Opened& opened);
     void begin_if_there();
     [[nodiscard]] std::string told(const RecorderStatus& recorded);
-    void tell_ages();
+    void tell_devices();
     void break_off(const std::string& failure);
     [[nodiscard]] double now_s() const;
 
@@ -112,13 +118,10 @@ class TouchRecording {
     /// The last touch maps that were felt; a recording may begin with them.
     std::uint32_t maps_version_{0};
     std::vector<SessionMap> maps_{};
-    std::uint64_t told_version_{0};       // of the parameters
-    std::string participant_{}, note_{};  // as told
-    std::string falcon_serial_{};         // known only when it has been found
-    std::string inverse3_id_{};           // likewise
-    PoseAges ages_before_{};              // an Inverse3's, when the recording began
-    std::uint64_t ages_told_{0};          // how many of them are in the file
-    std::string device_{};                // told of the session, where not the one asked for
+    std::uint64_t told_version_{0};           // of the parameters
+    std::string participant_{}, note_{};      // as told
+    std::vector<ToldDevice> told_devices_{};  // one a device that is looked for
+    std::string device_{};                    // told of the session, where not the one asked for
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that broke off,
     std::string trouble_{};  // and of the last one, to be told

@@ -1,13 +1,15 @@
 // Touching: what is polled and published once a picture, and the loop's beginning and end.
 #include "app/touching/touch_session.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "app/settings/command_options.hpp"
 #include "app/touching/force_law.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
-#include "device/falcon/firmware_image.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -41,17 +43,15 @@ TouchSession::TouchSession(HandDevice hand, const TouchTies& ties, const Touched
     : ties_(ties),
       state_(state),
       hand_(std::move(hand)),
-      falcon_(hand_.find<falcon::FalconDevice>(), state.settings, state.touch),
-      inverse3_(hand_.find<inverse3::Inverse3Device>(), state.settings, state.touch),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
       recording_(*ticks_, ties.words, player_, state) {
     state_.touch.device = hand_.device->specification();
     state_.touch.haptic.hand = hand_.device->unread();
-    if (falcon_.device() == nullptr) return;
-    state_.touch.falcon->firmware = falcon_.device()->firmware();
-    state_.touch.falcon->firmware_trouble = falcon_.device()->firmware_trouble();
+    for (std::size_t k = 0; k < hand_.devices.size(); ++k)
+        if (ForceDevice* const device = hand_.devices[k])
+            devices_.emplace_back(k, *device, state_.settings, state_.touch);
 }
 
 std::vector<std::string> TouchSession::poll(bool window_in_front) {
@@ -65,9 +65,8 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
     const Standstill& last = touch.haptic.standstill;
     if (last.count > standstills_) notices.push_back(text_of(last));
     standstills_ = last.count;
-    if (auto notice = falcon_.poll(touch)) notices.push_back(std::move(*notice));
-    if (auto notice = inverse3_.poll(touch)) notices.push_back(std::move(*notice));
-    poll_ages();
+    for (DeviceEnd& device : devices_)
+        if (auto notice = device.poll(touch)) notices.push_back(std::move(*notice));
     if (!touch.grants && loop_) touch.grants = loop_->grants();
     for (TickStrip strip; strips_->pop(strip);) touch.strips.add(strip);
     touch.sound = sound_.state();
@@ -78,20 +77,9 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
 
 std::vector<GripPress> TouchSession::take_presses() {
     std::vector<GripPress> presses;
-    falcon_.take_presses(state_.settings, state_.touch, presses);
-    inverse3_.take_presses(state_.settings, state_.touch, presses);
+    for (DeviceEnd& device : devices_)
+        device.take_presses(state_.settings, state_.touch, presses);
     return presses;
-}
-
-void TouchSession::poll_ages() {
-    if (inverse3_.device() == nullptr) return;
-    Inverse3News& news = *state_.touch.inverse3;
-    news.ages = inverse3_.device()->pose_ages();
-    const auto now = steady_clock::now();
-    if (now - ages_second_ < std::chrono::seconds(1)) return;
-    ages_second_ = now;
-    news.recent_ages = news.ages.since(ages_told_);
-    ages_told_ = news.ages;
 }
 
 void TouchSession::follow_others() {
@@ -115,13 +103,17 @@ void TouchSession::notice_catching_up() {
 }
 
 std::string TouchSession::use_firmware(const std::filesystem::path& file) {
-    falcon::FirmwareImage image = falcon::keep_firmware(file);
-    std::string kept = "Kept for the Falcon: " + image.name;
-    if (falcon_.device() == nullptr) return kept;
-    state_.touch.falcon->firmware = image.name;
-    state_.touch.falcon->firmware_trouble.clear();
-    falcon_.device()->use_firmware(std::move(image));
-    return kept;
+    const auto kinds = force_device_kinds();
+    const auto kind = std::find_if(kinds.begin(), kinds.end(), [](const ForceDeviceKind* one) {
+        return one->keep_firmware != nullptr;
+    });
+    if (kind == kinds.end()) return "No device takes firmware";
+    const auto device =
+        std::find_if(devices_.begin(), devices_.end(),
+                     [&](const DeviceEnd& one) { return kinds[one.kind()] == *kind; });
+    const std::string name = device == devices_.end() ? (*kind)->keep_firmware(file)
+                                                      : device->device().use_firmware(file);
+    return std::string("Kept for the ") + (*kind)->called + ": " + name;
 }
 
 void TouchSession::publish() {
@@ -134,7 +126,9 @@ void TouchSession::publish() {
     // As they are wished: the loop holds them to what the hand it reads can stand.
     HapticSettings asked = asked_settings(settings, touch);
     const bool retuned =
-        falcon_.is_retuned(settings, touch) || inverse3_.is_retuned(settings, touch);
+        std::any_of(devices_.begin(), devices_.end(), [&](const DeviceEnd& device) {
+            return device.is_retuned(settings, touch);
+        });
     const bool same = published_.version > 0 && same_touch(published_, asked) && !retuned;
     asked.recording = recording_.active();
     asked.followed = settings.others;
@@ -148,8 +142,8 @@ void TouchSession::publish() {
         if (recording_ends) recording_ended_at_ = haptic_state_.front().ticks;
     }
     // After the above, so that the force is already rising from zero when the goal moves elsewhere.
-    if (falcon_.is_retuned(settings, touch)) falcon_.publish(settings, touch);
-    if (inverse3_.is_retuned(settings, touch)) inverse3_.publish(settings, touch);
+    for (DeviceEnd& device : devices_)
+        if (device.is_retuned(settings, touch)) device.publish(settings, touch);
     publish_to_player();
 }
 

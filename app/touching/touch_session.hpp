@@ -26,7 +26,6 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "core/video/playing/player.hpp"
 #include "core/video/sources/media.hpp"
-#include "device/hand/pose_ages.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {
@@ -77,15 +76,14 @@ class TouchSession {
     /// The loop has seen the end of the last recording: a next one gets none of its ticks.
     [[nodiscard]] bool may_record() const noexcept;
 
-    /// Checks and keeps a firmware file, and gives it to the Falcon. What came of it, for a notice.
-    /// Throws InputError.
+    /// Checks and keeps a firmware file, and gives it to the device of that kind. What came of it,
+    /// for a notice. Throws InputError.
     std::string use_firmware(const std::filesystem::path& file);
 
     [[nodiscard]] Player& player() noexcept { return player_; }
     [[nodiscard]] TouchRecording& recording() noexcept { return recording_; }
 
   private:
-    void poll_ages();
     void follow_others();
     void notice_catching_up();
     void publish_to_outputs();
@@ -94,10 +92,7 @@ class TouchSession {
     TouchTies ties_;
     TouchedState state_;
     HandDevice hand_;
-    DeviceEnd<FalconKind> falcon_;
-    DeviceEnd<Inverse3Kind> inverse3_;
-    PoseAges ages_told_{};  // of an Inverse3, of the second before this one
-    std::chrono::steady_clock::time_point ages_second_{};
+    std::vector<DeviceEnd> devices_{};  // that are looked for
     HandPointer pointer_{};
     std::uint32_t media_number_{0};
     HapticSettings published_{};

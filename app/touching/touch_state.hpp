@@ -29,10 +29,7 @@
 #include "core/session/tick_record.hpp"
 #include "core/video/playing/player.hpp"
 #include "core/video/sources/media.hpp"
-#include "device/falcon/status.hpp"
-#include "device/hand/pose_ages.hpp"
-#include "device/inverse3/kept_settings.hpp"
-#include "device/inverse3/status.hpp"
+#include "device/force_device.hpp"
 
 namespace dibhr {
 
@@ -94,23 +91,13 @@ struct ReplayNews {
     const ContactBand* contacts{nullptr};  ///< null: not yet summed up
 };
 
-/// What the window shows of the Falcon.
-struct FalconNews {
-    falcon::Status status{};
-    bool asked{false};               ///< the status is the device's answer; before, anything may be
+/// What the window shows of a force device that is looked for.
+struct DeviceNews {
+    std::size_t kind{0};  ///< its place in force_device_kinds()
+    DeviceState state{};
+    bool asked{false};               ///< the state is the device's answer; before, anything may be
     bool was_ready{false};           ///< in this run: when it is not now, it was lost
-    std::string firmware{};          ///< name of what is loaded when it needs it; empty: nothing
-    std::string firmware_trouble{};  ///< why the kept firmware cannot be used
-};
-
-/// What the window shows of the Inverse3.
-struct Inverse3News {
-    inverse3::Status status{};
-    PoseAges ages{};         ///< since the start of the program
-    PoseAges recent_ages{};  ///< of about the last second
-    std::vector<inverse3::KeptSetting> kept{};
-    bool asked{false};      ///< the status is the device's answer; before, anything may be
-    bool was_ready{false};  ///< in this run: when it is not now, it was lost
+    std::vector<DeviceLine> kept{};  ///< what a service keeps of it for all programs
 };
 
 struct TouchState {
@@ -125,9 +112,8 @@ struct TouchState {
     // Shown only.
     bool in_front{true};  ///< the window; false: people work in another one
     DeviceSpecification device{};
-    std::optional<FalconNews> falcon{};      ///< nothing: no Falcon is looked for
-    std::optional<Inverse3News> inverse3{};  ///< nothing: no Inverse3 is looked for
-    bool needs_person{false};                ///< a device: until the Device panel is in sight
+    std::vector<DeviceNews> devices{};  ///< that are looked for, in the order of their kinds
+    bool needs_person{false};           ///< a device: until the Device panel is in sight
     HapticState haptic{};
     bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
     std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: not asked for, or unknown

@@ -1,32 +1,40 @@
-// Asking the Inverse3's service.
+// Asking the services of force devices.
 #include "app/viewer/service_settings.hpp"
 
+#include <memory>
 #include <utility>
+
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
-void ServiceSettings::follow(const Inverse3Settings& settings,
-                             std::optional<Inverse3News>& inverse3) {
+void ServiceSettings::follow(const Settings& settings, std::vector<DeviceNews>& devices) {
+    for (DeviceNews& news : devices) {
+        if (force_device_kinds()[news.kind]->ask_kept == nullptr) continue;
+        follow(settings, news, asking_.try_emplace(news.kind, errands_).first->second);
+    }
+}
+
+void ServiceSettings::follow(const Settings& settings, DeviceNews& news, Asking& asking) {
     constexpr int kMostTries = 3;
     constexpr std::chrono::seconds kBetween{3};
-    if (!inverse3) return;
-    Inverse3News& news = *inverse3;
-    if (auto kept = asking_.take()) news.kept = std::move(*kept);
-    if (asking_.under_way()) return;
-    if (news.status.id != device_) {
-        device_ = news.status.id;
+    if (auto kept = asking.answer.take()) news.kept = std::move(*kept);
+    if (asking.answer.under_way()) return;
+    if (news.state.id != asking.device) {
+        asking.device = news.state.id;
         news.kept.clear();
-        tries_ = 0;
-        asked_ = {};
+        asking.tries = 0;
+        asking.at = {};
     }
     const auto now = std::chrono::steady_clock::now();
-    if (device_.empty() || !news.kept.empty() || tries_ == kMostTries || now < asked_ + kBetween)
+    if (asking.device.empty() || !news.kept.empty() || asking.tries == kMostTries ||
+        now < asking.at + kBetween)
         return;
-    ++tries_;
-    asked_ = now;
-    asking_.start([connection = connection_of(settings), device = device_] {
-        return ask_kept_settings(connection, device);
-    });
+    ++asking.tries;
+    asking.at = now;
+    asking.answer.start([ask = force_device_kinds()[news.kind]->ask_kept,
+                         own = settings.devices[news.kind].clone(),
+                         device = asking.device] { return ask(*own, device); });
 }
 
 }  // namespace dibhr

@@ -253,7 +253,7 @@ void Viewer::poll() {
 void Viewer::poll_touch() {
     if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
     for (const std::string& notice : touch_.poll(window_.in_front())) tell(notice);
-    service_settings_.follow(state_.settings.inverse3, state_.touch.inverse3);
+    service_settings_.follow(state_.settings, state_.touch.devices);
     for (const GripPress& press : touch_.take_presses()) {
         const std::optional<Action> action = entry_of(button_jobs(), press.action).perform;
         for (std::uint32_t k = 0; action && k < press.times; ++k) perform(*action);

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <utility>
 
+#include "device/falcon/settings.hpp"
+
 namespace dibhr::falcon {
 
 namespace {
@@ -45,28 +47,36 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
     return specification;
 }
 
-DeviceState state_of(const Status& status) {
-    const Stage stage = status.stage;
-    const bool ready = stage == Stage::ready;
-    return {.stage = static_cast<int>(stage),
-            .sentence = status.sentence,
-            .trouble = status.trouble,
-            .absent = stage == Stage::looking,
-            .needs_person = stage != Stage::looking && !ready,
-            .may_be_ready = ready || stage == Stage::homing,
-            .ready = ready,
-            .unguarded = status.unguarded,
-            .presses = status.presses,
-            .pressed_at = status.pressed_at,
-            .facts = {{"serial", status.serial}}};
-}
-
 FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware,
                            std::string firmware_trouble)
     : specification_(specification_of(options)),
       firmware_(firmware.name),
       firmware_trouble_(std::move(firmware_trouble)),
       driver_(std::move(options), std::move(firmware), exchange_) {}
+
+DeviceState FalconDevice::state() {
+    DeviceState now = state_of(driver_.status());
+    now.firmware->name = firmware_;
+    now.firmware->trouble = firmware_trouble_;
+    return now;
+}
+
+bool FalconDevice::is_retuned(const DeviceSettings& settings, const HandTuning& hand) const {
+    return !(published_ == tuning_of(static_cast<const FalconSettings&>(settings), hand.centred));
+}
+
+void FalconDevice::publish(const DeviceSettings& settings, const HandTuning& hand) {
+    published_ = tuning_of(static_cast<const FalconSettings&>(settings), hand.centred);
+    tuning_.publish(published_);
+}
+
+std::string FalconDevice::use_firmware(const std::filesystem::path& file) {
+    FirmwareImage image = keep_firmware(file);
+    firmware_ = image.name;
+    firmware_trouble_.clear();
+    driver_.use_firmware(std::move(image));
+    return firmware_;
+}
 
 HandReading FalconDevice::read(const HandContext& context) noexcept {
     const bool feels_other = take_tuning();

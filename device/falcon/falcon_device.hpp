@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,7 +21,7 @@ namespace dibhr::falcon {
 /// What a Falcon can do, whether or not one is attached.
 [[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
 
-/// What every device is asked for. Its facts: "serial".
+/// What every device is asked for, but its firmware's name. Its facts: "serial".
 [[nodiscard]] DeviceState state_of(const Status& status);
 
 /// Looks for the Falcon from construction on, and again whenever it is lost: opens it, asks whether
@@ -55,15 +56,15 @@ class FalconDevice final : public ForceDevice {
     /// Which reply it used, 1 .. since the start; 0 while there is none.
     [[nodiscard]] std::uint64_t reply_number() const noexcept { return reply_number_; }
 
-    /// The window thread's end.
+    // The window thread's end:
+
     [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
     [[nodiscard]] Status status() const { return driver_.status(); }
-    [[nodiscard]] DeviceState state() const override { return state_of(driver_.status()); }
-    /// Name of what it was given at the start, for when it needs it; empty: nothing.
-    [[nodiscard]] const std::string& firmware() const noexcept { return firmware_; }
-    [[nodiscard]] const std::string& firmware_trouble() const noexcept { return firmware_trouble_; }
-    /// Used at the next need of one.
-    void use_firmware(FirmwareImage image) { driver_.use_firmware(std::move(image)); }
+    [[nodiscard]] DeviceState state() override;
+    [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
+                                  const HandTuning& hand) const override;
+    void publish(const DeviceSettings& settings, const HandTuning& hand) override;
+    std::string use_firmware(const std::filesystem::path& file) override;
 
   private:
     [[nodiscard]] bool take_tuning() noexcept;
@@ -73,8 +74,9 @@ class FalconDevice final : public ForceDevice {
     [[nodiscard]] Counts motors_for(Vec3 force_newton) const noexcept;
 
     DeviceSpecification specification_;
-    const std::string firmware_;
-    const std::string firmware_trouble_;
+    std::string firmware_;  // name of what is loaded when it is needed; empty: nothing
+    std::string firmware_trouble_;
+    Tuning published_{};
     TripleBuffer<Tuning> tuning_{};
     Exchange exchange_{};
 

@@ -134,15 +134,18 @@ CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const
 extern const ForceDeviceKind kKind{
     .name = "falcon",
     .title = "Novint Falcon",
+    .called = "Falcon",
     .article = "a Falcon",
     .which = "SERIAL",
     .known = "",
+    .no_pose = "no pose: pull the grip in, or see Calibration",
     .check_needs_consent = true,
     .make_settings = []() -> std::unique_ptr<DeviceSettings> {
         return std::make_unique<FalconSettings>();
     },
     .make = make,
-    .keep_file = [](const std::filesystem::path& file) { (void)keep_firmware(file); },
+    .keep_firmware = [](const std::filesystem::path& file) { return keep_firmware(file).name; },
+    .ask_kept = nullptr,
     .why_none = why_none_to_open,
     .attached = [](const DeviceSettings& /*settings*/) { return !attached_falcons().empty(); },
     .survey = survey,

@@ -5,14 +5,20 @@
 
 namespace dibhr::falcon {
 
+namespace {
+
+constexpr const char* kWorkspace = "Workspace";
+constexpr const char* kButtons = "Buttons";
+constexpr const char* kCalibration = "Calibration";
+constexpr const char* kConnection = "Connection";
+
+}  // namespace
+
 // The constants of the mechanism: libnifalcon's set, see README.md; the helps give Martin &
 // Hillier's where it differs. The ranges keep a mechanism that can be built. Its measures turn a
 // force into torques and counts into millimetres: with others a newton is another one, and so is
 // the stiffness.
 std::vector<DeviceRow> FalconSettings::rows() {
-    constexpr const char* kWorkspace = "Workspace";
-    constexpr const char* kCalibration = "Calibration";
-    constexpr const char* kConnection = "Connection";
     constexpr double kMillimetres = 1000.0;  // in a metre
     std::vector<DeviceRow> rows{
         {"serial", kConnection, "Serial: the first one found",
@@ -98,8 +104,18 @@ std::vector<DeviceRow> FalconSettings::rows() {
          "Tangential. libnifalcon: -23.09; Martin & Hillier: 27.2", &geometry.base_shift_m, -0.04,
          0.04, "%.2f mm", kMillimetres, Protection{Less::other, "Falcon's base s [m]"}},
     };
-    add_buttons(rows, kGrip, "Buttons");
+    add_buttons(rows, kGrip, kButtons);
     return rows;
+}
+
+std::vector<DeviceTopic> FalconSettings::topics() const {
+    return {
+        {.name = kWorkspace, .fit_help = "The scale at which the hand reaches the whole image"},
+        {.name = kButtons},
+        {.name = kCalibration,
+         .remark = "Sources differ on these; the defaults are libnifalcon's. Each change lets the "
+                   "force rise again from zero."},
+        {.name = kConnection, .connection = true}};
 }
 
 DeviceLimits FalconSettings::limits() const {

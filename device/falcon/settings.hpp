@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "device/falcon/status.hpp"
@@ -26,7 +27,15 @@ struct FalconSettings final : DeviceSettings {
     Motors motors{};
     WorkspaceOptions workspace{};
 
+    [[nodiscard]] std::unique_ptr<DeviceSettings> clone() const override {
+        return std::make_unique<FalconSettings>(*this);
+    }
     [[nodiscard]] std::vector<DeviceRow> rows() override;
+    [[nodiscard]] std::vector<DeviceTopic> topics() const override;
+    [[nodiscard]] double scale() const noexcept override { return workspace.scale; }
+    void fit(const ImageFrame& image) noexcept override {
+        workspace.scale = fitting_scale(image, workspace);
+    }
     [[nodiscard]] DeviceLimits limits() const override;
 };
 

@@ -42,17 +42,13 @@ enum class Stage {
     ready         ///< poses and forces
 };
 
-struct Status {
+/// The buttons are plus, forward, centre, minus.
+struct Status : DeviceStatus {
     Stage stage{Stage::looking};
-    std::string serial{};     ///< empty: not known
-    std::string sentence{};   ///< what is, and what to do next
-    bool trouble{false};      ///< the sentence tells of something that went wrong
-    std::string unguarded{};  ///< why nobody sends zero if the program is killed
-    double loaded{0.0};       ///< part of the firmware that is in, 0 .. 1
-    int load_try{0};          ///< 1 ..
-    Reply reply{};            ///< the last one, buttons debounced
-    ButtonPresses presses{};  ///< of plus, forward, centre, minus since the start
-    ButtonPressTimes pressed_at{};
+    std::string serial{};  ///< empty: not known
+    double loaded{0.0};    ///< part of the firmware that is in, 0 .. 1
+    int load_try{0};       ///< 1 ..
+    Reply reply{};         ///< the last one, buttons debounced
     double replies_per_s{0.0};
     std::uint64_t replies{0};
     std::uint64_t resent{0};           ///< commands sent again for want of a reply

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "core/haptics/safety.hpp"
 #include "core/haptics/words.hpp"
 #include "device/hand/grip_buttons.hpp"
+#include "device/hand/workspace.hpp"
 
 namespace dibhr {
 
@@ -48,6 +50,14 @@ struct DeviceRow {
     std::optional<Protection> protection{};
 };
 
+/// A heading of the panel, above the rows of that topic.
+struct DeviceTopic {
+    const char* name;
+    const char* remark{""};    ///< above the rows
+    const char* fit_help{""};  ///< of the button that fits the image; empty: the hand is not placed
+    bool connection{false};    ///< its rows are used from the next start of the program
+};
+
 /// Of one kind of device; what a new object holds are the defaults.
 struct DeviceSettings {
     explicit DeviceSettings(const GripButtons& grip) : buttons(standard_actions(grip)) {}
@@ -57,8 +67,15 @@ struct DeviceSettings {
 
     ButtonActions buttons;
 
+    [[nodiscard]] virtual std::unique_ptr<DeviceSettings> clone() const = 0;
     /// All values, in the order of the settings file.
     [[nodiscard]] virtual std::vector<DeviceRow> rows() = 0;
+    /// In the order of the panel.
+    [[nodiscard]] virtual std::vector<DeviceTopic> topics() const = 0;
+    /// Image millimetres a hand millimetre.
+    [[nodiscard]] virtual double scale() const noexcept = 0;
+    /// Chooses the scale at which the hand reaches the whole image.
+    virtual void fit(const ImageFrame& image) noexcept = 0;
     /// What the hand can stand at the scale that is chosen, whether or not a device is there.
     [[nodiscard]] virtual DeviceLimits limits() const = 0;
 

@@ -5,9 +5,20 @@
 #include <mutex>
 #include <string>
 
+#include "device/hand/buttons.hpp"
+
 namespace dibhr {
 
-/// `State` has at least `stage`, `sentence` and `trouble`.
+/// What every device tells, whatever its stages are.
+struct DeviceStatus {
+    std::string sentence{};   ///< what is, and what to do next
+    bool trouble{false};      ///< the sentence tells of something that went wrong
+    std::string unguarded{};  ///< why nobody sends zero if the program is killed
+    ButtonPresses presses{};  ///< since the start
+    ButtonPressTimes pressed_at{};
+};
+
+/// `State` is a DeviceStatus with a `stage`.
 template <typename State>
 class StateBoard {
   public:

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "device/inverse3/dynamics.hpp"
+#include "device/inverse3/settings.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -48,28 +49,32 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
     return specification;
 }
 
-DeviceState state_of(const Status& status) {
-    const Stage stage = status.stage;
-    const bool absent = stage == Stage::looking || stage == Stage::no_device;
-    const bool ready = stage == Stage::ready;
-    return {.stage = static_cast<int>(stage),
-            .sentence = status.sentence,
-            .trouble = status.trouble,
-            .absent = absent,
-            .needs_person = !absent && !ready,
-            .may_be_ready = !status.id.empty(),
-            .ready = ready,
-            .unguarded = status.unguarded,
-            .presses = status.presses,
-            .pressed_at = status.pressed_at,
-            .facts = {{"dialect", status.dialect ? name_of(*status.dialect) : ""},
-                      {"id", status.id},
-                      {"preset-read", status.preset},
-                      {"service", status.version}}};
-}
-
 Inverse3Device::Inverse3Device(ConnectionOptions options)
     : specification_(specification_of(options)), driver_(std::move(options), exchange_) {}
+
+DeviceState Inverse3Device::state() {
+    const PoseAges& ages = pose_ages();
+    const auto at = Clock::now();
+    if (at - shown_at_ >= std::chrono::seconds(1)) {
+        shown_at_ = at;
+        recent_ages_ = ages.since(shown_ages_);
+        shown_ages_ = ages;
+    }
+    DeviceState now = state_of(driver_.status(), recent_ages_);
+    now.ages = ages;
+    return now;
+}
+
+bool Inverse3Device::is_retuned(const DeviceSettings& settings, const HandTuning& hand) const {
+    return !(published_ == tuning_of(static_cast<const Inverse3Settings&>(settings),
+                                     hand.max_force_newton, hand.centred));
+}
+
+void Inverse3Device::publish(const DeviceSettings& settings, const HandTuning& hand) {
+    published_ = tuning_of(static_cast<const Inverse3Settings&>(settings), hand.max_force_newton,
+                           hand.centred);
+    tuning_.publish(published_);
+}
 
 HandReading Inverse3Device::read(const HandContext& context) noexcept {
     const bool feels_other = take_tuning();

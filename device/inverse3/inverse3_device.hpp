@@ -1,6 +1,7 @@
 // The Haply Inverse3 as a device: poses in, forces out, the service on its own thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 
@@ -18,8 +19,9 @@ namespace dibhr::inverse3 {
 /// What an Inverse3 can do, whether or not one is attached; how it moves is assumed.
 [[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
 
-/// What every device is asked for. Its facts: "dialect", "id", "preset-read", "service".
-[[nodiscard]] DeviceState state_of(const Status& status);
+/// What every device is asked for, but the ages since the start. `recent`: of about the last
+/// second. Its facts: "dialect", "id", "preset-read", "service".
+[[nodiscard]] DeviceState state_of(const Status& status, const PoseAges& recent = {});
 
 /// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
 /// then exchanges one message and one state after the other. Everything but read() and send()
@@ -57,7 +59,10 @@ class Inverse3Device final : public ForceDevice {
     /// second behind.
     [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
-    [[nodiscard]] DeviceState state() const override { return state_of(driver_.status()); }
+    [[nodiscard]] DeviceState state() override;
+    [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
+                                  const HandTuning& hand) const override;
+    void publish(const DeviceSettings& settings, const HandTuning& hand) override;
 
   private:
     [[nodiscard]] bool take_tuning() noexcept;
@@ -66,6 +71,10 @@ class Inverse3Device final : public ForceDevice {
     void place_goal(Vec3 position_m, bool clutched, const HandContext& context) noexcept;
 
     DeviceSpecification specification_;
+    Tuning published_{};
+    PoseAges shown_ages_{};   // since the start, when
+    PoseAges recent_ages_{};  // of the second before that
+    std::chrono::steady_clock::time_point shown_at_{};
     TripleBuffer<Tuning> tuning_{};
     TripleBuffer<PoseAges> told_ages_{};
     Exchange exchange_{};

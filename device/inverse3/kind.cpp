@@ -6,10 +6,12 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "device/force_device.hpp"
 #include "device/inverse3/check/check.hpp"
 #include "device/inverse3/inverse3_device.hpp"
+#include "device/inverse3/kept_settings.hpp"
 #include "device/inverse3/settings.hpp"
 #include "device/inverse3/simulated/hand_script.hpp"
 #include "device/inverse3/simulated/service.hpp"
@@ -27,6 +29,16 @@ ConnectionOptions connection_in(const DeviceSettings& settings, const DeviceGive
 
 std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceGiven& given) {
     return std::make_unique<Inverse3Device>(connection_in(settings, given));
+}
+
+std::vector<DeviceLine> ask_kept(const DeviceSettings& settings, const std::string& id) {
+    std::vector<DeviceLine> lines;
+    for (const KeptSetting& kept : ask_kept_settings(connection_in(settings), id)) {
+        lines.push_back({.text = kept.name + ": " + kept.words,
+                         .help = "As it was when the device came. The service keeps it for all "
+                                 "programs; dibhr does not change it"});
+    }
+    return lines;
 }
 
 /// What it needs after that, power or calibration, is told in the window.
@@ -111,15 +123,18 @@ void simulate(const DeviceSettings& settings, std::istream& orders, const TellLi
 extern const ForceDeviceKind kKind{
     .name = "inverse3",
     .title = "Haply Inverse3",
+    .called = "Inverse3",
     .article = "an Inverse3",
     .which = "ID",
     .known = "; its mass and delay are assumed, not measured",
+    .no_pose = "no fresh pose: no force",
     .check_needs_consent = false,
     .make_settings = []() -> std::unique_ptr<DeviceSettings> {
         return std::make_unique<Inverse3Settings>();
     },
     .make = make,
-    .keep_file = nullptr,
+    .keep_firmware = nullptr,
+    .ask_kept = ask_kept,
     .why_none = why_none_of_service,
     .attached =
         [](const DeviceSettings& settings) {

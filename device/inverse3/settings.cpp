@@ -3,15 +3,20 @@
 
 #include <string_view>
 
-#include "device/inverse3/frame.hpp"
 #include "device/inverse3/inverse3_device.hpp"
 
 namespace dibhr::inverse3 {
 
+namespace {
+
+constexpr const char* kWorkspace = "Inverse3 workspace";
+constexpr const char* kButtons = "Inverse3 buttons";
+constexpr const char* kService = "Inverse3 service";
+
+}  // namespace
+
 // README.md, Conversation, has where the centre comes from.
 std::vector<DeviceRow> Inverse3Settings::rows() {
-    constexpr const char* kWorkspace = "Inverse3 workspace";
-    constexpr const char* kService = "Inverse3 service";
     constexpr double kLowestPort = 1.0;
     constexpr double kHighestPort = 65535.0;
     std::vector<DeviceRow> rows{
@@ -58,8 +63,15 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "How far above the middle of the relief the box's centre is",
          &tuning.workspace.offset_mm.z, -200.0, 200.0, "%.1f mm"},
     };
-    add_buttons(rows, kGrip, "Inverse3 buttons");
+    add_buttons(rows, kGrip, kButtons);
     return rows;
+}
+
+std::vector<DeviceTopic> Inverse3Settings::topics() const {
+    return {{.name = kWorkspace,
+             .fit_help = "The scale at which the comfortable box reaches the whole image"},
+            {.name = kButtons},
+            {.name = kService, .connection = true}};
 }
 
 DeviceLimits Inverse3Settings::limits() const {

@@ -3,11 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/haptics/words.hpp"
 #include "device/hand/device_settings.hpp"
+#include "device/inverse3/frame.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr::inverse3 {
@@ -43,7 +45,15 @@ struct Inverse3Settings final : DeviceSettings {
     Tuning tuning{};       ///< but for buttons, limit and centring, which come from elsewhere
     double box_mm{120.0};  ///< edge of the box that a hand comfortably moves in
 
+    [[nodiscard]] std::unique_ptr<DeviceSettings> clone() const override {
+        return std::make_unique<Inverse3Settings>(*this);
+    }
     [[nodiscard]] std::vector<DeviceRow> rows() override;
+    [[nodiscard]] std::vector<DeviceTopic> topics() const override;
+    [[nodiscard]] double scale() const noexcept override { return tuning.workspace.scale; }
+    void fit(const ImageFrame& image) noexcept override {
+        tuning.workspace.scale = fitting_scale_to_box(image, box_mm);
+    }
     [[nodiscard]] DeviceLimits limits() const override;
 };
 

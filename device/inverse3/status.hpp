@@ -65,13 +65,11 @@ struct GripStatus {
     std::optional<double> battery{};  ///< full: 1
 };
 
-struct Status {
+struct Status : DeviceStatus {
     Stage stage{Stage::looking};
-    std::string sentence{};  ///< what is, and what to do next
-    bool trouble{false};     ///< the sentence tells of something that went wrong
-    bool installed{false};   ///< the service, as far as can be seen
-    std::string version{};   ///< of the service; empty: not told
-    std::string id{};        ///< of the chosen device; empty: none
+    bool installed{false};  ///< the service, as far as can be seen
+    std::string version{};  ///< of the service; empty: not told
+    std::string id{};       ///< of the chosen device; empty: none
     bool minverse{false};
     Handedness handedness{Handedness::unknown};
     std::string preset{};      ///< as read back; empty: not told
@@ -79,15 +77,12 @@ struct Status {
     std::optional<ForceDialect> dialect{};
     bool dialect_confirmed{false};  ///< the service told back a force that was sent so
     std::optional<GripStatus> grip{};
-    ButtonPresses presses{};
-    ButtonPressTimes pressed_at{};
     double exchanges_per_s{0.0};
     double exchange_ms{0.0};  ///< from a message to its answer, lately
     bool softened{false};     ///< they take so long that springs are held softer
     std::uint64_t exchanges{0};
     std::uint64_t unasked{0};         ///< messages that nobody had asked for
     std::uint64_t not_understood{0};  ///< messages that made no sense
-    std::string unguarded{};          ///< why nobody sends zero if the program is killed
 };
 
 /// The network thread writes it, the window reads it.

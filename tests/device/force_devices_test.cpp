@@ -1,13 +1,13 @@
 // What every force device gives as data.
 #include "device/force_devices.hpp"
 
+#include <chrono>
 #include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
 #include <variant>
 
-#include "device/device_or_mouse.hpp"
 #include "device/falcon/falcon_device.hpp"
 #include "device/hand_device.hpp"
 #include "device/inverse3/inverse3_device.hpp"
@@ -49,7 +49,8 @@ TEST_CASE("every force device has a name of its own, and does all that the progr
     for (const ForceDeviceKind* const kind : force_device_kinds()) {
         CAPTURE(kind->name);
         CHECK(names.insert(kind->name).second);
-        for (const char* const text : {kind->title, kind->article, kind->which})
+        for (const char* const text :
+             {kind->title, kind->called, kind->article, kind->which, kind->no_pose})
             CHECK_FALSE(std::string(text).empty());
         const bool all = kind->make_settings != nullptr && kind->make != nullptr &&
                          kind->why_none != nullptr && kind->attached != nullptr &&
@@ -82,6 +83,99 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("every value of a force device that people see has its heading on the panel",
+          "[force_device]") {
+    for (const ForceDeviceKind* const kind : force_device_kinds()) {
+        CAPTURE(kind->name);
+        const auto settings = kind->make_settings();
+        std::set<std::string_view> headings;
+        int placing = 0;
+        for (const DeviceTopic& topic : settings->topics()) {
+            CHECK(headings.insert(topic.name).second);
+            placing += *topic.fit_help == '\0' ? 0 : 1;
+        }
+        CHECK(placing == 1);
+        std::set<std::string_view> topics;
+        for (const DeviceRow& row : settings->rows())
+            if (!row.topic.empty()) topics.insert(row.topic);
+        CHECK(topics == headings);
+    }
+}
+
+TEST_CASE("a copy of all devices' settings has values of its own", "[force_device]") {
+    AllDeviceSettings settings;
+    const AllDeviceSettings usual = settings;
+    REQUIRE(settings.size() == force_device_kinds().size());
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+        CAPTURE(force_device_kinds()[k]->name);
+        const double before = settings[k].scale();
+        settings[k].fit({.columns = 3000, .rows = 2000, .relief_px = 100.0});
+        settings[k].buttons.fill(ButtonAction::none);
+        CHECK(settings[k].scale() != before);
+        CHECK(usual[k].scale() == before);
+        CHECK(usual[k].buttons != settings[k].buttons);
+    }
+    AllDeviceSettings other;
+    other = settings;
+    for (std::size_t k = 0; k < settings.size(); ++k) {
+        CHECK(other[k].scale() == settings[k].scale());
+        CHECK(other[k].buttons == settings[k].buttons);
+        other[k].buttons = usual[k].buttons;
+        CHECK(other[k].buttons != settings[k].buttons);
+    }
+}
+
+TEST_CASE("the panel gets a Falcon's firmware, progress, axes and lamp at their stages",
+          "[force_device]") {
+    const auto at = [](falcon::Stage stage) {
+        falcon::Status status;
+        status.stage = stage;
+        status.loaded = 0.4;
+        status.load_try = 2;
+        status.reply.homed = 2;
+        status.reply.encoder = {1, 2, 3};
+        return state_of(status);
+    };
+    CHECK(at(falcon::Stage::no_firmware).firmware->wanted);
+    CHECK_FALSE(at(falcon::Stage::loading).firmware->wanted);
+    CHECK(at(falcon::Stage::loading).progress->text == "40 %, try 2");
+    CHECK_FALSE(at(falcon::Stage::homing).progress);
+    const DeviceState homing = at(falcon::Stage::homing);
+    REQUIRE(homing.homing.size() == 3);
+    CHECK_FALSE(homing.homing[0].homed);
+    CHECK(homing.homing[1].homed);
+    CHECK(homing.homing[2].counts == 3);
+    CHECK(homing.pushing_lamp->colour == DeviceLamp::Colour::red);
+    const DeviceState ready = at(falcon::Stage::ready);
+    CHECK(ready.homing.empty());
+    CHECK(ready.lamp->colour == DeviceLamp::Colour::blue);
+    CHECK(ready.pushing_lamp->colour == DeviceLamp::Colour::green);
+    CHECK(ready.lines.front().text == "0 per second");
+    CHECK(at(falcon::Stage::looking).lines.empty());
+}
+
+TEST_CASE("the panel gets an Inverse3's service, and its exchange once it is ready",
+          "[force_device]") {
+    inverse3::Status status;
+    status.version = "3.5.0";
+    status.grip.emplace().battery = 0.5;
+    REQUIRE(state_of(status).lines.size() == 1);
+    CHECK(state_of(status).lines[0].text == "3.5.0");
+    CHECK(state_of(status).who.text == "none attached");
+    status.stage = inverse3::Stage::ready;
+    status.id = "049D";
+    status.exchange_ms = 0.26;
+    PoseAges ages;
+    ages.add(std::chrono::seconds(1));
+    const DeviceState state = state_of(status, ages);
+    CHECK(state.full_name == "Haply Inverse3 049D");
+    REQUIRE(state.lines.size() == 5);
+    CHECK(state.lines[1].text == "0 per second, 0.3 ms each");
+    CHECK(state.lines[2].text == "20 ms or more, 99 % below 20 ms or more");
+    CHECK(state.lines[3].text == "not known yet");
+    CHECK(state.lines[4].text == "awake, battery 50 %");
+}
+
 TEST_CASE("one button takes the force off and one holds the point, and agreeing protects the first",
           "[force_device]") {
     for (const ForceDeviceKind* const kind : force_device_kinds()) {
@@ -100,8 +194,8 @@ TEST_CASE("one button takes the force off and one holds the point, and agreeing 
 TEST_CASE("sessions number the devices as they always have", "[force_device]") {
     const auto kinds = force_device_kinds();
     REQUIRE(kinds.size() >= 2);
-    CHECK(std::string(kinds[static_cast<std::size_t>(Touching::falcon) - 1]->name) == "falcon");
-    CHECK(std::string(kinds[static_cast<std::size_t>(Touching::inverse3) - 1]->name) == "inverse3");
+    CHECK(std::string(kinds[0]->name) == "falcon");
+    CHECK(std::string(kinds[1]->name) == "inverse3");
 }
 
 TEST_CASE("a device is named by its kind, or as one of it", "[force_device]") {

@@ -1,6 +1,7 @@
 // What settings, estimators and studies of others get only when a person here agrees.
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "app/viewer/input.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "device/falcon/settings.hpp"
+#include "tests/app/settings/own_settings.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -130,15 +133,17 @@ TEST_CASE("who agreed to a limit agreed to lower ones, and is asked about higher
 TEST_CASE("everything that turns a force into what the Falcon's motors do is asked about",
           "[consent]") {
     Settings all;
-    for (const DeviceRow& row : all.falcon.rows()) {
+    for (const DeviceRow& row : own_settings<falcon::FalconSettings>(all).rows()) {
         double* const* const number = std::get_if<double*>(&row.value);
         const bool of_motors =
             row.name == "counts-per-newton-metre" || row.name == "full-scale-counts";
         if (number != nullptr && row.topic == "Calibration" && !of_motors)
             **number = row.lowest + 0.37 * (row.highest - row.lowest);
     }
-    for (ButtonActions* const actions : {&all.falcon.buttons, &all.inverse3.buttons})
-        std::replace(actions->begin(), actions->end(), ButtonAction::force_off, ButtonAction::none);
+    for (std::size_t k = 0; k < all.devices.size(); ++k) {
+        ButtonActions& actions = all.devices[k].buttons;
+        std::replace(actions.begin(), actions.end(), ButtonAction::force_off, ButtonAction::none);
+    }
     const Settings usual;
     std::size_t changed = 0;
     Settings first = usual;

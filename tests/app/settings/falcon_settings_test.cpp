@@ -10,13 +10,16 @@
 #include "app/settings/grip_buttons.hpp"
 #include "app/settings/settings.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/falcon/settings.hpp"
 #include "device/force_devices.hpp"
+#include "tests/app/settings/own_settings.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
 using falcon::Button;
+using falcon::FalconSettings;
 
 namespace {
 
@@ -54,22 +57,23 @@ TEST_CASE("what is kept about the Falcon comes back exactly, whatever its serial
           "[falcon][settings]") {
     const TemporaryFolder folder;
     Settings settings;
-    settings.falcon.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"),
-                                  GENERATE(false, true), GENERATE(false, true)};
-    settings.falcon.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
-                               ButtonAction::take_screenshot};
+    auto& own = own_settings<FalconSettings>(settings);
+    own.connection = {GENERATE("", "SIM00001", "a \"b\" \\c\n\u00fc"), GENERATE(false, true),
+                      GENERATE(false, true)};
+    own.buttons = {ButtonAction::none, ButtonAction::clutch, ButtonAction::clutch,
+                   ButtonAction::take_screenshot};
     settings.force_in_front_only = false;
-    for (const DeviceRow& number : numbers_of(settings.falcon)) {
+    for (const DeviceRow& number : numbers_of(own)) {
         value_of(number) = number.lowest + 0.123456789 * (number.highest - number.lowest);
     }
     save_settings(settings, folder / "settings.toml");
     std::vector<std::string> warnings;
-    const Settings back = load_settings(folder / "settings.toml", warnings);
+    Settings back = load_settings(folder / "settings.toml", warnings);
     CHECK(warnings.empty());
     CHECK(same_settings(back, settings));
-    CHECK(back.falcon.connection.serial == settings.falcon.connection.serial);
+    CHECK(own_settings<FalconSettings>(back).connection.serial == own.connection.serial);
     CHECK_FALSE(same_settings(back, Settings{}));
-    CHECK(device_settings(back).size() == force_device_kinds().size());
+    CHECK(back.devices.size() == force_device_kinds().size());
 }
 
 TEST_CASE("each number of the Falcon has its own name, a help, and a default inside its range",

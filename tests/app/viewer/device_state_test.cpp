@@ -1,6 +1,7 @@
 // What the state of the force devices means for the force, and how it is said in the window.
 #include "app/touching/device_state.hpp"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -8,8 +9,9 @@
 #include "app/settings/grip_buttons.hpp"
 #include "app/touching/force_law.hpp"
 #include "core/haptics/safety.hpp"
-#include "device/device_or_mouse.hpp"
-#include "device/falcon/packet.hpp"
+#include "device/falcon/falcon_device.hpp"
+#include "device/inverse3/inverse3_device.hpp"
+#include "tests/app/settings/own_settings.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -20,6 +22,34 @@ namespace {
 
 std::uint8_t bit_of(Button button) {
     return static_cast<std::uint8_t>(button);
+}
+
+// Their places in force_device_kinds().
+constexpr std::size_t kFalcon = 0;
+constexpr std::size_t kInverse3 = 1;
+
+DeviceNews& look_for(ViewerState& state, std::size_t kind) {
+    state.touch.devices.push_back({.kind = kind});
+    return state.touch.devices.back();
+}
+
+/// It touched in the last tick.
+void touch_with(ViewerState& state, std::size_t kind) {
+    state.touch.haptic.hand.which = static_cast<std::uint8_t>(kind + 1);
+}
+
+DeviceState state_at(falcon::Stage stage, const std::string& sentence = {}) {
+    falcon::Status status;
+    status.stage = stage;
+    status.sentence = sentence;
+    return state_of(status);
+}
+
+DeviceState state_at(inverse3::Stage stage, const std::string& sentence = {}) {
+    inverse3::Status status;
+    status.stage = stage;
+    status.sentence = sentence;
+    return state_of(status);
 }
 
 std::string banner_of(const ViewerState& state) {
@@ -53,16 +83,16 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
           "[falcon][settings]") {
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 2.0;
-    state.settings.falcon.workspace.scale = 4.0;
+    test::own_settings<falcon::FalconSettings>(state.settings).workspace.scale = 4.0;
     const auto stiffness = [&state] {
         return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
     };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    state.touch.falcon.emplace();
+    DeviceNews& news = look_for(state, kFalcon);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
-    state.touch.falcon->asked = true;
+    news.asked = true;
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    state.touch.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
+    news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
 }
 
@@ -70,13 +100,13 @@ TEST_CASE("the stiffness shown for a device that answers late is the one that th
           "[falcon][settings]") {
     ViewerState state;
     state.settings.touch.coupling.stiffness_newton_per_mm = 0.5;
-    state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
+    look_for(state, kFalcon).state = state_at(falcon::Stage::ready);
     state.touch.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
     const auto stiffness = [&state] {
         return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
     };
     CHECK_THAT(stiffness(), WithinAbs(0.5, 0.0));  // the mouse's
-    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    touch_with(state, kFalcon);
     CHECK_THAT(stiffness(), WithinAbs(0.3, 1e-12));
 }
 
@@ -85,9 +115,10 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
     ViewerState state;
     state.touch.in_front = false;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));  // the mouse touches
-    state.touch.falcon.emplace().asked = true;
+    DeviceNews& news = look_for(state, kFalcon);
+    news.asked = true;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));  // no Falcon is there
-    state.touch.falcon->status.stage = GENERATE(falcon::Stage::homing, falcon::Stage::ready);
+    news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
     CHECK(waits_for_front(state.settings, state.touch));
     CHECK_FALSE(asked_settings(state.settings, state.touch).force_enabled);
     CHECK(state.touch.force_enabled);  // the person's own switch stays as it is
@@ -105,8 +136,8 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
 TEST_CASE("a force that waits for the window is told, unless the person has switched it off",
           "[falcon][banner]") {
     ViewerState state;
-    state.touch.falcon.emplace().status.stage = falcon::Stage::ready;
-    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
+    look_for(state, kFalcon).state = state_at(falcon::Stage::ready);
+    touch_with(state, kFalcon);
     state.touch.in_front = false;
     CHECK(banner_of(state).find("not in front") != std::string::npos);
     state.touch.force_enabled = false;
@@ -117,20 +148,20 @@ TEST_CASE("the window says over the relief what an attached or lost Falcon needs
           "[falcon][banner]") {
     ViewerState state;
     CHECK(banner_of(state).empty());
-    state.touch.falcon.emplace();
-    state.touch.falcon->status.sentence = "plug it in";
-    CHECK(banner_of(state).empty());            // none has been there: only the panel says so
-    state.touch.falcon->status.trouble = true;  // one could not be brought up
+    DeviceNews& news = look_for(state, kFalcon);
+    news.state = state_at(falcon::Stage::looking, "plug it in");
+    CHECK(banner_of(state).empty());  // none has been there: only the panel says so
+    news.state.trouble = true;        // one could not be brought up
     CHECK(banner_of(state) == "plug it in");
-    state.touch.falcon->status.trouble = false;
-    state.touch.falcon->was_ready = true;  // one was lost
+    news.state.trouble = false;
+    news.was_ready = true;  // one was lost
     CHECK(banner_of(state) == "plug it in");
-    state.touch.falcon->status.stage = falcon::Stage::ready;
+    news.state = state_at(falcon::Stage::ready, "plug it in");
     CHECK(banner_of(state).empty());
-    state.touch.falcon->was_ready = false;
-    state.touch.falcon->status.stage =
-        GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware, falcon::Stage::loading,
-                 falcon::Stage::homing);
+    news.was_ready = false;
+    news.state = state_at(GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
+                                   falcon::Stage::loading, falcon::Stage::homing),
+                          "plug it in");
     CHECK(banner_of(state) == "plug it in");
 }
 
@@ -138,10 +169,10 @@ TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[
     ViewerState state;
     state.touch.haptic.hand.buttons = bit_of(Button::centre);
     CHECK_FALSE(clutched(state.settings, state.touch));  // the mouse's button
-    state.touch.falcon.emplace();
+    DeviceNews& news = look_for(state, kFalcon);
     CHECK_FALSE(clutched(state.settings, state.touch));
-    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::falcon);
-    state.touch.falcon->status.stage = falcon::Stage::ready;
+    touch_with(state, kFalcon);
+    news.state = state_at(falcon::Stage::ready);
     CHECK(clutched(state.settings, state.touch));
     state.touch.haptic.hand.stand_in = true;
     CHECK_FALSE(clutched(state.settings, state.touch));
@@ -152,28 +183,29 @@ TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[
 TEST_CASE("the window says over the relief what an Inverse3 that is there lacks",
           "[inverse3][banner]") {
     ViewerState state;
-    inverse3::Status& status = state.touch.inverse3.emplace().status;
-    status.sentence = "do this";
+    DeviceNews& news = look_for(state, kInverse3);
+    news.state = state_at(inverse3::Stage::looking, "do this");
     CHECK(banner_of(state).empty());  // no service, and nobody asked for one
-    CHECK_FALSE(inverse3_in_sight(state.touch));
-    status.stage = inverse3::Stage::no_device;
+    CHECK_FALSE(in_sight(news));
+    news.state = state_at(inverse3::Stage::no_device, "do this");
     CHECK(banner_of(state).empty());
-    status.stage = GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
-                            inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
-                            inverse3::Stage::too_old, inverse3::Stage::not_understood);
+    news.state = state_at(GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
+                                   inverse3::Stage::locked, inverse3::Stage::in_use,
+                                   inverse3::Stage::deaf, inverse3::Stage::too_old,
+                                   inverse3::Stage::not_understood),
+                          "do this");
     CHECK(banner_of(state) == "do this");
-    CHECK(inverse3_in_sight(state.touch));
-    status.stage = inverse3::Stage::ready;
+    CHECK(in_sight(news));
+    news.state = state_at(inverse3::Stage::ready, "do this");
     CHECK(banner_of(state).empty());
 }
 
 TEST_CASE("what the Falcon lacks is not said while an Inverse3 touches", "[inverse3][banner]") {
     ViewerState state;
-    state.touch.falcon.emplace().status.stage = falcon::Stage::homing;
-    state.touch.falcon->status.sentence = "pull it out";
-    state.touch.inverse3.emplace().status.stage = inverse3::Stage::ready;
+    look_for(state, kFalcon).state = state_at(falcon::Stage::homing, "pull it out");
+    look_for(state, kInverse3).state = state_at(inverse3::Stage::ready);
     CHECK(banner_of(state) == "pull it out");
-    state.touch.haptic.hand.which = static_cast<std::uint8_t>(Touching::inverse3);
+    touch_with(state, kInverse3);
     CHECK(banner_of(state).empty());
     state.touch.haptic.hand.buttons = 1;
     CHECK(clutched(state.settings, state.touch));  // its own button A, not the Falcon's

@@ -143,17 +143,18 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     TickingDevice<dibhr::DeviceOrMouse> loop(
         looked_for(std::make_unique<FalconDevice>(ConnectionOptions{}, any_firmware()),
                    std::make_unique<dibhr::inverse3::Inverse3Device>(options)));
-    using dibhr::Touching;
-    const auto touching = [&] { return static_cast<Touching>(loop.reading.which); };
+    constexpr int kFalcon = 1;
+    constexpr int kInverse3 = 2;
+    const auto touching = [&] { return int{loop.reading.which}; };
     loop.force_newton = {0.0, 0.0, 1.0};
     REQUIRE(loop.tick_until_ready());
-    CHECK(touching() == Touching::inverse3);
+    CHECK(touching() == kInverse3);
     start_firmware(unit);
     home(unit);
     bus.plug(unit);
     REQUIRE(loop.tick_until([&] { return loop.device.devices()[0]->in_hand(); }));
     loop.tick_for(milliseconds(100));
-    CHECK(touching() == Touching::inverse3);
+    CHECK(touching() == kInverse3);
     CHECK(log_of(unit).with_force == 0);
 
     // The Inverse3 goes: the Falcon takes over, from zero.
@@ -161,7 +162,7 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     int takings = 0;
     REQUIRE(loop.tick_until([&] {
         takings += loop.reading.taken_over ? 1 : 0;
-        return touching() == Touching::falcon;
+        return touching() == kFalcon;
     }));
     CHECK(takings == 1);
     loop.tick_for(milliseconds(300));
@@ -172,7 +173,7 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     service.forget_heard();
     REQUIRE(loop.tick_until([&] { return loop.device.devices()[1]->in_hand(); }));
     loop.tick_for(milliseconds(200));
-    CHECK(touching() == Touching::falcon);
+    CHECK(touching() == kFalcon);
     for (const simulated::Heard& one : service.heard()) {
         CHECK(glm::length(one.force_newton) == 0.0);
     }
