@@ -67,12 +67,12 @@ struct DeviceState : DeviceStatus {
     bool needs_person{false};  ///< it waits for something that a person has to do
     bool may_be_ready{false};  ///< before the next picture
     bool ready{false};         ///< poses and forces
-    std::string id{};         ///< that tells it from others of its kind; empty: not known
-    std::string full_name{};  ///< in a session that it touched; empty: its specification's
-    DeviceFacts facts{};      ///< known only once it has been found
+    std::string id{};          ///< that tells it from others of its kind; empty: not known
+    std::string full_name{};   ///< in a session that it touched; empty: its specification's
+    DeviceFacts facts{};       ///< known only once it has been found
 
     // On the panel, in this order:
-    DeviceLine who{};  ///< "Falcon", and its serial
+    DeviceLine who{};                          ///< "Falcon", and its serial
     std::optional<DeviceFirmware> firmware{};  ///< nothing: it takes none
     std::optional<DeviceProgress> progress{};
     std::vector<HomedAxis> homing{};           ///< empty: none needs to be homed

@@ -156,8 +156,7 @@ void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
         wished.doubts = doubts_of(run.protocol(), Consent());
     }
     if (options.mute) wished.settings.mute = true;
-    HandDevice hand =
-        make_hand_device(options.device, {wished.settings.devices, options.firmware});
+    HandDevice hand = make_hand_device(options.device, {wished.settings.devices, options.firmware});
     StudyWindow window(wished, run, file, std::move(hand), ending);
     window.lead();
 }

@@ -53,13 +53,11 @@ void draw_device_value(const DeviceRow& row, std::string* value, const std::stri
     if (text_field(id.c_str(), row.label, room, row.help, false)) *value = room.data();
 }
 
-void draw_device_value(const DeviceRow& row, ButtonAction* value,
-                              const ButtonAction* usual) {
+void draw_device_value(const DeviceRow& row, ButtonAction* value, const ButtonAction* usual) {
     choice_row(row.label, button_jobs(), *value, row.help, *usual);
 }
 
-void draw_device_value(const DeviceRow& row, const DeviceWord& value,
-                              const DeviceWord& usual) {
+void draw_device_value(const DeviceRow& row, const DeviceWord& value, const DeviceWord& usual) {
     int chosen = *value;
     index_row(row.label, value.labels, chosen, row.help, *usual);
     *value = static_cast<std::uint8_t>(chosen);
@@ -142,9 +140,9 @@ void draw_lamp(const DeviceLamp& lamp) {
     fact_row(lamp.label, std::string("     ") + lamp.text);
     const ImVec2 low = ImGui::GetItemRectMin();
     const float line = ImGui::GetTextLineHeight();
-    ImGui::GetWindowDrawList()->AddCircleFilled(
-        {low.x + line * 0.45F, low.y + line * 0.5F}, line * 0.36F,
-        ImGui::GetColorU32(colour_of(lamp.colour)), 20);
+    ImGui::GetWindowDrawList()->AddCircleFilled({low.x + line * 0.45F, low.y + line * 0.5F},
+                                                line * 0.36F,
+                                                ImGui::GetColorU32(colour_of(lamp.colour)), 20);
 }
 
 /// Over the rows of the topic that places the hand.

@@ -77,8 +77,7 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
 
 std::vector<GripPress> TouchSession::take_presses() {
     std::vector<GripPress> presses;
-    for (DeviceEnd& device : devices_)
-        device.take_presses(state_.settings, state_.touch, presses);
+    for (DeviceEnd& device : devices_) device.take_presses(state_.settings, state_.touch, presses);
     return presses;
 }
 
@@ -108,9 +107,9 @@ std::string TouchSession::use_firmware(const std::filesystem::path& file) {
         return one->keep_firmware != nullptr;
     });
     if (kind == kinds.end()) return "No device takes firmware";
-    const auto device =
-        std::find_if(devices_.begin(), devices_.end(),
-                     [&](const DeviceEnd& one) { return kinds[one.kind()] == *kind; });
+    const auto device = std::find_if(devices_.begin(), devices_.end(), [&](const DeviceEnd& one) {
+        return kinds[one.kind()] == *kind;
+    });
     const std::string name = device == devices_.end() ? (*kind)->keep_firmware(file)
                                                       : device->device().use_firmware(file);
     return std::string("Kept for the ") + (*kind)->called + ": " + name;
@@ -126,9 +125,8 @@ void TouchSession::publish() {
     // As they are wished: the loop holds them to what the hand it reads can stand.
     HapticSettings asked = asked_settings(settings, touch);
     const bool retuned =
-        std::any_of(devices_.begin(), devices_.end(), [&](const DeviceEnd& device) {
-            return device.is_retuned(settings, touch);
-        });
+        std::any_of(devices_.begin(), devices_.end(),
+                    [&](const DeviceEnd& device) { return device.is_retuned(settings, touch); });
     const bool same = published_.version > 0 && same_touch(published_, asked) && !retuned;
     asked.recording = recording_.active();
     asked.followed = settings.others;

@@ -56,9 +56,9 @@ void add_exchange(const Status& status, const PoseAges& recent, std::vector<Devi
     lines.push_back({"Forces", dialect_text(status),
                      "How forces are spelled to the service, and whether it told one back"});
     if (!status.preset.empty()) {
-        lines.push_back({.label = "Preset",
-                         .text = status.preset +
-                                 (status.other_preset ? ", though another is asked for" : "")});
+        lines.push_back(
+            {.label = "Preset",
+             .text = status.preset + (status.other_preset ? ", though another is asked for" : "")});
     }
     if (status.grip) lines.push_back({.label = "Grip", .text = grip_text(*status.grip)});
     if (status.unasked + status.not_understood > 0) {

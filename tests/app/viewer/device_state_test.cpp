@@ -189,11 +189,11 @@ TEST_CASE("the window says over the relief what an Inverse3 that is there lacks"
     CHECK_FALSE(in_sight(news));
     news.state = state_at(inverse3::Stage::no_device, "do this");
     CHECK(banner_of(state).empty());
-    news.state = state_at(GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
-                                   inverse3::Stage::locked, inverse3::Stage::in_use,
-                                   inverse3::Stage::deaf, inverse3::Stage::too_old,
-                                   inverse3::Stage::not_understood),
-                          "do this");
+    news.state =
+        state_at(GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
+                          inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
+                          inverse3::Stage::too_old, inverse3::Stage::not_understood),
+                 "do this");
     CHECK(banner_of(state) == "do this");
     CHECK(in_sight(news));
     news.state = state_at(inverse3::Stage::ready, "do this");
