@@ -39,7 +39,7 @@ constexpr float kColours = 48.0F;  ///< the colours of two faces differ by so mu
 constexpr float kOwnSide = 0.25F;  ///< of that: so near a face's colour a pixel is on it
 constexpr int kSharp_px = 2;       ///< of a sharp edge are on neither side
 
-constexpr int kChunk = 64;  ///< pixels of a row that are looked at together
+constexpr int kRowChunk = 64;  ///< pixels of a row that are looked at together
 
 struct Limits {
     float slope;  ///< least change of level a pixel
@@ -357,9 +357,9 @@ float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) c
 void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int end, int reach) {
     const DepthImage& image = scene.image;
     const float least = std::max(scene.limits.slope, 2.0F * scene.limits.noise);
-    std::array<int, kChunk> steep{};
-    for (; begin < end && !are_too_many(); begin += kChunk) {
-        const int count = std::min(kChunk, end - begin);
+    std::array<int, kRowChunk> steep{};
+    for (; begin < end && !are_too_many(); begin += kRowChunk) {
+        const int count = std::min(kRowChunk, end - begin);
         const auto from = [&](int j) {
             return image.levels.data() + image.index(begin, std::clamp(j, 0, image.rows - 1));
         };

@@ -14,7 +14,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kFarthest = std::numeric_limits<float>::infinity();
+constexpr float kNoDistance = std::numeric_limits<float>::infinity();
 
 /// What is behind something nearer by this part of its distance is hidden by it: more than a
 /// surface at a slant falls within a cell.
@@ -129,7 +129,7 @@ void ColourRegistration::find_hidden(cv::Size colour_size, double pixels_apart) 
     const int columns = static_cast<int>(static_cast<float>(colour_size.width) * cells) + 1;
     const int rows = static_cast<int>(static_cast<float>(colour_size.height) * cells) + 1;
     nearest_mm_.create(rows, columns, CV_32FC1);
-    nearest_mm_.setTo(kFarthest);
+    nearest_mm_.setTo(kNoDistance);
     const auto visit = [&](const auto& visit_cell) {
         for (int j = 0; j < x_.rows; ++j) {
             for (int i = 0; i < x_.cols; ++i) {
