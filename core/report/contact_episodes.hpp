@@ -54,6 +54,13 @@ struct Episode {
 /// Their numbers from 0, the longest time in contact first.
 [[nodiscard]] std::vector<std::size_t> longest_first(const std::vector<Episode>& episodes);
 
+/// An episode going on; what will be means are sums over time.
+struct OpenEpisode {
+    Episode episode{};
+    std::int64_t last_tick{0};
+    Vec3 last_proxy_px{0.0};
+};
+
 /// An episode also ends where the hand lets go or another video comes.
 class ContactEpisodes {
   public:
@@ -68,12 +75,6 @@ class ContactEpisodes {
     void go_on(const TickRecord& tick, double pitch_mm);
     void end();
 
-    /// An episode going on; what will be means are sums over time.
-    struct OpenEpisode {
-        Episode episode{};
-        std::int64_t last_tick{0};
-        Vec3 last_proxy_px{0.0};
-    };
     std::vector<Episode> episodes_{};
     std::optional<OpenEpisode> open_{};
 };

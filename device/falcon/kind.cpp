@@ -131,7 +131,7 @@ CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const
 
 }  // namespace
 
-extern const ForceDeviceKind kKind{
+extern const ForceDeviceKind device_kind{
     .name = "falcon",
     .title = "Novint Falcon",
     .called = "Falcon",

@@ -120,7 +120,7 @@ void simulate(const DeviceSettings& settings, std::istream& orders, const TellLi
 
 }  // namespace
 
-extern const ForceDeviceKind kKind{
+extern const ForceDeviceKind device_kind{
     .name = "inverse3",
     .title = "Haply Inverse3",
     .called = "Inverse3",

@@ -105,12 +105,12 @@ cv::Mat stretched_bytes(const cv::Mat& levels) {
 
 std::string name_of_codec(int id) {
     const auto codec = static_cast<AVCodecID>(id);
-    static const std::map<AVCodecID, std::string> kNames{
+    static const std::map<AVCodecID, std::string> names{
         {AV_CODEC_ID_VP8, "VP8"},     {AV_CODEC_ID_VP9, "VP9"},       {AV_CODEC_ID_AV1, "AV1"},
         {AV_CODEC_ID_FFV1, "FFV1"},   {AV_CODEC_ID_H264, "H.264"},    {AV_CODEC_ID_HEVC, "HEVC"},
         {AV_CODEC_ID_MJPEG, "MJPEG"}, {AV_CODEC_ID_THEORA, "Theora"}, {AV_CODEC_ID_PNG, "PNG"}};
-    const auto found = kNames.find(codec);
-    return found == kNames.end() ? avcodec_get_name(codec) : found->second;
+    const auto found = names.find(codec);
+    return found == names.end() ? avcodec_get_name(codec) : found->second;
 }
 
 bool holds_floats(const AVFrame& frame) noexcept {

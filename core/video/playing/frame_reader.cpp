@@ -314,9 +314,9 @@ Frame FrameReader::cleaned(double media_s) {
     return find(media_s)->frame;
 }
 
-void FrameReader::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
-    assembly_.set_maps(maps);
+void FrameReader::set_maps(std::shared_ptr<const TouchMaps> maps) {
     for (auto& [media_s, kept] : kept_) kept.frame.maps = maps;
+    assembly_.set_maps(std::move(maps));
 }
 
 FrameReader::Kept* FrameReader::kept_after(const Kept& kept, Needs needs) {

@@ -68,7 +68,7 @@ class FrameReader {
     void set_cleaning(const CleaningOptions& options);
 
     /// From here on frames carry these; null: none.
-    void set_maps(const std::shared_ptr<const TouchMaps>& maps);
+    void set_maps(std::shared_ptr<const TouchMaps> maps);
 
     [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
