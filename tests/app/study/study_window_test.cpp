@@ -10,7 +10,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -728,8 +727,8 @@ TEST_CASE("the button that takes the force off counts in the picture that begins
         person.hang_window_when(is_about_to_begin(1));
     }
     REQUIRE(person.seen().waits);
-    std::this_thread::sleep_for(std::chrono::milliseconds(1000));
-    falcon.tell("press 8");  // minus
+    falcon.wait_for_commands(2000);  // 1.5 s of them: the interval is due
+    falcon.tell("press 8");          // minus
     falcon.wait_for_commands(50);
     person.resume_window();
     person.wait_until(
