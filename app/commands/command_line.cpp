@@ -52,7 +52,7 @@ constexpr std::array kCommands{
     Command{"experiment", "[linear|circle|human|all|sweep]",
             "The paper's table, all algorithms side by side", headless<run_experiment>},
     Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",
-            "A recorded exploration through other algorithms", headless<run_replay>},
+            "A recording computed again with other algorithms", headless<run_replay>},
     Command{"export", "SESSION --csv FILE", "Every tick of a session, one row",
             headless<run_export>},
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",

@@ -51,8 +51,8 @@ bool is_command(const std::string& text) {
 Estimator agreed_to(const Estimator& estimator) {
     if (Consent().knows(estimator.command)) return estimator;
     throw InputError("the settings name the estimator " + estimator.name +
-                     ", which nobody has agreed to here, and it was not run: give it with --with, "
-                     "or agree in the window; it is " +
+                     ", but nobody on this machine has agreed to run its command, so it was not "
+                     "run: give the command with --with, or agree in the window; the command is " +
                      escaped_text(estimator.command));
 }
 
@@ -60,7 +60,7 @@ Estimator agreed_to(const Estimator& estimator) {
 void take_word(const std::string& command) try {
     Consent().agree(command);
 } catch (const InputError& error) {
-    print_warning(std::string(error.what()) + "; it will be asked again");
+    print_warning(std::string(error.what()) + "; dibhr will ask again");
 }
 
 /// As the command line says, else the first of the settings.
@@ -111,7 +111,8 @@ std::string megabytes_text(std::uintmax_t bytes) {
 std::string told(const KeptEstimate& kept) {
     const EstimateRecord& record = kept.record;
     if (record.command.empty())
-        return one_line(kept.folder.string()) + ": nothing of use, " + megabytes_text(kept.bytes);
+        return one_line(kept.folder.string()) + ": no depth that can be used, " +
+               megabytes_text(kept.bytes);
     const std::string all = std::to_string(record.colour.count());
     const std::string frames = record.depth.empty()
                                    ? std::to_string(kept.frames_there) + " of " + all + " frames"
@@ -148,7 +149,7 @@ int forget_kept(const fs::path& colour) {
             bytes += kept.bytes;
         else
             print_warning("another dibhr is making the depth of " +
-                          kept.record.colour.file.string() + ": it stays");
+                          kept.record.colour.file.string() + ": nothing of it is removed");
     }
     std::cout << megabytes_text(bytes) << " removed\n";
     return 0;
@@ -209,24 +210,26 @@ int run_depth(CLI::App& app, const Arguments& arguments) {
     app.add_option("--as", options.name, "Keeps the command in the settings under that name")
         ->type_name("NAME");
     add_file(app, "--out", options.out,
-             "Copies the depth there: a name that ends in .mkv (of a picture .png), or a folder, "
-             "as NAME_depth.mkv; beside the colour it is found with it",
+             "Copies the depth to this file, whose name ends in .mkv (for a picture .png), or into "
+             "this folder as NAME_depth.mkv; beside the colour file dibhr finds it by itself",
              "FILE");
     app.add_flag("--view", options.view, "Opens both in the viewer");
-    app.add_flag("--again", options.request.again, "Makes it anew, whatever is kept");
+    app.add_flag("--again", options.request.again,
+                 "Makes the depth anew, also where it is kept already");
     add_number_option(app, "--patience", 1.0, kLongestPatience_s,
-                      "Ends an estimator that shows no sign of life for so many seconds",
+                      "Ends an estimator that writes and prints nothing for so many seconds",
                       [&options](double seconds) { options.request.patience_s = seconds; })
         ->type_name("S")
         ->default_str("600");
-    app.add_flag("--list", options.lists, "What is kept, of COLOR or all");
-    app.add_flag("--forget", options.forgets, "Removes what is kept, of COLOR or all");
+    app.add_flag("--list", options.lists, "Lists the depth that is kept: of COLOR, or all");
+    app.add_flag("--forget", options.forgets, "Removes the depth that is kept: of COLOR, or all");
     add_level_options(app, options.request.meaning);
     app.footer(
         "The depth is kept by the content of the video and the command: the second time it is "
         "there "
         "at once.\nCtrl+C ends the estimator; with {frames} the next run goes on with the frames "
-        "that lack.\nUnless --depth-unit says else its numbers are relative, near where bright.\n\n"
+        "that are missing.\nUnless --depth-unit says otherwise, its numbers are relative, and "
+        "bright is near.\n\n"
         "Examples:\n"
         "  dibhr depth clip.mp4 --with \"env -C ~/Depth-Anything-V2 python run.py --encoder vits "
         "--img-path {frames} --outdir {output} --pred-only --grayscale\" --as depth-anything\n"

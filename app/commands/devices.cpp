@@ -99,14 +99,14 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
     add_firmware(app, firmware_file);
     auto* const check_given =
         app.add_flag("--check", checks,
-                     "Leads you through everything that is to be measured on a Falcon, or on an "
-                     "Inverse3 where no Falcon is attached, with force only where it says so");
+                     "Guides you through all measurements of a Falcon, or of an Inverse3 if no "
+                     "Falcon is attached; a step with force says so before it begins");
     add_file(app, "--out", record, "With --check: the record of what was measured")
         ->default_str("DEVICE-check-SERIAL-DATE.json")
         ->needs(check_given);
     app.add_option("--simulate", simulated,
-                   "Stands in for the Haply Inverse Service, for people without one, until its "
-                   "input ends; type to move its hand")
+                   "Simulates the Haply Inverse Service, for people who have none, until its input "
+                   "ends; typed commands move the simulated hand")
         ->type_name(listed(simulated_kinds()))
         ->check(CLI::IsMember(simulated_kinds()))
         ->excludes(check_given);

@@ -23,8 +23,9 @@ constexpr std::string_view kOwnKeysExample =
     "  record = [\"F7\", \"Ctrl+R\"]\n"
     "  toggle-sound = \"\"";
 constexpr std::string_view kOwnKeysRules =
-    "Keys are written as in this list, \"\" is none. A key given to one action is lost to another "
-    "that had it. F8 always takes the force off; force-off can have others beside it.";
+    "Write keys as in this list; \"\" means no key. A key that you give to one action is taken "
+    "from the action that had it. F8 always takes the force off; force-off can have other keys as "
+    "well.";
 
 std::string replaced(std::string text, std::string_view what, std::string_view by) {
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
@@ -293,19 +294,19 @@ std::string man_page(const std::vector<DocumentedCommand>& commands) {
            "Colour and depth video is shown as a moving relief that a hand feels: contact, "
            "friction and roughness are rendered a thousand times a second with Depth Image\\-Based "
            "Haptic Rendering (Cha, Eid and El Saddik, EuroHaptics 2008).\n"
-           "What is no command is what the viewer is to show.\n"
+           "A word that is no command names a file for the viewer to show.\n"
            ".SH COMMANDS\n";
     for (const DocumentedCommand& command : commands) add_command(page, command);
     add_keys(page);
     page << ".SH EXIT STATUS\n"
-            "0 on success, 1 on a failure it explains, 2 on bad usage; 130 where Ctrl+C ended a "
-            "command before it was done. The window ends by it with 0.\n"
+            "0 on success, 1 on a failure it explains, 2 on bad usage; 130 if Ctrl+C ended a "
+            "command before it was done. The viewer ends with 0 after Ctrl+C.\n"
             ".SH FILES\n"
             ".TP\n\\fI~/.config/dibhr/settings.toml\\fR\nWhat a person changed in the window.\n"
             ".TP\n\\fI~/.config/dibhr/materials\\fR\nMaterials of one's own.\n"
             ".TP\n\\fI~/.local/state/dibhr/recent\\fR\nFiles opened before.\n"
-            ".TP\n\\fI~/.local/state/dibhr/agreed\\fR\nWhat somebody agreed to that protects the "
-            "hand less, and commands to run.\n";
+            ".TP\n\\fI~/.local/state/dibhr/agreed\\fR\nSettings that protect the hand less, and "
+            "commands to run, to which somebody agreed.\n";
     return page.str();
 }
 

@@ -126,10 +126,11 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
     add_file(app, "--plots", options.plots, "Writes pictures into this folder", "DIR");
     add_plot_format_option(app, options.plot_formats)->needs("--plots");
     add_file(app, "--session", options.human.session,
-             "Hand of human: the goals of a recorded session");
-    add_file(app, "--trace", options.human.trace,
-             "Hand of human: a pen's or mouse's trace (CSV: t_s,x_mm,y_mm[,pressure01]"
-             "[,pen_down]); without either a modelled one");
+             "For human: takes the hand of this recorded session");
+    add_file(
+        app, "--trace", options.human.trace,
+        "For human: takes the trace of a pen or a mouse (CSV: "
+        "t_s,x_mm,y_mm[,pressure01][,pen_down]); without --session and --trace a modelled hand");
     add_algorithms_option(app, options.algorithms);
     TouchParameters any;
     const TouchNumber& friction = number_of(any.friction.static_coefficient, any);
@@ -139,7 +140,7 @@ void add_options(CLI::App& app, ExperimentOptions& options) {
         ->type_name("MU")
         ->default_str(number_text(kExperimentFriction));
     add_number_option(app, "--depth", 0.1, 1000.0,
-                      "Of the goals of linear and circle below the surface",
+                      "How deep the goals of linear and circle are below the surface",
                       [&options](double depth_px) { options.depth_px = depth_px; })
         ->type_name("PX")
         ->default_str(number_text(kExperimentDepth_px));
@@ -167,11 +168,12 @@ void check_options(ExperimentOptions& options) {
     const bool has_session = !options.human.session.empty();
     const bool has_trace = !options.human.trace.empty();
     if ((has_session || has_trace) && path != "human" && path != "all")
-        throw UsageError("--session and --trace are the hand of human, not of " + path +
+        throw UsageError("--session and --trace give the hand for human, not for " + path +
                          " (see dibhr experiment --help)");
     if (has_session && has_trace)
         throw UsageError(
-            "--session and --trace are two hands; give one (see dibhr experiment --help)");
+            "--session and --trace both give a hand; give only one of them (see dibhr experiment "
+            "--help)");
     if (path == "sweep" && (options.mu || options.depth_px))
         throw UsageError(
             "sweep goes through its own --friction and --depth; leave them out (see dibhr "

@@ -39,7 +39,7 @@ int run_export(CLI::App& app, const Arguments& arguments) {
     std::filesystem::path file;
     std::filesystem::path csv;
     add_session(app, file);
-    add_file(app, "--csv", csv, "One row a tick; - is standard output")->required();
+    add_file(app, "--csv", csv, "One row for each tick; - is standard output")->required();
     app.footer(
         "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
         "\nExamples:\n"

@@ -277,7 +277,8 @@ int run_info(CLI::App& app, const Arguments& arguments) {
         ->required();
     bool json = false;
     DepthRequest request = usual_depth_request();
-    app.add_flag("--json", json, "One JSON object a file and line; what is not known is null");
+    app.add_flag("--json", json,
+                 "One JSON object for each file, on a line of its own; null: not known");
     add_depth_options(app, request.command_line);
     app.footer(
         "Examples:\n"

@@ -46,12 +46,12 @@ struct Run {
 void refuse_meanings(const TouchRequest& touch) {
     if (touch.depth != DepthStatement{})
         throw UsageError(
-            "a session is replayed over depth as it was meant when it was recorded: leave away "
-            "--near, --depth-unit and the others that say what depth means");
+            "a session is replayed with the meaning that its depth had when it was recorded: leave "
+            "out --near, --depth-unit and the other options that say what depth means");
     if (touch.given.fit_relief || touch.given.fit_pitch)
         throw UsageError(
-            "a session has its relief and its pitch: give --relief or --pixel-pitch a number "
-            "instead of auto, or leave it away");
+            "a session has its own relief and pitch: give --relief or --pixel-pitch a number "
+            "instead of auto, or leave the option out");
 }
 
 Run make_run(const Session& session, const ReplayOptions& options,
@@ -139,8 +139,8 @@ void print_table(const Session& session, const std::vector<Run>& runs) {
               << std::setprecision(3) << session.end_s() - session.begin_s() << " s\n"
               << comparison_heading();
     for (const Run& run : runs) std::cout << run.comparison.table_row(run.name);
-    std::cout << "  force turn: of the force from update to update; off: from the recorded proxy "
-                 "and force; contact: of all ticks\n";
+    std::cout << "  force turn: how far the force turns from update to update; off: how far from "
+                 "the recorded proxy and force;\n  contact: share of all ticks\n";
     for (const Run& run : runs) {
         const std::size_t bounds_met = run.comparison.bounds_met();
         if (bounds_met == 0) continue;
@@ -224,7 +224,7 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
     add_touch_options(app, options.touch, "as recorded");
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,
-                 "Also over a video or bump map that has changed since");
+                 "Replays also if the video or the bump map has changed since the recording");
     app.footer(
         "Without --algorithm and other changes, says whether proxies and forces are those of the\n"
         "recording, bit for bit, and ends with 1 if not. What is not given is as recorded.\n\n"

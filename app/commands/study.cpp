@@ -125,9 +125,9 @@ int check(const StudyOptions& options) {
 int number_of(const StudyOptions& options) {
     if (options.number) return *options.number;
     if (const auto number = number_in(options.participant)) return *number;
-    throw UsageError("the label " + in_quotes(options.participant) +
-                     " does not end in a number from 1 to 1000000: give --number, by which the "
-                     "order is chosen");
+    throw UsageError(
+        "the label " + in_quotes(options.participant) +
+        " does not end in a number from 1 to 1000000: give --number, which chooses the order");
 }
 
 StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
@@ -188,13 +188,16 @@ int run(const StudyOptions& options) {
     if (file.answered().empty() && !others.empty())
         print_warning("the number " + std::to_string(file.identity().number) +
                       " chooses the order of " + listed(others) +
-                      ", too: so that another person gets another order, leave, delete " +
+                      ", too. To give another person another order, leave the study, delete " +
                       file.file().string() + " and give another --participant or --number");
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
     pilot ? run_pilot(steps, file, *pilot) : lead_person(options, steps, file);
     std::cout << file.file().string() << ": " << steps.answered().size() << " trials"
-              << (steps.step() == StudyStep::finished ? "" : "; the same label goes on") << '\n';
+              << (steps.step() == StudyStep::finished
+                      ? ""
+                      : "; run it again with the same label to go on")
+              << '\n';
     return 0;
 }
 
@@ -294,8 +297,8 @@ void add_options(CLI::App& app, StudyOptions& options) {
            [&options](const std::vector<std::string>& files) {
                options.files.assign(files.begin(), files.end());
            },
-           "The protocol, a file or a study that comes along; of sessions the study file, of "
-           "report study files or folders of them")
+           "The protocol: a file, or a study that comes with dibhr; for sessions a study file; for "
+           "report study files, or folders of them")
         ->required()
         ->type_name("...");
     app.add_option("--participant", options.participant,
@@ -307,8 +310,8 @@ void add_options(CLI::App& app, StudyOptions& options) {
         ->check(CLI::Range(1, 1000000))
         ->type_name("N");
     add_file(app, "--out", options.out,
-             "Folder of study files, of the sessions taken out (this one by default), or of the "
-             "report",
+             "Folder for study files (run), for sessions (sessions; by default the current "
+             "folder), or for the report (report)",
              "DIR");
     app.add_option_function<std::string>(
            "--pilot",
@@ -318,20 +321,23 @@ void add_options(CLI::App& app, StudyOptions& options) {
                        "--pilot", "is empty: give guess, hand or NAME=VALUE, or leave it out");
                options.pilot = how;
            },
-           "Nobody: guess, hand, or threshold=..,slope=..,lapse=..,prefer=CONDITION,"
-           "share=..; of plan the effect that is to be found, with spread=.. between people")
+           "A simulated participant: guess, hand, or "
+           "threshold=..,slope=..,lapse=..,prefer=CONDITION,share=..; for plan the effect that is "
+           "to be found, with spread=.. for how people differ")
         ->type_name("HOW");
     add_device_option(app, options.device);
     add_firmware(app, options.firmware);
     app.add_flag("--mute", options.mute, "Touch makes no sound");
-    add_size_option(app, options.size,
-                    "Size of the window that leads a person; without it it fills the screen");
+    add_size_option(
+        app, options.size,
+        "Size of the window for the participant; without this option the window fills the screen");
     add_number_option(app, "--power", 0.5, 0.999,
-                      "So often a study is to find the effect that is planned for",
+                      "Share of studies that are to find the effect (power)",
                       [&options](double power) { options.plan.power = power; })
         ->default_str("0.8")
         ->type_name("SHARE");
-    app.add_option("--studies", options.plan.studies, "Simulated for each line of a plan")
+    app.add_option("--studies", options.plan.studies,
+                   "Studies that are simulated for each line of a plan")
         ->check(CLI::Range(20, 100000))
         ->default_str("400")
         ->type_name("N");
@@ -341,8 +347,9 @@ void add_options(CLI::App& app, StudyOptions& options) {
            "Psychometric function of a report: " + listed(all_names(kCurves)))
         ->default_str("logistic")
         ->type_name("NAME");
-    app.add_option("--bootstraps", options.analysis.bootstraps,
-                   "Simulated studies behind the interval of each threshold")
+    app.add_option(
+           "--bootstraps", options.analysis.bootstraps,
+           "Simulated studies from which the interval of each threshold is made (bootstrap)")
         ->check(CLI::Range(19, 100000))
         ->default_str("399")
         ->type_name("N");
@@ -380,7 +387,7 @@ int run_study(CLI::App& app, const Arguments& arguments, const PictureHook& afte
     }
     const std::vector<std::string> actions{"check", "plan", "run", "report", "sessions"};
     throw UsageError("study does not know " + in_quotes(options.action) +
-                     " but check, plan, run, report and sessions" +
+                     ": its words are check, plan, run, report and sessions" +
                      did_you_mean(options.action, actions) + " (see dibhr study --help)");
 }
 

@@ -28,7 +28,7 @@ void require_sample(const StudyInterval& interval) {
     const auto media = interval.values.words.find("media");
     if (media != interval.values.words.end() && media->second != kSampleMedia)
         throw InputError("the modelled hand explores the built-in sample, not the media " +
-                         in_quotes(media->second) + ": take another pilot");
+                         in_quotes(media->second) + ": choose another pilot");
 }
 
 TouchParameters parameters_of(const TouchRequest& request) {
@@ -101,8 +101,8 @@ const StudyHand::Ground& StudyHand::ground_of(const StudyInterval& interval) {
         cleaning == CleaningPreset::gentle || cleaning == CleaningPreset::raw;
     if (!as_experiment || request.finger_mm.value_or(0.0) > 0.0)
         throw InputError(
-            "the modelled hand knows cleaning gentle or raw, and a point instead of a "
-            "finger: take another pilot");
+            "the modelled hand works with cleaning gentle or raw, and with a point instead of a "
+            "finger: choose another pilot");
     const std::string key =
         std::string(name_of(cleaning)) + ' ' + number_text(parameters.shape.relief_px);
     const auto known = grounds_.find(key);

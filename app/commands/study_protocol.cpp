@@ -84,8 +84,8 @@ void tell_unknown_guesses(const Block& block) {
     const bool has_nothing = std::ranges::find(vary.levels, 0.0) != vary.levels.end();
     if (block.form != TrialForm::explore || !vary.any() || has_nothing) return;
     std::cout << block.name
-              << ": without a level 0 it is not known how often yes is said of nothing; the guess "
-                 "rate is then taken as 0\n";
+              << ": without a level 0 nobody knows how often people say yes when there is no "
+                 "difference; the guess rate is then taken as 0\n";
 }
 
 }  // namespace

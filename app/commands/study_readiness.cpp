@@ -61,15 +61,16 @@ void print_stability(const Protocol& protocol, const ForceDeviceKind& kind,
         const double stood = held.stiffness_newton_per_mm;
         if (stood < asked)
             std::cout << condition.name << ": asks for " << number_text(asked) << " N/mm, "
-                      << kind.article << " stands " << number_text(stood) << '\n';
+                      << kind.article << " can give " << number_text(stood) << '\n';
         const Coupling felt = stable_coupling(held, stood, limits.dynamics);
         const double margin = stability_margin(felt, limits.dynamics);
         if (margin >= least) continue;
         least = margin;
         of = condition.name;
     }
-    std::cout << "stability margin on " << kind.article << ", damped as it needs: at least "
-              << short_text(least, 3) << " N s/m (" << of << ")" << kind.known << '\n';
+    std::cout << "stability margin on " << kind.article
+              << ", with the damping that it needs: at least " << short_text(least, 3) << " N s/m ("
+              << of << ")" << kind.known << '\n';
 }
 
 }  // namespace

@@ -49,13 +49,13 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
     const fs::path& file = reader.description().depth_path;
     if (reader.description().live && time_s > 0.0)
-        throw InputError(shown(file) + " is live: leave --time away");
+        throw InputError(shown(file) + " is live: leave --time out");
     std::optional<Frame> now = reader.at(time_s);
     if (!now) throw InputError(shown(file) + " holds no picture: give another depth file");
     now->time_s = now->media_s;
     std::vector<Frame> frames{*now};
     if (reader.description().still) {
-        if (time_s > 0.0) throw InputError(shown(file) + " is a still picture: leave --time away");
+        if (time_s > 0.0) throw InputError(shown(file) + " is a still picture: leave --time out");
         return frames;
     }
     std::optional<Frame> next = reader.after(now->media_s);

@@ -75,8 +75,8 @@ class TouchRun {
         if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&
             options.colour.empty())
             print_warning(shown(options.depth) +
-                          " is to be cut along the colour's edges, which touch does not look at: "
-                          "its silhouettes are those of the depth alone");
+                          " asks for silhouettes at the colour's edges, but touch looks at no "
+                          "colour without --color: its silhouettes are those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
         using Wanted = DepthInTime::Wanted;
         return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
@@ -116,7 +116,7 @@ void touch_all(const TouchOptions& options) {
 void warn_of_motion(const TouchOptions& options) {
     const auto warn = [](std::string_view name) {
         print_warning("--" + std::string(name) +
-                      " on changes nothing over a picture that stands still; give --video");
+                      " on changes nothing on a still picture; give --video");
     };
     for (const TouchSwitch& entry : touch_switches())
         if (entry.needs_motion && entry.of(options.parameters)) warn(entry.name);
@@ -131,11 +131,13 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--goals", options.goals, "Goals, t,x,y,z a row: seconds and grid-space pixels",
              "GOALS.csv")
         ->required();
-    add_file(app, "--out", options.out, "One row an update; - is standard output", "OUT.csv")
+    add_file(app, "--out", options.out, "One row for each update; - is standard output", "OUT.csv")
         ->default_str("-");
-    app.add_flag("--video", options.video, "Blends the frames in time; else the first image");
+    app.add_flag(
+        "--video", options.video,
+        "Touches the whole video, its frames blended in time; without this option the first image");
     add_file(app, "--color", options.colour,
-             "Colour of the same view: by it is found what moves, and where silhouettes are",
+             "Colour of the same view: touch finds in it what moves, and where silhouettes are",
              "FILE");
     add_touch_options(app, options.touch);
     add_in_betweens_option(app, options.touch);

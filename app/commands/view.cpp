@@ -59,7 +59,7 @@ std::string put_aside(const fs::path& file, const std::string& trouble) {
     return trouble +
            (failed ? ". It cannot be moved away: " + failed.message()
                    : ". It is kept as " + numbered(number)) +
-           ". The usual settings hold.";
+           ". The default settings are used.";
 }
 
 /// With --stay the window opens whatever the file is.
@@ -116,17 +116,19 @@ void add_playing_options(CLI::App& app, ViewCommand& command) {
                       "Ends, or begins again at --start, so many seconds after the start",
                       [&options](double seconds) { options.end_s = seconds; })
         ->type_name("S");
-    add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed, "Times the speed of the video",
+    add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed,
+                      "Speed, as a multiple of the speed of the video",
                       [&options](double speed) { options.speed = speed; })
         ->type_name("X")
         ->default_str("1");
-    add_on_off_option(app, "--loop", "Starts again at the end; a session does not unless asked",
+    add_on_off_option(app, "--loop",
+                      "Starts again at the end; a session stops there unless this is given",
                       options.looping)
         ->default_str("on");
     add_on_off_option(app, "--resume", "Goes on where the video was left the last time",
                       command.settings.of(&Settings::resume))
         ->default_str("off");
-    app.add_flag("--pause", options.open.paused, "Stands still until it is told to play");
+    app.add_flag("--pause", options.open.paused, "Begins paused");
     app.add_flag("--full-screen", options.full_screen, "Fills the screen");
 }
 
@@ -142,11 +144,10 @@ void require_replay_options(const ViewOptions& options) {
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
                        touch.asks_for_another_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
-    throw UsageError(
-        options.open.colour.string() +
-        " is a session, which is replayed as it was recorded: leave away a depth "
-        "file, --record, --material, --bump, --maps, --raw-depth, --cleaning, --finger, "
-        "--in-betweens and what depth means");
+    throw UsageError(options.open.colour.string() +
+                     " is a session, which is replayed as it was recorded: leave out a depth file, "
+                     "--record, --material, --bump, --maps, --raw-depth, --cleaning, --finger, "
+                     "--in-betweens and the options that say what depth means");
 }
 
 void require_writable_folder(const fs::path& file, const char* option) {
@@ -154,7 +155,7 @@ void require_writable_folder(const fs::path& file, const char* option) {
     if (!fs::is_directory(folder) || ::access(folder.c_str(), W_OK) != 0 ||
         fs::is_directory(file)) {
         throw InputError("cannot write " + file.string() +
-                         ": name a file in a folder that can be written with " + option);
+                         ": choose a folder that can be written for " + option);
     }
 }
 
@@ -298,19 +299,18 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
              "Colour video, image or folder of pictures, a camera or stream (v4l2:/dev/video0, "
              "udp://...), or a recorded session to replay; none: the built-in sample",
              "");
-    add_file(
-        app, "DEPTH", options.open.depth,
-        "Depth video, image or folder, camera or stream; none: in the colour's file or folder, "
-        "else *color* -> *depth* beside it",
-        "");
+    add_file(app, "DEPTH", options.open.depth,
+             "Depth video, image or folder, camera or stream; without it: the depth in the "
+             "colour's file or folder, or the file beside it that is named depth instead of color",
+             "");
     add_device_option(app, options.device);
     add_firmware(app, options.firmware);
     add_file(app, "--record", options.record,
              "Records every tick into a new session file (.dibhr)");
     add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
     add_file(app, "--clip", options.clip,
-             "Saves what the window shows as MP4, from start to end; leaves at --end, unless it is "
-             "to begin again");
+             "Saves what the window shows as MP4, from start to end; the program ends at --end, "
+             "unless the video loops");
     app.add_flag_function(
         "--no-panels", [&options](std::int64_t) { options.pictures_of = PictureOf::relief; },
         "--screenshot and --clip show the relief alone");
@@ -321,7 +321,7 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
     GivenSettings& given = command.settings;
     add_size_option(app, command.size, "Size of the window");
     add_number_option(app, "--ui-scale", kSmallestUi, kLargestUi,
-                      "Size of text and panels, times an ordinary display's",
+                      "Size of text and panels; 1: as on an ordinary display",
                       given.of(&Settings::ui_scale))
         ->type_name("X");
     add_words_option<Theme>(app, "--theme", "Colours of the window", given.of(&Settings::theme));
@@ -334,20 +334,20 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
                    throw CLI::ValidationError("--screenshot-name", in_quotes(text) + " " + lacking);
                give(pattern);
            },
-           "How pictures and clips are called, without ending: %Y %m %d %H %M %S, {file}, "
+           "How pictures and clips are named, without the ending: %Y %m %d %H %M %S, {file}, "
            "{time} and {frame} of the video; a folder may stand before it")
         ->type_name("PATTERN")
         ->default_str(NamePattern{}.text);
     add_file(app, "--settings", command.options.settings_file,
-             "Settings read and kept there, in place of ~/.config/dibhr/settings.toml (below "
-             "XDG_CONFIG_HOME, where that is set); one that is not there yet begins as usual");
+             "Reads and keeps the settings in this file, in place of ~/.config/dibhr/settings.toml "
+             "(below XDG_CONFIG_HOME, if that is set); if the file does not exist yet, it begins "
+             "with the defaults");
     add_file(app, "--log-file", command.log_file,
-             "Keeps there what is told, with its time, behind what the file has: notices, "
-             "messages, errors, late ticks");
+             "Appends every notice, message, error and late tick to this file, with its time");
     add_words_option<OpenWith>(
         app, "--open-dialog",
-        "What files are chosen in: auto (the desktop's dialog where there is a "
-        "desktop), desktop, window (its own, with pairs and previews)",
+        "Dialog in which files are chosen: auto (the desktop's where there is a desktop), desktop, "
+        "window (the window's own, with pairs and previews)",
         given.of(&Settings::open_with));
     app.add_flag_function(
         "--mute",
@@ -363,12 +363,14 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
 void add_view_options(CLI::App& app, ViewCommand& command) {
     ViewOptions& options = command.options;
     add_file_options(app, options);
-    add_number_option(app, "--seconds", 0.0, kLongestRun_s, "Leaves after so long",
+    add_number_option(app, "--seconds", 0.0, kLongestRun_s,
+                      "Ends the program after so many seconds",
                       [&options](double seconds) { options.seconds = seconds; })
         ->type_name("S");
     add_playing_options(app, command);
     app.add_flag("--stay", options.stays,
-                 "Shows in the window what cannot be opened, and stays: as a desktop starts it");
+                 "If a file cannot be opened, says so in the window and stays open (for a start by "
+                 "the desktop)");
     app.add_flag_function(
         "--no-sync", [&options](std::int64_t) { options.sync = false; },
         "Does not wait for the display");
@@ -377,11 +379,10 @@ void add_view_options(CLI::App& app, ViewCommand& command) {
                  "Replays a session also over files that have changed since");
     add_touch_options(app, options.touch);
     add_in_betweens_option(app, options.touch);
-    add_on_off_option(
-        app, "--stability",
-        "on: damping as the device needs it, and no energy that rendering creates; off: for "
-        "experiments that must not have it",
-        command.settings.of(&Settings::stability))
+    add_on_off_option(app, "--stability",
+                      "on: damps as much as the device needs, and takes out the energy that "
+                      "rendering creates; off: for experiments that must not have this",
+                      command.settings.of(&Settings::stability))
         ->default_str("on");
     app.footer(
         "Examples:\n"

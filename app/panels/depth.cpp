@@ -184,7 +184,7 @@ void draw_depth_rows(ViewerState& state) {
     TextFields& fields = state.ui.fields;
     word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
              &DepthStatement::near, state);
-    word_row("Unit", "What a level times its scale is (--depth-unit)", kDepthUnits, known.unit,
+    word_row("Unit", "Unit of a level times the scale (--depth-unit)", kDepthUnits, known.unit,
              &DepthStatement::unit, state);
     typed_row({"Scale", "one level in that unit, as in 0.001 (--depth-scale)",
                with_origin(short_text(known.scale.value), known.scale.origin)},
@@ -194,11 +194,12 @@ void draw_depth_rows(ViewerState& state) {
                with_origin(short_text(range.near, 5) + ":" + short_text(range.far, 5),
                            known.range.origin)},
               range_in, &DepthStatement::range, fields.depth_range, state);
-    typed_row({"No data", "levels that mean nothing, as in 0,65535, or none (--no-data)",
-               with_origin(text_of(known.no_data.value), known.no_data.origin)},
-              levels_or_none_in, &DepthStatement::no_data, fields.no_data, state);
-    word_row("Packing", "Where colour and depth are, colour first (--packing)", kDepthPackings,
-             known.packing, &DepthStatement::packing, state);
+    typed_row(
+        {"No data", "levels that stand for missing data, such as 0,65535, or none (--no-data)",
+         with_origin(text_of(known.no_data.value), known.no_data.origin)},
+        levels_or_none_in, &DepthStatement::no_data, fields.no_data, state);
+    word_row("Packing", "How colour and depth lie in the picture, colour first (--packing)",
+             kDepthPackings, known.packing, &DepthStatement::packing, state);
     word_row("Code", "How a picture holds depth (--depth-code)", kDepthCodes, known.code,
              &DepthStatement::code, state);
     word_row("Geometry",

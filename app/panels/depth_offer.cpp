@@ -43,8 +43,8 @@ void draw_choice(DepthOffer& offer) {
 /// All of the command, as it is: no answer before its end was in sight.
 void draw_question(ViewerState& state, const DepthOffer& offer) {
     ImGui::TextWrapped(
-        "The settings name this command, which nobody has agreed to here. It can do all that you "
-        "can do:");
+        "The settings name this command. Nobody on this machine has agreed to run it yet. It can "
+        "do everything that you can do:");
     constexpr float kMostLines = 12.0F;
     const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
     const float high = ImGui::CalcTextSize(offer.asks.c_str(), nullptr, false, width).y;

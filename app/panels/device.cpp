@@ -44,14 +44,14 @@ ForceSwitch force_switch(const ViewerState& state) {
     if (!state.touch.force_enabled) {
         return {"Force is OFF###force",
                 {0.46F, 0.22F, 0.16F, 1.0F},
-                "Put the force on again; it rises slowly" + key};
+                "Switch the force on again; it rises slowly" + key};
     }
     if (waits_for_front(state.settings, state.touch)) {
         return {"Force waits###force",
                 {0.44F, 0.35F, 0.12F, 1.0F},
-                "It rises again when this window is in front. Take it off" + key};
+                "The force rises again when this window is in front. Click to switch it off" + key};
     }
-    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Take the force off" + key};
+    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Switch the force off" + key};
 }
 
 }  // namespace
@@ -86,9 +86,9 @@ void draw_device_panel(ViewerState& state) {
     if (!devices.empty()) {
         flag_row("Force only while the window is in front", state.settings.force_in_front_only,
                  Settings{}.force_in_front_only,
-                 "No force while the keyboard goes to another window, or this one is an icon: the "
-                 "hand is safe while nobody looks. Switch it off when one person touches and "
-                 "another works in another window, in an experiment say");
+                 "No force while another window has the keyboard, or this window is an icon: the "
+                 "hand is safe while nobody looks. Switch this off if one person touches while "
+                 "another works in another window, for example in an experiment");
     }
     const SafetyLimits standard;
     double& max_newton = state.settings.max_force_newton;

@@ -12,7 +12,8 @@ void draw_doubts(ViewerState& state) {
     if (ui.doubts.empty() || state.touch.replay || ui.dialog.shown || !ui.message.empty()) return;
     begin_card(state, "These settings protect the hand less", 32.0F);
     ImGui::TextWrapped(
-        "Nobody has agreed to this here. The usual values hold until you do, once and for all.");
+        "Nobody on this machine has agreed to these values. Until you agree, dibhr uses the "
+        "defaults. It asks only once.");
     if (ImGui::BeginTable("doubts", 3, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("usual", ImGuiTableColumnFlags_WidthFixed);
@@ -26,8 +27,8 @@ void draw_doubts(ViewerState& state) {
         }
         ImGui::EndTable();
     }
-    if (ImGui::Button("Use those of the file")) state.commands.push(AnswerDoubts{true});
-    constexpr const char* kKeep = "Keep the usual ones";
+    if (ImGui::Button("Use the file's values")) state.commands.push(AnswerDoubts{true});
+    constexpr const char* kKeep = "Keep the defaults";
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(kKeep).x) ImGui::NewLine();
     if (ImGui::Button(kKeep)) state.commands.push(AnswerDoubts{false});

@@ -103,9 +103,9 @@ void draw_sentence(const DeviceState& device) {
 
 /// Where a person names the firmware file.
 void draw_firmware_field(ViewerState& state) {
-    const bool entered = text_field(
-        "##firmware", "Firmware file (.bin)", state.ui.fields.firmware,
-        "Path of the firmware; Enter takes it. It is checked first, and kept for the next time");
+    const bool entered = text_field("##firmware", "Firmware file (.bin)", state.ui.fields.firmware,
+                                    "Path of the firmware; Enter loads it. The file is checked "
+                                    "first, and kept for the next time");
     const bool named = state.ui.fields.firmware[0] != '\0';
     const bool pressed = button_or_drop("Load", named, "the file");
     if ((entered || pressed) && named) {
@@ -154,7 +154,7 @@ void draw_placing(ViewerState& state, DeviceSettings& settings, const char* fit_
     }
     explain(fit_help);
     ImGui::SameLine();
-    if (ImGui::Button("Centre the hand")) ++state.touch.centred;
+    if (ImGui::Button("Centre the workspace")) ++state.touch.centred;
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
 }
 
@@ -192,7 +192,7 @@ void draw_force_device_settings(ViewerState& state, const DeviceNews& news) {
         if (*topic.fit_help != '\0') draw_placing(state, settings, topic.fit_help);
         if (topic.connection) draw_connection(state, news);
         draw_device_rows(settings, *standard, topic.name);
-        if (topic.connection) quiet_text("These are used from the next start of the program.");
+        if (topic.connection) quiet_text("Changes here count from the next start of the program.");
     }
 }
 

@@ -13,12 +13,12 @@ void draw_loop_panel(ViewerState& state) {
     const LoopSecond& second = haptic.second;
     draw_strip_charts(state);
     fact_row("Rate", formatted("%.1f per second", second.rate_hz),
-             "Ticks of the haptic loop; it is to have 1000 in a second");
+             "Ticks of the haptic loop; 1000 per second are wanted");
     fact_row("Worst tick", formatted("%.3f ms late (last second)", second.worst_lateness_ms),
-             "How long after its time the latest tick began");
+             "By how much the worst tick missed its deadline");
     fact_row("Late ticks",
              std::to_string(haptic.late_ticks) + " of " + std::to_string(haptic.ticks),
-             "Those that began after the next one's time");
+             "Ticks that began later than the next tick's deadline");
     fact_row("Update",
              formatted("%.2f us, worst %.1f us", second.update_us, second.worst_update_us),
              "How long the algorithm takes to find proxy and force");
@@ -28,14 +28,14 @@ void draw_loop_panel(ViewerState& state) {
         fact_row(
             "Catching up",
             std::to_string(haptic.bounds_met) + " of " + std::to_string(haptic.ticks) + " ticks",
-            "Those that ended before the proxy had followed a jump to its end");
+            "Updates that ended before the proxy had caught up with its goal");
     }
     fact_row("Decoding", formatted("%.1f ms a frame", state.media.playback.decode_ms),
              "Reading and cleaning a frame of the video");
     fact_row("Pictures", formatted("%.0f per second", state.ui.pictures_per_s),
              "How often this window is drawn");
     fact_row("Priority", state.touch.grants ? state.touch.grants->priority.answer : "asking",
-             "Whether the system lets the haptic loop go before other programs");
+             "Whether the system runs the haptic loop before other programs");
     fact_row("Memory lock", state.touch.grants ? state.touch.grants->memory_lock.answer : "asking",
              "Whether the system keeps the program's memory from being moved to the disk");
     ImGui::PopID();

@@ -344,7 +344,7 @@ constexpr Explained kMarks[] = {
     {"Line between", "The spring that pulls the hand"},
     {"Blue ring, dashed line", "The proxy is catching up with a jump"},
     {"Yellow arrow", "The force on the hand"},
-    {"Yellow ring", "How much of the most force that may be sent"},
+    {"Yellow ring", "The force, as a share of the most that may be sent"},
     {"Light dots", "Where you have touched in the last seconds"},
     {"Green rod", "The surface's normal"},
     {"Pale cone", "The friction cone: a proxy inside it sticks"},

@@ -44,9 +44,10 @@ void draw_value_row(ViewerState& state) {
         case BrushLays::material:
             return draw_material_row(state);
         case BrushLays::stiffness:
-            return row(
-                "Stiffness", "%.2f N/mm", TouchMapKind::stiffness, standard.stiffness_newton_per_mm,
-                "Of the spring, instead of the Touch panel's", brush.stiffness_newton_per_mm);
+            return row("Stiffness", "%.2f N/mm", TouchMapKind::stiffness,
+                       standard.stiffness_newton_per_mm,
+                       "Stiffness of the spring, instead of the Touch panel's",
+                       brush.stiffness_newton_per_mm);
         case BrushLays::friction:
             return row(
                 "Friction", "%.2f", TouchMapKind::friction, standard.friction,
@@ -57,7 +58,7 @@ void draw_value_row(ViewerState& state) {
             return row("Height", "%.1f px", TouchMapKind::height, standard.height_px,
                        "On top of the depth; below 0: pressed in", brush.height_px);
         case BrushLays::nothing:
-            return quiet_text("Takes away what was painted, of all kinds.");
+            return quiet_text("Erases what was painted, of every kind.");
     }
 }
 
@@ -97,12 +98,12 @@ void draw_paint_panel(ViewerState& state) {
              state.keys.in_brackets(Action::toggle_brush))
                 .c_str());
     choice_row("Paints", kBrushWords, brush.lays,
-               "What lies where the brush goes, whatever the Touch panel says");
+               "What the brush lays; there it counts instead of the Touch panel");
     draw_value_row(state);
     const Brush standard;
     double percent = 100.0 * brush.width;
     if (number_row({"Width", "%.1f %%", 0.5, 50.0, 100.0 * standard.width,
-                    "Of the brush, in the picture's width"},
+                    "Width of the brush, as a share of the picture's width"},
                    percent))
         brush.width = std::clamp(percent / 100.0, 0.001, 1.0);
     double strength = 100.0 * brush.strength;
@@ -111,10 +112,10 @@ void draw_paint_panel(ViewerState& state) {
         brush.strength = std::clamp(strength / 100.0, 0.0, 1.0);
     draw_undo_buttons(state);
     if (brush.saved_as.empty()) {
-        quiet_text("On the sample: gone when another recording is opened.");
+        quiet_text("Paint on the sample is not kept: it is gone when another recording is opened.");
     } else {
         quiet_text("Kept beside the recording as " + brush.saved_as.filename().string() +
-                   " and its like, and found again.");
+                   " and files named like it; dibhr finds them again.");
     }
     // All of it, not its first line: the column knows its new height a picture later.
     constexpr int kPicturesToScroll = 3;

@@ -29,12 +29,13 @@ struct StripKind {
 constexpr std::array<StripKind, kStrips> kKinds{
     {{Strip::force, "Force", "N", 0.5F, "Length of the force sent", &ChartsShown::force},
      {Strip::penetration, "Penetration", "mm", 1.0F,
-      "How far the hand's point is from the proxy, in contact", &ChartsShown::penetration},
-     {Strip::speed, "Speed", "mm/s", 20.0F, "Of the hand's point, under the hand",
+      "Distance from the goal to the proxy, in contact", &ChartsShown::penetration},
+     {Strip::speed, "Speed", "mm/s", 20.0F, "Speed of the goal, in millimetres of the hand",
       &ChartsShown::speed},
      {Strip::energy, "Energy", "mJ", 1.0F,
-      "Given to the hand by the force, in sum; falling: the hand gives it", &ChartsShown::energy},
-     {Strip::lateness, "Lateness", "us", 100.0F, "Of each tick, after its deadline",
+      "Energy that the force has given to the hand, summed up; falling: the hand gives energy",
+      &ChartsShown::energy},
+     {Strip::lateness, "Lateness", "us", 100.0F, "How long after its deadline each tick began",
       &ChartsShown::lateness}}};
 
 /// What a chart spans from bottom to top.
@@ -185,7 +186,7 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
             state.ui.held_strips = state.touch.strips;
         }
     }
-    explain("The charts stand still; the hand touches on");
+    explain("The charts are held; touching goes on");
     ImGui::SameLine(0.0F, gap);
     if (ImGui::SmallButton(choose)) ImGui::OpenPopup("charts");
     explain("Which charts are drawn");

@@ -24,9 +24,10 @@ void draw_shape(ViewerState& state) {
     if (now.coupling.pixel_pitch_mm != before.coupling.pixel_pitch_mm) settings.fit_pitch = false;
     if (state.touch.replay) return;
     flag_row("Relief as fits the picture", settings.fit_relief, true,
-             "From the farthest to the nearest a third of the picture's width (--relief auto)");
+             "Height from the farthest to the nearest depth: about a third of the picture's width "
+             "(--relief auto)");
     flag_row("Pitch as fits the picture", settings.fit_pitch, true,
-             "The hand's reach is the picture's width (--pixel-pitch auto)");
+             "The reach of the device is laid over the picture's width (--pixel-pitch auto)");
 }
 
 /// The pixel under the hand, in the depth's own words and as it stands.
@@ -37,7 +38,7 @@ void draw_under_hand(const ViewerState& state) {
     }
     const PixelShown& here = *state.ui.under_hand;
     fact_row("Under the hand", formatted("pixel %d, %d", here.column, here.row));
-    fact_row("Stands", elevation_text(state, here), "How high, over the farthest depth");
+    fact_row("Elevation", elevation_text(state, here), "How high, over the farthest depth");
     if (here.unseen || state.media.meaning)
         fact_row("Depth", depth_text(state, here), "As the file has it");
 }
@@ -56,7 +57,7 @@ void draw_text_size(ViewerState& state) {
     choose("Larger text", std::min(now * kStep, kLargestUi), "Of all panels; as --ui-scale");
     ImGui::SameLine();
     ImGui::BeginDisabled(!(scale > 0.0));
-    choose("As usual", 0.0, "As large as the display says");
+    choose("Default size", 0.0, "As large as the display says");
     ImGui::EndDisabled();
 }
 
@@ -104,7 +105,7 @@ void draw_surface_panel(ViewerState& state) {
               state.keys.in_brackets(Action::toggle_panes))
                  .c_str());
     flag_row("Cut silhouettes", settings.look.discard_silhouettes, standard.discard_silhouettes,
-             "Leaves out the stretched walls between near and far; they are still there to touch");
+             "Does not draw the stretched walls between near and far; they can still be touched");
     ImGui::BeginDisabled(!settings.look.discard_silhouettes);
     number_row({"Cut steeper than", "%.0f px/px", 1.0, 40.0, standard.silhouette_slope,
                 "Elevation change per pixel"},
@@ -120,7 +121,7 @@ void draw_surface_panel(ViewerState& state) {
     ImGui::RadioButton("Perspective", &straight, 0);
     ImGui::SameLine();
     ImGui::RadioButton("Straight", &straight, 1);
-    explain("As the camera that recorded it", state.keys, Action::toggle_straight_view);
+    explain("As seen by the camera that recorded it", state.keys, Action::toggle_straight_view);
     settings.straight_view = straight == 1;
     ImGui::SameLine();
     if (ImGui::Button("Reset view")) state.commands.push(Action::reset_view);

@@ -53,8 +53,9 @@ void draw_stability(ViewerState& state) {
              "Takes out the energy that rendering itself creates, and flicker of the depth "
              "(--stability); off for experiments that must not have it");
     if (settings.stability) {
-        flag_row("Damping as the hand needs", settings.damping_as_needed, true,
-                 "As much as the device's delay asks for at this stiffness; else your own");
+        flag_row(
+            "Damping as the hand needs", settings.damping_as_needed, true,
+            "On: as much as the device's delay needs at this stiffness. Off: your own damping");
     }
     const Coupling felt = felt_coupling(state.settings, state.touch);
     if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state.touch))) {
@@ -68,7 +69,8 @@ void draw_stability(ViewerState& state) {
     const double margin = stability_margin(felt, hand);
     fact_row("Stability margin", formatted("%+.1f N s/m", margin),
              "By how much the hand is damped more than the spring drives it; below 0 it swings");
-    if (margin < 0.0) trouble_text("A light or free grip swings: damp more, or be less stiff.");
+    if (margin < 0.0)
+        trouble_text("A light or free grip swings: raise the damping, or lower the stiffness.");
     const EnergyFlow& energy = state.touch.haptic.touch.energy;
     fact_row("Energy",
              formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw),
@@ -78,7 +80,7 @@ void draw_stability(ViewerState& state) {
              energy.taken_out_mw < kNoticed_mw
                  ? "quiet"
                  : formatted("takes out %.1f mW", energy.taken_out_mw),
-             "Of the energy that rendering adds");
+             "How much of the energy that rendering adds is taken out");
 }
 
 /// One of the row, lit when it is the chosen one; where it does not fit, on the next line.
@@ -101,8 +103,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
 void draw_materials(ViewerState& state) {
     if (state.touch.replay) return;
     ImGui::PushID("materials");
-    draw_material(state, {},
-                  "Only what the depth shows: no bump map, the usual friction and spring");
+    draw_material(state, {}, "Only what the depth shows: no bump map, default friction and spring");
     for (const std::string& name : state.ui.materials.shipped)
         draw_material(state, name, "Bump map, friction, stiffness and damping in one (--material)");
     for (const std::string& name : state.ui.materials.own)
@@ -146,14 +147,15 @@ void draw_sound(ViewerState& state) {
     const float mute_width = ImGui::GetFrameHeight() + style.ItemInnerSpacing.x +
                              ImGui::CalcTextSize("Mute").x + style.ItemSpacing.x;
     double percent = 100.0 * settings.sound_volume;
-    if (number_row({.label = "Sound",
-                    .format = "%.0f %%",
-                    .lowest = 0.0,
-                    .highest = 100.0,
-                    .standard = 100.0 * Settings{}.sound_volume,
-                    .help = "What is touched taps, scrapes and rubs, as its material does",
-                    .beside = mute_width},
-                   percent)) {
+    if (number_row(
+            {.label = "Sound",
+             .format = "%.0f %%",
+             .lowest = 0.0,
+             .highest = 100.0,
+             .standard = 100.0 * Settings{}.sound_volume,
+             .help = "Volume of the sound of touch: taps, scraping and texture of the material",
+             .beside = mute_width},
+            percent)) {
         settings.sound_volume = std::clamp(percent / 100.0, 0.0, 1.0);
     }
     ImGui::SameLine();

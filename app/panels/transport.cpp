@@ -189,7 +189,7 @@ void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(playing ? "LIVE" : "HELD");
     ImGui::SameLine();
-    const std::string words = playing ? in_words(live) : "play goes on with what comes then";
+    const std::string words = playing ? in_words(live) : "play goes on with the newest frame";
     const float room = right - ImGui::GetCursorPosX();
     if (ImGui::CalcTextSize(words.c_str()).x < room) ImGui::TextDisabled("%s", words.c_str());
     ImGui::SameLine(right + ImGui::GetStyle().ItemSpacing.x);

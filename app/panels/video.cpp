@@ -48,12 +48,12 @@ void draw_recent(ViewerState& state) {
 }
 
 void draw_open(ViewerState& state) {
-    const bool from_colour = text_field(
-        "##colour", "Colour file, or session", state.ui.fields.colour,
-        ("Path of a colour video or picture, or of a recorded session, or what is live, as "
-         "v4l2:/dev/video0 or udp://...; Open without one shows what there is" +
-         state.keys.in_brackets(Action::open_file))
-            .c_str());
+    const bool from_colour =
+        text_field("##colour", "Colour file, or session", state.ui.fields.colour,
+                   ("Path of a colour video, a picture or a recorded session, or a live source "
+                    "such as v4l2:/dev/video0 or udp://...; Open without a path lists the files" +
+                    state.keys.in_brackets(Action::open_file))
+                       .c_str());
     const bool from_depth =
         text_field("##depth", "Depth file: found beside it", state.ui.fields.depth,
                    "Empty: the file called like the colour file, with depth in place of color");
@@ -99,10 +99,11 @@ void draw_frame(const PlaybackStatus& playback) {
     if (slow) value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
     fact_row("Frame", value);
     if (!slow) return;
-    explain(playback.waits ? "This machine is too slow for all frames: these many are shown in a "
-                             "second, and later than they should be"
-                           : "This machine is too slow for all frames: these many are shown in a "
-                             "second, in their time");
+    explain(
+        playback.waits
+            ? "This machine is too slow for all frames: so many are shown per second, and too late"
+            : "This machine is too slow for all frames: so many are shown per second, at the right "
+              "time");
 }
 
 void draw_playback(const ViewerState& state, Transport& player) {
@@ -127,18 +128,18 @@ void draw_live(const ViewerState& state, Transport& player) {
     if (live.signal) {
         fact_row("Delay", formatted("%.0f ms", 1000.0 * live.behind_s));
         explain(
-            "From a picture's coming until the surface is wholly what it shows: the time from "
-            "frame to frame, what cleaning takes, and as much as pictures come unevenly");
+            "Time from the arrival of a picture until the whole surface shows it: the time between "
+            "frames, the time for cleaning, and a reserve for uneven arrival");
     } else {
         fact_row("Signal", formatted("lost for %.0f s", live.silent_s));
     }
     fact_row("Frames", formatted("%.1f/s, %lld left out", playback.frames_per_s,
                                  static_cast<long long>(live.dropped)));
-    explain("Left out: they came before the one before them was ready");
+    explain("Left out: frames that came before the frame before them was ready");
     if (live.motion_rests)
-        quiet_text("This machine has no time to find out how frames move: nothing is carried");
+        quiet_text("This machine is too slow to find how frames move: nothing is carried along");
     if (live.in_betweens_rest)
-        quiet_text("This machine has no time for in-betweens: frames fade into each other");
+        quiet_text("This machine is too slow for in-betweens: frames fade into each other");
     if (!live.signal && !live.trouble.empty()) quiet_text(capitalised(live.trouble));
 }
 
@@ -156,7 +157,7 @@ void draw_cleaning(ViewerState& state) {
     if (!state.touch.replay && !state.media.playback.cleaning.empty()) {
         quiet_text((by_sidecar ? "By the sidecar: " + state.media.playback.cleaning
                                : capitalised(state.media.playback.cleaning)));
-        explain("What is done, and how much the depth was found to shake, from near to far");
+        explain("Which steps run, and the noise that was measured in the depth, from near to far");
     }
     const double said_mm = finger_mm_on(state.media, 0.0);
     const std::string unless_chosen =
@@ -191,8 +192,8 @@ void draw_cleaning(ViewerState& state) {
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
     choice_row("In-betweens", kInBetweensWords, state.settings.in_betweens,
-               "Between two frames what moves is on its way, instead of one picture fading into "
-               "the other; a replay then needs the colour, too (--in-betweens)");
+               "Between two frames, moving things are shown on their way, instead of one picture "
+               "fading into the other; a replay then needs the colour, too (--in-betweens)");
 }
 
 }  // namespace

@@ -148,7 +148,7 @@ inline constexpr std::array<Word<BrushLays>, 5> kBrushWords{
      {BrushLays::stiffness, "stiffness", "Stiffness"},
      {BrushLays::friction, "friction", "Friction"},
      {BrushLays::height, "height", "Height"},
-     {BrushLays::nothing, "nothing", "Nothing: take away"}}};
+     {BrushLays::nothing, "nothing", "Nothing: erase"}}};
 static_assert(has_all_in_order(kBrushWords, BrushLays::nothing));
 
 struct Brush {

@@ -176,7 +176,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
            "--material",
            [&request](const std::string& name) { request.given.material = material_called(name); },
            "What the surface is made of: " + list_of_materials() +
-               ", or a .toml file; numbers given by themselves win")
+               ", or a .toml file; a number that has its own option wins over the material")
         ->type_name("NAME");
     app.add_option("--bump", request.given.bump,
                    "Bump map laid over the surface: an 8- or 16-bit image")
@@ -202,7 +202,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                    request.depth.cleaning.emplace();  // whatever a sidecar says
            },
            "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
-           "sensor (also silhouettes and noise), auto (as the clip's noise asks)")
+           "sensor (also silhouettes and noise), auto (chosen by the noise of the clip)")
         ->type_name("NAME")
         ->default_str("auto");
     add_number_option(app, "--finger", 0.0, kThickestFinger_mm,
@@ -404,16 +404,16 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
 }
 
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {
-    add_words_option<InBetweens>(
-        app, "--in-betweens",
-        "on: between two frames what moves is on its way, instead of fading; auto: with --carry on",
-        [&touch](InBetweens moved) { touch.in_betweens = moved; });
+    add_words_option<InBetweens>(app, "--in-betweens",
+                                 "on: between two frames, moving things are on their way instead "
+                                 "of fading; auto: only with --carry on",
+                                 [&touch](InBetweens moved) { touch.in_betweens = moved; });
 }
 
 void add_level_options(CLI::App& app, DepthStatement& depth) {
     add_word_option(app, "--near", kNearLevels, depth.near, "Which levels are near");
     add_word_option(app, "--depth-unit", kDepthUnits, depth.unit,
-                    "What a level times its scale is");
+                    "Unit of a level times the scale");
     add_fact_option(app, "--depth-scale", depth.scale, scale_in, "NUMBER",
                     "is not a number above 0",
                     "One level in that unit (TUM: --depth-unit m --depth-scale 0.0002)");
@@ -422,13 +422,14 @@ void add_level_options(CLI::App& app, DepthStatement& depth) {
                     "The nearest and the farthest, in that unit; auto: as far as most of the clip "
                     "reaches");
     add_fact_option(app, "--no-data", depth.no_data, levels_in, "LEVELS",
-                    "is not a list of up to 64 levels like 0,65535", "Levels that mean nothing");
+                    "is not a list of up to 64 levels like 0,65535",
+                    "Levels that stand for missing data");
 }
 
 void add_depth_options(CLI::App& app, DepthStatement& depth) {
     add_level_options(app, depth);
     add_word_option(app, "--packing", kDepthPackings, depth.packing,
-                    "Where colour and depth are, colour first");
+                    "How colour and depth lie in the picture, colour first");
     add_word_option(app, "--depth-code", kDepthCodes, depth.code, "How a picture holds depth");
     add_word_option(app, "--geometry", kGeometries, depth.geometry,
                     "relief: the picture plane plus elevation; true: the shape in mm");
@@ -439,8 +440,8 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "60deg");
     add_fact_option(app, "--registration", depth.registration, registration_in, "RIGHT,DOWN,SCALE",
                     "is not RIGHT,DOWN,SCALE in depth pixels, the scale 0.01 to 100",
-                    "Where the colour lies over the depth: moved by depth pixels, and so many "
-                    "times as large");
+                    "How the colour lies over the depth: moved by RIGHT and DOWN depth pixels, and "
+                    "SCALE times as large");
 }
 
 void add_shape_options(CLI::App& app, TouchRequest& request) {
@@ -452,9 +453,10 @@ void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwi
     // The range is that of the coefficients it stands for.
     TouchParameters any;
     const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
-    add_number_option(app, "--friction", coefficient.lowest, coefficient.highest,
-                      "Both coefficients of friction; one given by itself wins",
-                      [&request](double mu) { request.given.friction = mu; })
+    add_number_option(
+        app, "--friction", coefficient.lowest, coefficient.highest,
+        "Both coefficients of friction; --static-friction and --dynamic-friction win over it",
+        [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
     add_entries_of_touch(app, request.given, otherwise, [](TouchTopic) { return true; });
     add_surface_options(app, request);

@@ -178,7 +178,7 @@ std::string in_words(const std::vector<Doubt>& doubts, const fs::path& file) {
         values.push_back(std::string(doubt.what) + " " + doubt.asked + " in place of " +
                          doubt.usual);
     return file.string() + " asks for " + listed(values) +
-           ": the usual holds until somebody agrees in the viewer's window";
+           ": the default is used until somebody agrees in the viewer's window";
 }
 
 }  // namespace dibhr

@@ -15,7 +15,7 @@ constexpr std::array<ButtonJob, 9> kButtonJobs{{
     {{ButtonAction::play_or_pause, "play-or-pause", "Play, pause"}, Action::play_or_pause},
     {{ButtonAction::force_off, "force-off", "Force off"}, Action::force_off},
     {{ButtonAction::toggle_force, "toggle-force", "Force off, on"}, Action::toggle_force},
-    {{ButtonAction::centre_workspace, "centre", "Centre the hand"}, Action::centre_workspace},
+    {{ButtonAction::centre_workspace, "centre", "Centre the workspace"}, Action::centre_workspace},
     {{ButtonAction::go_to_start, "go-to-start", "To the start"}, Action::go_to_start},
     {{ButtonAction::take_screenshot, "screenshot", "Save a picture"}, Action::take_screenshot},
 }};

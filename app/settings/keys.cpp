@@ -45,9 +45,9 @@ constexpr const char* kProgram = "Program";
 
 constexpr KeyJob kJobs[] = {
     job(Action::toggle_force, "toggle-force", kTouch, "Force off, force on again", "F"),
-    while_typing(job(Action::force_off, "force-off", kTouch, "Force off, whatever it was", "F8")),
+    while_typing(job(Action::force_off, "force-off", kTouch, "Force off, never on", "F8")),
     job(Action::centre_workspace, "centre-workspace", kTouch,
-        "Centre the device's hand in the image", "C"),
+        "Centre the device's workspace in the image", "C"),
     while_typing(job(Action::record, "record", kTouch, "Record what is touched, stop", "Ctrl+R")),
     job(Action::toggle_sound, "toggle-sound", kTouch, "Sound of touch off, on", "U"),
     job(Action::mark, "mark", kTouch, "Mark this moment of the recording", "M"),
@@ -79,20 +79,19 @@ constexpr KeyJob kJobs[] = {
     job(Action::double_speed, "double-speed", kPlayback, "Twice the speed", "}", "Page up"),
     job(Action::normal_speed, "normal-speed", kPlayback, "Normal speed", "Backspace"),
     job(Action::toggle_loop, "toggle-loop", kPlayback, "Loop on, off", "L"),
-    job(Action::loop_part, "loop-part", kPlayback, "Loop from here; to here; all again", "A"),
+    job(Action::loop_part, "loop-part", kPlayback, "Set the loop's start; its end; play all", "A"),
     job(Action::reset_view, "reset-view", kView, "Reset the view", "R"),
     job(Action::toggle_straight_view, "toggle-straight-view", kView, "Straight view, perspective",
         "V"),
     while_held(job(Action::show_as_recorded, "show-as-recorded", kView,
                    "Depth as recorded, before cleaning", "B")),
-    job(Action::next_paint, "next-paint", kView, "Colour of the video, clay, colours of the depth",
-        "D"),
+    job(Action::next_paint, "next-paint", kView, "Show video colour, clay, or depth colours", "D"),
     job(Action::toggle_panes, "toggle-panes", kView,
         "Colour and depth as pictures above the relief", "K"),
     job(Action::toggle_ruler, "toggle-ruler", kView,
         "Ruler between two clicks on the relief; end it", "N"),
     job(Action::toggle_statistics, "toggle-statistics", kView, "Statistics over the relief", "I"),
-    job(Action::copy_view, "copy-view", kView, "Copy where the view is from", "Ctrl+C"),
+    job(Action::copy_view, "copy-view", kView, "Copy the camera's view", "Ctrl+C"),
     job(Action::paste_view, "paste-view", kView, "Take the copied view", "Ctrl+V"),
     job(Action::toggle_panels, "toggle-panels", kView, "Hide the panels, show them", "Tab"),
     while_typing(
@@ -269,13 +268,13 @@ class Wishes {
         const KeyJob* const job = job_called(entry.action);
         if (job == nullptr) return "is not an action: dibhr help keys lists them";
         if (job->action == Action::force_off && entry.keys.empty())
-            return "cannot be without a key: F8 always takes the force off; leave the entry away";
+            return "cannot be without a key: F8 always takes the force off; remove the entry";
         std::vector<Key> keys;
         for (const std::string& name : entry.keys) {
             const std::optional<Key> key = key_called(name);
             std::string lacking = lacking_of(key, *job);
             if (!lacking.empty())
-                return "names " + in_quotes(name) + ", " + lacking + "; the usual keys stay";
+                return "names " + in_quotes(name) + ", " + lacking + "; the default keys stay";
             if (!holds(keys, *key)) keys.push_back(*key);
         }
         own_[static_cast<std::size_t>(job->action)] = std::move(keys);

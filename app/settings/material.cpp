@@ -118,7 +118,7 @@ toml::table table_of(const fs::path& file) {
     } catch (const toml::parse_error& error) {
         std::ostringstream text;
         text << file.string() << ":" << error.source().begin.line << ": cannot be understood ("
-             << error.description() << "); mend it";
+             << error.description() << "); correct it";
         throw InputError(one_line(text.str()));  // it quotes the file
     }
 }

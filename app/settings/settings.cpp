@@ -340,7 +340,8 @@ toml::table parsed(const fs::path& file) {
     } catch (const toml::parse_error& error) {
         std::ostringstream text;
         text << "cannot understand the settings file " << file.string() << " at line "
-             << error.source().begin.line << " (" << error.description() << "): mend or delete it";
+             << error.source().begin.line << " (" << error.description()
+             << "): correct or delete it";
         throw InputError(one_line(text.str()));  // it quotes the file
     }
 }

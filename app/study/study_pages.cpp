@@ -194,7 +194,8 @@ Press draw_question(const StudyRun& run, const StudyShown& view) {
             add_line(block.question, view, foot);
         else
             add_numbers(block.question, view, foot);
-        if (!view.by_mouse) foot.push_back(note_part("On the grip: lower, higher, answer"));
+        if (!view.by_mouse)
+            foot.push_back(note_part("Buttons of the grip: 1 lower, 2 higher, 3 answer"));
     } else {
         foot.push_back(button_part({.labels = choices_of(run)}, [](int which) {
             return StudyPress{Kind::choose, which};
@@ -228,8 +229,8 @@ Press draw_adjustment(const StudyRun& run, const StudyShown& view) {
             return which == 0 ? StudyPress{Kind::feel, other} : StudyPress{Kind::go_on};
         }));
     if (!view.by_mouse)
-        foot.push_back(
-            note_part("On the grip: less, more, the other; hold the third when they are equal"));
+        foot.push_back(note_part(
+            "Buttons of the grip: 1 less, 2 more, 3 feel the other; hold 3 when they are equal"));
     return draw_at_bottom(foot);
 }
 

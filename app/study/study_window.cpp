@@ -93,7 +93,7 @@ StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, Study
     if (!options.size) window_.toggle_full_screen();
     for (const Doubt& doubt : doubts_)
         view_.to_agree +=
-            std::string(doubt.what) + ": " + doubt.asked + ", usually " + doubt.usual + '\n';
+            std::string(doubt.what) + ": " + doubt.asked + ", default " + doubt.usual + '\n';
     view_.before_start = run_.step() == StudyStep::interval || !doubts_.empty();
 }
 
@@ -387,7 +387,7 @@ void StudyWindow::agree_to_study() {
     try {
         Consent().agree(doubts_);
     } catch (const InputError& error) {
-        print_warning(std::string(error.what()) + "; it will be asked again");
+        print_warning(std::string(error.what()) + "; dibhr will ask again");
     }
     view_.to_agree.clear();
     view_.before_start = run_.step() == StudyStep::interval;

@@ -272,7 +272,7 @@ void TouchRecording::poll() {
     news.time_s = now_s();
     std::string failure = news.status.failure;
     if (const std::string of_video = live_ ? live_->failure() : std::string{}; !of_video.empty())
-        failure = "Recording the video of what is live stopped: " + of_video;
+        failure = "Recording the live video stopped: " + of_video;
     if (!failure.empty()) break_off(failure);
 }
 
@@ -310,7 +310,7 @@ void TouchRecording::finish(std::chrono::milliseconds for_sums) {
     if (waiting_) {
         live_->discard();
         last = waiting_->file.string() +
-               ": nothing was recorded, as no frame came: see whether its sender sends";
+               ": nothing was recorded, because no frame came: check whether the sender runs";
     }
     if (live_ && recorder_) last = finish_both(*recorder_, *live_, for_sums).failure;
     if (!live_ && recorder_) last = recorder_->finish(for_sums).failure;

@@ -99,8 +99,8 @@ void ViewerClip::wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how) {
     errands_.give_one_up();
     throw InputError(file_.string() + ": the clip is not finished after " +
                      std::to_string(patience.count()) +
-                     " s, what there is of it is beside it, called .part: see whether its disk "
-                     "still answers");
+                     " s; what was written so far is beside it and ends in .part: check whether "
+                     "the disk still works");
 }
 
 void ViewerClip::finish(ClipEnd how) {

@@ -93,8 +93,8 @@ void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
         state_.commands.push(LoadBump{files.front()});
     } else if (!take_files(files, state_)) {
         state_.ui.message =
-            "Drop one colour file, a colour and a depth file together, a folder, a session, a "
-            "material, or onto the panels a picture as bump map.";
+            "Drop one colour file, a colour and a depth file together, a folder, a session or a "
+            "material. A picture that is dropped on the panels becomes a bump map.";
     }
 }
 
@@ -136,7 +136,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
         live && request.again ? touch_.recording().waits_with() : std::filesystem::path{};
     if (live && touch_.recording().asked_for()) {
         const std::string ended =
-            touch_.recording().stop(request.again ? "what is live changed its form" : "");
+            touch_.recording().stop(request.again ? "the live source changed its form" : "");
         if (waits.empty()) tell(ended);  // one that waits goes on to wait
     }
     if (!request.chosen) keep_memory();
@@ -165,8 +165,10 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (!options_.touch.feels_maps())
         maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
     if (options_.touch.feels_maps() && !maps.refusal.empty())
-        state_.ui.message = maps.refusal + "\n\nIt is touched without touch maps.";
-    if (now.live) maps = {nullptr, "Nothing is painted on what is live: it has no place for it"};
+        state_.ui.message = maps.refusal + "\n\nThe recording is touched without touch maps.";
+    if (now.live)
+        maps = {nullptr,
+                "A live source cannot be painted on: there is no file to keep the paint beside"};
     touch_.play(std::move(media),
                 painting_.begin(std::move(maps), now, remembered_file(now).empty()));
     if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
@@ -316,7 +318,7 @@ void Viewer::open(const OpenRequest& request) {
 
 std::string Viewer::save_sidecar() {
     if (state_.media.live)
-        throw InputError("what is live has no sidecar: what is chosen is kept for its name");
+        throw InputError("a live source has no sidecar: what you choose is kept for its name");
     if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
     const std::filesystem::path& file = depth_file(state_.media);
     DepthStatement all = state_.media.meaning->statement();

@@ -141,8 +141,8 @@ class ErrandsInOrder {
         look();
         if (late)
             throw InputError(
-                "settings and what is remembered are not saved: see whether their disk still "
-                "answers");
+                "the settings, and what dibhr remembers of files, are not saved: check whether the "
+                "disk still works");
     }
 
     /// When all that was added until now is done; not valid: nothing was. For a thread that waits.

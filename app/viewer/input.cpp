@@ -113,7 +113,7 @@ std::optional<MediaPart> next_part(const Course& course) {
 std::string said_of(const std::optional<MediaPart>& part, const Course& course,
                     const KeyTable& keys) {
     const auto at = [&course](double t_s) { return clock_text(t_s - course.begin_s); };
-    if (!part) return "All is played again";
+    if (!part) return "All is played, no longer a part";
     if (std::isinf(part->to_s))
         return "Loop from " + at(part->from_s) +
                keys.told(Action::loop_part, " again ends it here");
@@ -178,7 +178,7 @@ std::optional<Answer> move_live(Action action, bool playing, Transport& player) 
         default:
             if (!(std::abs(seek_step_s(action)) > 0.0) && !speed_after(action, 1.0)) return {};
     }
-    return Answer{"It is live: record it, and go about in the recording"};
+    return Answer{"This is live: record it, and move about in the recording"};
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
             return {"Force off"};
         case Action::centre_workspace:
             ++state.touch.centred;
-            return {"Hand centred"};
+            return {"Workspace centred"};
         case Action::mark:
             state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
             return {};

@@ -69,7 +69,7 @@ ToldLog::ToldLog(std::filesystem::path file, Errands& errands)
     const std::string reason = appended(file_, {});
     if (!reason.empty())
         throw InputError("cannot write " + file_.string() + " (" + reason +
-                         "): name a file in a folder that can be written with --log-file");
+                         "): choose a folder that can be written for --log-file");
 }
 
 void ToldLog::keep(std::string_view kind, std::string_view words) {

@@ -123,7 +123,9 @@ void Viewer::load_bump(const std::filesystem::path& file) {
 
 void Viewer::take_material(const std::string& name) {
     if (state_.touch.replay) {
-        tell("A replay is felt as it was recorded: touch its video to choose a material");
+        tell(
+            "A replay is felt as it was recorded: press \"Touch this video\" on the Replay panel "
+            "to choose a material");
         return;
     }
     attempt([&] {

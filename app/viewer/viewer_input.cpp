@@ -90,11 +90,11 @@ std::optional<Answer> Viewer::perform_with_brush(Action action) {
         return Answer{"Brush: drag over the relief to paint"};
     }
     if (action == Action::undo) {
-        if (!brush.can_undo) return Answer{"Nothing is painted that could be taken back"};
+        if (!brush.can_undo) return Answer{"There is no paint to take back"};
         painting_.undo(state_, touch_.player());
         return Answer{"Taken back" + state_.keys.told(Action::redo, " paints it again")};
     }
-    if (!brush.can_redo) return Answer{"Nothing was taken back"};
+    if (!brush.can_redo) return Answer{"Nothing was taken back that could be painted again"};
     painting_.redo(state_, touch_.player());
     return Answer{"Painted again"};
 }

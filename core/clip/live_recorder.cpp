@@ -59,7 +59,7 @@ void LiveRecorder::add(const LiveRecord& record) {
     if (waiting_.size() < kMostWaiting) {
         waiting_.push_back(record);
     } else {
-        failure_ = "the disk is too slow for the video of what is live";
+        failure_ = "the disk is too slow for the live video";
         waiting_.clear();
     }
     news_.notify_one();

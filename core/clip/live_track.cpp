@@ -23,7 +23,8 @@ TrackEncoder exact_encoder(int pixel_format, int columns, int rows, const char* 
     AvOwned<AVCodecContext> codec = new_encoder(encoder, columns, rows, pixel_format);
     av_opt_set(codec->priv_data, "pred", prediction, 0);
     if (avcodec_open2(codec.get(), encoder, nullptr) < 0)
-        throw InputError("what is live is of a size that no video has, and cannot be recorded");
+        throw InputError(
+            "the live video has a size that no video file can have, and cannot be recorded");
     return TrackEncoder(std::move(codec));
 }
 
@@ -64,7 +65,7 @@ std::optional<FileContent> LiveTrack::finish() {
 AVFrame& LiveTrack::frame_of(int columns, int rows) {
     AVFrame& frame = encoder_.frame();
     if (columns != frame.width || rows != frame.height)
-        throw InputError("what is live changed its size: record it again");
+        throw InputError("the live video changed its size: record it again");
     return frame;
 }
 

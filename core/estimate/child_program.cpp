@@ -56,7 +56,7 @@ std::vector<std::string> environment() {
     const std::string name = in_quotes(program, 200);
     if (why == ENOENT && ::access(program.c_str(), F_OK) == 0)
         throw InputError("the estimator cannot be started: the program that the first line of " +
-                         name + " names (#!) is not there; install it, or mend that line");
+                         name + " names (#!) is not there; install it, or correct that line");
     if (why == ENOENT)
         throw InputError("the estimator cannot be started: there is no program " + name +
                          "; install it, or write its whole path into the command");

@@ -122,7 +122,7 @@ class Run {
         tell();
         if (seconds_since(alive_) < patience_s_) return;
         child_.end();
-        throw InputError("the estimator showed no sign of life for " + short_text(patience_s_) +
+        throw InputError("the estimator wrote and printed nothing for " + short_text(patience_s_) +
                          " s and was ended");
     }
 
@@ -225,7 +225,7 @@ class Estimation {
             if (!is) return std::nullopt;
             if (*is == before->sha256) return opened(*before, true);
             print_warning("the depth kept for " + shown(request_.colour) +
-                          " is not as it was written, and is made anew");
+                          " has changed since it was written, and is made anew");
         }
         if (!has_frames()) return std::nullopt;
         const bool all_there = command_.takes_frames() && done_.size() >= colour_.count();
@@ -278,9 +278,9 @@ class Estimation {
         if (failure.empty() || complete) return true;
         failure += how_far(command_, *folder_, colour_.count());
         if (!run.last_line().empty())
-            failure += "; it said last: " + in_quotes(run.last_line(), 160);
+            failure += "; its last line: " + in_quotes(run.last_line(), 160);
         if (fs::exists(folder_->said()) && fs::file_size(folder_->said()) > 0)
-            failure += "; all it said is in " + folder_->said().string();
+            failure += "; all its output is in " + folder_->said().string();
         throw InputError(failure);
     }
 

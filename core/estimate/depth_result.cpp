@@ -126,9 +126,9 @@ Survey surveyed(const DepthOutput& output, const ColourFrames& colour,
         refuse_count(output.file(), survey.times_s.size(), colour);
     if (!(survey.highest > survey.lowest))
         throw InputError(
-            "the estimator's depth says nothing: " + shown(output.file().filename()) +
+            "the estimator's depth cannot be used: " + shown(output.file().filename()) +
             (std::isfinite(survey.highest) ? " has one level everywhere" : " holds no number") +
-            "; see what it says for a single picture");
+            "; try the estimator on a single picture");
     return survey;
 }
 
@@ -223,7 +223,7 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, Dep
     if (refusal.empty())
         refusal =
             "the estimator left no depth: there is neither a picture nor an array nor a video in "
-            "its {output}; see whether its command says where";
+            "its {output}; check whether its command says where to write";
     throw InputError(refusal);
 }
 

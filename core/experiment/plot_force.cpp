@@ -46,9 +46,9 @@ std::vector<Vec2> directions(const PathRun& path, std::span<const Vec3> proxies,
     return series;
 }
 
-/// "turns 4.13 deg an update (sd 6.77), sliding 3.90 (sd 2.10)".
+/// "turns 4.13 deg per update (sd 6.77), sliding 3.90 (sd 2.10)".
 std::string turning_words(const VariationStatistics& variation) {
-    return "turns " + fixed_text(variation.mean_deg, 2) + " deg an update (sd " +
+    return "turns " + fixed_text(variation.mean_deg, 2) + " deg per update (sd " +
            fixed_text(variation.sd_deg, 2) + "), sliding " + sliding_words(variation);
 }
 

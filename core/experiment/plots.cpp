@@ -47,7 +47,7 @@ struct Quantity {
 };
 
 constexpr std::array kQuantities{
-    Quantity{"turn an update, mean [deg]",
+    Quantity{"turn per update, mean [deg]",
              [](const SweepPoint& p) { return p.run.variation.mean_deg; },
              {0.1, 100.0},
              0.1,
@@ -161,8 +161,8 @@ Canvas plot_explanation(const PathRun& circle) {
                settings_of(circle));
     draw_magnified(canvas, kMagnified, circle, explained_place(circle), nullptr);
     canvas.text({kMagnified.left, kMagnified.bottom + 62.0},
-                "dotted: the hand; pale: exact; a marker a millisecond; lines to the black dot: "
-                "one moment's springs",
+                "dotted: the hand; pale: exact; one marker per ms; lines to the black dot: springs "
+                "of one moment",
                 {kQuietInk, kNumberCap_px});
     const auto panels = static_cast<double>(std::max<std::size_t>(circle.runs.size(), 1));
     const double each = (kMagnified.height() - kGap_px * (panels - 1.0)) / panels;

@@ -117,7 +117,7 @@ std::string time_table(std::span<const PathRun> paths) {
 
 std::string variation_table(std::span<const PathRun> paths) {
     std::string text =
-        "\nForce variation [degrees an update], mean (sd), and the error against the exact "
+        "\nForce variation [degrees per update], mean (sd), and the error against the exact "
         "answer\n" +
         left("", kNameWidth + 2) + right("paper", kPaperWidth) + right("all", 18) +
         right("sliding", 18) + right("max px", 12) + right("mean deg", 11) + right("max deg", 11) +
@@ -275,7 +275,8 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     text += time_table(paths);
     text +=
         "  Reading the clock, " + number_text(clock_us, 3) +
-        " us, is part of each time but of \"whole\": runs timed as a whole, for each update.\n"
+        " us, is part of each time except \"whole\": there a whole run is timed, and divided by "
+        "its updates.\n"
         "  Moves: primitives visited; bound: updates that ended before the proxy had caught up. "
         "Paper: a Pentium\n  D, 3.4 GHz.\n";
     text += variation_table(paths);
@@ -288,7 +289,7 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
 
 std::string sweep_table_of(std::span<const SweepPoint> points, double clock_us) {
     std::string text =
-        "Force variation while sliding [degrees an update], over all frictions and depths\n  " +
+        "Force variation while sliding [degrees per update], over all frictions and depths\n  " +
         left("", 8 + kNameWidth) + right("least", 10) + right("most", 10) + right("rougher", 10) +
         right("max px", 12) + right("max deg", 12) + right("bound", 8) + "\n";
     const auto smooth = not_rougher_than_dibhr(points);

@@ -100,8 +100,9 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
                         std::vector<float>& levels) noexcept try {
     if (image == nullptr || image->levels == nullptr) return null_given(handle, "the image");
     if (image->columns < smallest || image->rows < smallest) {
-        return failed(handle, DIBHR_BAD_ARGUMENT, "an image of %d x %d: at least %d x %d",
-                      image->columns, image->rows, smallest, smallest);
+        return failed(handle, DIBHR_BAD_ARGUMENT,
+                      "an image of %d x %d: it must have at least %d x %d", image->columns,
+                      image->rows, smallest, smallest);
     }
     if (image->type < DIBHR_LEVELS_8_BIT || image->type > DIBHR_LEVELS_FLOAT) {
         return failed(handle, DIBHR_BAD_ARGUMENT, "unknown type of levels: %d", image->type);
@@ -109,7 +110,7 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
     const float highest = highest_of(*image);
     if (!(highest > 0.0F) || !std::isfinite(highest)) {
         return failed(handle, DIBHR_BAD_ARGUMENT,
-                      "a highest level of %s: above 0 and finite, as a float",
+                      "a highest level of %s: it must be above 0, and finite as a float",
                       Shown(image->highest_level).text());
     }
     const std::size_t packed =
@@ -264,7 +265,7 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next) {
 
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend) {
     if (!(blend >= 0.0 && blend <= 1.0)) {
-        return failed(handle, DIBHR_BAD_ARGUMENT, "a blend of %s: it lies in 0 to 1",
+        return failed(handle, DIBHR_BAD_ARGUMENT, "a blend of %s: it must be from 0 to 1",
                       Shown(blend).text());
     }
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
@@ -317,7 +318,7 @@ dibhr_status dibhr_set(dibhr_handle* handle, const char* name, double value) {
     const PlainNumber* entry = entry_named(handle, name);
     if (entry == nullptr) return DIBHR_UNKNOWN_NAME;
     if (!(value >= entry->lowest && value <= entry->highest)) {
-        return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %s: it lies in %s to %s %s", name,
+        return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %s: it must be from %s to %s %s", name,
                       Shown(value).text(), Shown(entry->lowest).text(),
                       Shown(entry->highest).text(), entry->unit.data());
     }
@@ -368,8 +369,8 @@ dibhr_status dibhr_set_safety(dibhr_handle* handle, const dibhr_safety* safety) 
          {safety->max_force_newton, safety->max_change_newton_per_ms, safety->ramp_s,
           safety->max_tick_s, safety->max_goal_speed_mm_per_ms}) {
         if (!(limit >= 0.0 && std::isfinite(limit))) {
-            return failed(handle, DIBHR_BAD_ARGUMENT, "a limit of %s: at least 0 and finite",
-                          Shown(limit).text());
+            return failed(handle, DIBHR_BAD_ARGUMENT,
+                          "a limit of %s: it must be at least 0 and finite", Shown(limit).text());
         }
     }
     SafetyLimits& limits = handle->limits;

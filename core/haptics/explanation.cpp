@@ -252,7 +252,8 @@ std::string judged_text(const WalkStep& step) {
     const std::string beside = text_of(step.visited[1]);
     if (step.piece == step.visited[0])
         return edge + ": " + beside + " behind it leads back to it, so this is a crease. ";
-    return edge + ": the goal comes nearer fastest by " + beside + ", which becomes active. ";
+    return edge + ": the fastest way towards the goal leads over " + beside +
+           ", which becomes active. ";
 }
 
 std::string end_text(const WalkStep& step) {
@@ -276,14 +277,16 @@ std::string end_text(const WalkStep& step) {
             return piece + ": the goal's foot is beyond its end, so the proxy goes as far as " +
                    text_of(step.after.active) + ".";
         case StepEnd::rests_at_foot:
-            return piece + ": the proxy rests at the goal's foot; nowhere near is nearer.";
+            return piece +
+                   ": the proxy rests at the goal's foot; no place beside it is nearer to the "
+                   "goal.";
         case StepEnd::stops_on_cone:
             return piece + ": the proxy stops on " + cone + ".";
         case StepEnd::stays_in_cone:
             return piece + ": the proxy stays, within " + cone + ".";
         case StepEnd::becomes_active:
-            return piece + ": the goal comes nearer fastest by " + text_of(step.after.active) +
-                   ", which becomes active.";
+            return piece + ": the fastest way towards the goal leads over " +
+                   text_of(step.after.active) + ", which becomes active.";
         case StepEnd::rests_on_lowest:
             return piece + ": no way from here leads nearer to the goal, so the proxy rests.";
         case StepEnd::out_of_moves:

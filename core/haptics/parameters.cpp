@@ -31,7 +31,7 @@ using P = TouchParameters;
 // then some; the safety stage holds whatever these ask for.
 constexpr std::array kTouchNumbers{
     TouchNumber{"relief", "Relief", "relief_px", "px", TouchTopic::shape, 0.0, 4096.0,
-                "Elevation of the nearest depth; 255 makes a grey level a pixel",
+                "Elevation of the nearest depth; 255: one grey level is one pixel high",
                 [](P& p) -> double& { return p.shape.relief_px; }},
     TouchNumber{"roughness", "Roughness", "roughness_px", "px", TouchTopic::texture, 0.0, 256.0,
                 "Elevation of the bump map's highest point",
@@ -44,7 +44,7 @@ constexpr std::array kTouchNumbers{
                 "Coefficient while it slips, at most the static one",
                 [](P& p) -> double& { return p.friction.dynamic_coefficient; }},
     TouchNumber{"stiffness", "Stiffness", "stiffness_newton_per_mm", "N/mm", TouchTopic::spring,
-                0.0, 10.0, "Force of the spring from goal to proxy",
+                0.0, 10.0, "Force of the spring per millimetre from goal to proxy",
                 [](P& p) -> double& { return p.coupling.stiffness_newton_per_mm; }},
     TouchNumber{"damping", "Damping", "damping_newton_s_per_m", "N s/m", TouchTopic::damper, 0.0,
                 100.0, "Force against the speed of the goal",
@@ -68,8 +68,8 @@ constexpr std::array kTouchNumbers{
 
 constexpr std::array kTouchSwitches{
     TouchSwitch{"carry", "Carried along", "carry", TouchTopic::friction,
-                "What moves in the video takes along what touches it: friction and damping are of "
-                "the difference of the two speeds",
+                "What moves in the video carries the finger along: friction and damping follow the "
+                "difference of the two speeds",
                 [](P& p) -> bool& { return p.carry; }, true},
 };
 

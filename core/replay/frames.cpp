@@ -66,7 +66,7 @@ SessionMediaFinder::SessionMediaFinder(fs::path session, bool any_content)
 
 fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& what) {
     if (media.file.empty())
-        throw InputError(session_.string() + ": does not say over which " + what +
+        throw InputError(session_.string() + ": does not say with which " + what +
                          " it was recorded; record it again");
     const fs::path beside = fs::absolute(session_).parent_path() / media.file.filename();
     std::optional<fs::path> found;
@@ -76,9 +76,10 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
         if (!found) found = candidate;
     }
     if (!found)
-        throw InputError(
-            session_.string() + ": the " + what + " it was recorded over, " + media.file.string() +
-            ", is not there; put it back, or beside the session as " + beside.string());
+        throw InputError(session_.string() + ": the " + what + " that it was recorded with, " +
+                         media.file.string() +
+                         ", is not there; put it back, or beside the session as " +
+                         beside.string());
     if (media.sha256.empty()) {
         warn(found->string() + " is taken for the " + what +
              " of the recording, which ended before its content was known");
@@ -86,7 +87,7 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
         warn(found->string() + " is not the " + what + " of the recording: it has changed");
     } else {
         throw InputError(found->string() + ": has changed since " + session_.filename().string() +
-                         " was recorded over it; put the original beside the session as " +
+                         " was recorded with it; put the original beside the session as " +
                          beside.string() + ", or take it as it is with --any-media");
     }
     return *found;
@@ -214,7 +215,7 @@ Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
     if (frame) video.last_s = frame->media_s;
     if (!frame || frame->media_s != media_s)
         throw InputError(video.depth.string() + ": has no frame at " + short_text(media_s) +
-                         " s, which was touched; put the video back that was recorded over");
+                         " s, which the recording touched; put the original video back");
     frame->media = source.media;
     keep(source, *frame);
     return *frame;

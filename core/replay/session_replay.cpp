@@ -68,8 +68,7 @@ void SessionReplay::take_frames() {
     Frame from = goes_on ? touched_->to : frames_.frame(wanted.source, wanted.from_s);
     Frame to = wanted.to_s == wanted.from_s ? from : frames_.frame(wanted.source, wanted.to_s);
     if (!DepthBlend{&from, &to}.makes_surface())
-        refuse_tick("the frames at tick ",
-                    " make no surface; give back the video that was recorded");
+        refuse_tick("the frames at tick ", " make no surface; put the original video back");
     const bool carries = std::any_of(runs_.begin(), runs_.end(),
                                      [](const Run& run) { return run.parameters.carry; });
     frames_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});

@@ -138,7 +138,7 @@ void draw_length_bar(Canvas& canvas, Vec2 left, const HeatMapGround& ground, dou
     canvas.text({left.x, left.y + 24.0}, tick_text(length_mm) + " mm", words);
     canvas.text({left.x, left.y + 44.0}, fixed_text(length_mm / ground.pitch_mm, 1) + " px at",
                 {kQuietInk, kNumberCap_px});
-    canvas.text({left.x, left.y + 64.0}, fixed_text(ground.pitch_mm, 4) + " mm a px",
+    canvas.text({left.x, left.y + 64.0}, fixed_text(ground.pitch_mm, 4) + " mm per px",
                 {kQuietInk, kNumberCap_px});
 }
 

@@ -96,14 +96,15 @@ std::vector<std::string> remarks_of(const SessionReport& report) {
     say(ticks.without_surface, " had no surface to touch.");
     say(ticks.device_not_ready, " had no device that was ready.");
     say(is_mouse_alone(hand_of(ticks)) ? 0 : ticks.stand_in,
-        " were the mouse's, for a device that was not ready.");
-    say(ticks.goal_refused, " had a place of the hand that was no number; the one before stood.");
+        " were moved by the mouse, because the device was not ready.");
+    say(ticks.goal_refused,
+        " had a place of the hand that was no number; the place before it was used.");
     say(ticks.catching_up, " ended before the proxy had caught up with its goal.");
     say(ticks.late, " began late, a millisecond or more after the deadline; the worst " +
                         number_text(ticks.worst_lateness_us / 1000.0, 1) + " ms.");
     for (std::size_t cut = 1; cut < ticks.cut.size(); ++cut)
-        say(ticks.cut[cut], std::string(" had the force taken away: ") +
-                                name_of(static_cast<SafetyCut>(cut)) + ".");
+        say(ticks.cut[cut],
+            std::string(" had the force cut: ") + name_of(static_cast<SafetyCut>(cut)) + ".");
     for (const HeatMapFacts& map : report.maps) {
         if (!map.remark.empty())
             remarks.push_back("A heat map lies over plain ground: " + map.remark + ".");
@@ -161,7 +162,7 @@ std::string device_text(const std::string& device, const HandTicks& hand) {
     constexpr double kLeast = 0.1;  // percent; not none, and not all
     const double percent =
         100.0 * static_cast<double>(hand.stand_in) / static_cast<double>(hand.all);
-    return device + "; the mouse stood in for " +
+    return device + "; the mouse replaced it for " +
            number_text(std::clamp(percent, kLeast, 100.0 - kLeast), 1) + " % of the ticks";
 }
 

@@ -28,7 +28,7 @@ namespace dibhr {
 [[nodiscard]] std::string percent_text(double share);
 
 /// The device that was asked for, and for how much of the time with a surface the mouse stood in:
-/// "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks". At least 0.1 % if any.
+/// "Novint Falcon 1234; the mouse replaced it for 37.2 % of the ticks". At least 0.1 % if any.
 [[nodiscard]] std::string device_text(const std::string& device, const HandTicks& hand);
 
 /// Of a session's ticks.

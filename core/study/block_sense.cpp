@@ -75,7 +75,7 @@ void require_telling_levels(const PageTable& table, const Block& block) {
     for (std::size_t k = 0; k < vary.levels.size(); ++k) {
         if (vary.reference + vary.levels[k] != vary.reference) continue;
         refuse_at(table.file(), *table.raw().get_as<toml::array>("levels")->get(k),
-                  "at a level of 0 no interval is the right one: leave it away (only " +
+                  "at a level of 0 no interval is the right one: leave it out (only " +
                       form_called(TrialForm::explore) + ", yes or no, may have it)");
     }
 }
@@ -85,10 +85,10 @@ void require_judged(const PageTable& table, const Block& block) {
     const bool judged = block.form == TrialForm::three_interval ||
                         (block.variation.any() && block.form != TrialForm::adjust);
     if (!judged && table.raw()["feedback"].value_or(false))
-        table.refuse("feedback",
-                     "nothing is right or wrong here: leave feedback away, or give vary and "
-                     "levels to " +
-                         form_called(TrialForm::explore) + " or two-interval");
+        table.refuse(
+            "feedback",
+            "nothing is right or wrong here: leave feedback out, or give vary and levels to " +
+                form_called(TrialForm::explore) + " or two-interval");
 }
 
 }  // namespace
@@ -154,8 +154,8 @@ void require_worth(PageTable& table, const Protocol& protocol, const TouchValues
     const std::size_t cells = block.items.size() * std::max<std::size_t>(1, vary.levels.size());
     if (block.order == TrialOrder::latin && cells < 2)
         table.refuse("order",
-                     "order = \"latin\" balances what there are two of at least, conditions, pairs "
-                     "or levels: here is one, leave it away");
+                     "order = \"latin\" balances two or more conditions, pairs or levels: here is "
+                     "only one, leave order out");
     if (!vary.any()) return;
     const bool adjusts = block.form == TrialForm::adjust;
     if (adjusts && (vary.reference < vary.lowest || vary.reference > vary.highest))

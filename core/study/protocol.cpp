@@ -17,7 +17,7 @@ std::string in_words(const TouchValues& values) {
     for (const auto& [name, word] : values.words) all.push_back(name + " " + word);
     for (const auto& [name, number] : values.numbers)
         all.push_back(name + " " + number_text(number));
-    return all.empty() ? "as the program has it" : listed(all);
+    return all.empty() ? "the program's defaults" : listed(all);
 }
 
 TouchValues laid_over(const TouchValues& under, const TouchValues& over) {

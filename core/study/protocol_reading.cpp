@@ -146,7 +146,7 @@ class ProtocolReading {
         to_.conditions.push_back(std::move(condition));
         if (to_.conditions.size() > kMostConditions)
             table.refuse("factor", "there are more than " + std::to_string(kMostConditions) +
-                                       " conditions: leave some away");
+                                       " conditions: leave some out");
     }
 
     void read_conditions() {
@@ -406,9 +406,9 @@ class ProtocolReading {
         if (takes_answers && (question.answers.size() < 2 || question.answers.size() > 9))
             table.refuse("answers", "there are 2 to 9 answers");
         if (!takes_answers && !question.answers.empty())
-            table.refuse("answers", std::string("the form ") + name_of(block.form) +
-                                        " has its own answers: leave them away, or take the form "
-                                        "explore");
+            table.refuse("answers",
+                         std::string("the form ") + name_of(block.form) +
+                             " has its own answers: leave them out, or take the form explore");
         auto scale = table.table("scale", "[block.scale]");
         if (scale && block.form != TrialForm::rating)
             table.refuse("scale", "only the form rating has a scale");

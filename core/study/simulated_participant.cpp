@@ -135,7 +135,7 @@ SimulatedParticipant simulated_participant(const std::string& text) {
         const auto* const found = std::find_if(std::begin(numbers), std::end(numbers),
                                                [&](const auto& one) { return name == one.name; });
         if (!given.insert(name).second)
-            throw InputError("the pilot has " + in_quotes(name) + " twice: leave one away");
+            throw InputError("the pilot has " + in_quotes(name) + " twice: leave one out");
         if (part == "guess") {
             who.guesses = true;
             continue;
@@ -160,7 +160,7 @@ SimulatedParticipant simulated_participant(const std::string& text) {
     for (const std::string& name : given)
         if (who.guesses && name != "guess" && name != "seed")
             throw InputError("a pilot that guesses feels nothing and has no " + name +
-                             ": leave it away, or guess");
+                             ": leave it out, or guess");
     who.seed = static_cast<std::uint64_t>(seed);
     if (std::isfinite(difference)) who.difference = difference;
     return who;

@@ -226,8 +226,7 @@ std::string bytes_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream bytes;
     bytes << in.rdbuf();
-    if (!in || bytes.fail())
-        refuse(file, "the trial's session cannot be read: look after the disk");
+    if (!in || bytes.fail()) refuse(file, "the trial's session cannot be read: check the disk");
     return bytes.str();
 }
 

@@ -18,8 +18,8 @@ StudyRun::StudyRun(Protocol protocol, int number, std::vector<AnsweredTrial> ans
         const auto expected = next_trial(protocol_, number_, all.first(k));
         if (!expected || *expected != all[k].trial)
             throw InputError("trial " + std::to_string(k + 1) +
-                             " of what was answered is not one that this protocol gives: go on "
-                             "with the version of the program that began it");
+                             " in the study file is not the one that this protocol gives: go on "
+                             "with the version of the program that began the study");
     }
     if (answered_.empty() && !protocol_.instructions.empty())
         step_ = StudyStep::instructions;

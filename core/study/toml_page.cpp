@@ -114,7 +114,7 @@ std::optional<std::size_t> PageTable::word(const std::string& key,
     if (!value) return std::nullopt;
     const auto found = std::find(words.begin(), words.end(), *value);
     if (found == words.end())
-        refuse(key, key + " is not " + in_quotes(*value) + " but one of " + listed(words) +
+        refuse(key, key + " is not " + in_quotes(*value) + ", but must be one of " + listed(words) +
                         did_you_mean(*value, words));
     return static_cast<std::size_t>(found - words.begin());
 }
@@ -130,7 +130,7 @@ std::vector<std::string> PageTable::texts(const std::string& key) {
         if (!value || is_blank(*value) || one_line(*value) != *value)
             refuse_at(file_, entry, "an entry of " + key + " is not a line of text in quotes");
         if (std::find(values.begin(), values.end(), *value) != values.end())
-            refuse_at(file_, entry, key + " has " + in_quotes(*value) + " twice: leave one away");
+            refuse_at(file_, entry, key + " has " + in_quotes(*value) + " twice: leave one out");
         values.push_back(*value);
     }
     return values;
@@ -148,7 +148,7 @@ std::vector<double> PageTable::numbers(const std::string& key, double lowest, do
             refuse_at(file_, entry,
                       "an entry of " + key + " is not a number " + range_text(lowest, highest));
         if (std::find(values.begin(), values.end(), *value) != values.end())
-            refuse_at(file_, entry, key + " has " + short_text(*value) + " twice: leave one away");
+            refuse_at(file_, entry, key + " has " + short_text(*value) + " twice: leave one out");
         values.push_back(*value);
     }
     return values;
@@ -181,8 +181,8 @@ void PageTable::done() const {
         if (known_.contains(name)) continue;
         const std::string nearest = did_you_mean(name, names);
         refuse_at(file_, value,
-                  in_quotes(name) + " means nothing in " + called_ +
-                      (nearest.empty() ? ": there may be " + listed(names) : nearest));
+                  in_quotes(name) + " is not known in " + called_ +
+                      (nearest.empty() ? ": known are " + listed(names) : nearest));
     }
 }
 

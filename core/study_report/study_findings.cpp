@@ -349,18 +349,18 @@ void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
         found.not_counted = nothing;
         found.remarks.push_back(std::to_string(nothing) + " of the " +
                                 std::to_string(found.trials) +
-                                " trials had no difference (level 0): nothing in them is right or "
-                                "wrong, and they are in no share and no threshold.");
+                                " trials had no difference (level 0): no answer to them is right "
+                                "or wrong, so they count in no share and no threshold.");
     }
     if (yes_no && below > 0)
         found.remarks.push_back(
             std::to_string(below) + " of the " + std::to_string(found.trials) +
             " trials had less of it than the reference (a level below 0): their shares of yes are "
-            "told, but they are in no threshold, guess rate or d'.");
+            "shown, but they count in no threshold, guess rate or d'.");
     if (yes_no && nothing == 0)
         found.remarks.emplace_back(
-            "No trial had nothing to notice (level 0), so that the guess rate is taken as 0: of "
-            "people who say yes for nothing the threshold comes out too low.");
+            "No trial was without a difference (level 0), so the guess rate is taken as 0. For "
+            "people who say yes without a difference, the threshold then comes out too low.");
 }
 
 /// Each participant counts as one, however few the answers; who reads it must know. Staircases end
@@ -379,8 +379,8 @@ void remark_on_answers(const BlockAnswers& answers, BlockFindings& found) {
     if (!fewer.empty())
         found.remarks.push_back("Not all gave the same number of answers here (the most " +
                                 std::to_string(most) + "; " + listed(fewer) +
-                                "): in means, medians and tests over participants each counts as "
-                                "one all the same.");
+                                "): in means, medians and tests over participants each participant "
+                                "still counts as one.");
 }
 
 /// Each participant's mean of what `value` gives for the trials that `is_one` picks; `tested`:

@@ -131,7 +131,8 @@ std::string not_found_text(const PlannedStudies& largest) {
     if (std::isfinite(largest.precision)) return {};
     return "    this design does not find it: of " + counted(largest.participants, "participant") +
            " still " + percent_text(largest.unbounded) +
-           " of the studies give it no bound;\n    ask at other levels, or more often\n";
+           " of the studies set no bound to the threshold;\n"
+           "    ask at other levels, or more often\n";
 }
 
 /// The lines of one block at so many repetitions.
@@ -196,7 +197,7 @@ std::vector<int> repetitions_around(const Block& block) {
 std::vector<PlanLine> plan_of(const Protocol& protocol, const PlanSettings& settings) {
     if (settings.effect.guesses)
         throw InputError(
-            "who guesses has no effect that could be found: state one, as "
+            "a participant who guesses has no effect that could be found: state an effect, such as "
             "prefer=CONDITION,share=0.7 or threshold=0.1,slope=20");
     std::vector<std::pair<std::size_t, int>> tasks;
     for (std::size_t block = 0; block < protocol.blocks.size(); ++block) {
@@ -255,7 +256,7 @@ std::string plan_text(const std::vector<PlanLine>& lines, const PlanSettings& se
         text << " Of a threshold: within what share of the truth 95 % of the estimates\nlie, "
                 "those without a bound being nowhere near it; enough is "
              << percent_text(kGoodPrecision) << ".";
-    text << "\nIt holds for people as they were stated, and no others.\n";
+    text << "\nThe plan holds for people as --pilot describes them, and for no others.\n";
     return text.str();
 }
 

@@ -152,7 +152,7 @@ void draw_motion(const Drawing& drawing) {
     draw("motion-force", "Force while touching", "Mean force sent while in contact",
          "mean force sent [N]", &MotionFinding::sent_newton);
     draw("motion-turning", "How the force turned",
-         "Mean turning of the force from update to update", "turning of the force [deg an update]",
+         "Mean turning of the force from update to update", "turning of the force [deg per update]",
          &MotionFinding::turning_deg);
 }
 

@@ -61,7 +61,7 @@ std::string share_sentence(const ShareFinding& share) {
                    std::to_string(who) + " participants notice a difference.";
         return text + " Chance alone seldom gives this: " + people(who) +
                (who == 1 ? " notices" : " together notice") +
-               " a difference. Whether other people do, so few participants cannot tell.";
+               " a difference. So few participants cannot tell whether other people do.";
     }
     // What would still be compatible with the answers, of people where the test speaks of them.
     const Interval& agrees = of_people ? share.across.interval : share.interval;
@@ -83,12 +83,12 @@ std::string unbounded_text(const ThresholdFinding& finding) {
         text += " Above" + levels + ", or guessing: " + participants_text(finding.above) + ".";
     const auto people = static_cast<int>(finding.fits.size());
     if (finding.unbounded == people)
-        text += " No one's answers set the threshold a bound.";
+        text += " Nobody's answers bound the threshold.";
     else if (finding.unbounded > 0)
         text += " The answers of " + std::to_string(finding.unbounded) + " of the " +
                 std::to_string(people) +
-                " set the threshold no bound, and a mean of the others would not be that of "
-                "people: there is none.";
+                " do not bound the threshold. A mean of the others would not stand for people in "
+                "general, so none is given.";
     return text;
 }
 
@@ -141,7 +141,7 @@ std::string threshold_sentence(const ThresholdFinding& finding, const Study& stu
             text +=
                 " An interval without bound means that the answers do not say where the "
                 "threshold is; they may be guesses.";
-        return text + " It says nothing of other people.";
+        return text + " It says nothing about other people.";
     }
     return what + group_text(finding) + few_trials_text(finding);
 }
@@ -265,9 +265,9 @@ std::vector<std::string> conclusions_of(const StudyReport& report, const BlockFi
     const double middle = (vary.lowest + vary.highest) / 2.0;
     if (adjusted && std::abs(middle - vary.reference) > 0.01 * (vary.highest - vary.lowest))
         said.push_back(
-            "The range of the adjustment is not even around the reference: who turns at "
-            "random ends at " +
-            short_text(middle - vary.reference, 3) + " from it on average.");
+            "The range of the adjustment is not even around the reference: a participant who turns "
+            "at random ends, on average, " +
+            short_text(middle - vary.reference, 3) + " from it.");
     said.insert(said.end(), block.remarks.begin(), block.remarks.end());
     return said;
 }
@@ -283,7 +283,7 @@ std::vector<std::string> limits_of(const StudyReport& report) {
         limits.push_back("With " + counted(static_cast<std::int64_t>(count), "participant") +
                          " everything said here is of " + people(static_cast<int>(count)) +
                          ": it takes " + std::to_string(kFewestForRanks) +
-                         " at the least for a word on people in general.");
+                         " or more to say something about people in general.");
     std::vector<std::string> unfinished;
     std::set<std::string> programs;
     for (const StudyRecord& record : study.participants) {

@@ -65,7 +65,7 @@ void Driver::live(const std::stop_token& stop) {
             board_.enter(Stage::cannot_open, failure.what(), true);
         } catch (const std::exception& failure) {
             lose(std::string("the Falcon's thread failed (") + failure.what() +
-                 ") and begins again: close other programs if this comes again");
+                 ") and begins again: close other programs if this happens again");
         }
         wait_to_look_again(stop);
     }
@@ -155,8 +155,8 @@ void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& 
     if (loss) lose(loss->what());
     if (guardian_.died()) {
         lose(
-            "the process that takes the force off when dibhr dies was ended: another one begins, "
-            "and the force comes back");
+            "the process that takes the force off when dibhr dies was ended: another one is "
+            "started, and the force comes back");
     }
 }
 

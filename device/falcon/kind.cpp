@@ -102,7 +102,7 @@ DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
                                     [](const SurveyedFalcon& one) { return one.usable(); });
     // One that was unplugged in the meantime is none.
     if (usable || falcons.empty()) return {.usable = usable};
-    const std::string more = falcons.size() > 1 ? "; the others are told above" : "";
+    const std::string more = falcons.size() > 1 ? "; the others are listed above" : "";
     return {.refusal = name_of(falcons.front().attached) + " is " +
                        state_of(falcons.front(), firmware) + more};
 }

@@ -173,12 +173,12 @@ UsbError Link::silence(Time now) const {
     if (transfers_->out_busy && now - sent_ > kGiveUpAfter / 2) {
         return {LIBUSB_ERROR_TIMEOUT,
                 "the USB took no command for " + full_name_of(falcon_) +
-                    " for a second: plug it in again, into another USB "
-                    "socket if this comes again; the mouse touches meanwhile"};
+                    " for a second: plug the Falcon in again, into another USB socket if this "
+                    "happens again; until then the mouse touches"};
     }
     return {LIBUSB_ERROR_TIMEOUT, full_name_of(falcon_) +
                                       " has not answered for a second: check its power adapter; "
-                                      "the mouse touches meanwhile"};
+                                      "until then the mouse touches"};
 }
 
 bool Link::idle() const noexcept {

@@ -30,26 +30,26 @@ std::vector<DeviceRow> FalconSettings::rows() {
         {"slower-upload", kConnection, "Slower firmware loading",
          "140 351 baud instead of 142 857; both are reported to work", &connection.slower_upload},
         {"scale", kWorkspace, "Scale",
-         "Image millimetres a hand millimetre. A larger image is softer under the hand: more than "
-         "1 N a hand millimetre is never felt",
+         "Millimetres in the image for each millimetre of the hand. A larger image feels softer: "
+         "the stiffness in the hand never exceeds 1 N/mm",
          &workspace.scale, 0.1, 10.0, "x %.2f"},
         {"offset-x", kWorkspace, "Offset right",
-         "Where in the image the hand's centre is, from the image's middle", &workspace.offset_mm.x,
-         -200.0, 200.0, "%.1f mm"},
+         "Where the centre of the workspace lies, from the middle of the image",
+         &workspace.offset_mm.x, -200.0, 200.0, "%.1f mm"},
         {"offset-y", kWorkspace, "Offset up",
-         "Where in the image the hand's centre is, from the image's middle", &workspace.offset_mm.y,
-         -200.0, 200.0, "%.1f mm"},
+         "Where the centre of the workspace lies, from the middle of the image",
+         &workspace.offset_mm.y, -200.0, 200.0, "%.1f mm"},
         {"offset-z", kWorkspace, "Offset out",
-         "How far above the middle of the relief the hand's centre is", &workspace.offset_mm.z,
-         -200.0, 200.0, "%.1f mm"},
+         "How far the centre of the workspace lies above the middle of the relief",
+         &workspace.offset_mm.z, -200.0, 200.0, "%.1f mm"},
         {"centre-z", kWorkspace, "Centre",
-         "Of the usable volume, out of the base. Demos use 110 to 125 mm; the grip is fully in at "
-         "about 75 and fully out at 170 mm",
+         "Centre of the usable volume, measured out of the base. Demos use 110 to 125 mm; the grip "
+         "is fully in at about 75 and fully out at 170 mm",
          &workspace.centre_z_mm, 90.0, 150.0, "%.0f mm", 1.0,
          Protection{Less::other, "Falcon's boundary, centre [mm]"}},
         {"radius", kWorkspace, "Radius",
-         "Of the usable volume; beyond it a soft boundary pushes back. CHAI3D: 40 mm for full "
-         "quality",
+         "Radius of the usable volume; beyond it a soft boundary pushes back. CHAI3D: 40 mm for "
+         "full quality",
          &workspace.radius_mm, 10.0, 55.0, "%.0f mm", 1.0,
          Protection{Less::higher, "Falcon's boundary, radius [mm]"}},
         {"boundary-stiffness", kWorkspace, "Boundary",
@@ -58,20 +58,21 @@ std::vector<DeviceRow> FalconSettings::rows() {
          Protection{Less::lower, "Falcon's boundary [N/mm]"}},
         // No source is above 10000, so a higher scale is a mistake in the making.
         {"counts-per-newton-metre", kCalibration, "Torque scale",
-         "Motor counts a newton metre at the thigh. Nobody has measured it: 10000 is "
+         "Motor counts per newton metre at the thigh. Nobody has measured it: 10000 is "
          "libnifalcon's, 6616 Martin & Hillier's, about 3600 fits Novint's driver. Weigh the force "
          "with a scale and set it here",
          &motors.counts_per_newton_metre, 1000.0, 10000.0, "%.0f / N m", 1.0,
          Protection{Less::higher, "Falcon's torque scale"}},
         {"full-scale-counts", kCalibration, "Full scale",
-         "Most counts that a motor is sent; Novint's driver ends at 4095",
+         "Greatest count that is sent to a motor; Novint's driver stops at 4095",
          &motors.full_scale_counts, 0.0, 4095.0, "%.0f"},
         {"gear", kCalibration, "Gear",
-         "Motor turns a turn of the thigh. libnifalcon: 110 / 14.25; Martin & Hillier: 7.62",
+         "Turns of the motor per turn of the thigh. libnifalcon: 110 / 14.25; Martin & Hillier: "
+         "7.62",
          &geometry.gear, 4.0, 12.0, "%.3f", 1.0, Protection{Less::other, "Falcon's gear"}},
         {"angle-at-zero", kCalibration, "Angle at 0",
-         "Of the thigh, at encoder count 0. libnifalcon: 35; Martin & Hillier: 50, of which a user "
-         "measured 40",
+         "Angle of the thigh at encoder count 0. libnifalcon: 35; Martin & Hillier: 50, where a "
+         "user measured 40",
          &geometry.angle_at_zero_deg, 0.0, 70.0, "%.1f deg", 1.0,
          Protection{Less::other, "Falcon's angle at 0 [deg]"}},
         {"thigh", kCalibration, "Thigh (a)", "Length of the thigh; both sources 60 mm",
@@ -89,11 +90,11 @@ std::vector<DeviceRow> FalconSettings::rows() {
          &geometry.shin_end_e_m, 0.0, 0.03, "%.2f mm", kMillimetres,
          Protection{Less::other, "Falcon's shin end e [m]"}},
         {"platform-radius", kCalibration, "Platform (c)",
-         "Of the joints on the grip's platform. libnifalcon: 14.43; Martin & Hillier: 15.7",
+         "Radius of the joints on the grip's platform. libnifalcon: 14.43; Martin & Hillier: 15.7",
          &geometry.platform_radius_m, 0.0, 0.03, "%.2f mm", kMillimetres,
          Protection{Less::other, "Falcon's platform c [m]"}},
         {"base-radius", kCalibration, "Base (r)",
-         "Of the joints on the base. libnifalcon: 40.0; Martin & Hillier: 36.6",
+         "Radius of the joints on the base. libnifalcon: 40.0; Martin & Hillier: 36.6",
          &geometry.base_radius_m, 0.02, 0.06, "%.2f mm", kMillimetres,
          Protection{Less::other, "Falcon's base r [m]"}},
         {"platform-shift", kCalibration, "Platform (f)",

@@ -63,7 +63,7 @@ DeviceState state_of(const Status& status) {
     if (stage == Stage::loading) state.progress = loading(status);
     if (homing) {
         state.homing = axes_of(status.reply);
-        state.lamp = state.pushing_lamp = DeviceLamp{kLogo, Colour::red, "red: to be homed"};
+        state.lamp = state.pushing_lamp = DeviceLamp{kLogo, Colour::red, "red: not homed yet"};
     }
     if (ready) {
         state.lamp = DeviceLamp{kLogo, Colour::blue, "blue: ready"};

@@ -130,12 +130,12 @@ constexpr std::array<Meaning, 9> kMeanings{{
     {LIBUSB_ERROR_NO_DEVICE, kUnplugged},
     {LIBUSB_ERROR_NOT_FOUND, kUnplugged},
     {LIBUSB_ERROR_PIPE,
-     " refused a USB transfer (stall): if this comes again, unplug it and its power adapter for "
+     " refused a USB transfer (stall): if this happens again, unplug it and its power adapter for "
      "ten seconds"},
     {LIBUSB_ERROR_TIMEOUT,
      " took no data for a second: unplug it and its power adapter for ten seconds"},
     {LIBUSB_ERROR_OVERFLOW,
-     " sent more than was asked for: plug it in again, into another USB socket if this comes "
+     " sent more than was asked for: plug it in again, into another USB socket if this happens "
      "again"},
     {LIBUSB_ERROR_IO,
      " failed on the USB (input/output error): check its cable and plug it in again"},
@@ -202,7 +202,7 @@ UsbContext::UsbContext() {
     libusb_context* started = nullptr;
     const int code = libusb_init(&started);
     if (code != 0) {
-        throw UsbError(code, std::string("the USB cannot be looked at (") +
+        throw UsbError(code, std::string("the USB devices cannot be looked at (") +
                                  libusb_error_name(code) +
                                  "): run dibhr where /dev/bus/usb is present");
     }

@@ -359,7 +359,7 @@ std::string Guardian::fault() const {
     if (failed_ == nullptr) return {};
     return std::string("no guardian process (") + failed_ + ": " + std::strerror(error_) +
            "): if dibhr is killed, only the " + device_ +
-           " itself lets go; close other programs and start dibhr again";
+           " itself can end the force; close other programs and start dibhr again";
 }
 
 bool Guardian::say(char word, int descriptor, const Farewell& farewell) noexcept {

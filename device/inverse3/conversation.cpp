@@ -324,8 +324,8 @@ void Conversation::lose_arm(const ServiceMessage& message) {
     if (options_.device.empty()) {
         leave_others(message);
         if (message.arm_count > 0)
-            sentence += "; to touch with " + one_line(message.arms[0].id.view()) +
-                        " instead, plug that one in anew";
+            sentence += "; to use " + one_line(message.arms[0].id.view()) +
+                        " instead, unplug it and plug it in again";
     }
     memory_.watch.miss();
     exchange_.poses.publish(TimedPose{});

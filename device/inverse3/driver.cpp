@@ -42,7 +42,7 @@ void Driver::live(const std::stop_token& stop) {
         } catch (const std::exception& failure) {
             tell(Stage::looking,
                  std::string("the Inverse3's thread failed (") + failure.what() +
-                     ") and begins again: close other programs if this comes again",
+                     ") and begins again: close other programs if this happens again",
                  true);
         }
         std::unique_lock lock(mutex_);
@@ -84,15 +84,16 @@ void Driver::lose(const LinkError& error, const Conversation& conversation) {
     status.grip.reset();
     if (!conversation.closed_on_force()) {
         memory_.dialects_refused = 0;
-        tell(error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
-             error.why() == Why::unguarded
-                 ? "the process that takes the force off when dibhr dies was ended: another one "
-                   "begins, and the force comes back"
-             : error.why() == Why::stood_still
-                 ? "dibhr stood still for a moment and the force was taken off: it comes back"
-                 : "the Haply Inverse Service was lost (" + std::string(error.what()) +
-                       "): it is looked for again; start it if it has ended",
-             true);
+        tell(
+            error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
+            error.why() == Why::unguarded
+                ? "the process that takes the force off when dibhr dies was ended: another one is "
+                  "started, and the force comes back"
+            : error.why() == Why::stood_still
+                ? "dibhr stood still for a moment and the force was taken off: the force comes back"
+                : "the Haply Inverse Service was lost (" + std::string(error.what()) +
+                      "): it is looked for again; start it if it has ended",
+            true);
         return;
     }
     ++memory_.dialects_refused;

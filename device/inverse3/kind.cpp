@@ -35,8 +35,8 @@ std::vector<DeviceLine> ask_kept(const DeviceSettings& settings, const std::stri
     std::vector<DeviceLine> lines;
     for (const KeptSetting& kept : ask_kept_settings(connection_in(settings), id)) {
         lines.push_back({.text = kept.name + ": " + kept.words,
-                         .help = "As it was when the device came. The service keeps it for all "
-                                 "programs; dibhr does not change it"});
+                         .help = "As it was when the device was connected. The service keeps it "
+                                 "for all programs; dibhr does not change it"});
     }
     return lines;
 }

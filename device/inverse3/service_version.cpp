@@ -73,7 +73,8 @@ Unheard why_unheard(const LinkError& error, const Status& status) {
                                     "): end it, or set port under [inverse3] in the settings"};
     if (error.why() == Why::too_long)
         return {Stage::not_understood, sentence_for(Stage::not_understood, status)};
-    return {Stage::looking, service + " does not talk (" + error.what() + "): start it again"};
+    return {Stage::looking,
+            service + " does not answer as it should (" + error.what() + "): start it again"};
 }
 
 std::optional<ServiceVersion> ask_version(const ConnectionOptions& options) {

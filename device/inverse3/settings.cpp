@@ -25,17 +25,17 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
         {"port", "", "Port", "Of the service's WebSocket", &port, kLowestPort, kHighestPort},
         {"older-port", "", "Older port", "Where older services have HTTP", &older_port, kLowestPort,
          kHighestPort},
-        {"dialect", kService, "Forces spelled",
-         "Sources differ on how the service wants a force. By its version is tried first, and the "
-         "other one when no force is told back",
+        {"dialect", kService, "Format of forces",
+         "Sources differ on the format of a force. dibhr tries that of the service's version "
+         "first, and the other one if the service confirms no force",
          DeviceWord(dialect)},
         {"preset", kService, "Preset: defaults",
          "Mount, axes and origin: defaults, arm_front, led_front, arm_front_centered, "
-         "led_front_centered; the centre above belongs to it",
+         "led_front_centered; the centre above depends on the preset",
          &preset, 0.0, 31.0},
         {"scale", kWorkspace, "Scale",
-         "Image millimetres a hand millimetre. A larger image is softer under the hand: more than "
-         "1 N a hand millimetre is never felt",
+         "Millimetres in the image for each millimetre of the hand. A larger image feels softer: "
+         "the stiffness in the hand never exceeds 1 N/mm",
          &tuning.workspace.scale, 0.1, 10.0, "x %.2f"},
         {"box", kWorkspace, "Comfortable box",
          "Edge of the box that your hand moves in without effort; the image is fitted to it",
@@ -43,15 +43,16 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
         {"tilt", kWorkspace, "Tilt",
          "How far the image leans back under your hand: 0 upright before you, 90 flat on the table",
          &tuning.tilt_deg, 0.0, 90.0, "%.0f deg"},
-        {"centre-x", kWorkspace, "Centre right", "Of the comfortable box, from the device's origin",
-         &tuning.centre_mm.x, -250.0, 250.0, "%.0f mm"},
+        {"centre-x", kWorkspace, "Centre right",
+         "Centre of the comfortable box, from the device's origin", &tuning.centre_mm.x, -250.0,
+         250.0, "%.0f mm"},
         {"centre-y", kWorkspace, "Centre forward",
-         "Of the comfortable box, from the device's origin; 0 for the presets that have their "
-         "origin in the middle",
+         "Centre of the comfortable box, from the device's origin; 0 for the presets that have "
+         "their origin in the middle",
          &tuning.centre_mm.y, -300.0, 200.0, "%.0f mm"},
         {"centre-z", kWorkspace, "Centre up",
-         "Of the comfortable box, from the device's origin; 0 for the presets that have their "
-         "origin in the middle",
+         "Centre of the comfortable box, from the device's origin; 0 for the presets that have "
+         "their origin in the middle",
          &tuning.centre_mm.z, -250.0, 400.0, "%.0f mm"},
         {"offset-x", kWorkspace, "Offset right",
          "Where in the image the box's centre is, from the image's middle",

@@ -18,7 +18,7 @@ namespace dibhr::inverse3 {
 enum class Dialect : std::uint8_t { automatic, vector, values };
 
 inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
-    {{Dialect::automatic, "auto", "By its version"},
+    {{Dialect::automatic, "auto", "By service version"},
      {Dialect::vector, "vector", "vector (3.5)"},
      {Dialect::values, "values", "values"}}};
 static_assert(has_all_in_order(kDialectWords, Dialect::values));

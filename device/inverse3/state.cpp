@@ -20,7 +20,7 @@ std::string id_text(const Status& status) {
 std::string dialect_text(const Status& status) {
     if (!status.dialect) return "not known yet";
     return std::string(name_of(*status.dialect)) +
-           (status.dialect_confirmed ? ", told back" : ", not told back yet");
+           (status.dialect_confirmed ? ", confirmed" : ", not confirmed yet");
 }
 
 std::string grip_text(const GripStatus& grip) {
@@ -35,26 +35,24 @@ std::string age_text(double ms) {
 }
 
 void add_exchange(const Status& status, const PoseAges& recent, std::vector<DeviceLine>& lines) {
-    lines.push_back(
-        {"Exchanges",
-         number_text(status.exchanges_per_s, 0) + " per second, " +
-             number_text(status.exchange_ms, 1) + " ms each",
-         "From a message to the service's answer: beyond 2 ms springs are held softer, beyond "
-         "5 ms there is no force"});
+    lines.push_back({"Exchanges",
+                     number_text(status.exchanges_per_s, 0) + " per second, " +
+                         number_text(status.exchange_ms, 1) + " ms each",
+                     "Time from a message to the service's answer: above 2 ms springs are softer, "
+                     "above 5 ms there is no force"});
     if (status.softened) {
         lines.push_back({.text = "The service answers slowly: springs are softer, so that they do "
                                  "not swing."});
     }
     if (recent.count() > 0) {
-        lines.push_back(
-            {"Age of the pose",
-             age_text(recent.quantile_ms(0.5)) + ", 99 % below " +
-                 age_text(recent.quantile_ms(0.99)),
-             "How long ago the position that a tick of the haptic loop uses had come from the "
-             "service, in the last second: one above 20 ms gives no force"});
+        lines.push_back({"Age of the pose",
+                         age_text(recent.quantile_ms(0.5)) + ", 99 % below " +
+                             age_text(recent.quantile_ms(0.99)),
+                         "Age of the position that a tick uses, in the last second. A position "
+                         "older than 20 ms gives no force"});
     }
     lines.push_back({"Forces", dialect_text(status),
-                     "How forces are spelled to the service, and whether it told one back"});
+                     "In which format the service gets a force, and whether it has confirmed one"});
     if (!status.preset.empty()) {
         lines.push_back(
             {.label = "Preset",

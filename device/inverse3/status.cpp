@@ -21,8 +21,9 @@ std::string sentence_for(Stage stage, const Status& status) {
                    (status.version.empty() ? std::string{} : " (" + status.version + ")") +
                    ": install version 3.1 or newer";
         case Stage::not_understood:
-            return "the Haply Inverse Service says what is not understood, or repeats an old "
-                   "position: no force; update the service or dibhr, and restart the service";
+            return "the Haply Inverse Service sends messages that dibhr does not understand, or "
+                   "repeats an old position: no force; update the service or dibhr, and restart "
+                   "the service";
         case Stage::no_device:
             return "the Haply Inverse Service has no Inverse3: plug in its USB cable and its "
                    "power";
@@ -34,21 +35,21 @@ std::string sentence_for(Stage stage, const Status& status) {
                    "on";
         case Stage::locked:
             return status.minverse ? name + " is locked: attach its grip"
-                                   : name + " is not ready: see what the Haply Hub says of it";
+                                   : name + " is not ready: see what the Haply Hub says about it";
         case Stage::in_use:
             return name + " is in use by another program: end that one";
         case Stage::other_frame:
             return name + " has its axes exchanged: set its basis to XYZ in the Haply Hub";
         case Stage::other_preset:
             return name + " keeps the preset " + status.preset +
-                   " though another is asked for: choose that one in the Haply Hub, or " +
+                   " though the settings ask for another one: choose that in the Haply Hub, or " +
                    status.preset + " on the Device panel";
         case Stage::slow:
             return "the Haply Inverse Service answers too slowly: no force; close other programs, "
                    "or start it again";
         case Stage::deaf:
-            return "the Haply Inverse Service takes no force, however it is spelled: no force; "
-                   "update the service or dibhr";
+            return "the Haply Inverse Service accepts a force in neither of the two formats: no "
+                   "force; update the service or dibhr";
         case Stage::ready:
             return "ready to touch";
     }

@@ -61,7 +61,7 @@ class Renderer:
     """A hand on a surface: goals in, proxy and forces out.
 
     What `dibhr touch` takes is a keyword: `algorithm`, one of ALGORITHMS; the names in PARAMETERS;
-    `friction` for both coefficients, unless one is given by itself. Beyond that, `max_force` [N]:
+    `friction` for both coefficients, over which a coefficient of its own wins. Beyond that, `max_force` [N]:
     the most that the safety stage lets through.
 
     Each renderer is one thread's at a time (BusyError); several run in parallel.

@@ -50,8 +50,8 @@ Extent span_of(const cv::Mat& rays) {
 void require_camera(bool is_camera) {
     if (!is_camera)
         throw InputError(
-            "the intrinsics are not of a camera that took this picture: give its focal lengths and "
-            "its centre in depth pixels, FX,FY,CX,CY");
+            "the intrinsics cannot be those of the camera that took this picture: give its focal "
+            "lengths and its centre in depth pixels, FX,FY,CX,CY");
 }
 
 void require_view(const Extent& rays) {

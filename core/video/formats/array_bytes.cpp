@@ -60,7 +60,7 @@ class ZippedBytes : public ArrayBytes {
             refuse_as_cut(file_);
         if (stat.size / kMostPacked > stat.comp_size && stat.size > kMostPictureBytes)
             throw InputError(shown(file_) + " unpacks to " + std::to_string(stat.size >> 20U) +
-                             " MB, of nearly nothing: save it by numpy.savez, not packed");
+                             " MB out of a few bytes: save it by numpy.savez, without compression");
         index_ = stat.index;
         size_ = stat.size;
     }

@@ -100,7 +100,8 @@ void IndexedPictures::take_times(std::vector<double> times_s) {
 }
 
 void IndexedPictures::tell_trouble(const std::string& what) {
-    if (facts_.trouble.empty()) facts_.trouble = what + "; until then the one before it is shown";
+    if (facts_.trouble.empty())
+        facts_.trouble = what + "; until then the picture before it is shown";
 }
 
 std::optional<TimedPicture> IndexedPictures::next() {

@@ -157,9 +157,10 @@ void LiveInput::refuse(const LiveName& name, const std::string& shown, int resul
     const bool silent = result == AVERROR_EXIT || result == AVERROR(EAGAIN);
     if (silent)
         throw InputError(shown +
-                         " sends nothing that can be read: start what sends, and check the name");
+                         " sends nothing that can be read: start the sender, and check the name");
     if (pipe_ && !pipe_->began)
-        throw LiveRefusal(shown + " ended without a picture: let what writes into it send a video");
+        throw LiveRefusal(
+            shown + " ended without a picture: let the program that writes into it send a video");
     if (result == AVERROR_INVALIDDATA || result == AVERROR_EOF)
         refuse_content(name, shown + (pipe_ ? " holds" : " sends") +
                                  " no video that can be read: let it be one in NUT, Matroska or "
@@ -167,7 +168,7 @@ void LiveInput::refuse(const LiveName& name, const std::string& shown, int resul
     if (result == AVERROR(EIO) && !has_known_host(name))
         throw LiveRefusal(shown + " cannot be opened, as its host is not found: check the name");
     throw InputError(shown + " cannot be opened (" + reason_of(result) +
-                     "): start what sends, and check the name");
+                     "): start the sender, and check the name");
 }
 
 LiveInput::~LiveInput() = default;

@@ -92,8 +92,7 @@ std::map<std::string, std::string> camera_options(std::string_view asked, const 
         const std::string_view key = one.substr(0, equals);
         if (equals == std::string_view::npos || (key != "size" && key != "rate"))
             throw InputError(in_quotes(name) +
-                             ": of a camera size=640x480 and rate=30 can be "
-                             "asked, with & between them");
+                             ": a camera takes size=640x480 and rate=30, with & between them");
         options[key == "size" ? "video_size" : "framerate"] = one.substr(equals + 1);
     }
     return options;

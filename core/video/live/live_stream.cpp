@@ -71,7 +71,7 @@ bool LiveStream::connect() {
         }
         if (once && !wants_.leaving)
             throw LiveRefusal(shown_ + (began_ ? " has ended" : " ended without a picture") +
-                              ": let what writes into it go on");
+                              ": let the program that writes into it go on");
     } catch (const LiveRefusal& refusal) {
         tell(refusal.what());
         refused_();

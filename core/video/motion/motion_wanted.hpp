@@ -18,7 +18,7 @@ enum class InBetweens : std::uint8_t {
 };
 
 inline constexpr std::array<Word<InBetweens>, 3> kInBetweensWords{
-    {{InBetweens::automatic, "auto", "Where it carries"},
+    {{InBetweens::automatic, "auto", "With Carried along"},
      {InBetweens::on, "on", "On"},
      {InBetweens::off, "off", "Off"}}};
 static_assert(has_all_in_order(kInBetweensWords, InBetweens::off));

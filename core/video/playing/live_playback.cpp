@@ -304,7 +304,7 @@ LiveStatus LivePlayback::status(Time now) const {
 
 std::string LivePlayback::cleaning_in_words() const {
     CleaningPlan whole = plan_of(options_, assembly_.plan().noise, description().depth_pixels());
-    return in_words(options_, whole) + (whole.steps.steady ? "; live: not in time" : "");
+    return in_words(options_, whole) + (whole.steps.steady ? "; live: no filter in time" : "");
 }
 
 }  // namespace dibhr

@@ -63,7 +63,7 @@ struct LiveCursor {
                    " sends, but no whole key frame has come yet: let it send one more often "
                    "(-g 30), and lose less on the way";
         return "no signal from " + shown(feed->depth()) + " for " +
-               std::to_string(kPatience.count()) + " s: start what sends, and check the name";
+               std::to_string(kPatience.count()) + " s: start the sender, and check the name";
     }
 };
 
@@ -181,8 +181,8 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
                           said.code == DepthCode::hue || said.packing == DepthPacking::separate;
     if (!is_depth) {
         throw InputError(shown(cursor->feed->depth()) +
-                         " shows colour: give what sends its depth as the second, or say how the "
-                         "depth is in it with --packing (separate: it is all depth)");
+                         " shows colour: give the source of its depth as the second name, or say "
+                         "how the depth is in it with --packing (separate: it is all depth)");
     }
     return decoded(cursor, look.kind, said);
 }

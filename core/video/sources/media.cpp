@@ -42,8 +42,8 @@ auto opened(const DepthRequest& request, const Open& open) {
         if (!is_folder(request.kept_in)) throw;
         DepthRequest without = request;
         without.kept_in.clear();
-        return open(without,
-                    std::string("what was chosen for it before is passed over: ") + error.what());
+        return open(without, std::string("what was chosen for this file before is ignored: ") +
+                                 error.what());
     }
 }
 
@@ -113,13 +113,13 @@ std::string motion_trouble(const MediaDescription& media) {
     if (media.still) return {};
     if (media.colour_path.empty())
         return "without colour, motion is seen at the depth's outlines alone";
-    if (media.colour_still) return "the colour stands still: no motion is seen in it";
+    if (media.colour_still) return "the colour is a still picture: no motion is seen in it";
     if (media.live) return {};
     const double rate = media.colour_frames_per_s;
     constexpr double kSameRate = 0.95;
     if (rate > 0.0 && rate < kSameRate * media.frames_per_s)
         return "the colour has " + short_text(rate, 3) + " pictures a second and the depth " +
-               short_text(media.frames_per_s, 3) + ": what moves is seen to go in jerks";
+               short_text(media.frames_per_s, 3) + ": motion looks jerky";
     const double after_s = media.colour_duration_s;
     const double frame_s = media.frames_per_s > 0.0 ? 1.0 / media.frames_per_s : 0.0;
     if (after_s > 0.0 && after_s + 2.0 * frame_s < media.duration_s)

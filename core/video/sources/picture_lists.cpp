@@ -130,10 +130,10 @@ std::string sentence(const fs::path& list, const PassedOver& passed) {
         if (count == 0) return;
         said += (said.empty() ? "" : ", ") + std::to_string(count) + " " + what;
     };
-    add(passed.lines, "lines that name no picture at a time");
+    add(passed.lines, "lines that do not name a time and a picture");
     add(passed.missing, "missing pictures (the first: " + shown(passed.first_missing) + ")");
-    add(passed.repeated, "pictures at a time that another one has");
-    return said.empty() ? said : shown(list) + ": passed over are " + said;
+    add(passed.repeated, "pictures with the time of another picture");
+    return said.empty() ? said : shown(list) + ": dibhr ignores " + said;
 }
 
 /// In order of time, each time once.

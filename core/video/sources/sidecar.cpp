@@ -186,7 +186,7 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
         return keep(said.no_data,
                     numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
                     "is not a list of up to 64 levels");
-    return "is not a fact of depth";
+    return "is not a key of the table [depth]";
 }
 
 toml::table parsed(const std::string& toml, const std::string& name) {
@@ -195,7 +195,7 @@ toml::table parsed(const std::string& toml, const std::string& name) {
     } catch (const toml::parse_error& error) {
         std::ostringstream text;
         text << name << " cannot be understood at line " << error.source().begin.line << " ("
-             << error.description() << "): mend or delete it";
+             << error.description() << "): correct or delete it";
         throw InputError(one_line(text.str()));  // it quotes the file
     }
 }
@@ -298,7 +298,7 @@ DepthStatement statement_in(const std::string& toml, const std::string& name) {
         if (lacking.empty()) continue;
         std::ostringstream text;
         text << name << ", line " << node.source().begin.line << ": " << key.str() << " " << lacking
-             << "; mend or delete it";
+             << "; correct or delete it";
         throw InputError(one_line(text.str()));  // a name may hold anything
     }
     return said;

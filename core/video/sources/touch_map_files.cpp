@@ -84,13 +84,13 @@ AllLimits limits_in(const fs::path& file) try {
         if (fits) continue;
         throw InputError(shown(file) + ": the " + name_of(kind) +
                          " map's lowest value must be below its highest" +
-                         (kind == TouchMapKind::height ? "" : " and 0 or more") + "; mend it");
+                         (kind == TouchMapKind::height ? "" : " and 0 or more") + "; correct it");
     }
     return limits;
 } catch (const toml::parse_error& error) {
     throw InputError(shown(file) + ": line " + std::to_string(error.source().begin.line) +
                      " cannot be understood (" + one_line(error.description(), 200) +
-                     "); mend or remove it");
+                     "); correct or remove it");
 }
 
 /// Of one or four channels of 16 bits.

@@ -69,7 +69,7 @@ void check_buttons(CheckDesk& desk, Json& measured) {
         Json part{
             {"bits", down.bits}, {"changes", down.changes}, {"bounced_ms", down.bounced.count()}};
         if (down.bits != 0) {
-            desk.guide.ask("Let it go.");
+            desk.guide.ask("Release the button.");
             const Press up = watch_until(desk, false, down.bits);
             part["release_changes"] = up.changes;
             part["release_bounced_ms"] = up.bounced.count();

@@ -41,9 +41,9 @@ constexpr std::array kSteps{
           StepNeeds::person},
          check_stops},
     Step{{"after-last-packet", "The force after the last packet",
-          "FORCE, a weak one: the grip presses down on a kitchen scale while the program "
-          "falls silent. Put the scale under the grip, on books, so that the ball rests on it "
-          "at about half its height; keep hands and hair away; then set the scale to zero.",
+          "FORCE, a weak one: the grip presses down on a kitchen scale while the program sends "
+          "nothing. Put the scale under the grip, on books, so that the ball rests on it at about "
+          "half its height; keep hands and hair away; then set the scale to zero.",
           StepNeeds::person_for_force},
          check_silence},
     Step{{"torque-scale", "Force on a kitchen scale",

@@ -58,7 +58,7 @@ std::string check_one(CheckDesk& desk, milliseconds time, Json& part) {
     desk.agree_to_force(
         "The grip will press down with " + strength_of(desk, motor, without_force) +
         " for about a second, then the program is silent for " + std::to_string(time.count()) +
-        " ms. Any key lets go. Look at the scale. F and Enter = force, s = skip, q = quit");
+        " ms. Any key ends the force. Look at the scale. F and Enter = force, s = skip, q = quit");
     Silence silence;
     const PushEnd end = push_and_fall_silent(desk, motor, time, silence);
     part["silence_ms"] = time.count();
@@ -117,9 +117,9 @@ PushEnd push_and_hold(CheckDesk& desk, const Counts& motor, CountsSample& held) 
 }
 
 void agree(CheckDesk& desk, int counts, const std::string& strength) {
-    const std::string warning = "The grip will press down with " + strength + ", " +
-                                std::to_string(counts) +
-                                " counts, for 3 s. Any key lets go. Read the scale meanwhile. ";
+    const std::string warning =
+        "The grip will press down with " + strength + ", " + std::to_string(counts) +
+        " counts, for 3 s. Any key ends the force. Read the scale meanwhile. ";
     if (counts < kFullScale) {
         desk.agree_to_force(warning + "F and Enter = force, s = skip, q = quit");
         return;

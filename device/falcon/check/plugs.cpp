@@ -135,7 +135,7 @@ void check_plugs(CheckDesk& desk, Json& measured) {
     unplug_usb(desk, without_usb);
     load_again(desk, without_usb);
     if (!desk.falcon.answering()) {
-        desk.guide.say("Without firmware in it, the rest cannot be seen.");
+        desk.guide.say("Without firmware in the Falcon, the rest of this step cannot be measured.");
         throw StepSkipped{};
     }
     Json& without_power = measured["power_lost"] = Json::object();

@@ -52,7 +52,7 @@ std::string CheckQuestions::word(const std::string& question) {
 }
 
 void CheckQuestions::agree_to_force(const std::string& question) {
-    while (!is_letter(word(question), 'f')) guide.say("No force without an F.");
+    while (!is_letter(word(question), 'f')) guide.say("There is no force until you type F.");
 }
 
 bool CheckQuestions::yes_or_no(const std::string& question) {

@@ -46,7 +46,7 @@ CheckEnd CheckRun::guarded(const CheckStep& step, const std::function<std::strin
     } catch (const StepSkipped&) {
         return CheckEnd::skipped;
     } catch (const ForceLetGo&) {
-        questions_.guide.say("Let go: no force any more. This step ends here.");
+        questions_.guide.say("Released: there is no force any more. This step ends here.");
         return CheckEnd::let_go;
     } catch (const PersonQuits&) {
         return CheckEnd::quit;

@@ -27,26 +27,26 @@ constexpr std::array kSteps{
           "You move the grip about, slowly at first, then to every end that it has. No force.",
           StepNeeds::person},
          check_moving},
-    Step{{"dialect", "How a force is spelled",
+    Step{{"dialect", "The format of a force",
           "FORCE, a weak one of 0.5 N to the left, twice for less than a second. Hold the grip "
-          "loosely in the middle of its reach; any key lets go.",
+          "loosely in the middle of its reach; any key ends the force.",
           StepNeeds::person_for_force},
          check_dialect},
     Step{{"silence", "The force after the last message",
-          "FORCE, 0.5 N to the left, while the program falls silent for up to a second each time. "
-          "Hold the grip loosely; any key lets go.",
+          "FORCE, 0.5 N to the left, while the program sends nothing for up to a second each time. "
+          "Hold the grip loosely; any key ends the force.",
           StepNeeds::person_for_force},
          check_silence},
     Step{{"closing", "The force when its connection ends",
           "FORCE, 0.5 N to the left, three times, while the program breaks its connection off "
           "without a zero, as if it died, and connects anew, at last after 2 s. Hold the grip "
-          "loosely, and count the seconds that it pulls the last time; any key lets go.",
+          "loosely, and count the seconds that it pulls the last time; any key ends the force.",
           StepNeeds::person_for_force},
          check_closing},
     Step{{"force", "Force on a kitchen scale",
           "FORCE, 1, 2, 3 and 4 N downwards for at most 3 s each: the grip presses on a kitchen "
-          "scale, and you type the grams. Put the scale under the grip, on something that does "
-          "not give way, and set it to zero; hands and hair away. Any key lets go.",
+          "scale, and you type the grams. Put the scale under the grip, on something that does not "
+          "give way, and set it to zero; hands and hair away. Any key ends the force.",
           StepNeeds::person_for_force},
          check_force},
     Step{{"unplugged", "Unplugged and plugged in again",

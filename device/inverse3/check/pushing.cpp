@@ -34,8 +34,8 @@ struct Spelled {
 
     [[nodiscard]] std::string in_words() const {
         const std::string name = name_of(dialect);
-        if (felt) return name + " is felt" + (told ? " and told back" : "");
-        return name + (told ? " is told back but not felt" : " is not felt");
+        if (felt) return name + " is felt" + (told ? " and confirmed by the service" : "");
+        return name + (told ? " is confirmed by the service but not felt" : " is not felt");
     }
 };
 
@@ -112,7 +112,7 @@ void check_dialect(CheckDesk& desk, Json& measured) {
     std::array<Spelled, 2> spelled{Spelled{ForceDialect::vector}, Spelled{ForceDialect::values}};
     for (Spelled& one : spelled) {
         if (one.dialect == ForceDialect::values) {
-            desk.agree_to_force("F and Enter = pull with the other spelling, s = skip, q = quit");
+            desk.agree_to_force("F and Enter = pull with the other format, s = skip, q = quit");
         }
         Json& part = measured[name_of(one.dialect)] = Json::object();
         one = pull_with(desk, one.dialect, in_use, part);
@@ -134,7 +134,8 @@ void check_silence(CheckDesk& desk, Json& measured) {
         Json& line = measured["silences"].emplace_back(Json::object());
         be_silent_once(desk, dialect, silence, end, line);
         if (!line.contains("force_before_newton")) {
-            desk.guide.say("This service does not tell its force: it cannot be measured so.");
+            desk.guide.say(
+                "This service does not report its force: it cannot be measured in this way.");
             throw StepSkipped{};
         }
     }
@@ -153,7 +154,7 @@ void check_force(CheckDesk& desk, Json& measured) {
         Json& part = measured["pushes"].emplace_back(Json{{"wanted_newton", wanted_newton}});
         press(desk, wanted_newton, part);
         const bool let_go = part["let_go"].get<bool>();
-        if (let_go) desk.guide.say("Let go: no force any more.");
+        if (let_go) desk.guide.say("Released: there is no force any more.");
         if (let_go && !(part.value("held_s", 0.0) > 0.0)) continue;
         const auto grams = desk.number(
             "Grams that the scale showed while the force acted, at its end (Enter alone: not read)",

@@ -146,12 +146,13 @@ std::chrono::nanoseconds CheckTalk::ask(const Order& order) {
     sent_at_ = sent;
     link_->send(writer_.write(order), sent + kAnswerTakes);
     if (!hears(sent + kAnswerTakes)) {
-        throw DeviceError("the service has been silent for a second: see whether it still runs");
+        throw DeviceError("the service has sent nothing for a second: check whether it still runs");
     }
     text_ = link_->read(sent + kAnswerTakes);
     const auto came = Clock::now();
     if (!reader_.read(text_, message_)) {
-        throw DeviceError("the service said what is not understood: see the record");
+        throw DeviceError(
+            "the service sent a message that dibhr does not understand: see the record");
     }
     return came - sent;
 }

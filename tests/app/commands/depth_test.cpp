@@ -127,7 +127,8 @@ TEST_CASE("an estimator of somebody's settings is not run until it is given here
     CHECK(home.depth({"clip.mp4", "--with", kWith}).exit_code == 0);
     CHECK(home.depth({"clip.mp4", "--with", "second", "--again"}).exit_code == 0);
     CHECK(home.starts() == 2);
-    check_refused(home.depth({"clip.mp4"}), 1, "the estimator mine, which nobody has agreed to");
+    check_refused(home.depth({"clip.mp4"}), 1,
+                  "the estimator mine, but nobody on this machine has agreed to run");
 }
 
 TEST_CASE("estimators in the settings come back as they were, and one that cannot be is told",

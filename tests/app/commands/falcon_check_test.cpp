@@ -180,7 +180,7 @@ TEST_CASE("a check measures with the usual mechanism where nobody has agreed to 
     const ProgramResult result = run_dibhr(folder, {"devices", "--check"}, bare.host());
     CHECK(says(result.errors,
                "settings.toml asks for Falcon's thigh [m] 0.09 in place of 0.06: "
-               "the usual holds"));
+               "the default is used"));
 }
 
 TEST_CASE("without a person the check measures what needs none, and keeps a record",
@@ -223,7 +223,7 @@ TEST_CASE("an Enter, which may have been meant for the step before, begins no fo
           "[falcon][check]") {
     BeforeForce at;
     at.person.type("\n");
-    at.person.read_until("No force without an F.");
+    at.person.read_until("There is no force until you type F.");
     CHECK(at.falcon.number("with_force") < 0.5);
     at.person.answer("", "q");
     CHECK(at.person.ended() == 0);

@@ -163,8 +163,8 @@ TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
     INFO(result.output << result.errors);
     const std::map<int, std::string> devices{
         {0, "Novint Falcon 1234\n"},
-        {1, "Novint Falcon 1234; the mouse stood in for 0.1 % of the ticks\n"},
-        {372, "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks\n"},
+        {1, "Novint Falcon 1234; the mouse replaced it for 0.1 % of the ticks\n"},
+        {372, "Novint Falcon 1234; the mouse replaced it for 37.2 % of the ticks\n"},
         {1000, " mouse\n"}};
     CHECK(says(result, devices.at(stand_in)));
 }

@@ -172,7 +172,7 @@ TEST_CASE("a settings file that cannot be understood is an error that names it, 
         text = error.what();
     }
     CHECK(text.find(file.string()) != std::string::npos);
-    CHECK(text.find("mend or delete") != std::string::npos);
+    CHECK(text.find("correct or delete") != std::string::npos);
     CHECK(text.find('\n') == std::string::npos);
     CHECK(read_text(file) == broken);
 }
@@ -324,22 +324,22 @@ TEST_CASE("a wish for a key that cannot be is told with file and line, and the r
          {"\"a b\" = \"F5\"", "keys.a b is not an action: dibhr help keys lists them"},
          {"mark = \"Spcae\"",
           "keys.mark names 'Spcae', which is no key: write one as dibhr help keys does, like "
-          "Space or Ctrl+R; the usual keys stay"},
+          "Space or Ctrl+R; the default keys stay"},
          {"mark = [\"F5\", \"\"]",
           "keys.mark names '', which is no key: write one as dibhr help keys does, like Space or "
-          "Ctrl+R; the usual keys stay"},
+          "Ctrl+R; the default keys stay"},
          {"mark = \"F7\"",
-          "keys.mark names 'F7', which is already for record: choose another one; the usual keys "
+          "keys.mark names 'F7', which is already for record: choose another one; the default keys "
           "stay"},
          {"mark = \"Shift+F8\"",
           "keys.mark names 'Shift+F8', which always takes the force off: choose another one; the "
-          "usual keys stay"},
+          "default keys stay"},
          {"show-as-recorded = \"Ctrl+B\"",
           "keys.show-as-recorded names 'Ctrl+B', which cannot be held: choose one key without "
-          "Ctrl and Shift; the usual keys stay"},
+          "Ctrl and Shift; the default keys stay"},
          {"force-off = \"\"",
-          "keys.force-off cannot be without a key: F8 always takes the force off; leave the entry "
-          "away"},
+          "keys.force-off cannot be without a key: F8 always takes the force off; remove the "
+          "entry"},
          {"mark = 5",
           "keys.mark is neither a key in quotes nor a list of them; the default is kept"}}));
     CAPTURE(wrong);

@@ -190,11 +190,11 @@ TEST_CASE("a live recording that another size of the pictures or Ctrl+C ends is 
     sender.reset();
     sender = std::make_unique<PictureSender>(port, camera());
     wait_for_words(folder / "told.txt",
-                   "Finishing the recording, as what is live changed its form");
+                   "Finishing the recording, as the live source changed its form");
     wait_for_words(folder / "told.txt", "told: Recorded ");
     check_whole(folder, folder / "a.dibhr");
     CHECK(contains(read_text(folder / "errors.txt"),
-                   "a.dibhr: the recording ends here, as what is live changed its form"));
+                   "a.dibhr: the recording ends here, as the live source changed its form"));
 
     viewer.wait_until([](const Seen& now) { return now.surface && !now.records; });
     viewer.act("key ctrl+r");

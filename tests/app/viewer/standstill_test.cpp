@@ -181,7 +181,7 @@ TEST_CASE("a clip on a disk that stands still does not hold up the end for ever"
     stall.begin();
     desk.kill();
     CHECK(viewer.wait() == 1);
-    CHECK(
-        contains(read_text(folder / "errors.txt"),
-                 "all.mp4: the clip is not finished after 5 s, what there is of it is beside it"));
+    CHECK(contains(
+        read_text(folder / "errors.txt"),
+        "all.mp4: the clip is not finished after 5 s; what was written so far is beside it"));
 }

@@ -197,7 +197,7 @@ TEST_CASE("a crash at frame 7 keeps six, says so in a line, and the next run goe
     const std::string told = bench.failure();
     CHECK(contains(told, "was ended by signal 11 (Segmentation fault) at frame 7 of 24; "));
     CHECK(contains(told, "6 are kept: run it again to go on from there"));
-    CHECK(contains(told, "it said last: 'frame 000007.png'"));
+    CHECK(contains(told, "its last line: 'frame 000007.png'"));
     CHECK(told.find('\n') == std::string::npos);
     CHECK(bench.kept_frames() == 6);
     bench.write_script(by_frames("echo $name >> given\n" + kCopy));
@@ -272,7 +272,7 @@ void check_bounded(const std::string& talk) {
     CAPTURE(talk);
     Bench bench("echo first words\n" + talk + "\necho\necho last words\nexit 3\n");
     const std::string told = bench.failure(bench.request("{input} {output}"));
-    CHECK(contains(told, "ended with 3; it said last: 'last words'; all it said is in "));
+    CHECK(contains(told, "ended with 3; its last line: 'last words'; all its output is in "));
     CHECK(told.find('\n') == std::string::npos);
     const auto kept = kept_estimates(bench.cache());
     REQUIRE(kept.size() == 1);
@@ -312,25 +312,25 @@ TEST_CASE("one that shows no sign of life is ended when patience is", "[estimate
     Bench bench("sleep 60\n");
     EstimateRequest request = bench.request();
     request.patience_s = 1.0;
-    CHECK(contains(bench.failure(request), "showed no sign of life for 1 s and was ended"));
+    CHECK(contains(bench.failure(request), "wrote and printed nothing for 1 s and was ended"));
 }
 
 TEST_CASE("what is there and wrong is told in a line, and nothing is kept as depth", "[estimate]") {
     struct Wrong {
         std::string script, told;
     };
-    const Wrong wrong =
-        GENERATE(Wrong{by_frames("cp square.png \"$out/$name\""),
-                       "of another shape than the colour, 48 x 48 in '000001.png' instead of 64 x"},
-                 Wrong{by_frames("[ $n = 5 ] || " + kCopy), "gave 23 pictures ('000001.png') for"},
-                 Wrong{by_frames(""), "left no depth"},
-                 Wrong{"echo A; echo 'ModuleNotFoundError: torch' >&2; exit 3\n",
-                       "ended with 3; it said last: 'ModuleNotFoundError: torch'; all it said is"},
-                 Wrong{by_frames("echo nonsense > \"$out/$name\""),
-                       "the estimator's depth cannot be read: "},
-                 Wrong{by_frames("cp red.png \"$out/$name\""), "painted its depth in colours"},
-                 Wrong{by_frames("cp grey.png \"$out/$name\""), "one level everywhere"},
-                 Wrong{"head -c 300000 /dev/urandom; echo; exit 1\n", "ended with 1"});
+    const Wrong wrong = GENERATE(
+        Wrong{by_frames("cp square.png \"$out/$name\""),
+              "of another shape than the colour, 48 x 48 in '000001.png' instead of 64 x"},
+        Wrong{by_frames("[ $n = 5 ] || " + kCopy), "gave 23 pictures ('000001.png') for"},
+        Wrong{by_frames(""), "left no depth"},
+        Wrong{"echo A; echo 'ModuleNotFoundError: torch' >&2; exit 3\n",
+              "ended with 3; its last line: 'ModuleNotFoundError: torch'; all its output is"},
+        Wrong{by_frames("echo nonsense > \"$out/$name\""),
+              "the estimator's depth cannot be read: "},
+        Wrong{by_frames("cp red.png \"$out/$name\""), "painted its depth in colours"},
+        Wrong{by_frames("cp grey.png \"$out/$name\""), "one level everywhere"},
+        Wrong{"head -c 300000 /dev/urandom; echo; exit 1\n", "ended with 1"});
     Bench bench(wrong.script);
     write_picture(bench.home / "square.png", 48, 48, 8, 1, [](int i, int, int) { return i; });
     write_picture(bench.home / "red.png", 64, 48, 8, 3, [](int, int, int c) { return 120 * c; });

@@ -206,9 +206,9 @@ TEST_CASE("what is wrong is said with decimal points in a host with a decimal co
     const dibhr::test::CommaLocale locale;
     Handle hand;
     CHECK(dibhr_set_blend(hand.c, 1.5) == DIBHR_BAD_ARGUMENT);
-    CHECK(hand.error() == "a blend of 1.5: it lies in 0 to 1");
+    CHECK(hand.error() == "a blend of 1.5: it must be from 0 to 1");
     CHECK(dibhr_set_blend(hand.c, -1e300 / 7.0) == DIBHR_BAD_ARGUMENT);
-    CHECK(hand.error() == "a blend of -1.42857e+299: it lies in 0 to 1");
+    CHECK(hand.error() == "a blend of -1.42857e+299: it must be from 0 to 1");
     CHECK(dibhr_set(hand.c, "static-friction", kNan) == DIBHR_OUT_OF_RANGE);
     CHECK(hand.error().find("nan") != std::string::npos);
 }

@@ -236,7 +236,7 @@ TEST_CASE("the page says for how much of the session the mouse stood in", "[repo
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
     CHECK(contains(read_text(folder / "out/report.html"),
-                   "Novint Falcon 1234; the mouse stood in for 37.2 % of the ticks"));
+                   "Novint Falcon 1234; the mouse replaced it for 37.2 % of the ticks"));
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "Novint Falcon 1234");
 }
 
@@ -254,7 +254,7 @@ TEST_CASE("of a session of the mouse alone the report speaks of no Falcon and of
         const std::string text = read_text(folder / name);
         CAPTURE(name);
         CHECK(contains(text, "mouse"));
-        for (const char* const word : {"Falcon", "falcon", "stood in", "for a device"})
+        for (const char* const word : {"Falcon", "falcon", "replaced it", "because the device"})
             CHECK_FALSE(contains(text, word));
     }
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "mouse");

@@ -77,7 +77,7 @@ std::optional<std::string> CheckPerson::do_it(const std::string& question) {
         unit_.with([&](FalconModel& model) { model.board().press(bits); });
         return std::nullopt;
     }
-    if (holds(question, "Let it go")) {
+    if (holds(question, "Release the button")) {
         unit_.with([](FalconModel& model) { model.board().press(0); });
         return std::nullopt;
     }

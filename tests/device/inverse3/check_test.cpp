@@ -233,8 +233,9 @@ TEST_CASE("the check measures what is not known of an Inverse3, and keeps it in 
     CHECK(says(found["rate"], "a second"));
     CHECK(says(found["step"], "mm"));
     CHECK(says(found["workspace"], "200 x 100 x 160 mm"));
-    CHECK(says(found["dialect"], vector ? "vector is felt and told back; values is not felt"
-                                        : "vector is not felt; values is felt and told back"));
+    CHECK(says(found["dialect"],
+               vector ? "vector is felt and confirmed by the service; values is not felt"
+                      : "vector is not felt; values is felt and confirmed by the service"));
     CHECK(says(found["silence"], "still there after "));
     CHECK(says(found["silence"], "gone after "));
     CHECK(says(found["closed"], "gone after "));
@@ -299,7 +300,7 @@ TEST_CASE("no force begins by Enter alone", "[inverse3_check]") {
     };
     CHECK(run_check(quick(service, folder), person).fault == "");
     CHECK_FALSE(enters.empty());
-    CHECK(person.heard.find("No force without an F") != std::string::npos);
+    CHECK(person.heard.find("There is no force until you type F") != std::string::npos);
     for (const simulated::Heard& one : service.heard()) {
         REQUIRE(glm::length(one.force_newton) < 1e-12);
     }
@@ -313,7 +314,7 @@ TEST_CASE("a key in a silence is answered by a zero force within 10 ms", "[inver
     Person person(service);
     person.instead = [&](const std::string& question) -> std::optional<std::string> {
         const bool is_silence = person.heard.rfind("The force after the last message") >
-                                person.heard.rfind("How a force is spelled") + 1;
+                                person.heard.rfind("The format of a force") + 1;
         if (question.find("begin with force") != std::string::npos && !is_silence) return "s";
         return {};
     };
@@ -360,7 +361,7 @@ TEST_CASE("only what is felt is proposed for the settings, and y or n is asked f
     scene.manners.takes = simulated::Takes::both;
     simulated::Service service(scene);
     Person person(service);
-    const auto usual = only("How a force is spelled", person);
+    const auto usual = only("The format of a force", person);
     const bool values_felt = GENERATE(true, false);
     int asked = 0;
     person.instead = [&](const std::string& question) -> std::optional<std::string> {
@@ -373,7 +374,7 @@ TEST_CASE("only what is felt is proposed for the settings, and y or n is asked f
     CHECK(asked >= 3);
     const Json record = record_in(folder);
     const std::string found = record["findings"]["dialect"];
-    CHECK(holds(found, "vector is told back but not felt"));
+    CHECK(holds(found, "vector is confirmed by the service but not felt"));
     if (values_felt) {
         CHECK(record["settings"]["dialect"] == "\"values\"");
     } else {
@@ -392,7 +393,7 @@ TEST_CASE("a force that a person lets go of is not recorded as one that was held
     simulated::Service service(usual_scene());
     Person person(service);
     const std::string title =
-        GENERATE(as<std::string>(), "How a force is spelled", "The force after the last message",
+        GENERATE(as<std::string>(), "The format of a force", "The force after the last message",
                  "The force when its connection ends", "Force on a kitchen scale");
     const auto usual = only(title, person);
     person.instead = [&](const std::string& question) -> std::optional<std::string> {

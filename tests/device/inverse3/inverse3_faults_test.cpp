@@ -389,7 +389,7 @@ TEST_CASE("a service that takes no force is noticed after a quarter of a second,
     const auto began = Clock::now();
     CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::deaf; }));
     CHECK(Clock::now() - began < milliseconds(300));
-    CHECK(loop.device.status().sentence.find("takes no force") != std::string::npos);
+    CHECK(loop.device.status().sentence.find("accepts a force in neither") != std::string::npos);
     loop.tick_for(milliseconds(50));
     CHECK_FALSE(loop.reading.ready);
 }

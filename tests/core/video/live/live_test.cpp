@@ -92,7 +92,7 @@ TEST_CASE("a stream that nobody sends is refused in a line that says so", "[live
     const std::string url = PictureSender::url(free_port());
     const std::string why = refusal([&] { static_cast<void>(open_media(url)); });
     CHECK(why.find(url) != std::string::npos);
-    CHECK(why.find("start what sends") != std::string::npos);
+    CHECK(why.find("start the sender") != std::string::npos);
     CHECK(why.find('\n') == std::string::npos);
 }
 

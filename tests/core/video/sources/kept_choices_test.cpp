@@ -173,7 +173,7 @@ TEST_CASE("a kept choice that cannot be understood is passed over, and the notic
     const MediaDescription media = home.opened();
     CHECK(media.meaning->unit.origin == Origin::assumed);
     CHECK(media.panel == DepthStatement{});
-    CHECK(contains(media.notice, "passed over"));
+    CHECK(contains(media.notice, "is ignored"));
     CHECK(contains(media.notice, kept.filename().string()));
     CHECK(media.notice.find('\n') == std::string::npos);
     CHECK(describe_media(home.file, home.request()).notice == media.notice);

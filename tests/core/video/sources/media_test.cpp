@@ -319,7 +319,7 @@ TEST_CASE("what lets motion be seen badly is told in a sentence, and nothing whe
     }
     SECTION("a still, or none") {
         media.colour_still = true;
-        CHECK(motion_trouble(media).find("stands still") != std::string::npos);
+        CHECK(motion_trouble(media).find("is a still picture") != std::string::npos);
         media.colour_path.clear();
         CHECK(motion_trouble(media).find("without colour") != std::string::npos);
         media.still = true;

@@ -147,7 +147,7 @@ TEST_CASE("lines without a picture, missing pictures and repeated times are pass
     const std::string told = media->description().notice;
     CHECK(contains(told, "5 lines"));
     CHECK(contains(told, "2 missing pictures (the first: 'depth/lost.png')"));
-    CHECK(contains(told, "1 pictures at a time"));
+    CHECK(contains(told, "1 pictures with the time"));
     CHECK(told.find('\n') == std::string::npos);
 }
 

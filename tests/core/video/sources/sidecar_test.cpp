@@ -215,7 +215,7 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
     const std::string line = refusal([&] { (void)read_sidecar(folder / "clip.mkv"); });
     REQUIRE(contains(line, shown(file)));
     CHECK(contains(line, "line 3"));
-    CHECK(contains(line, "mend or delete it"));
+    CHECK(contains(line, "correct or delete it"));
     CHECK(line.find('\n') == std::string::npos);
 }
 
