@@ -84,12 +84,6 @@ struct DeviceState : DeviceStatus {
     std::optional<PoseAges> ages{};
 };
 
-/// What a device is tuned by, beside its own settings.
-struct HandTuning {
-    double max_force_newton;
-    std::uint32_t centred;  ///< a new value forgets the clutch's shift
-};
-
 /// Looks for its device from construction on, and again whenever it is lost, on a thread of its
 /// own.
 class ForceDevice : public Device {
@@ -132,27 +126,34 @@ struct CheckPaper {
 /// Takes a line for people, without its end.
 using TellLine = std::function<void(const std::string&)>;
 
+/// Of a kind whose settings are `Settings`.
+template <typename Settings>
+[[nodiscard]] std::unique_ptr<DeviceSettings> make_settings() {
+    return std::make_unique<Settings>();
+}
+
 /// One kind of force device. All functions but make() throw DeviceError where they cannot look.
 struct ForceDeviceKind {
     /// On the command line; of its table in the settings, its facts and the records of its check.
     const char* name;
-    const char* title;    ///< "Novint Falcon"
-    const char* called;   ///< behind "the": "Falcon"
-    const char* article;  ///< "a Falcon"
-    const char* which;    ///< what tells several apart, on the command line: "SERIAL"
-    const char* known;    ///< how well it is known how it moves, behind a sentence; empty: well
-    const char* no_pose;  ///< what to do when it touches and has no pose
+    const char* title;      ///< "Novint Falcon"
+    const char* called;     ///< behind "the": "Falcon"
+    const char* article;    ///< "a Falcon"
+    const char* which;      ///< what tells several apart, on the command line: "SERIAL"
+    const char* known{""};  ///< how well it is known how it moves, behind a sentence; empty: well
+    const char* no_pose;    ///< what to do when it touches and has no pose
     /// Its check counts on settings that protect a hand: only what a person has agreed to holds.
-    bool check_needs_consent;
+    bool check_needs_consent{false};
 
     std::unique_ptr<DeviceSettings> (*make_settings)();
     std::unique_ptr<ForceDevice> (*make)(const DeviceSettings& settings, const DeviceGiven& given);
     /// Keeps the firmware that a person gives for it. Its name. Throws InputError. Null: it takes
     /// none.
-    std::string (*keep_firmware)(const std::filesystem::path& file);
+    std::string (*keep_firmware)(const std::filesystem::path& file) = nullptr;
     /// What a service keeps of the device with that id for all programs: for a second or two. Null:
     /// nothing.
-    std::vector<DeviceLine> (*ask_kept)(const DeviceSettings& settings, const std::string& id);
+    std::vector<DeviceLine> (*ask_kept)(const DeviceSettings& settings,
+                                        const std::string& id) = nullptr;
 
     // Of those that are there now:
 
@@ -166,11 +167,12 @@ struct ForceDeviceKind {
     /// Tells a person who is about to touch what there is, and changes nothing of it. True: one can
     /// be used, or may be.
     bool (*glance)(const DeviceSettings& settings, const TellLine& tell);
-    /// Leads a person through what is to be measured. Throws InputError, too.
+    /// Leads a person through what is to be measured. Throws InputError, too. Null: nothing is.
     CheckResult (*check)(const DeviceSettings& settings, const CheckPaper& paper,
-                         const TellLine& tell, CheckGuide& guide);
+                         const TellLine& tell, CheckGuide& guide) = nullptr;
     /// Stands in for one until `orders` end. Null: nothing can.
-    void (*simulate)(const DeviceSettings& settings, std::istream& orders, const TellLine& tell);
+    void (*simulate)(const DeviceSettings& settings, std::istream& orders,
+                     const TellLine& tell) = nullptr;
 };
 
 }  // namespace dibhr

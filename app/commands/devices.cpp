@@ -45,11 +45,12 @@ int survey() {
     return 0;
 }
 
-/// Of the first kind of which one is attached, whether or not it can be used; where none is, the
-/// check of the first kind says what to do.
+/// Of the first kind with a check of which one is attached, whether or not it can be used; where
+/// none is, the check of the first kind says what to do.
 std::size_t kind_to_check(const AllDeviceSettings& chosen) {
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-        if (force_device_kinds()[k]->attached(chosen[k])) return k;
+        const ForceDeviceKind& kind = *force_device_kinds()[k];
+        if (kind.check != nullptr && kind.attached(chosen[k])) return k;
     }
     return 0;
 }

@@ -4,8 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "device/falcon/settings.hpp"
-
 namespace dibhr::falcon {
 
 namespace {
@@ -29,12 +27,6 @@ Vec3 centre_of(const WorkspaceOptions& workspace) noexcept {
     return {0.0, 0.0, workspace.centre_z_mm / kMetre_mm};
 }
 
-/// The same pose gives the same goal, and the same force the same commands.
-bool feel_alike(const Tuning& a, const Tuning& b) noexcept {
-    return a.geometry == b.geometry && a.motors == b.motors && a.workspace == b.workspace &&
-           a.centred == b.centred;
-}
-
 }  // namespace
 
 DeviceSpecification specification_of(const ConnectionOptions& options) {
@@ -49,7 +41,7 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
 
 FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware,
                            std::string firmware_trouble)
-    : specification_(specification_of(options)),
+    : GripDevice(specification_of(options)),
       firmware_(firmware.name),
       firmware_trouble_(std::move(firmware_trouble)),
       driver_(std::move(options), std::move(firmware), exchange_) {}
@@ -61,15 +53,6 @@ DeviceState FalconDevice::state() {
     return now;
 }
 
-bool FalconDevice::is_retuned(const DeviceSettings& settings, const HandTuning& hand) const {
-    return !(published_ == tuning_of(static_cast<const FalconSettings&>(settings), hand.centred));
-}
-
-void FalconDevice::publish(const DeviceSettings& settings, const HandTuning& hand) {
-    published_ = tuning_of(static_cast<const FalconSettings&>(settings), hand.centred);
-    tuning_.publish(published_);
-}
-
 std::string FalconDevice::use_firmware(const std::filesystem::path& file) {
     FirmwareImage image = keep_firmware(file);
     firmware_ = image.name;
@@ -79,75 +62,40 @@ std::string FalconDevice::use_firmware(const std::filesystem::path& file) {
 }
 
 HandReading FalconDevice::read(const HandContext& context) noexcept {
-    const bool feels_other = take_tuning();
+    take_tuning();
     const TimedReply& newest = exchange_.replies.front();
-    take_epoch(newest.epoch);
+    if (take_epoch(newest.epoch)) position_m_.reset();  // the counters have jumped
     reply_number_ = newest.number;
 
-    const bool posed = epoch_ != kNoEpoch && Clock::now() - newest.at < kOldestReply &&
-                       find_pose(newest.reply.encoder);
-    HandReading reading;
-    reading.limits = at_scale(at_delay(specification_.limits, delay_s_of(newest.exchange_ms)),
-                              tuned_.workspace.scale);
-    reading.buttons = newest.reply.buttons;
-    reading.force_off = (newest.reply.buttons & tuned_.force_off_buttons) != 0;
-    if (posed) {
-        const bool clutched = (newest.reply.buttons & tuned_.clutch_buttons) != 0;
-        place_goal(clutched, context);
-        reading.ready = !clutched;
+    std::optional<Vec3> grip_mm;
+    if (in_hand() && Clock::now() - newest.at < kOldestReply && find_pose(newest.reply.encoder))
+        grip_mm = *position_m_ * kMetre_mm;
+    HandReading reading =
+        reading_at(grip_mm, newest.reply.buttons,
+                   at_delay(specification().limits, delay_s_of(newest.exchange_ms)), context);
+    if (grip_mm) {
         reading.own_force_newton =
-            grid_axes(Workspace::boundary_force(*position_m_ * kMetre_mm, tuned_.workspace));
-    } else {
-        reading.ready = false;
+            grid_axes(Workspace::boundary_force(*grip_mm, tuned().workspace));
     }
-    reading.taken_over = posed && (!was_posed_ || feels_other);
-    was_posed_ = posed;
-    may_push_ = reading.ready;
-
-    reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
     return reading;
 }
 
-/// The newest tuning for this tick; true when the hand feels something else with it.
-bool FalconDevice::take_tuning() noexcept {
-    const Tuning& newest = tuning_.front();
-    if (newest.centred != tuned_.centred) workspace_.centre();
-    const bool other = !feel_alike(newest, tuned_);
-    tuned_ = newest;
-    return other;
-}
-
-/// The first reading of an epoch starts afresh: the counters have jumped.
-void FalconDevice::take_epoch(Epoch newest) noexcept {
-    if (newest == epoch_) return;
-    epoch_ = newest;
-    position_m_.reset();
-    workspace_.centre();
-    was_posed_ = false;
-}
-
 bool FalconDevice::find_pose(const Counts& encoder) noexcept {
-    const Vec3 near = position_m_.value_or(centre_of(tuned_.workspace));
-    const auto found =
-        position_with(angles_of_counts(encoder, tuned_.geometry), near, tuned_.geometry);
-    const auto jacobian_there = found ? jacobian_at(*found, tuned_.geometry) : std::nullopt;
+    const Geometry& geometry = tuned().geometry;
+    const Vec3 near = position_m_.value_or(centre_of(tuned().workspace));
+    const auto found = position_with(angles_of_counts(encoder, geometry), near, geometry);
+    const auto jacobian_there = found ? jacobian_at(*found, geometry) : std::nullopt;
     if (!jacobian_there) return false;
     position_m_ = *found;
     jacobian_ = *jacobian_there;
     return true;
 }
 
-void FalconDevice::place_goal(bool clutched, const HandContext& context) noexcept {
-    const ImageFrame image = image_frame(context.surface, context.pixel_pitch_mm);
-    goal_in_grid_ =
-        workspace_.goal_in_grid(*position_m_ * kMetre_mm, clutched, image, tuned_.workspace);
-}
-
 void FalconDevice::send(Vec3 force_newton) noexcept {
     TimedCommand& command = exchange_.commands.back();
     command.at = Clock::now();
-    command.epoch = may_push_ ? epoch_ : kNoEpoch;
-    command.motor = may_push_ ? motors_for(force_newton) : Counts{};
+    command.epoch = may_push() ? epoch() : kNoEpoch;
+    command.motor = may_push() ? motors_for(force_newton) : Counts{};
     exchange_.commands.publish();
     exchange_.wake.signal();
 }
@@ -155,7 +103,7 @@ void FalconDevice::send(Vec3 force_newton) noexcept {
 Counts FalconDevice::motors_for(Vec3 force_newton) const noexcept {
     if (!is_finite(force_newton)) return {};
     const auto torques = torques_of(device_axes(force_newton), jacobian_);
-    return torques ? motor_counts(*torques, tuned_.motors) : Counts{};
+    return torques ? motor_counts(*torques, tuned().motors) : Counts{};
 }
 
 }  // namespace dibhr::falcon

@@ -7,14 +7,13 @@
 #include <string>
 #include <utility>
 
-#include "core/realtime/triple_buffer.hpp"
 #include "device/falcon/driver.hpp"
 #include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/kinematics.hpp"
+#include "device/falcon/settings.hpp"
 #include "device/falcon/status.hpp"
-#include "device/force_device.hpp"
-#include "device/hand/workspace.hpp"
+#include "device/grip_device.hpp"
 
 namespace dibhr::falcon {
 
@@ -28,15 +27,11 @@ namespace dibhr::falcon {
 /// firmware is there, loads it, waits for homing, and then exchanges one command and one reply a
 /// tick. Everything but read() and send() happens on the USB thread. Its end is five packets
 /// without force and a closed port.
-class FalconDevice final : public ForceDevice {
+class FalconDevice final : public GripDevice<FalconSettings, Tuning> {
   public:
     /// `firmware_trouble`: why the kept firmware cannot be used.
     explicit FalconDevice(ConnectionOptions options, FirmwareImage firmware = {},
                           std::string firmware_trouble = {});
-
-    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
-        return specification_;
-    }
 
     /// The newest pose. `ready` is false, and no force will be sent, unless all three axes are
     /// homed, the last reply is younger than 20 ms, and the clutch is open. Before the first pose
@@ -49,47 +44,28 @@ class FalconDevice final : public ForceDevice {
     /// and whenever the last read() was not ready.
     void send(Vec3 force_newton) noexcept override;
 
-    // The haptic thread's, of the last read():
-
-    /// Homed and linked.
-    [[nodiscard]] bool in_hand() const noexcept override { return epoch_ != kNoEpoch; }
-    /// Which reply it used, 1 .. since the start; 0 while there is none.
+    /// The haptic thread's: which reply the last read() used, 1 .. since the start; 0 while there
+    /// is none.
     [[nodiscard]] std::uint64_t reply_number() const noexcept { return reply_number_; }
 
     // The window thread's end:
 
-    [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
     [[nodiscard]] Status status() const { return driver_.status(); }
     [[nodiscard]] DeviceState state() override;
-    [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
-                                  const HandTuning& hand) const override;
-    void publish(const DeviceSettings& settings, const HandTuning& hand) override;
     std::string use_firmware(const std::filesystem::path& file) override;
 
   private:
-    [[nodiscard]] bool take_tuning() noexcept;
-    void take_epoch(Epoch newest) noexcept;
     [[nodiscard]] bool find_pose(const Counts& encoder) noexcept;
-    void place_goal(bool clutched, const HandContext& context) noexcept;
     [[nodiscard]] Counts motors_for(Vec3 force_newton) const noexcept;
 
-    DeviceSpecification specification_;
     std::string firmware_;  // name of what is loaded when it is needed; empty: nothing
     std::string firmware_trouble_;
-    Tuning published_{};
-    TripleBuffer<Tuning> tuning_{};
     Exchange exchange_{};
 
     // The haptic thread's.
-    Tuning tuned_{};  // one for the whole tick
-    Epoch epoch_{kNoEpoch};
     std::uint64_t reply_number_{0};
     std::optional<Vec3> position_m_{};  // the last pose of this epoch
     Jacobian jacobian_{};               // there
-    Workspace workspace_{};
-    std::optional<Vec3> goal_in_grid_{};
-    bool may_push_{false};  // the last reading was ready
-    bool was_posed_{false};
 
     Driver driver_;  // last: its thread uses the exchange
 };

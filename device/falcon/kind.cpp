@@ -137,21 +137,16 @@ extern const ForceDeviceKind device_kind{
     .called = "Falcon",
     .article = "a Falcon",
     .which = "SERIAL",
-    .known = "",
     .no_pose = "no pose: pull the grip in, or see Calibration",
     .check_needs_consent = true,
-    .make_settings = []() -> std::unique_ptr<DeviceSettings> {
-        return std::make_unique<FalconSettings>();
-    },
+    .make_settings = make_settings<FalconSettings>,
     .make = make,
     .keep_firmware = [](const std::filesystem::path& file) { return keep_firmware(file).name; },
-    .ask_kept = nullptr,
     .why_none = why_none_to_open,
     .attached = [](const DeviceSettings& /*settings*/) { return !attached_falcons().empty(); },
     .survey = survey,
     .glance = glance,
     .check = check,
-    .simulate = nullptr,
 };
 
 }  // namespace dibhr::falcon

@@ -20,6 +20,9 @@ constexpr const char* kConnection = "Connection";
 // the stiffness.
 std::vector<DeviceRow> FalconSettings::rows() {
     constexpr double kMillimetres = 1000.0;  // in a metre
+    constexpr const char* kAside =
+        "Where the centre of the workspace lies, from the middle of the image";
+    Vec3& offset_mm = workspace.offset_mm;
     std::vector<DeviceRow> rows{
         {"serial", kConnection, "Serial: the first one found",
          "Which Falcon, when several are attached", &connection.serial, 0.0, 63.0},
@@ -29,19 +32,11 @@ std::vector<DeviceRow> FalconSettings::rows() {
          &connection.event_character},
         {"slower-upload", kConnection, "Slower firmware loading",
          "140 351 baud instead of 142 857; both are reported to work", &connection.slower_upload},
-        {"scale", kWorkspace, "Scale",
-         "Millimetres in the image for each millimetre of the hand. A larger image feels softer: "
-         "the stiffness in the hand never exceeds 1 N/mm",
-         &workspace.scale, 0.1, 10.0, "x %.2f"},
-        {"offset-x", kWorkspace, "Offset right",
-         "Where the centre of the workspace lies, from the middle of the image",
-         &workspace.offset_mm.x, -200.0, 200.0, "%.1f mm"},
-        {"offset-y", kWorkspace, "Offset up",
-         "Where the centre of the workspace lies, from the middle of the image",
-         &workspace.offset_mm.y, -200.0, 200.0, "%.1f mm"},
-        {"offset-z", kWorkspace, "Offset out",
-         "How far the centre of the workspace lies above the middle of the relief",
-         &workspace.offset_mm.z, -200.0, 200.0, "%.1f mm"},
+        scale_row(kWorkspace, workspace.scale),
+        offset_row("offset-x", "Offset right", kWorkspace, offset_mm.x, kAside),
+        offset_row("offset-y", "Offset up", kWorkspace, offset_mm.y, kAside),
+        offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
+                   "How far the centre of the workspace lies above the middle of the relief"),
         {"centre-z", kWorkspace, "Centre",
          "Centre of the usable volume, measured out of the base. Demos use 110 to 125 mm; the grip "
          "is fully in at about 75 and fully out at 170 mm",
@@ -123,15 +118,11 @@ DeviceLimits FalconSettings::limits() const {
     return at_scale(specification_of(connection).limits, workspace.scale);
 }
 
-Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) noexcept {
-    Tuning tuning;
-    tuning.geometry = settings.geometry;
-    tuning.motors = settings.motors;
-    tuning.workspace = settings.workspace;
-    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
-    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
-    tuning.centred = centred;
-    return tuning;
+Tuning tuning_of(const FalconSettings& settings, const HandTuning& hand) noexcept {
+    return with_hand_tuning(Tuning{.geometry = settings.geometry,
+                                   .motors = settings.motors,
+                                   .workspace = settings.workspace},
+                            settings.buttons, hand);
 }
 
 }  // namespace dibhr::falcon

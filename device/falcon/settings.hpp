@@ -2,7 +2,6 @@
 // buttons.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -39,7 +38,7 @@ struct FalconSettings final : DeviceSettings {
     [[nodiscard]] DeviceLimits limits() const override;
 };
 
-/// The numbers and the clutch as the device takes them; `centred` is counted by the viewer.
-[[nodiscard]] Tuning tuning_of(const FalconSettings& settings, std::uint32_t centred) noexcept;
+/// The numbers and the buttons as the device takes them.
+[[nodiscard]] Tuning tuning_of(const FalconSettings& settings, const HandTuning& hand) noexcept;
 
 }  // namespace dibhr::falcon

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <tuple>
 
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/packet.hpp"
@@ -30,6 +31,10 @@ struct Tuning {
     std::uint32_t centred{0};  ///< a new value forgets the clutch's shift
 
     bool operator==(const Tuning&) const = default;
+    /// With these the same pose gives the same goal, and the same force the same commands.
+    [[nodiscard]] auto felt() const noexcept {
+        return std::tie(geometry, motors, workspace, centred);
+    }
 };
 
 /// How far it has come. A fault leads back to `looking` with the reason in Status::sentence.

@@ -60,7 +60,7 @@ struct DeviceTopic {
 
 /// Of one kind of device; what a new object holds are the defaults.
 struct DeviceSettings {
-    explicit DeviceSettings(const GripButtons& grip) : buttons(standard_actions(grip)) {}
+    explicit DeviceSettings(const GripButtons& grip = {}) : buttons(standard_actions(grip)) {}
     DeviceSettings(const DeviceSettings&) = default;
     DeviceSettings& operator=(const DeviceSettings&) = default;
     virtual ~DeviceSettings() = default;
@@ -84,6 +84,7 @@ struct DeviceSettings {
     void add_buttons(std::vector<DeviceRow>& rows, const GripButtons& grip,
                      std::string_view topic) {
         for (std::size_t k = 0; k < buttons.size(); ++k) {
+            if (grip[k].setting.empty()) continue;
             rows.push_back({.name = grip[k].setting,
                             .topic = topic,
                             .label = grip[k].label,
@@ -93,5 +94,42 @@ struct DeviceSettings {
         }
     }
 };
+
+/// Image millimetres a hand millimetre.
+[[nodiscard]] inline DeviceRow scale_row(std::string_view topic, double& scale) {
+    return {.name = "scale",
+            .topic = topic,
+            .label = "Scale",
+            .help =
+                "Millimetres in the image for each millimetre of the hand. A larger image "
+                "feels softer: the stiffness in the hand never exceeds 1 N/mm",
+            .value = &scale,
+            .lowest = 0.1,
+            .highest = 10.0,
+            .format = "x %.2f"};
+}
+
+/// A coordinate of WorkspaceOptions::offset_mm: "offset-x", "Offset right".
+[[nodiscard]] inline DeviceRow offset_row(std::string_view name, const char* label,
+                                          std::string_view topic, double& offset_mm,
+                                          const char* help) {
+    return {name, topic, label, help, &offset_mm, -200.0, 200.0, "%.1f mm"};
+}
+
+/// What a device is tuned by, beside its own settings.
+struct HandTuning {
+    double max_force_newton;
+    std::uint32_t centred;  ///< a new value forgets the clutch's shift
+};
+
+/// `tuning` with the bits of the buttons that have a job in each tick, and the centring.
+template <typename Tuning>
+[[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const ButtonActions& buttons,
+                                      const HandTuning& hand) noexcept {
+    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, buttons);
+    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, buttons);
+    tuning.centred = hand.centred;
+    return tuning;
+}
 
 }  // namespace dibhr

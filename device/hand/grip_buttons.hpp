@@ -31,11 +31,11 @@ enum class ButtonAction {
     take_screenshot
 };
 
-/// One button of the grip.
+/// One button of the grip; without a name there is none.
 struct GripButton {
-    std::string_view setting;  ///< in the settings file
-    const char* label;         ///< in the panel
-    ButtonAction standard;
+    std::string_view setting{};  ///< in the settings file
+    const char* label{""};       ///< in the panel
+    ButtonAction standard{ButtonAction::none};
     std::optional<Protection> protection{};
 };
 

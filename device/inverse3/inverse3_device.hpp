@@ -2,16 +2,14 @@
 #pragma once
 
 #include <chrono>
-#include <cstdint>
-#include <optional>
 
 #include "core/realtime/triple_buffer.hpp"
-#include "device/force_device.hpp"
+#include "device/grip_device.hpp"
 #include "device/hand/pose_ages.hpp"
-#include "device/hand/workspace.hpp"
 #include "device/inverse3/driver.hpp"
 #include "device/inverse3/exchange.hpp"
 #include "device/inverse3/frame.hpp"
+#include "device/inverse3/settings.hpp"
 #include "device/inverse3/status.hpp"
 
 namespace dibhr::inverse3 {
@@ -26,13 +24,9 @@ namespace dibhr::inverse3 {
 /// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
 /// then exchanges one message and one state after the other. Everything but read() and send()
 /// happens on the network thread. Its end is a zero force and a closed connection.
-class Inverse3Device final : public ForceDevice {
+class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
   public:
     explicit Inverse3Device(ConnectionOptions options);
-
-    [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
-        return specification_;
-    }
 
     /// The newest pose. `ready` is false, and no force will be sent, unless the device is
     /// calibrated, powered, ours and obeying, its pose younger than 20 ms, and the clutch open.
@@ -45,51 +39,31 @@ class Inverse3Device final : public ForceDevice {
     /// finite and whenever the last read() was not ready; no longer than Tuning::max_force_newton.
     void send(Vec3 force_newton) noexcept override;
 
-    // The haptic thread's, of the last read():
-
-    /// Ready and linked.
-    [[nodiscard]] bool in_hand() const noexcept override { return epoch_ != kNoEpoch; }
-    /// How old the pose was.
+    /// The haptic thread's: how old the pose of the last read() was.
     [[nodiscard]] std::chrono::nanoseconds pose_age() const noexcept { return pose_age_; }
 
     // The window thread's end:
 
-    [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
     /// How old poses were in the ticks in which this hand touched, since the start; at most half a
     /// second behind.
     [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
     [[nodiscard]] DeviceState state() override;
-    [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
-                                  const HandTuning& hand) const override;
-    void publish(const DeviceSettings& settings, const HandTuning& hand) override;
 
   private:
-    [[nodiscard]] bool take_tuning() noexcept;
     void count_age() noexcept;
-    void take_epoch(Epoch newest) noexcept;
-    void place_goal(Vec3 position_m, bool clutched, const HandContext& context) noexcept;
 
-    DeviceSpecification specification_;
-    Tuning published_{};
     PoseAges shown_ages_{};   // since the start, when
     PoseAges recent_ages_{};  // of the second before that
     std::chrono::steady_clock::time_point shown_at_{};
-    TripleBuffer<Tuning> tuning_{};
     TripleBuffer<PoseAges> told_ages_{};
     Exchange exchange_{};
 
     // The haptic thread's.
-    Tuning tuned_{};  // one for the whole tick
     ImageTilt tilt_{0.0};
-    Epoch epoch_{kNoEpoch};
     std::chrono::nanoseconds pose_age_{0};
     PoseAges ages_{};
     int ages_untold_{0};
-    Workspace workspace_{};
-    std::optional<Vec3> goal_in_grid_{};
-    bool may_push_{false};  // the last reading was ready
-    bool was_posed_{false};
 
     Driver driver_;  // last: its thread uses the exchange
 };

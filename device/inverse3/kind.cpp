@@ -128,12 +128,8 @@ extern const ForceDeviceKind device_kind{
     .which = "ID",
     .known = "; its mass and delay are assumed, not measured",
     .no_pose = "no fresh pose: no force",
-    .check_needs_consent = false,
-    .make_settings = []() -> std::unique_ptr<DeviceSettings> {
-        return std::make_unique<Inverse3Settings>();
-    },
+    .make_settings = make_settings<Inverse3Settings>,
     .make = make,
-    .keep_firmware = nullptr,
     .ask_kept = ask_kept,
     .why_none = why_none_of_service,
     .attached =

@@ -19,6 +19,9 @@ constexpr const char* kService = "Inverse3 service";
 std::vector<DeviceRow> Inverse3Settings::rows() {
     constexpr double kLowestPort = 1.0;
     constexpr double kHighestPort = 65535.0;
+    constexpr const char* kAside =
+        "Where in the image the box's centre is, from the image's middle";
+    Vec3& offset_mm = tuning.workspace.offset_mm;
     std::vector<DeviceRow> rows{
         {"device", kService, "Name: the first one found",
          "Which Inverse3, when several are attached: its name, left or right", &device, 0.0, 63.0},
@@ -33,10 +36,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "Mount, axes and origin: defaults, arm_front, led_front, arm_front_centered, "
          "led_front_centered; the centre above depends on the preset",
          &preset, 0.0, 31.0},
-        {"scale", kWorkspace, "Scale",
-         "Millimetres in the image for each millimetre of the hand. A larger image feels softer: "
-         "the stiffness in the hand never exceeds 1 N/mm",
-         &tuning.workspace.scale, 0.1, 10.0, "x %.2f"},
+        scale_row(kWorkspace, tuning.workspace.scale),
         {"box", kWorkspace, "Comfortable box",
          "Edge of the box that your hand moves in without effort; the image is fitted to it",
          &box_mm, kSmallestBox_mm, kLargestBox_mm, "%.0f mm"},
@@ -54,15 +54,10 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "Centre of the comfortable box, from the device's origin; 0 for the presets that have "
          "their origin in the middle",
          &tuning.centre_mm.z, -250.0, 400.0, "%.0f mm"},
-        {"offset-x", kWorkspace, "Offset right",
-         "Where in the image the box's centre is, from the image's middle",
-         &tuning.workspace.offset_mm.x, -200.0, 200.0, "%.1f mm"},
-        {"offset-y", kWorkspace, "Offset up",
-         "Where in the image the box's centre is, from the image's middle",
-         &tuning.workspace.offset_mm.y, -200.0, 200.0, "%.1f mm"},
-        {"offset-z", kWorkspace, "Offset out",
-         "How far above the middle of the relief the box's centre is",
-         &tuning.workspace.offset_mm.z, -200.0, 200.0, "%.1f mm"},
+        offset_row("offset-x", "Offset right", kWorkspace, offset_mm.x, kAside),
+        offset_row("offset-y", "Offset up", kWorkspace, offset_mm.y, kAside),
+        offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
+                   "How far above the middle of the relief the box's centre is"),
     };
     add_buttons(rows, kGrip, kButtons);
     return rows;
@@ -90,13 +85,9 @@ ConnectionOptions connection_of(const Inverse3Settings& settings) {
     return connection;
 }
 
-Tuning tuning_of(const Inverse3Settings& settings, double max_force_newton,
-                 std::uint32_t centred) noexcept {
-    Tuning tuning = settings.tuning;
-    tuning.max_force_newton = max_force_newton;
-    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
-    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
-    tuning.centred = centred;
+Tuning tuning_of(const Inverse3Settings& settings, const HandTuning& hand) noexcept {
+    Tuning tuning = with_hand_tuning(settings.tuning, settings.buttons, hand);
+    tuning.max_force_newton = hand.max_force_newton;
     return tuning;
 }
 

@@ -60,8 +60,7 @@ struct Inverse3Settings final : DeviceSettings {
 /// Used from the next start of the program.
 [[nodiscard]] ConnectionOptions connection_of(const Inverse3Settings& settings);
 
-/// The numbers, buttons and limit as the device takes them; `centred` is counted by the viewer.
-[[nodiscard]] Tuning tuning_of(const Inverse3Settings& settings, double max_force_newton,
-                               std::uint32_t centred) noexcept;
+/// The numbers, buttons and limit as the device takes them.
+[[nodiscard]] Tuning tuning_of(const Inverse3Settings& settings, const HandTuning& hand) noexcept;
 
 }  // namespace dibhr::inverse3

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "device/hand/buttons.hpp"
@@ -39,6 +40,10 @@ struct Tuning {
     std::uint32_t centred{0};  ///< a new value forgets the clutch's shift
 
     bool operator==(const Tuning&) const = default;
+    /// With these the same pose gives the same goal.
+    [[nodiscard]] auto felt() const noexcept {
+        return std::tie(workspace, centre_mm, tilt_deg, centred);
+    }
 };
 
 /// How far it has come. A fault leads back to `looking` with the reason in Status::sentence.

@@ -46,7 +46,7 @@ TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inve
     CHECK(connection.port == 12345);
     CHECK(connection.dialect == inverse3::ForceDialect::values);
     CHECK(connection.preset.view() == "defaults");
-    const inverse3::Tuning tuning = tuning_of(kept, 2.5, 7);
+    const inverse3::Tuning tuning = tuning_of(kept, {2.5, 7});
     CHECK_THAT(tuning.tilt_deg, WithinAbs(30.0, 1e-12));
     CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));
     CHECK(tuning.clutch_buttons == 3);  // A from the start, and B
