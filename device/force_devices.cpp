@@ -13,6 +13,12 @@ std::span<const ForceDeviceKind* const> force_device_kinds() noexcept {
     return kForceDevices;
 }
 
+std::vector<std::string> force_device_names() {
+    std::vector<std::string> names;
+    for (const ForceDeviceKind* const kind : kForceDevices) names.emplace_back(kind->name);
+    return names;
+}
+
 AllDeviceSettings::AllDeviceSettings() {
     for (const ForceDeviceKind* const kind : kForceDevices) all_.push_back(kind->make_settings());
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "device/force_device.hpp"
@@ -13,6 +14,9 @@ namespace dibhr {
 /// In the order in which `auto` prefers them. HandReading::which is a kind's place, from 1: a new
 /// one comes last.
 [[nodiscard]] std::span<const ForceDeviceKind* const> force_device_kinds() noexcept;
+
+/// Their names, in that order.
+[[nodiscard]] std::vector<std::string> force_device_names();
 
 /// The settings of all kinds, in that order. A copy has values of its own.
 class AllDeviceSettings {

@@ -24,6 +24,7 @@
 #include "core/session/session.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 namespace {
@@ -66,7 +67,7 @@ void describe_session(const fs::path& file) {
     std::cout << one_line(file.string()) << '\n';
     print_fact("kind", "dibhr session");
     const HandTicks hand = hand_ticks(session.reader());
-    SessionFacts facts = facts_of_hand(session.facts(), hand);
+    SessionFacts facts = facts_of_hand(session.facts(), hand, force_device_names());
     std::set<fs::path> told;
     const auto tell = [&told](const char* what, const SessionMedia& media) {
         if (media.file.empty() || !told.insert(media.file).second) return;

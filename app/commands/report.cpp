@@ -17,6 +17,7 @@
 #include "core/session/session.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/sidecar.hpp"
+#include "device/force_devices.hpp"
 
 namespace dibhr {
 
@@ -73,7 +74,8 @@ int run_report(CLI::App& app, const Arguments& arguments) {
                                        [&session](const SessionSource& source, double media_s) {
                                            return picture_of(session, source, media_s);
                                        },
-                                       [&bar](double share) { bar.show(share); }, plot_formats});
+                                       [&bar](double share) { bar.show(share); }, plot_formats,
+                                       force_device_names()});
     }
     std::cout << (out / "report.html").string() << '\n';
     return 0;

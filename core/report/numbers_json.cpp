@@ -220,7 +220,8 @@ std::string json_of(const SessionReport& report) {
          {"marks",
           json_list(session.marks(),
                     [&](const SessionMark& mark) { return mark_fields(report, mark).json; })},
-         {"facts", texts_json(facts_of_hand(session.facts(), hand_of(numbers.ticks)))},
+         {"facts",
+          texts_json(facts_of_hand(session.facts(), hand_of(numbers.ticks), report.device_kinds))},
          {"definitions", texts_json(meanings)}});
 }
 

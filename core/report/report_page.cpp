@@ -141,7 +141,8 @@ std::string facts_section(const SessionReport& report) {
     std::vector<Cells> rows{{"file", html_text(report.session.file().filename().string())},
                             {"ticks", std::to_string(report.session.rows())}};
     const HandTicks hand = hand_of(report.numbers.ticks);
-    for (const auto& [key, value] : facts_of_hand(report.session.facts(), hand)) {
+    for (const auto& [key, value] :
+         facts_of_hand(report.session.facts(), hand, report.device_kinds)) {
         if (key == "note" || key == "participant") continue;
         const std::string text = key == "device" ? device_text(value, hand) : value;
         rows.push_back({html_text(key), text_cell(text)});

@@ -170,10 +170,14 @@ HandTicks hand_of(const TickCounts& ticks) {
     return {ticks.all - ticks.without_surface, ticks.stand_in};
 }
 
-SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand) {
+SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand,
+                           const std::vector<std::string>& kinds) {
     if (!is_mouse_alone(hand)) return facts;
-    std::erase_if(facts, [](const auto& fact) {
-        return fact.first.starts_with("falcon-") || fact.first.starts_with("device-");
+    std::erase_if(facts, [&kinds](const auto& fact) {
+        const auto begins_with = [&fact](const std::string& kind) {
+            return fact.first.starts_with(kind + "-");
+        };
+        return begins_with("device") || std::any_of(kinds.begin(), kinds.end(), begins_with);
     });
     if (const auto device = facts.find("device"); device != facts.end()) device->second = "mouse";
     return facts;

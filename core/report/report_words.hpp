@@ -34,8 +34,9 @@ namespace dibhr {
 /// Of a session's ticks.
 [[nodiscard]] HandTicks hand_of(const TickCounts& ticks);
 
-/// Of a session: without what is said of a device that nobody touched with, where the mouse stood
-/// in for all of it.
-[[nodiscard]] SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand);
+/// Of a session: without what is said of devices that nobody touched with, where the mouse stood in
+/// for all of it. `kinds`: of devices, as the names of their facts begin: "falcon".
+[[nodiscard]] SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand,
+                                         const std::vector<std::string>& kinds);
 
 }  // namespace dibhr

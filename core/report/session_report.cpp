@@ -190,7 +190,10 @@ void write_session_report(const Session& session, const ReportRequest& request) 
                          ": holds no ticks, so there is nothing to report; record it again");
     OutputFolder files(request.folder, all_names());
     session.check();
-    SessionReport report{session, numbers_of(session, request.progress), {}, {}, request.program};
+    SessionReport report{.session = session,
+                         .numbers = numbers_of(session, request.progress),
+                         .program = request.program,
+                         .device_kinds = request.device_kinds};
     const Making making{report, {files, request.plot_formats, report.figures}, request};
     draw_maps(making);
     draw_plots(making);

@@ -43,8 +43,9 @@ struct SessionReport {
     SessionNumbers numbers{};
     std::vector<HeatMapFacts> maps{};
     std::vector<Figure> figures{};
-    std::string program{};               ///< that made the report, with its version
-    std::vector<std::string> remarks{};  ///< on the pictures, in plain sentences
+    std::string program{};                    ///< that made the report, with its version
+    std::vector<std::string> remarks{};       ///< on the pictures, in plain sentences
+    std::vector<std::string> device_kinds{};  ///< as the names of devices' facts begin
 };
 
 struct Fields;
@@ -60,6 +61,7 @@ struct ReportRequest {
     RecordedPictures pictures{};
     std::function<void(double)> progress{};  ///< hears the share done; may be empty
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
+    std::vector<std::string> device_kinds{};  ///< as the names of devices' facts begin
 };
 
 /// Reads the session once and writes `report.html`, `report.json` and the pictures into the folder,

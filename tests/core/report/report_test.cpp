@@ -52,7 +52,10 @@ RecordedPicture no_picture(const SessionSource&, double) {
 }
 
 void report(const fs::path& session, const fs::path& folder) {
-    write_session_report(Session(session), {folder, "dibhr 0.0.0", no_picture, {}});
+    write_session_report(Session(session), {.folder = folder,
+                                            .program = "dibhr 0.0.0",
+                                            .pictures = no_picture,
+                                            .device_kinds = {"falcon", "other"}});
 }
 
 /// The words a report is refused with.
@@ -240,12 +243,13 @@ TEST_CASE("the page says for how much of the session the mouse stood in", "[repo
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "Novint Falcon 1234");
 }
 
-TEST_CASE("of a session of the mouse alone the report speaks of no Falcon and of no stand-in",
+TEST_CASE("of a session of the mouse alone the report speaks of no device and of no stand-in",
           "[report]") {
     const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.facts["device"] = "Novint Falcon";
     made.facts["falcon-serial"] = "";
+    made.facts["other-scale"] = "1.75";
     made.facts["device-max-stiffness"] = "1";
     for (TickRecord& tick : made.ticks) tick.stand_in = true;
     record(folder / "a.dibhr", made);
@@ -254,7 +258,8 @@ TEST_CASE("of a session of the mouse alone the report speaks of no Falcon and of
         const std::string text = read_text(folder / name);
         CAPTURE(name);
         CHECK(contains(text, "mouse"));
-        for (const char* const word : {"Falcon", "falcon", "replaced it", "because the device"})
+        for (const char* const word :
+             {"Falcon", "falcon", "other-scale", "replaced it", "because the device"})
             CHECK_FALSE(contains(text, word));
     }
     CHECK(json_at(folder / "out/report.json", "$.facts.device") == "mouse");
