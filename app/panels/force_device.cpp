@@ -171,6 +171,7 @@ void draw_connection(ViewerState& state, const DeviceNews& news) {
 
 void draw_force_device(ViewerState& state, const DeviceNews& news) {
     const DeviceState& device = news.state;
+    ImGui::PushID(force_device_kinds()[news.kind]->name);
     draw_line(device.who);
     draw_sentence(device);
     if (!device.unguarded.empty()) trouble_text(capitalised(device.unguarded));
@@ -181,11 +182,13 @@ void draw_force_device(ViewerState& state, const DeviceNews& news) {
     if (const auto& lamp = pushes ? device.pushing_lamp : device.lamp) draw_lamp(*lamp);
     for (const DeviceLine& line : device.lines) draw_line(line);
     fact_row("Touches", touching_text(state.touch));
+    ImGui::PopID();
 }
 
 void draw_force_device_settings(ViewerState& state, const DeviceNews& news) {
     DeviceSettings& settings = state.settings.devices[news.kind];
     const auto standard = force_device_kinds()[news.kind]->make_settings();
+    ImGui::PushID(force_device_kinds()[news.kind]->name);  // another device has rows of such names
     for (const DeviceTopic& topic : settings.topics()) {
         if (!part(topic.name)) continue;
         if (*topic.remark != '\0') quiet_text(topic.remark);
@@ -194,6 +197,7 @@ void draw_force_device_settings(ViewerState& state, const DeviceNews& news) {
         draw_device_rows(settings, *standard, topic.name);
         if (topic.connection) quiet_text("Changes here count from the next start of the program.");
     }
+    ImGui::PopID();
 }
 
 }  // namespace dibhr
