@@ -45,12 +45,18 @@ int survey() {
     return 0;
 }
 
-/// Of the first kind with a check of which one is attached, whether or not it can be used; where
-/// none is, the check of the first kind says what to do.
+/// One that can be checked. Where nobody can look for it, it is as if there were none.
+bool can_be_checked(const ForceDeviceKind& kind, const DeviceSettings& settings) try {
+    return kind.check != nullptr && kind.attached(settings);
+} catch (const DeviceError&) {
+    return false;
+}
+
+/// Of the first kind of which one is attached, whether or not it can be used; where none is, the
+/// check of the first kind says what to do.
 std::size_t kind_to_check(const AllDeviceSettings& chosen) {
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const ForceDeviceKind& kind = *force_device_kinds()[k];
-        if (kind.check != nullptr && kind.attached(chosen[k])) return k;
+        if (can_be_checked(*force_device_kinds()[k], chosen[k])) return k;
     }
     return 0;
 }
