@@ -29,14 +29,15 @@ void print_line(const std::string& line) {
 void print_devices(const AllDeviceSettings& chosen) {
     const auto kinds = force_device_kinds();
     bool any = false;
-    std::string none;
     for (std::size_t k = kinds.size(); k-- > 0;) {
         const bool there = kinds[k]->glance(chosen[k], print_line);
         any = any || there;
-        none = (k == 0 ? "no " : ", and no ") + std::string(kinds[k]->title) +
-               (k == 0 ? " is attached" : "") + none;
     }
-    if (!any) std::cout << none << ": with the mouse nothing is felt, only seen and heard\n";
+    if (any) return;
+    std::cout << "no " << kinds.front()->title << " is attached";
+    for (std::size_t k = 1; k < kinds.size(); ++k)
+        std::cout << (k == 1 ? ", and no " : " or ") << kinds[k]->title;
+    std::cout << ": with the mouse nothing is felt, only seen and heard\n";
 }
 
 void print_rate() {
@@ -68,8 +69,12 @@ void print_stability(const Protocol& protocol, const ForceDeviceKind& kind,
         least = margin;
         of = condition.name;
     }
-    std::cout << "stability margin on " << kind.article
-              << ", with the damping that it needs: at least " << short_text(least, 3) << " N s/m ("
+    std::cout << "stability margin on " << kind.article;
+    if (!limits.dynamics.moves()) {
+        std::cout << ": no force moves it, so that nothing swings\n";
+        return;
+    }
+    std::cout << ", with the damping that it needs: at least " << short_text(least, 3) << " N s/m ("
               << of << ")" << kind.known << '\n';
 }
 
