@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -94,16 +95,10 @@ const std::vector<Room> kRooms{
     {"device/hand/", {"device/hand/", "core/haptics/", "core/error.hpp"}},
     {"device/falcon/check/",
      {"device/falcon/", "device/hand/", "core/files/", "core/haptics/", "core/error.hpp"}},
-    {"device/falcon/",
-     {"device/falcon/", "device/hand/", "device/force_device.hpp", "device/grip_device.hpp",
-      "core/files/", "core/haptics/", "core/loop/", "core/realtime/", "core/error.hpp"}},
     {"device/inverse3/check/",
      {"device/inverse3/", "device/hand/", "core/files/", "core/haptics/", "core/error.hpp"}},
     {"device/inverse3/simulated/",
      {"device/inverse3/simulated/", "core/files/", "core/haptics/", "core/error.hpp"}},
-    {"device/inverse3/",
-     {"device/inverse3/", "device/hand/", "device/force_device.hpp", "device/grip_device.hpp",
-      "core/files/", "core/haptics/", "core/loop/", "core/realtime/", "core/error.hpp"}},
     {"device/", {"device/", "core/"}},
     {"render/", {"render/", "core/"}},
     {"assets/", {"assets/", "core/"}},
@@ -131,6 +126,12 @@ const std::vector<Room> kRooms{
       "core/error.hpp"}},
     {"app/", {"app/", "core/"}},
 };
+
+/// What any other folder of device/ may include beside itself: each is a device's.
+const std::vector<std::string> kOfDevice{"device/hand/",           "device/force_device.hpp",
+                                         "device/grip_device.hpp", "core/files/",
+                                         "core/haptics/",          "core/loop/",
+                                         "core/realtime/",         "core/error.hpp"};
 
 /// A library only some rooms may include.
 struct Ownership {
@@ -178,12 +179,17 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
                        [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// The first of kRooms that holds the file; null for none.
-const Room* room_of(const std::string& file) {
+/// The first of kRooms that holds the file, or a device's folder.
+std::optional<Room> room_of(const std::string& file) {
     const auto room = std::find_if(kRooms.begin(), kRooms.end(), [&](const Room& candidate) {
         return file.starts_with(candidate.folder);
     });
-    return room == kRooms.end() ? nullptr : &*room;
+    if (room == kRooms.end()) return std::nullopt;
+    const auto end_of_name = file.find('/', room->folder.size());
+    if (room->folder != "device/" || end_of_name == std::string::npos) return *room;
+    Room device{file.substr(0, end_of_name + 1), kOfDevice};
+    device.may_include.push_back(device.folder);
+    return device;
 }
 
 std::vector<Include> includes_of(const fs::path& path, const std::string& name) {
@@ -232,10 +238,10 @@ std::vector<std::string> offences(Forbidden forbidden) {
 
 // A name without a folder is a room's own generated header.
 bool breaks_arrow(const Include& include) {
-    const Room* room = room_of(include.file);
+    const std::optional<Room> room = room_of(include.file);
     const bool names_a_folder = include.path.find('/') != std::string::npos;
     return include.quoted && names_a_folder &&
-           (room == nullptr || !starts_with_any(include.path, room->may_include));
+           (!room || !starts_with_any(include.path, room->may_include));
 }
 
 bool breaks_ownership(const Include& include) {
@@ -302,6 +308,8 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"app/study/study_surface.cpp", "app/viewer/viewer.hpp", true}));
     CHECK(breaks_arrow({"app/python/session.cpp", "app/settings/settings.hpp", true}));
     CHECK(breaks_arrow({"device/falcon/link.cpp", "device/mouse_hand.hpp", true}));
+    CHECK(breaks_arrow({"device/another/kind.cpp", "device/falcon/settings.hpp", true}));
+    CHECK_FALSE(breaks_arrow({"device/another/kind.cpp", "device/another/settings.hpp", true}));
     CHECK_FALSE(breaks_arrow({"app/main.cpp", "core/error.hpp", true}));
     CHECK_FALSE(breaks_arrow({"core/video/sources/media.cpp", "core/video/live/x.hpp", true}));
     CHECK_FALSE(breaks_arrow({"render/relief_pass.cpp", "shader_sources.hpp", true}));
