@@ -119,10 +119,8 @@ DeviceLimits FalconSettings::limits() const {
 }
 
 Tuning tuning_of(const FalconSettings& settings, const HandTuning& hand) noexcept {
-    return with_hand_tuning(Tuning{.geometry = settings.geometry,
-                                   .motors = settings.motors,
-                                   .workspace = settings.workspace},
-                            settings.buttons, hand);
+    return with_hand_tuning(Tuning{.geometry = settings.geometry, .motors = settings.motors},
+                            settings, hand);
 }
 
 }  // namespace dibhr::falcon

@@ -24,17 +24,12 @@ struct FalconSettings final : DeviceSettings {
     ConnectionOptions connection{};  ///< used from the next start of the program
     Geometry geometry{};
     Motors motors{};
-    WorkspaceOptions workspace{};
 
     [[nodiscard]] std::unique_ptr<DeviceSettings> clone() const override {
         return std::make_unique<FalconSettings>(*this);
     }
     [[nodiscard]] std::vector<DeviceRow> rows() override;
     [[nodiscard]] std::vector<DeviceTopic> topics() const override;
-    [[nodiscard]] double scale() const noexcept override { return workspace.scale; }
-    void fit(const ImageFrame& image) noexcept override {
-        workspace.scale = fitting_scale(image, workspace);
-    }
     [[nodiscard]] DeviceLimits limits() const override;
 };
 

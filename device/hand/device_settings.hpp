@@ -60,12 +60,14 @@ struct DeviceTopic {
 
 /// Of one kind of device; what a new object holds are the defaults.
 struct DeviceSettings {
-    explicit DeviceSettings(const GripButtons& grip = {}) : buttons(standard_actions(grip)) {}
+    explicit DeviceSettings(const GripButtons& grip = {}, const WorkspaceOptions& usual = {})
+        : buttons(standard_actions(grip)), workspace(usual) {}
     DeviceSettings(const DeviceSettings&) = default;
     DeviceSettings& operator=(const DeviceSettings&) = default;
     virtual ~DeviceSettings() = default;
 
     ButtonActions buttons;
+    WorkspaceOptions workspace;
 
     [[nodiscard]] virtual std::unique_ptr<DeviceSettings> clone() const = 0;
     /// All values, in the order of the settings file.
@@ -73,9 +75,11 @@ struct DeviceSettings {
     /// In the order of the panel.
     [[nodiscard]] virtual std::vector<DeviceTopic> topics() const = 0;
     /// Image millimetres a hand millimetre.
-    [[nodiscard]] virtual double scale() const noexcept = 0;
+    [[nodiscard]] double scale() const noexcept { return workspace.scale; }
     /// Chooses the scale at which the hand reaches the whole image.
-    virtual void fit(const ImageFrame& image) noexcept = 0;
+    virtual void fit(const ImageFrame& image) noexcept {
+        workspace.scale = fitting_scale(image, workspace);
+    }
     /// What the hand can stand at the scale that is chosen, whether or not a device is there.
     [[nodiscard]] virtual DeviceLimits limits() const = 0;
 
@@ -95,7 +99,7 @@ struct DeviceSettings {
     }
 };
 
-/// Image millimetres a hand millimetre.
+/// WorkspaceOptions::scale.
 [[nodiscard]] inline DeviceRow scale_row(std::string_view topic, double& scale) {
     return {.name = "scale",
             .topic = topic,
@@ -122,12 +126,14 @@ struct HandTuning {
     std::uint32_t centred;  ///< a new value forgets the clutch's shift
 };
 
-/// `tuning` with the bits of the buttons that have a job in each tick, and the centring.
+/// `tuning` with the workspace, the bits of the buttons that have a job in each tick, and the
+/// centring.
 template <typename Tuning>
-[[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const ButtonActions& buttons,
+[[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const DeviceSettings& settings,
                                       const HandTuning& hand) noexcept {
-    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, buttons);
-    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, buttons);
+    tuning.workspace = settings.workspace;
+    tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
+    tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
     tuning.centred = hand.centred;
     return tuning;
 }

@@ -21,7 +21,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
     constexpr double kHighestPort = 65535.0;
     constexpr const char* kAside =
         "Where in the image the box's centre is, from the image's middle";
-    Vec3& offset_mm = tuning.workspace.offset_mm;
+    Vec3& offset_mm = workspace.offset_mm;
     std::vector<DeviceRow> rows{
         {"device", kService, "Name: the first one found",
          "Which Inverse3, when several are attached: its name, left or right", &device, 0.0, 63.0},
@@ -36,7 +36,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "Mount, axes and origin: defaults, arm_front, led_front, arm_front_centered, "
          "led_front_centered; the centre above depends on the preset",
          &preset, 0.0, 31.0},
-        scale_row(kWorkspace, tuning.workspace.scale),
+        scale_row(kWorkspace, workspace.scale),
         {"box", kWorkspace, "Comfortable box",
          "Edge of the box that your hand moves in without effort; the image is fitted to it",
          &box_mm, kSmallestBox_mm, kLargestBox_mm, "%.0f mm"},
@@ -71,7 +71,7 @@ std::vector<DeviceTopic> Inverse3Settings::topics() const {
 }
 
 DeviceLimits Inverse3Settings::limits() const {
-    return at_scale(specification_of().limits, tuning.workspace.scale);
+    return at_scale(specification_of().limits, workspace.scale);
 }
 
 ConnectionOptions connection_of(const Inverse3Settings& settings) {
@@ -86,7 +86,7 @@ ConnectionOptions connection_of(const Inverse3Settings& settings) {
 }
 
 Tuning tuning_of(const Inverse3Settings& settings, const HandTuning& hand) noexcept {
-    Tuning tuning = with_hand_tuning(settings.tuning, settings.buttons, hand);
+    Tuning tuning = with_hand_tuning(settings.tuning, settings, hand);
     tuning.max_force_newton = hand.max_force_newton;
     return tuning;
 }

@@ -35,14 +35,14 @@ inline constexpr GripButtons kGrip{
      {"button-home", "Home", ButtonAction::play_or_pause}}};
 
 struct Inverse3Settings final : DeviceSettings {
-    Inverse3Settings() : DeviceSettings(kGrip) {}
+    Inverse3Settings() : DeviceSettings(kGrip, Tuning{}.workspace) {}
 
     std::string device{};  ///< a name, "left" or "right"; empty: the first
     int port{10001};
     int older_port{10000};
     Dialect dialect{Dialect::automatic};
     std::string preset{};  ///< of mount, axes and origin; empty: "defaults"
-    Tuning tuning{};       ///< but for buttons, limit and centring, which come from elsewhere
+    Tuning tuning{};       ///< its centre and tilt; the rest comes from elsewhere
     double box_mm{120.0};  ///< edge of the box that a hand comfortably moves in
 
     [[nodiscard]] std::unique_ptr<DeviceSettings> clone() const override {
@@ -50,9 +50,8 @@ struct Inverse3Settings final : DeviceSettings {
     }
     [[nodiscard]] std::vector<DeviceRow> rows() override;
     [[nodiscard]] std::vector<DeviceTopic> topics() const override;
-    [[nodiscard]] double scale() const noexcept override { return tuning.workspace.scale; }
     void fit(const ImageFrame& image) noexcept override {
-        tuning.workspace.scale = fitting_scale_to_box(image, box_mm);
+        workspace.scale = fitting_scale_to_box(image, box_mm);
     }
     [[nodiscard]] DeviceLimits limits() const override;
 };
