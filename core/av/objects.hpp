@@ -1,4 +1,4 @@
-// libav's objects: their owners, their options, and its failures in words.
+// libav's objects: their owners, their options, and its failures as text.
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ using AvOwned = std::unique_ptr<Object, AvFree>;
 [[nodiscard]] AvOwned<AVFrame> new_frame();
 [[nodiscard]] AvOwned<AVPacket> new_packet();
 
-/// Memory for a picture of that AVPixelFormat, with room beyond its rows and after the last one:
-/// the scaler reads and writes whole vectors. A frame of that size keeps the memory that it has.
+/// Allocates memory for a picture of that AVPixelFormat, with padding after each row and after the
+/// last one: the scaler reads and writes whole vectors. A frame of that size keeps its memory.
 /// Throws std::bad_alloc.
 void give_buffer(AVFrame& frame, int pixel_format, int columns, int rows);
 
@@ -51,7 +51,7 @@ class AvOptions {
     AvOptions& operator=(const AvOptions&) = delete;
 
     void set(const std::string& key, const std::string& value);
-    /// `count` dictionaries; libav leaves in them what it does not know.
+    /// `count` dictionaries; libav leaves unknown options in them.
     [[nodiscard]] AVDictionary** data() noexcept { return dictionaries_.data(); }
 
   private:
@@ -62,7 +62,7 @@ class AvOptions {
 /// begins no other protocol.
 [[nodiscard]] std::string url_of(const std::filesystem::path& file);
 
-/// libav's words for a negative result: "File too large".
+/// libav's text for a negative result: "File too large".
 [[nodiscard]] std::string reason_of(int error);
 
 /// Throws InputError where libav's result is negative: "the video cannot be written (No space left

@@ -1,4 +1,4 @@
-// Frames and packets on their way through libavcodec.
+// Frames to packets by libavcodec.
 #include "core/av/track_encoder.hpp"
 
 extern "C" {

@@ -10,11 +10,11 @@ struct AVCodec;
 
 namespace dibhr {
 
-/// Of the times of pictures and packets of every track that is written.
+/// The time unit of pictures and packets in every track that is written.
 inline constexpr int kTrackUnitsPerSecond = 1000;
 
-/// For pictures of that AVPixelFormat, encoded on the calling thread alone, and for files that want
-/// the codec's header apart. Not opened: the caller sets the codec's own options, and opens it.
+/// An encoder for pictures of that AVPixelFormat, on the calling thread alone, for files that store
+/// the codec's header separately. Not opened: the caller sets the codec's own options and opens it.
 /// Throws std::bad_alloc.
 [[nodiscard]] AvOwned<AVCodecContext> new_encoder(const AVCodec* encoder, int columns, int rows,
                                                   int pixel_format);
@@ -27,7 +27,7 @@ class TrackEncoder {
     /// Takes an opened codec. Throws std::bad_alloc.
     explicit TrackEncoder(AvOwned<AVCodecContext> opened);
 
-    /// What a file has to know of the packets. Throws std::bad_alloc.
+    /// The codec parameters that a file stores. Throws std::bad_alloc.
     [[nodiscard]] AvOwned<AVCodecParameters> coded() const;
     /// The picture that is encoded next, for the caller to fill: of the codec's size and pixel
     /// format. Throws std::bad_alloc.

@@ -1,4 +1,4 @@
-// One track on its way through libavformat.
+// Packets to a file by libavformat.
 #include "core/av/track_file.hpp"
 
 extern "C" {

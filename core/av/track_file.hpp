@@ -13,16 +13,16 @@ namespace dibhr {
 struct TrackFileForm {
     const char* format{"matroska"};                ///< libav's name of it
     std::map<std::string, std::string> options{};  ///< of the format
-    std::map<std::string, std::string> tags{};     ///< what the file says of the track
-    AVIOContext* bytes{nullptr};  ///< where they go, the caller's; null: into the file itself
-    std::string subject{};        ///< begins the sentence of a failure, as "the video "
+    std::map<std::string, std::string> tags{};     ///< of the track, stored in the file
+    AVIOContext* bytes{nullptr};  ///< the caller's output for the bytes; null: the file itself
+    std::string subject{};        ///< begin of a failure's sentence, as "the video "
 };
 
-/// Every packet is handed to the system at once. A file that is not finished stays as it is then.
-/// All that writes throws InputError, e.g. when the disk is full.
+/// Writes every packet at once. A file that is not finished stays as it is. Every call that writes
+/// throws InputError, e.g. when the disk is full.
 class TrackFile {
   public:
-    /// Writes over the file.
+    /// Overwrites the file.
     TrackFile(const std::filesystem::path& file, const AVCodecParameters& coded,
               const TrackFileForm& form);
 

@@ -37,8 +37,8 @@ bool add_file(Sha256& sum, const std::filesystem::path& file, std::uint64_t head
     return true;
 }
 
-/// The file itself, or all in a folder, in order; those whose names begin with a point belong to a
-/// file manager.
+/// The file itself, or all files in a folder, in order, without those whose names begin with a
+/// point: file managers write them.
 std::vector<std::filesystem::path> files_of(const std::filesystem::path& place) {
     if (!std::filesystem::is_directory(place)) return {place};
     std::vector<std::filesystem::path> files;
@@ -50,7 +50,7 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& place) 
     return files;
 }
 
-/// With its end, so that no two names and contents run together to the same.
+/// The name with a zero at its end, so that different names and contents give different bytes.
 std::vector<std::uint8_t> name_in(const std::filesystem::path& folder,
                                   const std::filesystem::path& file) {
     const std::string name = file.lexically_relative(folder).generic_string();

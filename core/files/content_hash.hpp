@@ -1,4 +1,4 @@
-// SHA-256 of bytes and files: names content that may have been renamed or changed.
+// SHA-256 of bytes and files: identifies content whose file may have been renamed or changed.
 #pragma once
 
 #include <atomic>
@@ -13,7 +13,7 @@ struct AVSHA;
 
 namespace dibhr {
 
-/// Of bytes that come one after the other.
+/// The sum of bytes that are added one after the other.
 class Sha256 {
   public:
     Sha256();
@@ -28,20 +28,20 @@ class Sha256 {
     std::unique_ptr<AVSHA, Free> state_;
 };
 
-/// What a file holds.
+/// A file and its content.
 struct FileContent {
     std::filesystem::path file{};
     std::uint64_t bytes{0};
-    std::string sha256{};         ///< of all of them but
-    std::uint64_t head_bytes{0};  ///< so many at its begin
+    std::string sha256{};         ///< of all bytes after the first `head_bytes`
+    std::uint64_t head_bytes{0};
 };
 
 /// 64 hexadecimal digits.
 [[nodiscard]] std::string sha256_of(std::span<const std::uint8_t> bytes);
 
-/// Of the whole file, in pieces, or of all but so many bytes at its begin; of a folder, of the
-/// names in it and the bytes of all its files, in order. Throws InputError or
-/// std::filesystem::filesystem_error when it cannot be read.
+/// The sum of the file after its first `head_bytes`; of a folder, of the names and the bytes of all
+/// its files, in order. Throws InputError or std::filesystem::filesystem_error when it cannot be
+/// read.
 [[nodiscard]] std::string sha256_of_file(const std::filesystem::path& file,
                                          std::uint64_t head_bytes = 0);
 
@@ -49,7 +49,7 @@ struct FileContent {
 [[nodiscard]] std::optional<std::string> sha256_of_file(const std::filesystem::path& file,
                                                         const std::atomic<bool>& stop);
 
-/// How many bytes that is of, without the names. Throws std::filesystem::filesystem_error.
+/// The bytes of the file, or of all files in a folder. Throws std::filesystem::filesystem_error.
 [[nodiscard]] std::uintmax_t content_bytes(const std::filesystem::path& file);
 
 }  // namespace dibhr

@@ -105,7 +105,7 @@ void CsvTable::refuse(const std::string& what) const {
 }
 
 std::string csv_cell(std::string_view text) {
-    // The wide ones are what East Asian keyboards give.
+    // The wide signs are those of East Asian keyboards.
     constexpr std::array<std::string_view, 8> kFormula{"=",      "+",      "-",      "@",
                                                        "\uFF1D", "\uFF0B", "\uFF0D", "\uFF20"};
     std::string cell = one_line(text);

@@ -1,5 +1,5 @@
-// A table that people wrote as CSV: a line of column names, in any order, then rows; and a cell as
-// the program writes it.
+// Reads a CSV table that people wrote: a line of column names, in any order, then rows; and
+// writes one cell.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,18 @@
 
 namespace dibhr {
 
-/// Reads row by row. Space, quotation marks and carriage returns around a cell, empty lines and a
-/// byte order mark do not matter; more columns than are asked for are ignored.
+/// Reads row by row. Space, quotation marks and carriage returns around a cell, empty lines, a byte
+/// order mark and unused columns are ignored.
 class CsvTable {
   public:
-    /// Throws InputError when the file cannot be read: what is wrong with it, then `wanted`, what
-    /// to give instead.
+    /// Throws InputError when the file cannot be read: the reason, then `wanted`, what to give
+    /// instead.
     CsvTable(const std::filesystem::path& file, const std::string& wanted);
     CsvTable(const CsvTable&) = delete;
     CsvTable& operator=(const CsvTable&) = delete;
 
-    /// The column of the first of these names that there is. Throws InputError when that name
-    /// stands twice.
+    /// The column of the first of these names in the file. Throws InputError when the name is there
+    /// twice.
     [[nodiscard]] std::optional<std::size_t> find(std::span<const std::string_view> names) const;
 
     /// Goes to the next row. False after the last one.
@@ -32,7 +32,7 @@ class CsvTable {
     /// A cell of the row. Throws InputError with file, line and column when it is no finite number.
     [[nodiscard]] double number(std::size_t column) const;
 
-    /// Throws InputError with the file and the line of the row; at first, of the column names.
+    /// Throws InputError with the file and the row's line; before the first row, that of the names.
     [[noreturn]] void refuse(const std::string& what) const;
 
   private:
@@ -40,13 +40,13 @@ class CsvTable {
 
     std::string file_;
     std::string text_;
-    std::size_t read_{0};  ///< bytes of the text
+    std::size_t read_{0};  ///< bytes of the text that were read
     std::size_t line_{0};
     std::vector<std::string_view> names_{}, cells_{};  // of the text
 };
 
-/// A cell of a CSV file (RFC 4180), on one line and in quotation marks where it must be. What a
-/// spreadsheet would take for a formula has an apostrophe before it, which makes it text.
+/// A cell of a CSV file (RFC 4180), on one line, in quotation marks where needed. An apostrophe
+/// before a text that a spreadsheet would take for a formula keeps it a text.
 [[nodiscard]] std::string csv_cell(std::string_view text);
 
 }  // namespace dibhr

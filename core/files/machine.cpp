@@ -1,4 +1,4 @@
-// Asks the system.
+// Reads /etc, /proc, uname and the environment.
 #include "core/files/machine.hpp"
 
 #include <sys/utsname.h>

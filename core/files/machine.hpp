@@ -1,4 +1,4 @@
-// The machine that a program runs on, in words, and what its user has set on it.
+// The machine on which the program runs, its environment variables and its user's folders.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace dibhr {
 
-/// What cannot be found out is empty.
+/// An unknown text is empty.
 struct Machine {
     std::string system{};  ///< "Debian GNU/Linux 12 (bookworm)"
     std::string kernel{};  ///< "Linux 6.1.0 x86_64"
@@ -19,11 +19,11 @@ struct Machine {
 /// A variable of the environment; empty where it is not set.
 [[nodiscard]] std::string_view environment_variable(const char* name);
 
-/// The user's home folder; "/" where nobody says which it is.
+/// The user's home folder; "/" where HOME is not set.
 [[nodiscard]] std::filesystem::path home_folder();
 
-/// The program's own folder in the one that a variable of XDG names, of which whole paths alone
-/// count, else in `usual` of the home folder: ("XDG_CACHE_HOME", ".cache") is ~/.cache/dibhr.
+/// The program's own folder in the folder of an XDG variable, where that is an absolute path, else
+/// in `usual` of the home folder: ("XDG_CACHE_HOME", ".cache") is ~/.cache/dibhr.
 [[nodiscard]] std::filesystem::path program_folder(const char* variable,
                                                    const std::filesystem::path& usual);
 

@@ -1,5 +1,4 @@
-// Names of files and folders: as messages show them, in the order that people expect, and those in
-// a folder.
+// Names of files and folders: in messages, in natural order, and those in a folder.
 #pragma once
 
 #include <filesystem>
@@ -15,10 +14,10 @@ namespace dibhr {
 [[nodiscard]] bool is_file(const std::filesystem::path& place);
 [[nodiscard]] bool is_folder(const std::filesystem::path& place);
 
-/// What is in a folder, in natural order. Throws InputError when it cannot be read.
+/// The entries of a folder, in natural order. Throws InputError when it cannot be read.
 [[nodiscard]] std::vector<std::filesystem::path> entries_of(const std::filesystem::path& folder);
 
-/// 97 before 100: runs of digits by their value, everything else by its letters.
+/// 97 before 100: compares runs of digits by their value, everything else by its letters.
 [[nodiscard]] bool in_natural_order(const std::string& a, const std::string& b);
 
 }  // namespace dibhr

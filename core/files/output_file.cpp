@@ -38,7 +38,7 @@ bool renamed_to_new(const fs::path& from, const fs::path& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
         return true;
     if (errno != EINVAL && errno != ENOSYS) return false;
-    // A file system that cannot do both in one: another program may come between.
+    // The file system has no atomic rename: another program may come between the two steps.
     std::error_code ignored;
     if (fs::exists(fs::symlink_status(to, ignored))) {
         errno = EEXIST;
@@ -47,8 +47,8 @@ bool renamed_to_new(const fs::path& from, const fs::path& to) {
     return ::rename(from.c_str(), to.c_str()) == 0;
 }
 
-/// The program that writes a file of that name, "mine.csv.part1234-0", or SQLite's beside it; 0:
-/// the name is another.
+/// The process that writes a file of that name, "mine.csv.part1234-0", or SQLite's beside it; 0:
+/// not such a name.
 pid_t writer_of(const std::string& name, const std::string& begin) {
     if (!name.starts_with(begin)) return 0;
     pid_t writer = 0;
@@ -62,8 +62,9 @@ pid_t writer_of(const std::string& name, const std::string& begin) {
     return is_ours && end != digits + 1 ? writer : 0;
 }
 
-/// What programs that were killed while they wrote this file have left of it. Another machine's, or
-/// container's, whose numbers mean nothing here, holds the lock of its own.
+/// Removes the unfinished files of programs that were killed while they wrote this target. A file
+/// of another machine or container, whose process numbers mean nothing here, is locked by its
+/// writer.
 void remove_left_over(const fs::path& target) {
     std::error_code failed;
     const std::string begin = target.filename().string() + kPart;
@@ -89,7 +90,7 @@ void remove_left_over(const fs::path& target) {
 bool flushed(int file) noexcept {
     while (::fsync(file) != 0) {
         if (errno == EINTR) continue;
-        return errno == EINVAL || errno == ENOTSUP || errno == EROFS;  // there is no such thing
+        return errno == EINVAL || errno == ENOTSUP || errno == EROFS;  // cannot be flushed
     }
     return true;
 }
@@ -97,7 +98,7 @@ bool flushed(int file) noexcept {
 bool flushed_folder(const fs::path& folder) noexcept {
     const char* const name = folder.empty() ? "." : folder.c_str();
     const int opened = ::open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (opened < 0) return errno == EACCES;  // one that takes files and shows none
+    if (opened < 0) return errno == EACCES;  // a folder that cannot be listed
     const bool done = flushed(opened);
     const int why = errno;
     ::close(opened);
@@ -155,7 +156,7 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
         temporary_.clear();
         fail("cannot be written");
     }
-    ::flock(file_, LOCK_EX | LOCK_NB);  // whoever looks for what is left over sees it held
+    ::flock(file_, LOCK_EX | LOCK_NB);  // remove_left_over() skips a locked file
 }
 
 OutputFile::~OutputFile() {
@@ -175,7 +176,7 @@ void OutputFile::write(std::string_view bytes) {
     }
 }
 
-/// Before a file takes another one's name it is on the disk: a power cut must leave one of them.
+/// Flushes the file before it takes the target's name: a power cut must leave one of the two.
 void OutputFile::close() {
     const int file = std::exchange(file_, -1);
     const bool on_disk = temporary_.empty() || flushed(file);
@@ -185,7 +186,7 @@ void OutputFile::close() {
     if (!on_disk) fail("cannot be written");
 }
 
-/// From here on a power cut leaves it under that name.
+/// Makes the new name survive a power cut.
 void OutputFile::take_name() {
     temporary_.clear();
     if (!flushed_folder(target_.parent_path())) fail("cannot be written");
@@ -255,7 +256,7 @@ OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> name
 
 OutputFolder::~OutputFolder() {
     files_.clear();
-    remove_empty(made_);  // which files that were committed do not let happen
+    remove_empty(made_);  // not those with committed files
 }
 
 void OutputFolder::add(const std::string& name, std::string_view bytes) {

@@ -11,26 +11,26 @@
 
 namespace dibhr {
 
-/// Whoever read standard output has enough: the program ends quietly.
+/// Thrown when the reader of standard output has closed it: the program ends without a message.
 struct OutputClosed {};
 
-/// Waits until the disk has all that was written to an open file; false, and why in errno: it has
-/// not. What has no disk (a pipe) has nothing to wait for.
+/// Waits until all that was written to an open file is on the disk. False: it is not, errno has the
+/// reason. True at once for a file without a disk (a pipe).
 [[nodiscard]] bool flushed(int file) noexcept;
 
-/// The same of a folder, "" is the present one: what was made, renamed and removed in it.
+/// The same for what was made, renamed and removed in a folder; "" is the present one.
 [[nodiscard]] bool flushed_folder(const std::filesystem::path& folder) noexcept;
 
-/// As create_directories(), but a power cut leaves them. Gives those that were made, the outermost
-/// first.
+/// As create_directories(), and the folders survive a power cut. Returns those that were made, the
+/// outermost first.
 std::vector<std::filesystem::path> make_folders(const std::filesystem::path& folder,
                                                 std::error_code& failed);
 
-/// What is written goes to a file beside the target, which takes the target's place at commit().
-/// Without commit() nothing remains and an existing target stays as it was. After commit() a power
-/// cut leaves the new one, before it the old one, however a library wrote to written(). What a
-/// program that was killed left beside the target is removed, and that is told. A target that is no
-/// ordinary file (a pipe, /dev/null) is written directly.
+/// Writes to a file beside the target, which takes the target's place at commit(). Without commit()
+/// nothing remains and an existing target stays as it was. After a power cut there is the old
+/// target before commit(), the new one after it, also where a library wrote to written().
+/// Unfinished files of killed programs beside the target are removed, with a warning. A target that
+/// is no ordinary file (a pipe, /dev/null) is written directly.
 class OutputFile {
   public:
     /// Throws InputError when the target cannot be written.
@@ -39,18 +39,18 @@ class OutputFile {
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
-    /// Throws InputError, e.g. when the disk is full, and OutputClosed when the reading end is
-    /// gone.
+    /// Throws InputError, e.g. when the disk is full, and OutputClosed when the reader has closed
+    /// the pipe.
     void write(std::string_view bytes);
 
     /// Throws InputError when the target cannot be replaced.
     void commit();
 
     /// As commit(), but nothing is replaced: where a file of that name exists, the first free
-    /// number is appended to it, "view-2.png". Gives the name. Throws InputError.
+    /// number is appended to it, "view-2.png". Returns the name. Throws InputError.
     std::filesystem::path commit_beside();
 
-    /// Where it is written until commit(), for a library that opens files by name.
+    /// The file that is written until commit(), for a library that opens files by name.
     [[nodiscard]] const std::filesystem::path& written() const noexcept {
         return temporary_.empty() ? target_ : temporary_;
     }
@@ -69,19 +69,19 @@ class OutputFile {
 /// Writes an OutputFile of these bytes and commits it. Throws as that does.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
-/// Files of an earlier run are replaced at commit(). Without commit() nothing remains: the folder
-/// is as it was, or was never made. Other files stay. Everything that writes throws InputError:
-/// what, which file, what to do next.
+/// A folder of output files. Files of an earlier run are replaced at commit(). Without commit() the
+/// folder is as it was, or is not there. Other files stay. Every call that writes throws
+/// InputError: what failed, which file, what to do next.
 class OutputFolder {
   public:
-    /// Makes the folder where it is missing, and tries whether it takes files. `names`: files of
-    /// an earlier run that go at commit() when this one has none of that name.
+    /// Makes the folder where it is missing, and checks that files can be written in it. `names`:
+    /// files of an earlier run that are removed at commit(), unless this one has such a file.
     explicit OutputFolder(const std::filesystem::path& folder, std::vector<std::string> names = {});
     ~OutputFolder();
     OutputFolder(const OutputFolder&) = delete;
     OutputFolder& operator=(const OutputFolder&) = delete;
 
-    /// A name that was added before is left as it is.
+    /// Does nothing for a name that was added before.
     void add(const std::string& name, std::string_view bytes);
     void commit();
 

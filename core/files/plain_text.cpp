@@ -53,8 +53,8 @@ std::size_t letter_bytes(std::string_view text, std::size_t k) {
     const bool too_long = (first == 0xE0U && second < 0xA0U) || (first == 0xF0U && second < 0x90U);
     const bool surrogate = first == 0xEDU && second > 0x9FU;
     const bool beyond = first == 0xF4U && second > 0x8FU;
-    // U+0080 to U+009F are control characters; U+202A to U+202E and U+2066 to U+2069 turn the order
-    // of what stands around them.
+    // U+0080 to U+009F are control characters; U+202A to U+202E and U+2066 to U+2069 change the
+    // direction of the text around them.
     const unsigned last = byte_at(text, k + bytes - 1);
     const bool turns = first == 0xE2U && ((second == 0x80U && last >= 0xAAU && last <= 0xAEU) ||
                                           (second == 0x81U && last >= 0xA6U && last <= 0xA9U));

@@ -1,5 +1,5 @@
-// Text and numbers as the program writes them: what people or files gave made safe to show, numbers
-// that read back, and the one line on stderr.
+// Text and numbers as the program writes them: foreign text made safe to show, numbers that read
+// back to the same bits, and one-line messages on stderr.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace dibhr {
 
-/// Without control characters but line breaks and tabs, and with U+FFFD for bytes that are no
-/// UTF-8.
+/// The text with U+FFFD for control characters, except line breaks and tabs, and for bytes that are
+/// no UTF-8.
 [[nodiscard]] std::string utf8_text(std::string_view text);
 
 /// As utf8_text, on one line, and cut short where it is longer than `most` letters.
@@ -26,8 +26,8 @@ namespace dibhr {
 /// 0 to 9.
 [[nodiscard]] bool is_decimal_digit(char c);
 
-/// All of it, in printable ASCII on one line: other bytes as \x1b, a backslash doubled, and of
-/// blanks side by side all but the first as \x20. Two texts never look the same.
+/// The whole text in printable ASCII on one line: other bytes as \x1b, a backslash doubled, and of
+/// adjacent blanks all but the first as \x20. Different texts look different.
 [[nodiscard]] std::string escaped_text(std::string_view text);
 
 /// "a, b, c".
@@ -37,14 +37,14 @@ namespace dibhr {
 /// Whether the text is a name of letters, digits, "-" and "_" alone; an empty one is none.
 [[nodiscard]] bool is_bare_name(std::string_view text);
 
-/// As utf8_text, and means nothing to a browser: for the text of an element or an attribute in
-/// double quotes.
+/// As utf8_text, with HTML's special characters as entities: for an element's text, or an attribute
+/// in double quotes.
 [[nodiscard]] std::string html_text(std::string_view text);
 
 /// A path as a `file:` address takes it (RFC 3986, section 2.1).
 [[nodiscard]] std::string percent_encoded(std::string_view path);
 
-/// And back: of any such address. A "%" that does not stand before two digits stays.
+/// The inverse, of any such address. A "%" that is not before two digits stays.
 [[nodiscard]] std::string percent_decoded(std::string_view text);
 
 /// Bytes as a `data:` address takes them (RFC 4648, section 4).
@@ -53,16 +53,16 @@ namespace dibhr {
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string number_text(double value);
 
-/// With so many digits after the point, at most 200.
+/// With `digits` digits after the point, at most 200.
 [[nodiscard]] std::string number_text(double value, int digits);
 
-/// With so many digits that count, at most 200, and no zeros at the end: 0.123, 12.3, 1.23e-05.
+/// With `digits` significant digits, at most 200, and no zeros at the end: 0.123, 12.3, 1.23e-05.
 [[nodiscard]] std::string short_text(double value, int digits = 6);
 
 /// A time from its beginning, "01:23.456".
 [[nodiscard]] std::string clock_text(double seconds);
 
-/// A finite number as these write it, and nothing else before or after it; whatever the locale.
+/// The finite number of a text that holds nothing else, in the form above, whatever the locale.
 [[nodiscard]] std::optional<double> number_of_text(std::string_view text);
 
 /// Appends with 17 significant digits, as CSV files have it: reads back to the same bits.

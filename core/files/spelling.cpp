@@ -1,4 +1,4 @@
-// What somebody may have meant who mistyped a name.
+// Suggests a name for a mistyped one.
 #include "core/files/spelling.hpp"
 
 #include <algorithm>

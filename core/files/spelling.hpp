@@ -1,4 +1,4 @@
-// What somebody may have meant who mistyped a name.
+// Suggests a name for a mistyped one.
 #pragma once
 
 #include <string>
@@ -6,9 +6,8 @@
 
 namespace dibhr {
 
-/// "; did you mean --friction?": the name that is reached from the word with the fewest letters
-/// changed, added, left away or swapped with their neighbour, at most a third of them. Empty: none
-/// is near.
+/// "; did you mean --friction?": the name with the fewest letters changed, added, removed or
+/// swapped with their neighbour, at most a third of them. Empty: no name is near.
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& names);
 

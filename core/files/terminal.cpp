@@ -38,7 +38,7 @@ std::string painted(std::string_view text, Paint paint, int descriptor) {
 
 PlainOutput::~PlainOutput() {
     stream_.rdbuf(to_);
-    static_cast<void>(give(line_.size()));  // whose failure has nobody to be told
+    static_cast<void>(give(line_.size()));  // a destructor cannot report a failure
 }
 
 std::streambuf::int_type PlainOutput::overflow(int_type letter) {

@@ -1,4 +1,4 @@
-// Colours for who reads at a terminal, and nothing else that a terminal obeys.
+// Colours on a terminal, and output without any other control sequence.
 #pragma once
 
 #include <ostream>
@@ -10,12 +10,12 @@ namespace dibhr {
 
 enum class Paint { heading, error, warning };
 
-/// For that descriptor; where it shows no colours, or NO_COLOR is set (no-color.org: to any value
-/// but an empty one), the text as it is.
+/// The text with colour for that descriptor; unchanged where it shows no colours, or NO_COLOR is
+/// set (no-color.org: to any value but an empty one).
 [[nodiscard]] std::string painted(std::string_view text, Paint paint, int descriptor);
 
-/// While it lives, all that goes into the stream has lost its control characters, but line breaks,
-/// tabs and painted() headings: texts of files, devices and services mean nothing to a terminal.
+/// While it exists, removes control characters from all output of the stream, except line breaks,
+/// tabs and painted() headings: texts of files, devices and services cannot control the terminal.
 class PlainOutput : private std::streambuf {
   public:
     explicit PlainOutput(std::ostream& stream) : stream_(stream), to_(stream.rdbuf(this)) {}
@@ -31,7 +31,7 @@ class PlainOutput : private std::streambuf {
 
     std::ostream& stream_;
     std::streambuf* to_;
-    std::string line_{};  ///< that has no end yet
+    std::string line_{};  ///< the line that is not complete yet
 };
 
 }  // namespace dibhr

@@ -16,7 +16,7 @@ std::optional<std::string> small_text_in(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     if (failed || bytes > kMostBytes || !in) return std::nullopt;
     std::ostringstream content;
-    if (bytes > 0) content << in.rdbuf();  // of nothing it would fail
+    if (bytes > 0) content << in.rdbuf();  // `<<` fails for an empty file
     if (content.fail()) return std::nullopt;
     return content.str();
 }

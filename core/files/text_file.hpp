@@ -7,8 +7,8 @@
 
 namespace dibhr {
 
-/// All of an ordinary file of a megabyte at most, which no page of text exceeds; nothing: it is
-/// none, or cannot be read.
+/// The content of an ordinary file of at most a megabyte, more than any such text needs; nothing:
+/// it is larger, no ordinary file, or cannot be read.
 [[nodiscard]] std::optional<std::string> small_text_in(const std::filesystem::path& file);
 
 }  // namespace dibhr

@@ -36,7 +36,7 @@ namespace {
 
 using namespace dibhr;
 
-/// Keeps the text of what went wrong, and gives the status on.
+/// Stores the error's text in the handle, and returns the status.
 __attribute__((format(printf, 3, 4))) dibhr_status failed(const dibhr_handle* handle,
                                                           dibhr_status status, const char* format,
                                                           ...) noexcept {
@@ -153,7 +153,7 @@ dibhr_status no_surface(const dibhr_handle* handle) noexcept {
     return failed(handle, DIBHR_NO_SURFACE, "there is no depth image yet");
 }
 
-/// An update over the bump map is faster then; without memory for it, it works all the same.
+/// Makes an update over the bump map faster; without memory it works as well.
 void stretch_bump(dibhr_handle& handle) noexcept {
     const DepthImage& depth = handle.from;
     const double size_px = handle.parameters.shape.bump_size_px;

@@ -15,10 +15,10 @@ inline constexpr double kTouchDepth_px = 1e-10;
 
 /// How a flight along a segment ended.
 struct Flight {
-    Vec3 end{0.0};                      ///< where
-    std::optional<Primitive> ground{};  ///< the TRIANGLE it met there
-    int cells{0};                       ///< it went over
-    bool cut_short{false};              ///< they were too many; it can be taken up from here
+    Vec3 end{0.0};                      ///< the last place of the flight
+    std::optional<Primitive> ground{};  ///< the TRIANGLE that it met there
+    int cells{0};                       ///< number of cells crossed
+    bool cut_short{false};              ///< `most_cells` was reached: go on from `end`
 };
 
 /// From `from` to `to` or the first point at which the segment dives below the surface, over at

@@ -15,9 +15,9 @@
 
 namespace dibhr {
 
-/// The EDGEs that go on straight from a VERTEX in the direction of one of its spokes, between the
-/// same two planes. All that is decided at the VERTEXes and EDGEs on the way is linear in the way:
-/// what holds at the first and at the last of them with room to spare holds at those between.
+/// A straight run of EDGEs that starts at a VERTEX along one of its spokes, between the same two
+/// planes. Every decision on the run is linear in the distance along it: what is clearly true at
+/// the first and at the last VERTEX is true at all between them.
 class CreaseAhead {
   public:
     /// The proxy comes to `vertex` along the spoke before it in the same direction, on its way to
@@ -47,7 +47,7 @@ class CreaseAhead {
         return (spoke_ + steps) % kSpokes.size();
     }
 
-    /// The elevation from the VERTEX n EDGEs ahead along a spoke, or of it.
+    /// The elevation of the VERTEX n EDGEs ahead, or of its neighbour `aside`.
     [[nodiscard]] double elevation(int n, Step aside) const noexcept {
         const Step ahead = kSpokes[spoke_];
         return surface_.elevation(at_.i + n * ahead.i + aside.i, at_.j + n * ahead.j + aside.j);
@@ -58,7 +58,7 @@ class CreaseAhead {
         return surface_.has_vertex(at_.i + n * ahead.i + aside.i, at_.j + n * ahead.j + aside.j);
     }
 
-    /// The next EDGE rises as the last: on rough ground one reading tells that there is no run.
+    /// The next EDGE has the slope of the last one. On rough ground this one test ends the search.
     [[nodiscard]] bool goes_on_here() const noexcept {
         constexpr Step kHere{0, 0};
         if (!has(1, kHere) || !has(-1, kHere)) return false;
@@ -78,8 +78,8 @@ class CreaseAhead {
         return true;
     }
 
-    /// For how many VERTEXes from here on the distance falls faster along this spoke than along the
-    /// others. Each step ahead changes the difference by the same.
+    /// For how many VERTEXes this spoke remains the steepest way to the goal. Its advantage over
+    /// another spoke changes by the same amount at each VERTEX.
     [[nodiscard]] int preferred_for(const VertexFan& fan, int most) const noexcept {
         const Vec3 ahead = fan.along(spoke_);
         const Vec3 unit = ahead / std::sqrt(glm::dot(ahead, ahead));
@@ -97,7 +97,7 @@ class CreaseAhead {
         return static_cast<int>(preferred);
     }
 
-    /// For how many EDGEs the line and the rows on both sides of it go on as they begin.
+    /// For how many EDGEs the line, and the rows on both sides of it, keep their slopes.
     [[nodiscard]] int same_ground(const VertexFan& fan, int most) const noexcept {
         const double rise = fan.along(spoke_).z;
         const Step one_side = kSpokes[around(1)];

@@ -1,4 +1,4 @@
-// One depth image in its source's own levels: what the surface is made of.
+// One depth image in its source's own levels, and a bump map: the data of a surface.
 #pragma once
 
 #include <cstddef>
@@ -41,8 +41,8 @@ struct BumpMap {
     int rows{0};
     std::vector<float> heights{};
 
-    /// The same at every VERTEX of a depth image of one size, columns x rows of them, row-major,
-    /// where the map is `size_px` wide: `stretch` (surface.hpp) works them out.
+    /// The heights at every VERTEX of a depth image of columns x rows, row-major, where the map is
+    /// `size_px` wide. Computed by `stretch` (surface.hpp).
     struct AtVertices {
         int columns{0};
         int rows{0};

@@ -40,7 +40,7 @@ class SurfaceWalk : private ProxyWalk {
     }
 
   private:
-    /// A straight piece to the goal's foot on its line, where the proxy wants to go.
+    /// A straight piece to the goal's foot on its line, the target of the proxy.
     struct Piece {
         Vec3 foot{0.0};
         double length2{0.0};
@@ -102,7 +102,7 @@ class SurfaceWalk : private ProxyWalk {
         return Next::visit;
     }
 
-    /// A TRIANGLE beside the active EDGE, as the goal sees it.
+    /// A TRIANGLE beside the active EDGE, relative to the goal.
     struct Side {
         const Facet& facet;
         Facet::Projection goal_on;
@@ -119,7 +119,7 @@ class SurfaceWalk : private ProxyWalk {
         return {facet, goal_on, inside <= kThere_px ? 0.0 : gradient2};
     }
 
-    /// The TRIANGLE beside it into which the distance to the goal falls fastest, or along it.
+    /// Into the TRIANGLE beside the EDGE where the distance to the goal falls fastest, or along it.
     Next visit_edge() noexcept {
         const EdgeDirection direction = proxy_.active.direction;
         const TrianglePair pair = triangles_of(surface_, proxy_.active);
@@ -195,8 +195,8 @@ class SurfaceWalk : private ProxyWalk {
         return visit_fan_edge(fan, steepest);
     }
 
-    /// The spoke along which the distance falls fastest, by more than `least`, of those that
-    /// `is_free(along)` lets it go by; their number if there is none.
+    /// The spoke along which the distance falls fastest, by more than `least`, of those for which
+    /// `is_free(along)` is true; kSpokes.size() if there is none.
     template <typename IsFree>
     [[nodiscard]] std::size_t steepest_spoke(const VertexFan& fan, double least,
                                              IsFree&& is_free) const noexcept {
@@ -290,7 +290,7 @@ class SurfaceWalk : private ProxyWalk {
         return slide_along(edge_at(vertex, steepest), fan.elevations_along(steepest));
     }
 
-    /// The TRIANGLEs beside it are known.
+    /// Visits the EDGE along a spoke, whose TRIANGLEs the fan holds.
     Next visit_fan_edge(const VertexFan& fan, std::size_t spoke) noexcept {
         // As `triangles_of` orders them: the even one is towards +x and +y.
         const std::size_t before = (spoke + 5) % kSpokes.size();

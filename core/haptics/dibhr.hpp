@@ -17,10 +17,10 @@ class Dibhr final : public ProxyAlgorithm {
     /// Primitives visited in an update that flies nowhere (README.md, "One update").
     static constexpr int kMostMoves = 1000;
 
-    /// Where the proxy is within the next update, which is not made: after so many of its moves,
-    /// 0 or more. What the surface did to it comes before the first, and so does a flight. Once
-    /// there are none left, `bound_met` is as `update` would say; before, it is set. Some moves
-    /// are counted together: then it is after the last of them.
+    /// The proxy as the next update would have it after `moves` moves, 0 or more; no update is
+    /// made. The surface's own motion and a flight come before the first move. `bound_met` is true
+    /// while moves are left, else as `update` gives it. Of moves that are counted together all are
+    /// made.
     [[nodiscard]] Proxy after_moves(const DepthSurface& surface, Vec3 goal,
                                     const Friction& friction, int moves) const noexcept;
 

@@ -1,4 +1,4 @@
-// Steps of an update: the walk is asked where it is after each of its moves.
+// Steps of an update: Dibhr::after_moves gives the proxy after each move.
 #include "core/haptics/explanation.hpp"
 
 #include <algorithm>
@@ -58,8 +58,8 @@ bool is_on_line(const Primitive& edge, Vec3 p) {
     return std::abs(p.x - edge.i + (p.y - edge.j) - 1.0) <= kSame_px;
 }
 
-/// Of the TRIANGLEs beside an EDGE the one that the proxy went into; else that which it looked
-/// into, on the other side of the one it came over.
+/// The TRIANGLE beside an EDGE that the proxy went into; else the one that the walk judged, on the
+/// side from which the proxy did not come.
 std::optional<Primitive> triangle_beside(const DepthSurface& surface, const Primitive& edge,
                                          const Proxy& after, const Primitive& came_over) {
     const TrianglePair pair = triangles_of(surface, edge);
@@ -91,15 +91,15 @@ bool has_primitive(const DepthSurface& surface, const Primitive& primitive) {
     return false;
 }
 
-/// Whether an update over a surface of this size can have left it so: a session that is replayed
-/// over other files holds those that cannot.
+/// Whether an update over a surface of this size can give this proxy. A session that is replayed
+/// over other files may hold proxies that do not fit.
 bool fits(const DepthSurface& surface, const Proxy& proxy) {
     if (!is_finite(proxy.position)) return false;
     if (surface.clamped_to_frame(proxy.position) != proxy.position) return false;
     return !proxy.contact || has_primitive(surface, proxy.active);
 }
 
-/// Where an update begins that has no proxy to go on from.
+/// The proxy with which an update begins that has no proxy to go on from.
 Proxy above(const DepthSurface& surface, Vec3 goal) {
     Proxy proxy;
     proxy.position = {goal.x, goal.y, std::max(goal.z, surface.elevation_at(goal.x, goal.y))};
@@ -137,7 +137,7 @@ class Explainer {
         return walk_.after_moves(surface_, asked_goal_, friction_, moves);
     }
 
-    /// Counts for no move.
+    /// A flight counts as no move.
     void add_flight(const Proxy& landed) {
         const Proxy& start = update_.start;
         if (start.contact) return;
@@ -166,7 +166,7 @@ class Explainer {
         update_.steps.push_back(step);
     }
 
-    /// An EDGE and the TRIANGLE beside it are judged at once.
+    /// An EDGE and the TRIANGLE beside it are judged in one step.
     void add_second_visit(WalkStep& step) const {
         const Primitive& first = step.visited[0];
         if (first.kind != PrimitiveKind::edge || step.after.moves < step.before.moves + 2) return;
@@ -178,7 +178,7 @@ class Explainer {
         step.visits = 2;
     }
 
-    /// Which piece it moved on, or would have.
+    /// The piece along which the proxy moved, or would have.
     [[nodiscard]] Primitive piece_of(const WalkStep& step) const {
         const Primitive& first = step.visited[0];
         const Primitive& then = step.after.active;
@@ -209,7 +209,7 @@ class Explainer {
         return step.piece.kind == PrimitiveKind::edge ? StepEnd::goes_to_end : StepEnd::crosses;
     }
 
-    /// It flew, and came down somewhere.
+    /// The proxy left the surface, flew, and came down.
     [[nodiscard]] bool has_left(const WalkStep& step) const {
         switch (step.piece.kind) {
             case PrimitiveKind::triangle:
@@ -245,7 +245,7 @@ std::string pixels(double px) {
     return std::string(text.data(), end) + " px";
 }
 
-/// What came before the piece it moved on was judged, in words; empty: nothing.
+/// A sentence on the EDGE judged before the piece; empty: none was.
 std::string judged_text(const WalkStep& step) {
     if (step.visits < 2) return {};
     const std::string edge = text_of(step.visited[0]);

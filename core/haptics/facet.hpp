@@ -11,8 +11,8 @@
 
 namespace dibhr {
 
-/// How much of each corner a point of the grid is. All three >= 0: inside. Each is 0 on the EDGE
-/// opposite its corner, and is named after the direction of that EDGE.
+/// Barycentric coordinates of a point of the grid. All three >= 0: inside the TRIANGLE. Each is 0
+/// on the EDGE opposite its corner, and is named after the direction of that EDGE.
 struct Barycentric {
     double row;
     double column;
@@ -31,7 +31,7 @@ struct Barycentric {
     }
 };
 
-/// At the begin and the end of an EDGE, as `ends_of` orders them [px].
+/// Elevations at the begin and the end of an EDGE, as `ends_of` orders them [px].
 struct EdgeElevations {
     double begin;
     double end;
@@ -75,7 +75,7 @@ class Facet {
         return corner_ + slope_x() * (x - i_) + slope_y() * (y - j_);
     }
 
-    /// The goal as the plane sees it.
+    /// The goal relative to the plane.
     struct Projection {
         Vec3 foot{0.0};         ///< the plane's nearest point, inside the TRIANGLE or not
         double rise{0.0};       ///< of the goal above the plane, along z [px]
@@ -102,7 +102,7 @@ class Facet {
         return {row, column, 1.0 - column - row};
     }
 
-    /// For who knows the sign: what follows is compiled for it.
+    /// Makes the sign a constant for the compiler, which specialises the code that follows.
     template <int kSign>
     void assume_sign() noexcept {
         sign_ = kSign;
@@ -209,8 +209,8 @@ template <EdgeDirection kBehind>
     return {kOne, t};
 }
 
-/// The same in the second TRIANGLE of a plane, with the bits of a StraightWay from there on: where
-/// planes are small this is all there is of one.
+/// The same in the second TRIANGLE of a plane, with the bits that StraightWay gives there. Small
+/// planes need no StraightWay.
 template <EdgeDirection kBehind>
 [[nodiscard, gnu::always_inline]] inline Exit exit_on_plane(const Facet& facet, Vec3 begin,
                                                             Vec3 end) noexcept {
@@ -233,12 +233,12 @@ template <EdgeDirection kBehind>
     return {EdgeDirection::along_row, row};
 }
 
-/// Seen from above: three families of parallel lines, each crossed at even steps of the way's
-/// parameter (as a ray is walked through voxels: Amanatides and Woo, Eurographics 1987). No
-/// division a TRIANGLE.
+/// A straight way over TRIANGLEs, seen from above. It crosses three families of parallel lines,
+/// each at even steps of its parameter (Amanatides and Woo, Eurographics 1987), so that a TRIANGLE
+/// needs no division.
 class StraightWay {
   public:
-    /// The way goes through the TRIANGLE `facet`; what is before that is left out.
+    /// The way through the TRIANGLE `facet` and on; crossings before `facet` are left out.
     StraightWay(Vec3 begin, Vec3 end, const Facet& facet) noexcept {
         const double dx = end.x - begin.x;
         const double dy = end.y - begin.y;
@@ -254,9 +254,9 @@ class StraightWay {
     }
 
     /// Calls `cross(direction, t)` for the EDGE by which the way leaves a TRIANGLE of this sign,
-    /// with its parameter t (0 at the begin, 1 at the end), and goes over it. Never the EDGE it
-    /// came in by. A branch for each direction, not a table: what follows is predicted, not waited
-    /// for.
+    /// with its parameter t (0 at the begin, 1 at the end), and steps over it. Never the EDGE by
+    /// which the way came in. A branch for each direction, not a table: the processor predicts
+    /// branches.
     template <typename Cross>
     auto over_next_edge(int sign, Cross&& cross) noexcept {
         const int side = sign > 0 ? 1 : 0;

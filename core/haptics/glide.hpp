@@ -15,15 +15,15 @@
 
 namespace dibhr {
 
-/// Goes on for as long as the next TRIANGLE leads nearer to the goal. All of it is one loop of
-/// local values that the compiler keeps in registers, with a branch for each direction of EDGE:
-/// what follows a crossing is predicted, not waited for.
+/// Goes from TRIANGLE to TRIANGLE while the next one leads nearer to the goal. It is one loop over
+/// values that the compiler keeps in registers, with a branch for each direction of EDGE, which
+/// the processor predicts instead of waiting for a crossing.
 class Glide {
   public:
-    /// What ended it.
+    /// Why the glide ended.
     enum class End {
         none,
-        plane,   ///< not yet: it goes on over a third TRIANGLE of one plane
+        plane,   ///< only inside run(): goes on over a third TRIANGLE of one plane
         above,   ///< the goal is above the TRIANGLE
         held,    ///< friction holds the proxy
         cone,    ///< the way enters the friction cone in the TRIANGLE
@@ -31,7 +31,7 @@ class Glide {
         stop,    ///< on a VERTEX, at the image's border, or after the last move
     };
 
-    /// What stays the same on its way.
+    /// What stays the same during a glide.
     struct Course {
         const DepthSurface& surface;
         Vec3 goal;
@@ -63,14 +63,14 @@ class Glide {
 
     [[nodiscard]] Vec3 position() const noexcept { return position_; }
     [[nodiscard]] int moves() const noexcept { return moves_; }
-    /// On an EDGE that it crossed; else in the TRIANGLE it began in.
+    /// True: the proxy is on an EDGE that it crossed; false: in its first TRIANGLE.
     [[nodiscard]] bool crossed() const noexcept { return crossed_; }
-    /// The TRIANGLE it ended in, or beside whose EDGE.
+    /// The TRIANGLE in which, or on whose EDGE, the glide ended.
     [[nodiscard]] const Facet& facet() const noexcept { return facet_; }
     [[nodiscard]] const Facet::Projection& goal_on() const noexcept { return goal_on_; }
-    /// Of the way to the foot, squared.
+    /// The squared length of the way to the foot.
     [[nodiscard]] double length2() const noexcept { return length2_; }
-    /// After `crease` and `stop`: the VERTEX or EDGE it came to.
+    /// After `crease` and `stop`: the VERTEX or EDGE that was reached.
     [[nodiscard]] Primitive border() const noexcept {
         const Primitive edge = edge_of(facet_.triangle(), behind_);
         if (!on_vertex_) return edge;
@@ -83,8 +83,8 @@ class Glide {
     /// An EDGE crossed at the foot itself is crossed: the TRIANGLE behind it may lead on.
     static constexpr double kPastFoot = 1.0 + 1e-11;
 
-    /// One TRIANGLE on, if friction lets the proxy. Both signs take turns and have code of their
-    /// own.
+    /// Crosses one TRIANGLE, unless friction holds the proxy. The two signs alternate; each has its
+    /// own code.
     [[gnu::always_inline]] void go_on() noexcept {
         const Vec3 way = goal_on_.foot - position_;
         length2_ = glm::dot(way, way);
@@ -135,9 +135,9 @@ class Glide {
         read_ahead<kThrough>();
     }
 
-    /// The elevations across the two EDGEs ahead: read before it is known which one is crossed, so
-    /// that after a wrong guess of the processor only the next choice is waited for. A bump map's
-    /// cost too much for that.
+    /// Reads the elevations across both EDGEs ahead before it is known which one is crossed, so
+    /// that a wrong branch prediction does not wait for memory. Not over a bump map: its
+    /// elevations cost too much.
     template <EdgeDirection kBehind>
     [[gnu::always_inline]] void read_ahead() noexcept {
         has_read_ = !course_.surface.has_bump();
@@ -177,7 +177,7 @@ class Glide {
         exit_ = exit_of<kThrough>(facet_.barycentric(position_.x, position_.y), at_foot);
     }
 
-    /// Over all TRIANGLEs of the plane at once.
+    /// Crosses all TRIANGLEs of the plane in one run.
     [[gnu::always_inline]] void cross_plane() noexcept {
         StraightWay way(position_, goal_on_.foot, second_);
         way.over_next_edge(second_.sign(), [](auto, double) {});  // into the third: facet_
@@ -249,7 +249,7 @@ class Glide {
         }
     }
 
-    /// Held between the EDGE's ends; at one of them the glide is over.
+    /// The place clamped to the EDGE. At one of its ends the glide ends.
     [[gnu::always_inline]] double on_edge(double along) noexcept {
         if (along > 0.0 && along < 1.0) return along;
         on_vertex_ = true;
@@ -272,9 +272,9 @@ class Glide {
     EdgeDirection behind_{EdgeDirection::diagonal};
     bool on_vertex_{false};
     bool on_plane_{false};
-    Facet second_{};                  ///< of the plane
+    Facet second_{};                  ///< second TRIANGLE of the plane
     std::array<double, 3> across_{};  ///< elevation across each EDGE but the one behind
-    bool has_read_{false};            ///< them
+    bool has_read_{false};            ///< `across_` is filled
     End end_{End::none};
 };
 

@@ -22,7 +22,7 @@ namespace {
 /// Planes at less than about a millionth of a radian are one plane.
 constexpr double kParallel = 1e-12;
 
-/// A half-space that the proxy may not leave, as the goal sees it.
+/// A half-space that the proxy may not leave, relative to the goal.
 struct ConstraintPlane {
     Vec3 normal{0.0};   ///< out of the solid, any length
     double below{0.0};  ///< how far the goal is inside the solid, times |normal|
@@ -73,14 +73,14 @@ std::optional<Vec3> bound_by(const ConstraintPlane& first, const ConstraintPlane
     return point;
 }
 
-/// The planes met at one place. At most three of them bind at the nearest point; the others are
+/// The planes found at one place. At most three of them bind at the nearest point; the others are
 /// kept because another three may bind next.
 class ConstraintPlanes {
   public:
     [[nodiscard]] bool empty() const noexcept { return count_ == 0; }
     void clear() noexcept { count_ = 0; }
 
-    /// False when the plane is held already or there is no room for it: the proxy cannot go on.
+    /// False when the plane is in the list already or the list is full: the proxy cannot go on.
     [[nodiscard]] bool add(const ConstraintPlane& plane) noexcept {
         const auto held = std::span(planes_).first(count_);
         if (count_ == kRoom || std::find(held.begin(), held.end(), plane) != held.end()) {
@@ -161,8 +161,8 @@ class ConstraintWalk : private ProxyWalk {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);
         if (proxy_.bound_met && p.z > ground + kSettled_px && !stay_on_surface()) return let_go();
-        // So much round-off is left by planes that are nearly parallel, with the goal far below
-        // them, and by going to and fro beside a cliff.
+        // Round-off of planes that are nearly parallel, with the goal far below them, and of moves
+        // to and fro beside a cliff.
         const double off = std::abs(p.z - ground);
         if (off > kRoundOff_px && off <= kMostRoundOff_px) p.z = ground;
         proxy_.active = surface_.triangle_at(p.x, p.y);
@@ -186,7 +186,7 @@ class ConstraintWalk : private ProxyWalk {
     /// the goal or at the end of its last move.
     bool touch_on_way_to_goal() noexcept {
         const Flight flight = fly_to(goal_);
-        if (flight.cut_short) {  // on the ground or in the air: `settle` tells
+        if (flight.cut_short) {  // `settle` finds whether it is on the ground
             proxy_.position = flight.end;
             return false;
         }
@@ -227,7 +227,7 @@ class ConstraintWalk : private ProxyWalk {
         return Next::visit;
     }
 
-    /// False when there is nothing to go: round-off is never walked after.
+    /// False: the place differs from the proxy's by round-off alone.
     bool go(Vec3 place) noexcept {
         if (squared_distance(place, proxy_.position) <= square(kSettled_px)) return false;
         move_to(place);
@@ -266,15 +266,15 @@ class ConstraintWalk : private ProxyWalk {
         return way;
     }
 
-    /// Several times what a collision lets the proxy sink in.
+    /// Several times kTouchDepth_px, by which a collision lets the proxy sink in.
     static constexpr double kSettled_px = 1e-9;
     static constexpr double kRoundOff_px = 1e-8;
 
-    /// As often as this the active planes may be found anew with the proxy no farther than that.
+    /// How often the planes may be found anew while the proxy stays within kNowhere_px.
     static constexpr int kMostIdlePasses = 8;
     static constexpr double kNowhere_px = 1e-6;
 
-    /// As far up a cliff of the greatest relief, in all these passes.
+    /// The rise on a cliff of the greatest relief in all these passes.
     static constexpr double kMostRoundOff_px = (kMostIdlePasses + 1) * kNowhere_px * 4096.0;
 
     ConstraintPlanes planes_{};

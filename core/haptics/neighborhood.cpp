@@ -17,7 +17,7 @@ struct Neighbour {
     int i, j;
 };
 
-/// The TRIANGLEs that touch a primitive, in the order they are looked at; some are missing on the
+/// The TRIANGLEs that touch a primitive, in the order of the search; some are missing on the
 /// border.
 struct Neighbours {
     const Neighbour* first;
@@ -81,8 +81,8 @@ class NeighborhoodWalk : private ProxyWalk {
     }
 
   private:
-    /// Plain numbers, not places and primitives that are copied: what was just written in parts is
-    /// slow to be read as a whole.
+    /// Plain numbers instead of places and primitives: reading a value as a whole is slow just
+    /// after its parts were written.
     struct Nearest {
         double x{0.0}, y{0.0}, z{0.0};
         double to_goal2{0.0};
@@ -115,8 +115,8 @@ class NeighborhoodWalk : private ProxyWalk {
         }
     }
 
-    /// A bit for each neighbour that touches the primitive the proxy came from, too. It came to the
-    /// nearest point of them all: none has a nearer one.
+    /// A bit for each neighbour that also touches the primitive from which the proxy came. The
+    /// proxy is at the nearest point of them all: none of them has a nearer one.
     [[nodiscard]] unsigned judged_before() const noexcept {
         const Neighbours neighbours = neighbours_of(proxy_.active);
         unsigned judged = 0;
@@ -147,8 +147,8 @@ class NeighborhoodWalk : private ProxyWalk {
         return false;
     }
 
-    /// For a nearer point. Held back from the nearest points of all TRIANGLEs it looks once more:
-    /// their EDGEs are neighbours as well.
+    /// Searches a nearer point. Where friction holds the proxy back from the nearest points of all
+    /// TRIANGLEs, searches their EDGEs, which are neighbours as well.
     void search(unsigned judged) noexcept {
         each_neighbour(judged, [this](const Primitive& which) { look_into(which); });
         if (found_ || !held_) return;
@@ -188,7 +188,7 @@ class NeighborhoodWalk : private ProxyWalk {
         }
     }
 
-    /// Of one of its EDGEs.
+    /// The point nearest to the goal on an EDGE of TRIANGLE `which`.
     [[nodiscard]] Point nearest_on(const Facet& facet, const Primitive& which,
                                    EdgeDirection direction) const noexcept {
         const EdgeEnds ends = ends_of(edge_of(which, direction));
@@ -255,9 +255,9 @@ class NeighborhoodWalk : private ProxyWalk {
     static constexpr std::array kDirections{EdgeDirection::along_row, EdgeDirection::along_column,
                                             EdgeDirection::diagonal};
 
-    Nearest nearest_{};   ///< of the points looked at, that the proxy is free to go to
-    bool found_{false};   ///< there is one nearer than the proxy
-    bool held_{false};    ///< there is one nearer that friction holds the proxy back from
+    Nearest nearest_{};   ///< the nearest point to which the proxy is free to go
+    bool found_{false};   ///< a point is nearer than the proxy
+    bool held_{false};    ///< a point is nearer, but friction holds the proxy back
     bool judged_{false};  ///< the last visit judged what touches `from_`, and none was held
     Primitive from_{};    ///< of the last visit
 };

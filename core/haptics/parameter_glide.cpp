@@ -1,4 +1,4 @@
-// The way of the parameters.
+// Linear interpolation of the parameters in time.
 #include "core/haptics/parameter_glide.hpp"
 
 #include <algorithm>

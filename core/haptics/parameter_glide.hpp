@@ -1,4 +1,4 @@
-// Parameters on their way from what they were to what a person has set.
+// Changed parameters go to their new values in a tenth of a second.
 #pragma once
 
 #include "core/haptics/parameters.hpp"
@@ -6,11 +6,11 @@
 
 namespace dibhr {
 
-/// A hand rests on the surface while somebody drags a slider: every number that the force follows
-/// from goes straight from what it is to what it is to be, in a tenth of a second, and starts anew
-/// from where it is when it is changed again. The algorithm, the sizes of a pixel and of the bump
-/// map, the low-pass, a lowered limit of the force and the limits that are no force are what they
-/// are at once. Deterministic: a recorded session takes the same way.
+/// Keeps the force from jumping when a slider is dragged while the hand rests on the surface. Every
+/// number that the force depends on goes linearly from its present value to the new one in a tenth
+/// of a second; a further change starts from the present value. Applied at once: the algorithm, the
+/// sizes of a pixel and of the bump map, the low-pass, a lowered force limit, and all limits that
+/// are no force. Deterministic: a replay gives the same values.
 class ParameterGlide {
   public:
     static constexpr double kDuration_s = 0.1;
@@ -23,10 +23,10 @@ class ParameterGlide {
         bool operator==(const Values&) const = default;
     };
 
-    /// Where the numbers are `dt_s` after the last call, on their way to `target`. `at_once`: they
-    /// are there, because the force begins from zero, or nothing was felt before. No allocation.
+    /// The values `dt_s` after the last call, on their way to `target`. `at_once`: `target` itself,
+    /// where the force begins from zero or nothing was rendered before. No allocation.
     const Values& towards(const Values& target, double dt_s, bool at_once) noexcept;
-    /// Where they were then, and whether that was still on the way.
+    /// The values of the last call, and whether they were still on their way.
     [[nodiscard]] const Values& now() const noexcept { return now_; }
     [[nodiscard]] bool under_way() const noexcept { return age_s_ < kDuration_s; }
 

@@ -27,8 +27,8 @@ constexpr auto kAlgorithms = [] {
 
 using P = TouchParameters;
 
-// The highest stiffness is what a millimetre of penetration may pull with on a Falcon (8 N) and
-// then some; the safety stage holds whatever these ask for.
+// The highest stiffness pulls with a little more than a Falcon's 8 N at a millimetre of
+// penetration; the safety stage limits the force for any value.
 constexpr std::array kTouchNumbers{
     TouchNumber{"relief", "Relief", "relief_px", "px", TouchTopic::shape, 0.0, 4096.0,
                 "Elevation of the nearest depth; 255: one grey level is one pixel high",

@@ -19,7 +19,7 @@ enum class Algorithm { dibhr, pga, neighborhood, god_object };
 
 /// All of them, in the order of the enumeration.
 [[nodiscard]] std::span<const Algorithm> all_algorithms() noexcept;
-/// The same with what they are called: named<Algorithm>() finds one by its name.
+/// The algorithms with their names: named<Algorithm>() finds one by its name.
 [[nodiscard]] std::span<const Word<Algorithm>> words_of(Algorithm) noexcept;
 
 /// "dibhr", "pga", "neighborhood" or "god-object": what `--algorithm` takes.
@@ -45,15 +45,15 @@ struct Friction {
     bool operator==(const Friction&) const = default;
 };
 
-/// The spring and damper between proxy and goal, the size of a pixel under the hand, and what is
-/// felt of no data.
+/// The spring and damper between proxy and goal, the size of a pixel under the hand, and the force
+/// where there are no data.
 struct Coupling {
     double stiffness_newton_per_mm{0.5};
     double damping_newton_s_per_m{0.0};
     double damping_cutoff_hz{0.0};  ///< of the low-pass on the velocity that is damped; 0: none
     double pixel_pitch_mm{kPaperPitch_mm};
-    /// Of the force, where no surface was ever seen: 1: a wall at the back as any other, 0:
-    /// nothing.
+    /// Share of the force where no surface was ever seen: 1: a wall at the back like any other, 0:
+    /// no force.
     double unseen_share{1.0};
 
     bool operator==(const Coupling&) const = default;
@@ -100,7 +100,7 @@ struct TouchSwitch {
     TouchTopic topic;
     std::string_view help;  ///< what it does while it is on
     bool& (*in)(TouchParameters&);
-    bool needs_motion{false};  ///< of a video: where that is not known, it changes nothing
+    bool needs_motion{false};  ///< has no effect where the video's motion is not known
 
     [[nodiscard]] bool of(TouchParameters parameters) const { return in(parameters); }
     [[nodiscard]] bool standard() const { return of({}); }
@@ -110,20 +110,20 @@ struct TouchSwitch {
 /// have words_of().
 using TouchWordPlace = std::variant<Algorithm*>;
 
-/// One of several words that people choose. Name, label and column are as those of a TouchNumber.
+/// A choice between several names. Name, label and column are as those of a TouchNumber.
 struct TouchChoice {
     std::string_view name;
     std::string_view label;
     std::string_view column;
-    std::string_view noun;  ///< "an algorithm": what one of the words stands for
+    std::string_view noun;  ///< "an algorithm": what one of the names stands for
     TouchTopic topic;
-    std::string_view help;  ///< without the words
+    std::string_view help;  ///< without the names
     TouchWordPlace (*in)(TouchParameters&);
     bool in_every_session{false};  ///< a session file without its column is damaged
 
     [[nodiscard]] std::string_view of(TouchParameters parameters) const;
     [[nodiscard]] std::string_view standard() const { return of({}); }
-    /// False: none of the words is that one, and the parameters stay as they were.
+    /// False: `word` is none of the names; the parameters stay as they were.
     [[nodiscard]] bool choose(std::string_view word, TouchParameters& parameters) const;
     [[nodiscard]] std::vector<std::string> names() const;
 };
@@ -145,8 +145,8 @@ void visit_touch_entries(const Visit& visit) {
 /// The one of this name ("static-friction"), or null.
 [[nodiscard]] const TouchNumber* touch_number(std::string_view name) noexcept;
 
-/// The one whose number is `member` of these parameters: number_of(p.friction.static_coefficient,
-/// p). There is one for every double in TouchParameters; else the first is given back.
+/// The entry of `member`, a double in `parameters`: number_of(p.friction.static_coefficient, p).
+/// Every double in TouchParameters has an entry; for another double the first one is returned.
 [[nodiscard]] const TouchNumber& number_of(const double& member, TouchParameters& parameters);
 
 /// A number, or a switch as one (0: off, 1: on), for interfaces that take numbers alone and know no

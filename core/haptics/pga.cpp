@@ -8,7 +8,7 @@ namespace dibhr {
 
 namespace {
 
-/// Steps to VERTEXes, in the order they are looked at.
+/// Steps to VERTEXes, in the order of the search.
 struct Steps {
     const Step* first;
     int count;
@@ -50,15 +50,15 @@ class GraphWalk : private ProxyWalk {
     }
 
   private:
-    /// The VERTEX nearest to the goal of some.
+    /// The VERTEX nearest to the goal among several.
     struct Nearest {
         int taken{-1};  ///< the index of the step to it; -1: none is nearer than here
         double z{0.0};
         double to_goal2{0.0};
     };
 
-    /// From VERTEX (i, j), but for the steps that have a bit in `held`. Plain numbers, not places
-    /// that are copied: what was just written in parts is slow to be read as a whole.
+    /// By steps from VERTEX (i, j), except those with a bit in `held`. Plain numbers instead of
+    /// places: reading a value as a whole is slow just after its parts were written.
     [[nodiscard]] Nearest nearest_of(int i, int j, Steps steps, unsigned held,
                                      double here_to_goal2) const noexcept {
         const Vec3 goal = goal_;
@@ -115,7 +115,7 @@ class GraphWalk : private ProxyWalk {
         }
     }
 
-    /// A proxy that left an EDGE for the corner across a TRIANGLE is in that TRIANGLE.
+    /// Makes the TRIANGLE active that the proxy crosses from an EDGE to the opposite corner.
     void stand_towards(const Primitive& corner) noexcept {
         const Primitive from = proxy_.active;
         if (from.kind != PrimitiveKind::edge) return;
@@ -125,9 +125,9 @@ class GraphWalk : private ProxyWalk {
         }
     }
 
-    /// From VERTEX to VERTEX. Of the neighbours of the next one two were neighbours of the last one
-    /// too and not nearer: only the three ahead are looked at, unless friction held it back from
-    /// one of the two.
+    /// From VERTEX to VERTEX. Two neighbours of the next VERTEX were neighbours of the last one,
+    /// too, and were not nearer. So only the three ahead are tried, unless friction held the proxy
+    /// back from one of the two.
     Next visit_vertices() noexcept {
         int i = proxy_.active.i;
         int j = proxy_.active.j;

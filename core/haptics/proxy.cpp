@@ -15,20 +15,20 @@ namespace dibhr {
 
 namespace {
 
-/// So many cells flown over take as long as all moves of an update, each from memory that nobody
-/// has read yet.
+/// Flying over this many cells takes as long as all moves of an update, where no cell is in a cache
+/// yet.
 constexpr int kMostCells = 400;
 
-/// Nearer to a grid line than this is on it [px]: even up a cliff of 255 px it is no step.
+/// A point nearer to a grid line than this is on it [px]: no step, even up a cliff of 255 px.
 constexpr double kOnGrid_px = 1e-12;
 
-/// A material point that goes up or down more steeply than this was taken for one of another thing,
-/// in front of it or behind.
+/// A material point that goes up or down more steeply than this [px/px] has been mistaken for a
+/// point of another object, in front of it or behind.
 constexpr double kSteepestCarried = 8.0;
-/// What is looked at on its way: half of what a cliff needs to be seen for one.
+/// Sampling step on its way: half of the width of the narrowest cliff.
 constexpr double kCarriedPiece_px = 0.5;
 
-/// The elevation at the second of two places, if there is no cliff between them, seen from above.
+/// The elevation at `to`; nothing if there is a cliff between the two places, seen from above.
 std::optional<double> elevation_beyond(const DepthSurface& surface, Vec2 from, Vec2 to) noexcept {
     constexpr double kRoundOff_px = 1e-9;
     const double length = glm::length(to - from);
@@ -135,7 +135,7 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
 }
 
 ProxyWalk::Next ProxyWalk::leave() noexcept {
-    // A flight that came down at once, and would again: on cliffs round-off can hide the way out.
+    // The last flight from here came down at once: on cliffs round-off can hide the way out.
     if (squared_distance(proxy_.position, left_) <= square(kTouchDepth_px)) return Next::rest;
     left_ = proxy_.position;
     proxy_.contact = false;
@@ -149,7 +149,7 @@ ProxyWalk::Next ProxyWalk::rest_or_leave() noexcept {
 }
 
 Facet ProxyWalk::ground_towards_goal() const noexcept {
-    // By reference: what was just written in parts is slow to be read as a whole.
+    // By reference: reading a value as a whole is slow just after its parts were written.
     const Primitive& active = proxy_.active;
     switch (active.kind) {
         case PrimitiveKind::edge:

@@ -22,7 +22,7 @@ struct Proxy {
     bool operator==(const Proxy&) const = default;
 };
 
-/// One of several side by side.
+/// The proxy of one of several algorithms that run side by side.
 struct AlgorithmProxy {
     Algorithm algorithm{Algorithm::dibhr};
     Proxy proxy{};
@@ -42,20 +42,20 @@ class ProxyAlgorithm {
     const Proxy& update(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                         const SurfaceMotion& motion = {}) noexcept;
 
-    /// How far the last update carried a proxy in contact, before anything else [px]: in the
-    /// picture plane, and as far as the surface rose with it.
+    /// How far the last update carried a proxy in contact before the walk [px]: in the picture
+    /// plane, and by the rise of the surface.
     [[nodiscard]] Vec3 carried_px() const noexcept { return carried_px_; }
 
-    /// Forgets everything: the next update is a first one.
+    /// The next update is a first one.
     void reset() noexcept { started_ = false; }
 
-    /// Goes on from where another algorithm left its proxy, on the surface it left it on.
+    /// Goes on from the proxy of another algorithm, on the same surface.
     void resume(const ProxyAlgorithm& other) noexcept { *this = other; }
 
     /// The material point under the proxy.
     [[nodiscard]] const MaterialPoint& material() const noexcept { return material_; }
 
-    /// Goes on from a proxy as an update left it on a surface of that size, on that point of it.
+    /// Goes on from `proxy`, the result of an update on a surface of this size, at `material`.
     void resume(const Proxy& proxy, int columns, int rows,
                 const MaterialPoint& material = {}) noexcept {
         proxy_ = proxy;
@@ -66,14 +66,14 @@ class ProxyAlgorithm {
     }
 
   protected:
-    /// From where the proxy is to where it rests, or to where the algorithm's most moves take it:
-    /// then `bound_met` is set. `goal` lies inside the image rectangle.
+    /// Moves the proxy until it rests, or until the algorithm's most moves are made: then sets
+    /// `bound_met`. `goal` lies inside the image rectangle.
     virtual void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,
                       Proxy& proxy) const noexcept = 0;
 
   private:
     void start_above(const DepthSurface& surface, Vec3 goal) noexcept;
-    /// False: it stays where it is in the picture plane.
+    /// False: the proxy keeps its (x, y).
     bool carry(const DepthSurface& surface, const SurfaceMotion& motion) noexcept;
     void follow_surface(const DepthSurface& surface) noexcept;
 

@@ -16,18 +16,18 @@
 
 namespace dibhr {
 
-/// A proxy that stopped on the cone is inside it at the next update whatever the last bit says.
+/// Tolerance: a proxy that stopped on the cone counts as inside it at the next update.
 inline constexpr double kConeRounding = 1.0 + 1e-12;
 
-/// Nearer than this is there [px]: round-off of an 8K image's coordinates is never walked after.
+/// A proxy nearer than this has arrived [px]: more than round-off of an 8K image's coordinates.
 inline constexpr double kThere_px = 1e-11;
 
 [[nodiscard]] constexpr double square(double x) noexcept {
     return x * x;
 }
 
-/// Of a walk that looks at whole TRIANGLEs: over a bump map that is not stretched beforehand they
-/// take up to four times as long. Over one that is, the same, so that both give the same bits.
+/// The most moves of a walk that reads whole TRIANGLEs: over a bump map that is not stretched
+/// beforehand they take up to four times as long. Halved over a stretched one, too: the same bits.
 [[nodiscard]] inline int half_over_bump(const DepthSurface& surface, int most_moves) noexcept {
     return surface.has_bump() ? most_moves / 2 : most_moves;
 }
@@ -36,7 +36,7 @@ inline constexpr double kThere_px = 1e-11;
 /// derived from it gives the visits.
 class ProxyWalk {
   public:
-    /// It ends after `last_move`, too, if that comes first: as it would have gone on.
+    /// `last_move`: ends after that move at the latest, with the proxy of the whole walk there.
     ProxyWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction, int most_moves,
               Proxy& proxy, int last_move = std::numeric_limits<int>::max()) noexcept
         : surface_(surface),
@@ -68,37 +68,37 @@ class ProxyWalk {
         if (!moved_) proxy_.slipping = false;
     }
 
-    /// No move is made after that many.
+    /// The number of moves after which no further one is made.
     [[nodiscard]] int last_move() const noexcept { return std::min(most_moves_, last_move_); }
 
     /// Free flight to the goal, or to where it meets the surface: then there is a TRIANGLE to
     /// visit.
     Next visit_free() noexcept;
 
-    /// A hand that pressed goes on pressing while its proxy catches up: a proxy on its way through
-    /// the air comes down where it is. False for a goal that is not below the surface.
+    /// Keeps a pressing hand in contact while its proxy catches up: puts a proxy that is in the air
+    /// down on the surface below it. False: the goal is not below the surface.
     bool stay_on_surface() noexcept;
 
-    /// From where the proxy is, which stays there. Takes its share of the moves.
+    /// The flight from the proxy's place, without moving the proxy. Uses up its share of the moves.
     Flight fly_to(Vec3 end) noexcept;
 
-    /// Off the surface, and free flight.
+    /// The proxy leaves the surface and flies on.
     Next leave() noexcept;
 
     /// The walk has come to its end on the surface: the proxy rests, or leaves if the goal is above
     /// the active primitive.
     Next rest_or_leave() noexcept;
 
-    /// The VERTEX or EDGE of the active TRIANGLE or EDGE that the proxy is on, or that itself.
+    /// The VERTEX or EDGE of the active primitive that the proxy is on, else the active primitive.
     [[nodiscard]] Primitive lowest_under_proxy() const noexcept;
 
-    /// Makes it active: only then does the proxy see all that surrounds it.
+    /// Makes that primitive active, so that the walk considers all TRIANGLEs around it.
     void stand_on_lowest() noexcept;
 
     /// The TRIANGLE of the active primitive, or around it, on whose side the goal is.
     [[nodiscard]] Facet ground_towards_goal() const noexcept;
 
-    /// Round-off of a proxy that stays is no move: it would end its sticking.
+    /// A change within round-off is no move: it would make a sticking proxy slip.
     void move_to(Vec3 position) noexcept {
         const bool moves = squared_distance(proxy_.position, position) > square(kThere_px);
         proxy_.position = position;
@@ -168,7 +168,7 @@ class ProxyWalk {
     }
 
     [[nodiscard]] Vec3 place_on_cone(const ConeView& view) const noexcept {
-        // A piece of next to nothing may seem to lead away from F.
+        // Round-off may make a very short piece lead away from F.
         const double gone = std::max(view.along - std::sqrt(view.cone.moving2), 0.0);
         return proxy_.position + gone / view.length2 * view.piece;
     }
@@ -186,11 +186,11 @@ class ProxyWalk {
     const Friction friction_;
     const int all_moves_;
     const int last_move_;
-    int most_moves_{all_moves_};  ///< of them: less those that flights have taken
+    int most_moves_{all_moves_};  ///< less those that flights have used up
     Proxy& proxy_;
     bool moved_{false};
-    bool touched_{proxy_.contact};  ///< the surface, in this update or at its begin
-    Vec3 left_{std::numeric_limits<double>::infinity()};  ///< where it left the surface last
+    bool touched_{proxy_.contact};  ///< in contact at the begin of this update or since
+    Vec3 left_{std::numeric_limits<double>::infinity()};  ///< where the proxy left the surface last
 };
 
 }  // namespace dibhr

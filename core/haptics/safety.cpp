@@ -10,14 +10,14 @@ namespace dibhr {
 
 namespace {
 
-/// The time a limit per millisecond may count on: a loop that stumbles earns no larger step [ms].
+/// The time by which a limit per millisecond is multiplied [ms]: a late tick gets no larger step.
 double bounded_ms(double dt_s) noexcept {
     constexpr double kLongest_ms = 3.0;
     return std::min(dt_s * 1e3, kLongest_ms);
 }
 
-/// The vector shortened to `longest`, same direction. Safe for any finite length; no vector is
-/// shorter than what is no length.
+/// The vector shortened to `longest`, same direction. Safe for any finite length; zero where
+/// `longest` is negative or no number.
 Vec3 shortened(Vec3 v, double longest) noexcept {
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
     if (largest == 0.0) return v;
@@ -131,7 +131,7 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
         drop_to_zero();
         return sent_newton_;
     }
-    if (input.from_zero) drop_to_zero();  // what was sent was another hand's, or another scale's
+    if (input.from_zero) drop_to_zero();  // the last force was of another hand or scale
     if (cut_ == SafetyCut::standstill) {
         if (!fading) {
             fade_from_newton_ = sent_newton_;
@@ -150,7 +150,7 @@ Vec3 SafetyStage::limit(Vec3 force_newton, const SafetyInput& input,
 }
 
 Vec3 SafetyStage::faded(const SafetyInput& input, const SafetyLimits& limits) noexcept {
-    ramp_age_s_ = 0.0;  // by which it comes back
+    ramp_age_s_ = 0.0;  // the force returns by the ramp
     fade_age_s_ += input.dt_s;
     const double left = std::max(0.0, 1.0 - fade_age_s_ / kFade_s);
     return shortened(fade_from_newton_ * left, limits.max_force_newton);

@@ -22,12 +22,12 @@ constexpr double kRestsAfter_s = 0.1;
 constexpr double kMostOwed_mj = 10.0;
 constexpr double kFlowTime_s = 1.0;
 
-/// How late a held force acts.
+/// How late a force that is held for a tick acts on average.
 double lateness_s(const DeviceDynamics& device) noexcept {
     return kTick_s / 2.0 + device.delay_s;
 }
 
-/// The strongest damper that is itself stable on so light a device, so late.
+/// The strongest damper that is itself stable on a device of this mass and delay.
 double most_damping(const DeviceDynamics& device) noexcept {
     return 0.75 * device.mass_kg / lateness_s(device);
 }
@@ -37,7 +37,7 @@ Vec3 direction_of(Vec3 way) noexcept {
     return length > 0.0 ? way / length : Vec3(0.0);
 }
 
-/// What a spring holds that pulls no harder than `most_newton` [mJ].
+/// The energy of a spring that pulls no harder than `most_newton` [mJ].
 double spring_energy(double length_mm, double stiffness, double most_newton) noexcept {
     const double most_mm = stiffness > 0.0 ? most_newton / stiffness : 0.0;
     const double elastic_mm = std::min(length_mm, most_mm);
@@ -145,7 +145,7 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
     const double stiffness = tick.stiffness_newton_per_mm;
     const double length_mm = glm::length(tick.lag_mm);
     const double from_video = take_pull(tick, along);
-    // Both with the stiffness of now: one that is changed by a person creates nothing.
+    // Both with the present stiffness: a stiffness that a person changes creates no energy.
     const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
                           spring_energy(length_mm_, stiffness, tick.max_force_newton);
     const double rubbed =
@@ -156,7 +156,7 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
     return {worked + stored - from_video + rubbed, from_video};
 }
 
-/// The spring's pull on the hand of now; what the video has put in since that of before [mJ].
+/// Updates the spring's pull on the hand. Gives the video's energy since the last update [mJ].
 double PassivityControl::take_pull(const Tick& tick, Vec3 along) noexcept {
     const Vec3 before = pull_newton_;
     pull_newton_ =
@@ -189,7 +189,7 @@ Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& devic
 }
 
 double PassivityControl::most_rise_mm(double stiffness) const noexcept {
-    // Where pull * rise + stiffness / 2 * rise^2 is what the tank holds.
+    // The rise at which pull * rise + stiffness / 2 * rise^2 empties the tank.
     const double pull = std::max(0.0, pull_newton_.z);
     const double both = pull + std::sqrt(pull * pull + 2.0 * stiffness * video_mj_);
     return both > 0.0 ? 2.0 * video_mj_ / both : std::numeric_limits<double>::infinity();

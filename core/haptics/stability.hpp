@@ -1,6 +1,6 @@
-// What keeps a hand on a device from swinging: the damping that a loop's delay asks for, a velocity
-// that a device's coarse steps do not make jump, and a passivity observer and controller that takes
-// out the energy which rendering itself creates. README.md, Stability.
+// Keeps the hand on a device from swinging: the damping that the loop's delay needs, a velocity
+// that does not jump with the device's coarse steps, and a passivity observer and controller that
+// takes out the energy which rendering itself creates. README.md, Stability.
 #pragma once
 
 #include <array>
@@ -11,12 +11,12 @@
 
 namespace dibhr {
 
-/// How much of what is new a first-order low-pass lets through in `dt_s`: backward Euler, stable
-/// for every tick, and without exp(), so that the bits are the same on every machine. A time
-/// constant of 0 lets everything through; no time, nothing.
+/// The weight of the newest value in a first-order low-pass after `dt_s`: backward Euler, stable
+/// for every tick, and without exp(), so that the bits are the same on every machine. 1 for a time
+/// constant of 0; 0 where no time has passed.
 [[nodiscard]] double share_of_newest(double dt_s, double time_constant_s) noexcept;
 
-/// Of a cutoff frequency; 0 for one that is not above 0.
+/// The time constant [s] of a cutoff frequency; 0 for a frequency that is not above 0.
 [[nodiscard]] double time_constant_of(double cutoff_hz) noexcept;
 
 /// How a device moves under a force, in image millimetres. All zero: no force moves it, and nothing
@@ -26,7 +26,7 @@ struct DeviceDynamics {
     double friction_newton_s_per_m{0.0};  ///< the least viscous friction of the device itself
     double resolution_mm{0.0};            ///< a step of its position; 0: as fine as a number
     double delay_s{0.0};                  ///< from reading a pose until its force acts
-    /// By how much what is rendered and the device's friction are to damp more than they drive.
+    /// By how much the rendering and the device's friction must damp more than they drive.
     double margin_newton_s_per_m{3.0};
 
     /// A force moves it.
@@ -49,8 +49,8 @@ struct DeviceDynamics {
 /// that no force moves, 0 where none is.
 [[nodiscard]] double most_stiffness(const DeviceDynamics& device) noexcept;
 
-/// The coupling with the damping, and the low-pass on it, that the device needs at the stiffness
-/// that is felt [N/mm]; as it is for one that needs none.
+/// The coupling with the damping that the device needs at `felt_stiffness` [N/mm], and the low-pass
+/// on it; unchanged for a device that needs none.
 [[nodiscard]] Coupling stable_coupling(Coupling coupling, double felt_stiffness,
                                        const DeviceDynamics& device) noexcept;
 
@@ -86,27 +86,27 @@ class RestWatch {
     [[nodiscard]] bool rests_after(Vec3 way, double dt_s, double resolution) noexcept;
 
   private:
-    Vec3 off_{0.0};  // from the place that is taken along when the hand is a step away from it
+    Vec3 off_{0.0};  // from a reference place, which follows the hand at a step's distance
     double rested_s_{0.0};
 };
 
-/// The surface's own motion under a resting proxy, as the force is to follow it: what is as slow as
-/// a chest or a waving hand lifts the finger, flicker of the depth does not.
+/// The surface's own motion under a resting proxy, low-passed for the force: motion as slow as that
+/// of a chest or a waving hand lifts the finger, flicker of the depth does not.
 class VideoMotion {
   public:
-    /// How far the felt surface rises [px], at most by `most_px`, in the `dt_s` in which the
-    /// recorded one rose by `rise_px` under the proxy.
+    /// How far the rendered surface rises in `dt_s` [px], at most by `most_px`, where the recorded
+    /// one rose by `rise_px` under the proxy.
     double followed(double rise_px, double dt_s, double most_px) noexcept;
-    /// How far it lies below the recorded one [px].
+    /// How far the rendered surface lies below the recorded one [px].
     [[nodiscard]] double lag_px() const noexcept { return lag_px_; }
-    /// The felt surface begins so far below the recorded one.
+    /// The rendered surface begins `lag_px` below the recorded one.
     void begin(double lag_px) noexcept { lag_px_ = lag_px; }
 
   private:
     double lag_px_{0.0};
 };
 
-/// What the controller saw and did, for the panel: mW over the last second, and now.
+/// What the controller measured and did, for the panel: mean powers of the last second.
 struct EnergyFlow {
     double from_video_mw{0.0};           ///< what the video's own motion put into the spring
     double created_mw{0.0};              ///< what rendering put in: delay, held forces, steps
@@ -120,7 +120,7 @@ struct EnergyFlow {
 /// taken out along the spring by a damper no stronger than the device can stand.
 class PassivityControl {
   public:
-    /// What one tick knows.
+    /// The input of a tick.
     struct Tick {
         double dt_s{0.001};
         Vec3 goal_step_mm{0.0};
@@ -128,26 +128,26 @@ class PassivityControl {
         double stiffness_newton_per_mm{0.0};
         double max_force_newton{0.0};  ///< the spring pulls no harder
         Vec3 video_step_mm{0.0};       ///< of the felt surface under the proxy
-        /// How far a proxy that was carried in the picture plane then went its own way: what
-        /// friction takes there is the video's, and hides nothing that rendering creates.
+        /// How far a proxy that was carried in the picture plane then slid by itself. Friction
+        /// takes that energy from the video; it must not hide energy that rendering creates.
         Vec3 slid_mm{0.0};
     };
 
     /// What the controller adds to the force [N].
     [[nodiscard]] Vec3 force_after(const Tick& tick, const DeviceDynamics& device) noexcept;
 
-    /// The force that was sent after it [N], without what the device adds itself.
+    /// Records the force that was sent in the tick [N], without the device's own force.
     void sent(Vec3 force_newton) noexcept;
 
-    /// How far the felt surface may rise in the next tick [mm]: the video puts no more than 20 mJ
-    /// at once and 20 mW for long into a hand (an energy tank: Franken et al. 2011). What it takes
-    /// back is given again.
+    /// How far the rendered surface may rise in the next tick [mm]: the video puts at most 20 mJ at
+    /// once and 20 mW for long into a hand (an energy tank: Franken et al. 2011). Energy that the
+    /// video takes back fills the tank again.
     [[nodiscard]] double most_rise_mm(double stiffness_newton_per_mm) const noexcept;
 
-    /// A tick out of contact, or with a force that is not the spring's: nothing is stored, nothing
-    /// owed.
+    /// A tick out of contact, or with a force that is not the spring's: no energy is stored, and
+    /// none is left to be taken out.
     void pass(double dt_s) noexcept;
-    /// A tick in contact while the force rises from zero: what the video puts in counts.
+    /// A tick in contact while the force rises from zero: only the video's energy is counted.
     void pass(const Tick& tick) noexcept;
 
     [[nodiscard]] const EnergyFlow& flow() const noexcept { return flow_; }
@@ -168,17 +168,17 @@ class PassivityControl {
     void fill_video_tank(double dt_s, double from_video_mj) noexcept;
     [[nodiscard]] double take_pull(const Tick& tick, Vec3 along) noexcept;
     void follow_flow(const EnergyFlow& now, double dt_s) noexcept;
-    /// That takes out what is owed soon [N s/m].
+    /// The damping that takes the created energy out within 3 ms [N s/m].
     [[nodiscard]] double damping_for(double speed_mm_per_s,
                                      const DeviceDynamics& device) const noexcept;
 
     std::array<Vec3, kMostDelay> sent_newton_{};  // latest first
-    AdaptiveWindow quick_velocity_{0.5};  // hardly late, but of steps: what is damped against
+    AdaptiveWindow quick_velocity_{0.5};  // hardly late, but in steps: for the damper
     AdaptiveWindow steady_velocity_{};
     RestWatch rest_{};
     Vec3 pull_newton_{0.0};  // of the spring on the hand, in the tick before
-    double length_mm_{0.0};  // and how long it was
-    double owed_mj_{0.0};
+    double length_mm_{0.0};  // of the spring, in the tick before
+    double owed_mj_{0.0};    // created by rendering and not taken out yet
     double video_mj_{kVideoAtOnce_mj};  ///< that the video may put in now
     EnergyFlow flow_{};
 };

@@ -15,8 +15,8 @@ namespace dibhr {
 
 namespace {
 
-/// The two columns (or rows) of a bump map around a VERTEX, and how far that is from the first to
-/// the second. Pixel centres of both images in the same normalised coordinates.
+/// The two columns (or rows) of a bump map around a VERTEX, and the share of the second. The pixel
+/// centres of both images have the same normalised coordinates.
 struct Between {
     int first{0};
     int second{0};
@@ -148,7 +148,7 @@ double DepthSurface::bump_height(int i, int j) const noexcept {
 }
 
 void stretch(BumpMap& bump, int columns, int rows, double bump_size_px) {
-    bump.at_vertices = {};  // should memory run out
+    bump.at_vertices = {};  // stays so if memory runs out
     const LaidBump laid(bump, columns, rows, bump_size_px);
     std::vector<double> heights;
     heights.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
@@ -166,7 +166,7 @@ void stretch(std::shared_ptr<const BumpMap>& bump, int columns, int rows, double
     auto stretched = std::make_shared<BumpMap>(BumpMap{bump->columns, bump->rows, bump->heights});
     stretch(*stretched, columns, rows, bump_size_px);
     bump = std::move(stretched);
-} catch (const std::bad_alloc&) {  // it is felt all the same, in more time
+} catch (const std::bad_alloc&) {  // an update works without, and takes longer
 }
 
 bool is_stretched(const BumpMap& bump, int columns, int rows, double bump_size_px) noexcept {

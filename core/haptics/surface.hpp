@@ -1,4 +1,4 @@
-// The touchable surface at one moment: two depth images, a blend, a bump map and what was painted.
+// The touchable surface at one moment: two depth images, a blend, a bump map and painted maps.
 #pragma once
 
 #include <algorithm>
@@ -69,8 +69,8 @@ struct Primitive {
     return "none";
 }
 
-/// A view that owns nothing and costs nothing to make: elevations are evaluated when they are asked
-/// for, `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v) + height`. The
+/// A view that owns nothing and costs nothing to make: an elevation is computed when it is read,
+/// `relief * lerp(from, to, blend) / highest level + roughness * bump(u, v) + height`. The
 /// images and maps must outlive it and stay as they are; the images have the same size and highest
 /// level, and are at least 2 x 2.
 class DepthSurface {
@@ -107,8 +107,8 @@ class DepthSurface {
     /// rectangle.
     [[nodiscard]] bool seen_at(double x, double y) const noexcept;
 
-    /// Friction and stiffness [N/mm] at (x, y), clamped to the image rectangle: the maps', where
-    /// there are some, else these.
+    /// Friction and stiffness [N/mm] at (x, y), clamped to the image rectangle: from the maps, or
+    /// `everywhere` without a map.
     [[nodiscard]] Friction friction_at(double x, double y, Friction everywhere) const noexcept;
     [[nodiscard]] double stiffness_at(double x, double y, double everywhere) const noexcept;
 
@@ -150,12 +150,12 @@ class DepthSurface {
     static constexpr double kReach_px = 1e5;
 
   private:
-    /// The cell under a coordinate, held in 0 to `last`. Held first: any finite one can be given.
+    /// The cell under a coordinate, 0 to `last`. Clamped before the cast: it may be any finite one.
     [[nodiscard]] static int cell_at(double along, int last) noexcept {
         return static_cast<int>(std::clamp(along, 0.0, static_cast<double>(last)));
     }
 
-    /// What lies on the depth at vertex (i, j), the k-th [px].
+    /// Bumps and painted height at vertex (i, j), the k-th [px].
     [[nodiscard]] double laid_on(int i, int j, std::size_t k) const noexcept {
         const double height = heights_ == nullptr ? 0.0 : static_cast<double>(heights_[k]);
         if (bump_ == nullptr) return height;
@@ -188,15 +188,15 @@ class DepthSurface {
 
 /// Lays a bump map of that size (SurfaceShape::bump_size_px) over depth images of columns x rows,
 /// at least 1 x 1, beforehand: an update there takes about half as long. Over others its heights
-/// are worked out one by one when they are asked for, to the same bits. Takes 8 bytes and some
+/// are computed one by one when they are read, to the same bits. Takes 8 bytes and some
 /// nanoseconds a VERTEX. To be called again when the bump map's own heights change.
 void stretch(BumpMap& bump, int columns, int rows, double bump_size_px = 0.0);
 
-/// The same of a map that others may hold: where it is not so yet, a copy takes its place. Without
-/// an image, or memory, it stays as it is.
+/// The same for a shared map: a stretched copy takes its place, unless it is stretched already.
+/// Without an image, or memory, it stays as it is.
 void stretch(std::shared_ptr<const BumpMap>& bump, int columns, int rows, double bump_size_px);
 
-/// Whether it has been, over images of this size.
+/// Whether the map is stretched over images of this size.
 [[nodiscard]] bool is_stretched(const BumpMap& bump, int columns, int rows,
                                 double bump_size_px = 0.0) noexcept;
 

@@ -36,9 +36,9 @@ Vec2 way_at(const MotionField& field, Vec2 place) noexcept {
     return (1.0 - down) * above + down * below;
 }
 
-/// The whole way of the point that is at `place` after a share of it. Its begin is sought from that
-/// of a point which went `like_px`; where neighbours go so differently that it is not found, a near
-/// one's is taken.
+/// The whole way of the point that is at `place` after a share of its way. The search begins with
+/// the way `like_px`. Where neighbours move so differently that the point is not found, the way of
+/// a point near it is taken.
 Vec2 way_through(const MotionField& field, Vec2 place, double share, Vec2 like_px) noexcept {
     Vec2 way = like_px;
     for (int k = 0; k < kMostRounds; ++k) {

@@ -1,5 +1,5 @@
-// How what is seen moves in the picture plane while one depth image becomes the next, and which way
-// a material point that is touched goes. README.md, Carried by what moves.
+// Motion in the picture plane while one depth image becomes the next, and the way of a material
+// point under the proxy. README.md, Carried by what moves.
 #pragma once
 
 #include <cstddef>
@@ -31,10 +31,10 @@ struct MotionField {
     }
 };
 
-/// What moves between two depth images, as one update sees it. A view that owns nothing: the field
-/// must outlive the update and stay as it is. As it is by default, nothing is carried.
+/// The motion between two depth images during one update. A view that owns nothing: the field must
+/// outlive the update and stay as it is. By default nothing is carried.
 struct SurfaceMotion {
-    /// From the one image to the other; null, or of another size than they are: nothing is known.
+    /// From the one image to the other; null, or of another size than the images: not known.
     const MotionField* field{nullptr};
     /// Where the last update was on the way from the one to the other, 0 to 1.
     double from_blend{0.0};
@@ -43,7 +43,7 @@ struct SurfaceMotion {
     bool crossed{false};
     double dt_s{0.001};  ///< since the last update
 
-    /// The same, of an update that does not go on from the last one.
+    /// The same for an update that does not go on from the last one.
     [[nodiscard]] SurfaceMotion begun_anew() const noexcept {
         return {field, to_blend, to_blend, false, dt_s};
     }
@@ -51,10 +51,10 @@ struct SurfaceMotion {
     [[nodiscard]] bool goes_on() const noexcept {
         return field != nullptr && (crossed || from_blend != to_blend);
     }
-    /// The same between images of that size: without a field that is not.
+    /// The same without a field that does not fit images of that size.
     [[nodiscard]] SurfaceMotion over(int columns, int rows) const noexcept;
-    /// No material point goes farther in this time [px]: a flow that says so is mistaken. That is a
-    /// hand's speed, the paper's 4961 px/s.
+    /// No material point goes farther in this time [px]; a longer flow is wrong. The speed is that
+    /// of a hand, 4961 px/s in the paper.
     [[nodiscard]] double farthest_px() const noexcept;
 };
 
@@ -62,21 +62,21 @@ inline constexpr double kFastestCarried_px_per_s = 5000.0;
 
 /// The material point that lies under a proxy. It goes straight from where it is in one image to
 /// where it is in the next: after a share b of the time it is at p + b F(p), F the field, bilinear
-/// between pixels. So where it is between two images does not depend on when it was asked for.
+/// between pixels. So its place between two images does not depend on the ticks.
 class MaterialPoint {
   public:
     /// How far it goes from `place`, where it was at the last update, to where it is in this one
     /// [px]. Always finite; exactly 0 where nothing is known.
     [[nodiscard]] Vec2 step_from(Vec2 place, const SurfaceMotion& motion) noexcept;
 
-    /// It is another one: that which is at `place` in this update.
+    /// Becomes the point that is at `place` in this update.
     void stand_at(Vec2 place, const SurfaceMotion& motion) noexcept;
 
-    /// There is none, or nothing is known of it.
+    /// There is no such point, or its motion is not known.
     void forget() noexcept { way_px_ = Vec2(0.0); }
 
   private:
-    Vec2 way_px_{0.0};  ///< of it from the one image to the other
+    Vec2 way_px_{0.0};  ///< of the point, from the one image to the other
 };
 
 }  // namespace dibhr

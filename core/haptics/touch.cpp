@@ -19,11 +19,11 @@ namespace {
 /// A rise of the surface under the proxy of the last update [px], or 0.
 double rise_of(const Proxy& proxy, double rise_px) noexcept {
     constexpr double kRoundOff_px = 1e-6;  // of a proxy on a still surface
-    if (proxy.bound_met) return 0.0;       // it is still on its way
+    if (proxy.bound_met) return 0.0;       // the proxy is still catching up
     return std::abs(rise_px) > kRoundOff_px && (proxy.contact || rise_px > 0.0) ? rise_px : 0.0;
 }
 
-/// How far the surface has moved under it, or through it from below [px].
+/// How far the surface has moved under the proxy, or through it from below [px].
 double rise_under(const DepthSurface& surface, const Proxy& proxy) noexcept {
     const Vec3& p = proxy.position;
     return rise_of(proxy, surface.elevation_at(p.x, p.y) - p.z);
@@ -197,7 +197,7 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
     const double resolution_px = device.moves() ? device.resolution_mm / mm : 0.0;
     const Vec3 velocity =
         goal_velocity_.after(steps.goal, input.dt_s, coupling.damping_cutoff_hz, resolution_px);
-    // The hand's, as what carries the proxy sees it; of what does not, the same bits.
+    // The hand's velocity relative to the carrying surface; the same bits where nothing carries.
     const auto seen_from = [&](Vec3 carried) {
         return velocity - surface_velocity_.after(carried, input.dt_s, coupling.damping_cutoff_hz);
     };
@@ -210,7 +210,7 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
     const Proxy& proxy = last_.proxy;
     const double depth_px = std::max(0.0, proxy.position.z - last_.goal.z);
     if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
-        // A surface that is above the hand at once is felt from where the hand is.
+        // Where the surface is suddenly above the hand, the rendered surface begins at the hand.
         video_motion_.begin(proxy.contact ? depth_px : 0.0);
         carried_motion_ = {};
         passivity_.pass(input.dt_s);
@@ -219,12 +219,12 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
     const double most_px = passivity_.most_rise_mm(coupling.stiffness_newton_per_mm) / mm;
     const auto felt_step = [&](VideoMotion& motion, double rise_px) {
         const double rise = motion.followed(rise_px, input.dt_s, most_px);
-        if (motion.lag_px() > depth_px) motion.begin(depth_px);  // it pulls no hand down
+        if (motion.lag_px() > depth_px) motion.begin(depth_px);  // never pulls the hand down
         return Vec3(last_.carried.x, last_.carried.y, rise);
     };
     const Vec3 video_step = felt_step(video_motion_, steps.rise);
     const Vec3 felt_from = last_.goal + Vec3(0.0, 0.0, video_motion_.lag_px());
-    // The rise with which a contact begins reaches the spring alone: nothing carries there.
+    // The rise with which a contact begins acts on the spring alone: nothing carries there.
     const Vec3 felt_velocity = seen_from(felt_step(carried_motion_, last_.carried.z));
     const Vec3 force = coupling_force(proxy, felt_from, felt_velocity, coupling);
     const PassivityControl::Tick tick{.dt_s = input.dt_s,

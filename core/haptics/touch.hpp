@@ -1,4 +1,4 @@
-// One haptic update as one sentence: goal -> proxy -> spring force -> safe force.
+// One haptic update: goal -> proxy -> spring force -> safe force.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct Touch {
     Vec3 sent_force_newton{0.0};    ///< after it
     SafetyCut cut{SafetyCut::none};
     EnergyFlow energy{};  ///< all zero while no device is watched
-    /// How far what it touches took the proxy along in this update, before it went its own way
-    /// [px]; zero where nothing carries it.
+    /// How far the touched surface carried the proxy in this update, before the walk [px]; zero
+    /// where nothing carries it.
     Vec3 carried{0.0};
 };
 
@@ -31,13 +31,13 @@ struct Touch {
 [[nodiscard]] Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
                                   const Coupling& coupling) noexcept;
 
-/// What an update rubs with: the friction map's at the proxy that it begins with, or under the goal
-/// while that touches nothing; without a map the same as everywhere.
+/// The friction of an update: from the friction map, at the proxy before the update, or under the
+/// goal where that proxy is in the air; `everywhere` without a map.
 [[nodiscard]] Friction felt_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
                                      Friction everywhere) noexcept;
 
 /// The spring and damper with the stiffness map's stiffness at the proxy, no stiffer than the
-/// device can stand and damped as one needs that is watched; without a map the same as everywhere.
+/// device can stand, and with the damping that it needs there; `everywhere` without a map.
 [[nodiscard]] Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy,
                                      Coupling everywhere, const SafetyLimits& limits) noexcept;
 
@@ -48,8 +48,8 @@ class GoalVelocity {
   public:
     /// Velocity [px/s] after a move of `step` [px] in `dt_s`. The filter's time constant is
     /// 1 / (2 pi cutoff_hz), whatever the ticks' lengths; `cutoff_hz` not above 0: the plain
-    /// difference, which is 0 when no time has passed. What would not be finite is forgotten.
-    /// `resolution` [px] is a step of the device, which the window takes for noise; 0: no window.
+    /// difference, which is 0 when no time has passed. A result that is not finite resets the
+    /// filter. `resolution` [px]: a step of the device, noise for the window; 0: no window.
     [[nodiscard]] Vec3 after(Vec3 step, double dt_s, double cutoff_hz,
                              double resolution = 0.0) noexcept;
 
@@ -67,51 +67,50 @@ class GoalVelocity {
     bool continues_{false};  ///< the next step is a motion of the same hand
 };
 
-/// A proxy that has not been anywhere yet.
+/// The algorithm, with a proxy before its first update.
 [[nodiscard]] std::unique_ptr<ProxyAlgorithm> make_algorithm(Algorithm algorithm);
 
-/// Runs a proxy algorithm, the coupling and the safety stage on a stream of goals. It has all
-/// algorithms ready, so that another one can go on from where the proxy is, at any update.
+/// Runs a proxy algorithm, the coupling and the safety stage on a stream of goals. At any update
+/// another algorithm can go on from the proxy's place.
 class TouchRenderer {
   public:
     TouchRenderer();
 
     /// One update. A non-finite goal is refused: the last state stands and the force is zero. One
     /// beyond all reach counts as at its limit.
-    /// `input.goal_step_mm` is worked out here; another algorithm than before makes the force ramp.
-    /// `motion`: what carries the proxy, if `parameters` say so; its time is that of `input`.
+    /// `input.goal_step_mm` is computed here; another algorithm than before makes the force ramp.
+    /// `motion`: carries the proxy where `parameters.carry` is on; its time is that of `input`.
     /// No allocation.
     const Touch& update(const DepthSurface& surface, Vec3 goal, const TouchParameters& parameters,
                         SafetyInput input, const SafetyLimits& limits,
                         const SurfaceMotion& motion = {}) noexcept;
 
-    /// What was to carry the proxy in the last update that was made; its field need not be there
-    /// any more.
+    /// The motion that the last update used; its field may be gone.
     [[nodiscard]] const SurfaceMotion& motion() const noexcept { return motion_; }
-    /// The material point under the proxy after it.
+    /// The material point under the proxy after the last update.
     [[nodiscard]] const MaterialPoint& material() const noexcept {
         return algorithms_[static_cast<std::size_t>(running_)]->material();
     }
 
-    /// Forgets everything: the next update is as the first one. No allocation.
+    /// The next update is as the first one. No allocation.
     void reset() noexcept;
 
-    /// The proxy lets go of what it touches: the next update begins above its goal, in free space.
+    /// The proxy leaves the surface: the next update begins above its goal, in free space.
     void let_go() noexcept;
 
-    /// No update is due, and zero force is sent meanwhile: the next one's force begins from zero.
+    /// Zero force is sent until the next update, whose force begins from zero.
     void pause() noexcept;
 
   private:
-    /// What is to carry the proxy in this update, in which the last one may not be gone on from.
+    /// The motion that carries the proxy in this update, which may not go on from the last one.
     [[nodiscard]] SurfaceMotion carrying(SurfaceMotion motion, const TouchParameters& parameters,
                                          const SafetyInput& input) noexcept;
     /// What moved in a tick [px].
     struct Steps {
         Vec3 goal{0.0};
         double rise{0.0};     ///< of the surface under the proxy
-        bool carries{false};  ///< it takes the proxy along
-        Vec3 slid{0.0};       ///< of a proxy that was: afterwards, by itself
+        bool carries{false};  ///< the surface carries the proxy
+        Vec3 slid{0.0};       ///< of a carried proxy: afterwards, by itself
     };
 
     /// The spring and damper's force, with what keeps it stable.
@@ -121,15 +120,15 @@ class TouchRenderer {
     /// The surface rises faster than 0.2 m/s into a hand that did not touch it, as when the video
     /// was cut: the force begins by the ramp.
     [[nodiscard]] bool comes_as_cut(const Proxy& before, double rise_mm, double dt_s) noexcept;
-    /// Moves the share of the force that is felt to what it is at the goal, within a fade.
+    /// Fades the share of the force that is rendered to its value at the goal.
     void fade_unseen(const DepthSurface& surface, double unseen_share, double dt_s) noexcept;
-    /// Makes the algorithm the running one; true when it was not.
+    /// Makes the algorithm the running one; true: another one ran before.
     bool run_with(Algorithm algorithm) noexcept;
 
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};
     GoalVelocity goal_velocity_{};
-    GoalVelocity surface_velocity_{};  ///< of what carries the proxy, through the same low-pass
+    GoalVelocity surface_velocity_{};  ///< of the carrying surface, through the same low-pass
     VideoMotion video_motion_{};
     VideoMotion carried_motion_{};  ///< the part of it that carries the proxy
     PassivityControl passivity_{};
@@ -137,8 +136,8 @@ class TouchRenderer {
     Touch last_{};
     SurfaceMotion motion_{};
     double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
-    double contact_s_{0.0};   ///< since the hand has touched something
-    bool goes_on_{false};     ///< the next update goes on from the last one: it may carry
+    double contact_s_{0.0};   ///< time in contact
+    bool goes_on_{false};     ///< the next update goes on from the last one, and may carry
     bool started_{false};
 };
 

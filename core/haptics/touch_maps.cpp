@@ -27,15 +27,15 @@ static_assert(has_all_in_order(kMaps, TouchMapKind::height));
 constexpr std::array kKinds{TouchMapKind::stiffness, TouchMapKind::friction, TouchMapKind::height};
 static_assert(kKinds.size() == kMaps.size());
 
-/// The two pixels around a place along one axis, and how far it is from the first to the second.
+/// The two pixels around a place along one axis, and the share of the second.
 struct PixelPair {
     int first{0};
     int second{0};
     double share{0.0};
 };
 
-/// Around `place_px` of `count` VERTEXes that `pixels` lie over. Pixel centres of both images in
-/// the same normalised coordinates; exact where they are as many.
+/// The pixels around `place_px`, where a map of `pixels` lies over `count` VERTEXes. The centres of
+/// both have the same normalised coordinates; exact where both have the same number.
 PixelPair pixels_around(double place_px, int count, int pixels) noexcept {
     const double at = pixels == count ? place_px : (place_px + 0.5) / count * pixels - 0.5;
     const double held = std::clamp(at, 0.0, pixels - 1.0);

@@ -1,5 +1,5 @@
-// What differs from pixel to pixel: maps of stiffness, friction and height that lie over a depth
-// image and are felt there instead of, or on top of, what the panel says for all of it.
+// Maps of stiffness, friction and height over a depth image: per pixel they replace, or are added
+// to, the values that the panel sets for the whole image.
 #pragma once
 
 #include <cstddef>
@@ -24,8 +24,8 @@ struct MapLimits {
 /// What a map is of.
 enum class TouchMapKind { stiffness, friction, height };
 
-/// "stiffness", "friction" or "height": how its file and its column are called, the first two as
-/// the textures of glTF's MPEG_haptic_material are.
+/// "stiffness", "friction" or "height": the name of its file and its column. The first two are
+/// those of the textures in glTF's MPEG_haptic_material.
 [[nodiscard]] const char* name_of(TouchMapKind kind) noexcept;
 /// The kind of that name, or nothing.
 [[nodiscard]] std::optional<TouchMapKind> touch_map_kind_named(std::string_view name) noexcept;
@@ -39,7 +39,7 @@ enum class TouchMapKind { stiffness, friction, height };
 /// One number a pixel, of its own resolution, stretched over the depth image: columns x rows,
 /// row-major. Without pixels there is no map.
 struct TouchMap {
-    /// How much of it is laid on a pixel: kWhole all, 0 nothing, where it is as if there were none.
+    /// `cover`: the map's weight at the pixel, kWhole for all, 0 for none.
     struct Pixel {
         std::uint16_t level{0};  ///< 0: the lowest, kWhole: the highest of `limits`
         std::uint16_t cover{0};
@@ -61,7 +61,7 @@ struct TouchMap {
     }
     /// The level that is nearest to a value, held in the limits.
     [[nodiscard]] std::uint16_t level_of(double value) const noexcept;
-    /// Whether it lies anywhere at all.
+    /// Whether any pixel has a cover above 0.
     [[nodiscard]] bool covers_anything() const noexcept;
 
     bool operator==(const TouchMap&) const = default;
@@ -73,7 +73,7 @@ struct TouchMap {
     }
 };
 
-/// One that covers nothing.
+/// A map whose cover is 0 everywhere.
 [[nodiscard]] TouchMap bare_map(TouchMapKind kind, int columns, int rows);
 
 /// Bilinear, at (x, y) of a depth image of columns x rows [px], held at its border: the map's value
@@ -95,7 +95,7 @@ struct TouchMaps {
         std::vector<float> heights_px{};
     };
     AtVertices at_vertices{};
-    /// Of those that a program has handed out; 0: none were.
+    /// Number of these maps among all that the program made; 0: none.
     std::uint32_t version{0};
 
     [[nodiscard]] TouchMap& of(TouchMapKind kind) noexcept;
@@ -105,8 +105,8 @@ struct TouchMaps {
     }
 };
 
-/// Works the height map out at the VERTEXes of depth images of columns x rows: over others it is
-/// not felt. To be called again when it changes.
+/// Computes the height map at the VERTEXes of depth images of columns x rows; over other sizes it
+/// has no effect. To be called again when the map changes.
 void lay(TouchMaps& maps, int columns, int rows);
 
 }  // namespace dibhr

@@ -11,8 +11,8 @@
 
 namespace dibhr {
 
-/// A VERTEX and what surrounds it: six EDGEs, its spokes, in the order of `kSpokes`, and between
-/// each and the next a TRIANGLE of the same number. Fewer on the image's border.
+/// A VERTEX with its six EDGEs, its spokes, in the order of `kSpokes`. Between a spoke and the next
+/// lies a TRIANGLE of the same number. Fewer on the image's border.
 class VertexFan {
   public:
     VertexFan(const DepthSurface& surface, const Primitive& vertex) noexcept

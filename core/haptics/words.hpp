@@ -1,4 +1,4 @@
-// An enumeration and what its values are called: one table for both ways.
+// An enumeration and the names of its values: one table for both directions.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,7 @@ template <typename Table>
     return decltype(std::optional(table[0].value)){};
 }
 
-/// An enumeration that says which table, which has_all_in_order(), is its own.
+/// An enumeration with a table of names, words_of(), which has_all_in_order().
 template <typename Enum>
 concept HasWords = requires(Enum value) {
     words_of(value);
@@ -59,7 +59,7 @@ template <HasWords Enum>
     return value_named(words_of(Enum{}), name);
 }
 
-/// The names of what a table or a list holds, in its order.
+/// The names of all entries of a table or a list, in its order.
 template <typename Table>
 [[nodiscard]] std::vector<std::string> all_names(const Table& table) {
     std::vector<std::string> names;

@@ -1,4 +1,4 @@
-// What touches: a force device, the mouse's virtual hand, or a recorded stream of goals.
+// A device that moves the goal: a force device, the mouse's virtual hand, or recorded goals.
 #pragma once
 
 #include <cstdint>
@@ -16,36 +16,36 @@ namespace dibhr {
 struct DeviceSpecification {
     std::string name{};  ///< "mouse", "goals:FILE", "Novint Falcon (serial)"
     DeviceLimits limits{};
-    Vec3 workspace_mm{101.6};  ///< extents of the volume it reaches; a Falcon's are 4 inches
+    Vec3 workspace_mm{101.6};  ///< extents of the reachable volume; a Falcon's are 4 inches
 };
 
-/// No motors: it stands the most that people can ask for (touch_numbers() of core/haptics). Under
-/// the mouse that is stable in ticks of up to 10 ms, and 2 N/mm up to 20 ms, by itself: nothing has
-/// to be watched.
+/// The mouse's hand has no motors: its limits are the highest values that people can set
+/// (touch_numbers() of core/haptics). It is stable by itself in ticks of up to 10 ms, at 2 N/mm up
+/// to 20 ms, and needs no stability control.
 inline constexpr DeviceLimits kVirtualHandLimits{.max_stiffness_newton_per_mm = 10.0,
                                                  .max_damping_newton_s_per_m = 100.0};
 
-/// What a device may need to know of the tick it is read in.
+/// The tick in which a device is read.
 struct HandContext {
     double dt_s{0.001};
     const DepthSurface& surface;
     double pixel_pitch_mm{kPaperPitch_mm};
 };
 
-/// One reading, already in grid space: only `device` knows its own millimetres.
+/// One reading, already in grid space: a device's own millimetres stay in `device`.
 struct HandReading {
     Vec3 goal_in_grid{0.0};
     std::uint8_t buttons{0};  ///< bit 0: the main button; a Falcon's: plus, forward, centre, minus
     bool ready{true};         ///< attached, homed, and giving poses; false: no force
-    bool lifted{false};       ///< taken off the surface: a proxy that still touches lets go
+    bool lifted{false};       ///< taken off the surface: a contact is released
     bool taken_over{false};   ///< another hand than in the last reading: the force begins from zero
     bool force_off{false};    ///< a button that takes the force off is down
-    bool stand_in{false};     ///< the mouse, while the device asked for is not ready
-    std::uint8_t which{0};    ///< of several devices, by a number of their own; 0: the mouse
-    /// What this hand can stand now, where that is not what the specification says: at another
-    /// scale, or another hand's.
+    bool stand_in{false};     ///< the mouse, while the requested device is not ready
+    std::uint8_t which{0};    ///< number of the device among several, from 1; 0: the mouse
+    /// What this hand can stand now, where it differs from the specification: another scale, or
+    /// another hand.
     std::optional<DeviceLimits> limits{};
-    /// What the device itself adds on the hand, such as its soft boundary [N], axes of grid space.
+    /// The device's own force on the hand, such as its soft boundary [N], axes of grid space.
     Vec3 own_force_newton{0.0};
 };
 
@@ -55,7 +55,7 @@ class Device {
   public:
     virtual ~Device() = default;
     [[nodiscard]] virtual const DeviceSpecification& specification() const noexcept = 0;
-    /// What is known of the hand before there is a surface to read it over.
+    /// The hand's reading while there is no surface.
     [[nodiscard]] virtual HandReading unread() const noexcept { return {.ready = false}; }
     virtual HandReading read(const HandContext& context) noexcept = 0;
     /// Force on the hand [N], axes of grid space.

@@ -41,11 +41,11 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
         send_zero_force();
     row.settings = settings.version;
     if (settings.recording) record(row, timing);
-    // A goal that came from elsewhere went no way.
+    // A goal of another hand or context is not a motion.
     const double moved_s = row.from_zero || row.lets_go ? 0.0 : timing.dt_s;
     TickStrip strip =
         strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), context_.pitch_mm);
-    if (!row.surface) strip.penetration_mm = 0.0F;  // what was touched last is gone
+    if (!row.surface) strip.penetration_mm = 0.0F;  // of the last surface
     to_.strips.push(strip);
     let_hear(settings);
     let_follow(pair, settings, row);
@@ -79,14 +79,14 @@ void HapticTick::send_zero_force() noexcept {
 
 TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                      const TickTiming& timing) noexcept {
-    // What the hand can stand is known with its reading, and where the parameters are only then: it
-    // gets the shape they had.
+    // The hand's limits come with its reading, and the parameters glide only after that: the hand
+    // is read over the last shape.
     const SurfaceShape& last_shape =
         from_zero_ ? settings.parameters.shape : runner_.felt().parameters.shape;
     const HandReading hand = to_.device.read(
         {timing.dt_s, pair.surface(last_shape, settings.bump.get()), context_.pitch_mm});
     const DeviceLimits limits_now = usable(hand.limits.value_or(to_.device.specification().limits));
-    const bool other_limits = limits_ != limits_now;  // which hold at once: there is no way to them
+    const bool other_limits = limits_ != limits_now;  // which hold at once, without gliding
     limits_ = limits_now;
     ParameterGlide::Values wanted{settings.parameters, held_limits(settings.limits, *limits_)};
     wanted.parameters.coupling = held_coupling(settings.parameters.coupling, *limits_);

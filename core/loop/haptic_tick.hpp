@@ -25,24 +25,24 @@
 
 namespace dibhr {
 
-/// What a person tunes, handed whole to the next tick, which holds it to what the device can stand.
+/// The user's settings, published whole to the next tick, which lowers them to the device's limits.
 struct HapticSettings {
     TouchParameters parameters{};
     SafetyLimits limits{};
     bool force_enabled{true};
     std::shared_ptr<const BumpMap> bump{};  ///< null: none
-    bool recording{false};                  ///< every tick goes into the ring
-    bool followed{false};                   ///< for the other algorithms' proxies, too
+    bool recording{false};                  ///< every tick is pushed into the recorder's ring
+    bool followed{false};                   ///< and into the ring of the other algorithms
     std::uint64_t version{0};               ///< counts changes, for the recorder
 };
 
-/// But for recording, followers and the version.
+/// Equality but for recording, the other algorithms and the version.
 [[nodiscard]] inline bool same_touch(const HapticSettings& a, const HapticSettings& b) {
     return a.parameters == b.parameters && a.limits == b.limits &&
            a.force_enabled == b.force_enabled && a.bump == b.bump;
 }
 
-/// How the loop did over the last whole second.
+/// The loop's timing over the last whole second.
 struct LoopSecond {
     double rate_hz{0.0};
     double worst_lateness_ms{0.0};
@@ -55,7 +55,7 @@ struct LoopSecond {
 struct HapticState {
     Touch touch{};
     bool touchable{false};  ///< there is a surface; without, no update and no force
-    SurfaceShape shape{};   ///< of that surface: on its way to what is set
+    SurfaceShape shape{};   ///< of that surface: may be gliding to the setting
     HandReading hand{.ready = false};
     std::uint64_t ticks{0};
     std::uint64_t late_ticks{0};
@@ -64,11 +64,11 @@ struct HapticState {
     LoopSecond second{};
     Standstill standstill{};  ///< the last one
 
-    /// The last tick was one of them.
+    /// The last tick ended before the proxy had caught up.
     [[nodiscard]] bool catching_up() const noexcept { return touchable && touch.proxy.bound_met; }
 };
 
-/// Where a loop gets its surface and leaves what it did. All must outlive it.
+/// Where a loop reads its input and publishes its results. All must outlive it.
 struct HapticConnections {
     Device& device;
     TripleBuffer<FrameWindow>& frames;
@@ -79,12 +79,12 @@ struct HapticConnections {
     Heartbeats hearts{};
     /// Once true, no force is sent any more; null: never.
     const std::atomic<bool>* leaving{nullptr};
-    SoundRing* sound{nullptr};        ///< null: nobody listens
-    WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: nobody follows
+    SoundRing* sound{nullptr};        ///< null: no sound
+    WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: none
 };
 
-/// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws.
-/// Whatever the settings ask for, the device gets no more than it can stand.
+/// One tick of the loop, without a thread: nothing in it allocates, locks, waits or throws. The
+/// device gets no more than it can stand, whatever the settings.
 class HapticTick {
   public:
     explicit HapticTick(const HapticConnections& connections);
@@ -92,12 +92,11 @@ class HapticTick {
     /// `late_ticks` is the timer's count so far.
     void run(const TickTiming& timing, std::uint64_t late_ticks) noexcept;
 
-    /// How the loop ends, and what it does while there is nothing to touch; the next force begins
-    /// from zero.
+    /// At the end of the loop, and while there is no surface; the next force begins from zero.
     void send_zero_force() noexcept;
 
   private:
-    /// Where one of these changes the force begins from zero. The pointers are compared alone.
+    /// Where one of these changes the force begins from zero. Pointers are compared, not contents.
     struct ForceContext {
         double pitch_mm{0.0};  ///< the scale of the hand
         const BumpMap* bump{nullptr};
@@ -108,18 +107,18 @@ class HapticTick {
         bool operator==(const ForceContext&) const = default;
     };
 
-    /// The force begins from zero in another context, and where a recording begins: that begins as
-    /// the program does, so that it can be replayed. Other settings glide.
+    /// The force begins from zero in another context, and where a recording begins: it begins with
+    /// the state of a fresh program, so that it can be replayed. Other settings glide.
     void notice_changes(const HapticSettings& settings, const FrameWindow& frames) noexcept;
-    /// Moves the proxy and sends the force; gives what they depended on, for record().
+    /// Moves the proxy and sends the force; returns their input, for record().
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                            const TickTiming& timing) noexcept;
-    /// The hand's button acts in this very tick, and until the window has switched the force off.
+    /// The hand's force-off button acts in this tick, and until the window switches the force off.
     [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
-    /// Adds what came of the tick.
+    /// Adds the tick's result, and pushes the row.
     void record(TickRecord& row, const TickTiming& timing) noexcept;
     void let_hear(const HapticSettings& settings) noexcept;
-    /// Adds what others need to walk after this tick's goal.
+    /// Pushes the input that the other algorithms' proxies need to walk to this tick's goal.
     void let_follow(const DepthBlend& pair, const HapticSettings& settings,
                     const TickRecord& row) noexcept;
     void count(const TickTiming& timing, double update_us) noexcept;
@@ -128,13 +127,13 @@ class HapticTick {
     TickRunner runner_{};
     HapticState state_{};
     ForceContext context_{};  // of the last tick
-    Vec3 carried_px_{0.0};    // the proxy by what it touches, in all: nothing is heard of it
+    Vec3 carried_px_{0.0};    // sum of what carried the proxy, which makes no sound
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};
     bool force_off_pressed_{false};
     bool taken_off_{false};
     bool recording_{false};
-    bool reset_{false};  // in this tick, nothing was touched before
+    bool reset_{false};  // in this tick: a recording begins
     StandstillWatch watch_{to_.hearts};
     bool standstill_{false};  // in this tick
     std::chrono::steady_clock::time_point start_{};
@@ -155,7 +154,7 @@ class HapticLoop {
     /// Ends the thread after it has sent zero force. May be called twice.
     void stop() noexcept;
 
-    /// What the system answered; nothing until the thread has asked.
+    /// The system's answers; nothing until the thread has requested them.
     [[nodiscard]] std::optional<RealtimeGrants> grants() const;
 
     /// The thread's timer and its lateness; to be read after stop().

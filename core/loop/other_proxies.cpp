@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// Those of the ticks since the last time, and of now.
+/// The frames of the ticks since the last call, and the present ones.
 constexpr std::size_t kMostSeen = 3 * FrameWindow::kFrames;
 
 }  // namespace
@@ -32,7 +32,7 @@ void OtherProxies::follow(WalkedTickRing& ring, TripleBuffer<FrameWindow>& frame
     due_.clear();
     for (WalkedTick tick; due_.size() < WalkedTickRing::room() && ring.pop(tick);)
         due_.push_back(tick);
-    see(frames.front());  // after them: what they touched had been handed over
+    see(frames.front());  // after the ticks: their frames were published before
     if (bump != bumps_.front()) bumps_ = {bump, std::move(bumps_.front())};
     for (const WalkedTick& tick : due_) take(tick);
 }

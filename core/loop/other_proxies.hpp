@@ -1,5 +1,4 @@
-// Side by side: where the proxies of the other algorithms are, each on its own way after all goals
-// of the loop.
+// The proxies of the algorithms that do not run, side by side: each follows all goals of the loop.
 #pragma once
 
 #include <array>
@@ -19,7 +18,7 @@
 
 namespace dibhr {
 
-/// A frame that a tick touched, to be told from others: whoever follows reads its own.
+/// Identifies a frame that a tick touched. OtherProxies reads its own copy of that frame.
 struct FrameMark {
     const DepthImage* depth{nullptr};
     double time_s{0.0};
@@ -32,40 +31,40 @@ struct FrameMark {
 
 [[nodiscard]] FrameMark mark_of(const Frame& frame) noexcept;
 
-/// What a tick asked of its proxy, over which surface, and where that proxy was after it.
+/// A tick's goal and surface, and the proxy after it.
 struct WalkedTick {
     std::uint64_t tick{0};
     bool updates{false};  ///< there was a surface and a goal; else all proxies stay where they are
-    bool begins{false};   ///< what was touched before is forgotten
+    bool begins{false};   ///< all proxies are reset
     bool lets_go{false};  ///< a proxy in contact begins anew, above the goal
     TouchParameters parameters{};
     Proxy proxy{};  ///< of the algorithm that ran
     Vec3 goal{0.0};
     FrameMark from{}, to{};
     double blend{0.0};
-    SurfaceMotion motion{};        ///< what was to carry it; its field is a mark
-    MaterialPoint material{};      ///< under it, afterwards
-    const BumpMap* bump{nullptr};  ///< a mark, too
+    SurfaceMotion motion{};        ///< carries the proxy; its field only identifies one
+    MaterialPoint material{};      ///< under the proxy after the tick
+    const BumpMap* bump{nullptr};  ///< only identifies a map
 };
 
-/// Of each tick one, while somebody follows.
+/// One value a tick, while HapticSettings::followed is set.
 using WalkedTickRing = SpscRing<WalkedTick, 1024>;
 
-/// Walks every tick's goal, over the surface of that tick, through the algorithms that do not run.
-/// They begin where the running one's proxy is; again after ticks that were lost, or whose frames
-/// are not known. One thread, which is not the haptic one: it holds frames, and allocates.
+/// Runs every tick's goal, over the surface of that tick, through the algorithms that do not run.
+/// Their proxies begin at that of the running one, again after ticks that were lost or whose frames
+/// are not known. One thread, not the haptic one: it holds frames, and allocates.
 class OtherProxies {
   public:
     OtherProxies();
 
-    /// Takes all ticks of the ring. `frames` is what their thread was given too; `bump` what the
-    /// next ticks get: to be called after each change of it.
+    /// Takes all ticks of the ring. `frames`: published to the ticks' thread as well. `bump`: that
+    /// of the next ticks; to be called after each change of it.
     void follow(WalkedTickRing& ring, TripleBuffer<FrameWindow>& frames,
                 const std::shared_ptr<const BumpMap>& bump);
-    /// Nobody wants to know any more: the ring is emptied, and no frame is held.
+    /// Empties the ring and releases all frames.
     void forget(WalkedTickRing& ring);
 
-    /// After the last tick, but for the algorithm that runs; empty while nothing is known of them.
+    /// After the last tick, without the algorithm that runs; empty while they are not known.
     [[nodiscard]] std::vector<AlgorithmProxy> proxies() const;
 
   private:
@@ -78,10 +77,10 @@ class OtherProxies {
         std::unique_ptr<ProxyAlgorithm> walk{};
         Proxy proxy{};  ///< after its last update
     };
-    /// Null: it was never seen, or is forgotten.
+    /// Null: the frame was never published, or is dropped already.
     [[nodiscard]] const Frame* known(const FrameMark& mark) const;
 
-    std::vector<Walker> walkers_{};  // of all algorithms: any may be the next one that runs
+    std::vector<Walker> walkers_{};  // of all algorithms: any of them may run next
     std::vector<Frame> seen_{};      // the newest last
     std::array<std::shared_ptr<const BumpMap>, 2> bumps_{};  // the newest first
     std::vector<WalkedTick> due_{};

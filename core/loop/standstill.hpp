@@ -1,4 +1,4 @@
-// Whom the haptic loop listens to: while one of them stands still, no force is sent.
+// The threads whose heartbeats the haptic loop checks: while one stands still no force is sent.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace dibhr {
 
-/// Null: nobody is missed there.
+/// Null: not checked.
 struct Heartbeats {
     const Heartbeat* window{nullptr};    ///< keys, signals' orderly end, the display
     const Heartbeat* video{nullptr};     ///< making surfaces of what was read
@@ -19,27 +19,27 @@ struct Heartbeats {
     const Heartbeat* decoder{nullptr};   ///< reading it
 };
 
-/// So long nothing may be heard of one of them. Then the force goes to zero within
-/// SafetyStage::kFade_s: together less than the 250 ms that are promised.
+/// Timeout of a heartbeat. Then the force goes to zero within SafetyStage::kFade_s: together less
+/// than the 250 ms of the safety rules.
 inline constexpr std::chrono::milliseconds kLongestSilence{200};
 
-/// One that is over, in which there was a contact.
+/// A standstill that is over, during which there was a contact.
 struct Standstill {
     enum class Of : std::uint8_t { window, video, recorder };
 
     Of of{Of::window};
-    double seconds{0.0};     ///< in which nothing was heard
-    std::uint64_t count{0};  ///< since the loop began, with this one
+    double seconds{0.0};     ///< without a heartbeat
+    std::uint64_t count{0};  ///< of standstills since the loop began, with this one
 };
 
-/// One thread's.
+/// Checks the heartbeats. For one thread.
 class StandstillWatch {
   public:
     explicit StandstillWatch(const Heartbeats& hearts) noexcept
         : listeners_{HeartbeatListener(hearts.window), HeartbeatListener(hearts.video),
                      HeartbeatListener(hearts.recorder), HeartbeatListener(hearts.decoder)} {}
 
-    /// Once a tick: whether one of them stands still. `contact`: there is a force to miss.
+    /// Once a tick: whether a thread stands still. `contact`: there is a force, which goes to zero.
     [[nodiscard]] bool look(std::chrono::steady_clock::time_point now, bool contact) noexcept {
         std::array<std::chrono::steady_clock::duration, kListeners> silence{};
         for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = listeners_[k].silence(now);

@@ -1,4 +1,4 @@
-// The computation of one tick, and what a session keeps of it.
+// The computation of one tick, and its row in a session.
 #include "core/loop/tick_runner.hpp"
 
 #include <cstdint>

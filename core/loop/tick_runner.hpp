@@ -15,13 +15,13 @@
 
 namespace dibhr {
 
-/// What a tick's result depends on, besides the parameters and the ticks before it.
+/// The input of a tick, besides the parameters and the ticks before it.
 struct TickInput {
     DepthBlend pair{};             ///< two frames that make a surface
     const BumpMap* bump{nullptr};  ///< laid over that surface; null: none
     Vec3 goal{0.0};                ///< [px], grid space; not finite: refused
     SafetyInput safety{};          ///< with the length of the tick
-    bool lets_go{false};           ///< the hand was lifted or replaced: a contact is let go first
+    bool lets_go{false};           ///< the hand was lifted or replaced: a contact is released first
     /// The parameters do not glide. Nor do they where the force begins from zero.
     bool at_once{false};
     /// The motion between the two frames is left out: it was not known when they were recorded.
@@ -34,17 +34,17 @@ class TickRunner {
     /// One tick; `target`: where the parameters are, or glide to.
     const Touch& run(const TickInput& input, const ParameterGlide::Values& target) noexcept;
 
-    /// There is no surface, and zero force is sent: the next force begins from zero. Gives the last
+    /// A tick without a surface, with zero force: the next force begins from zero. Returns the last
     /// touch without its forces.
     const Touch& pause() noexcept;
-    /// The proxy has not been anywhere yet. The next force must begin from zero.
+    /// Back to the state before the first tick. The next force must begin from zero.
     void reset() noexcept;
     /// The proxy, in contact or not, begins above the next goal.
     void let_go() noexcept { renderer_.let_go(); }
 
-    /// The parameters and limits of the last tick, which may be on their way to the target.
+    /// The parameters and limits of the last tick, which may still glide to the target.
     [[nodiscard]] const ParameterGlide::Values& felt() const noexcept { return glide_.now(); }
-    /// The motion between the two frames was to carry the proxy, but was not known.
+    /// Carrying was on, but the motion between the two frames was not known.
     [[nodiscard]] bool lacks_motion() const noexcept { return lacks_motion_; }
     /// What carried the proxy, and the material point under it.
     [[nodiscard]] const TouchRenderer& renderer() const noexcept { return renderer_; }
@@ -53,8 +53,8 @@ class TickRunner {
         return update_time_;
     }
 
-    /// What a session keeps of the last tick's input, but for its time, its settings and what the
-    /// loop alone adds.
+    /// The row of the last tick's input in a session, without its time, its settings and the fields
+    /// that only the loop sets.
     [[nodiscard]] TickRecord record_of(const TickInput& input) const noexcept;
 
   private:
@@ -66,7 +66,7 @@ class TickRunner {
     bool lacks_motion_{false};
 };
 
-/// Adds what came of a tick to what a session keeps of its input.
+/// Adds a tick's result to the row of its input.
 void add_result(TickRecord& row, const Touch& touch) noexcept;
 
 }  // namespace dibhr

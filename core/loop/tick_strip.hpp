@@ -1,4 +1,4 @@
-// What the strip charts show of a tick.
+// The values of a tick that the strip charts show.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -9,14 +9,14 @@
 namespace dibhr {
 
 struct TickStrip {
-    float force_newton{0.0F};      ///< length of what was sent
+    float force_newton{0.0F};      ///< length of the force sent
     float penetration_mm{0.0F};    ///< of the goal, from the proxy; 0 out of contact
     float speed_mm_per_s{0.0F};    ///< of the goal
-    float given_millijoule{0.0F};  ///< what the force sent before did on the hand's way since
+    float given_millijoule{0.0F};  ///< work of the last tick's force on the hand's motion since
     float lateness_us{0.0F};       ///< after the tick's deadline
 };
 
-/// Of each tick one, for whoever draws them.
+/// One value a tick, for the strip charts.
 using StripRing = SpscRing<TickStrip, 4096>;
 
 /// `before` is the tick before `now`, `dt_s` earlier; 0: there was none to move from.

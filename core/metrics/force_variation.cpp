@@ -10,7 +10,7 @@
 namespace dibhr {
 
 double angle_between_rad(Vec3 a, Vec3 b) noexcept {
-    // Not the arc cosine, which rounds angles below 1e-8 away.
+    // Not the arc cosine, which rounds angles below 1e-8 to zero.
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
@@ -19,7 +19,7 @@ std::vector<char> reversal_updates(std::span<const Vec3> goals, std::span<const 
     std::vector<char> reversal(goals.size(), 0);
     if (goals.empty()) return reversal;
     Vec2 turn(goals[0]);  // along the image
-    Vec2 heading{0.0};    // the last step that was one: a pause is no turn
+    Vec2 heading{0.0};    // the last step that was not zero: a pause is no turn
     bool reversing = true;
     reversal[0] = 1;
     for (std::size_t k = 1; k < goals.size(); ++k) {

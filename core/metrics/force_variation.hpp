@@ -1,4 +1,4 @@
-// How smoothly the force turns, and how far it is from another one.
+// How smoothly the force turns, angles between forces, and statistics of samples.
 #pragma once
 
 #include <cmath>
@@ -18,22 +18,22 @@ inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
 struct VariationStatistics {
     double mean_deg{0.0};
     double sd_deg{0.0};
-    /// While it slides: without the updates in which the goal reverses, and without the path's
-    /// settling.
+    /// While the proxy slides: without the updates in which the goal reverses, and without the
+    /// path's settling.
     double mean_without_reversals_deg{0.0};
     double sd_without_reversals_deg{0.0};
-    std::uint64_t pairs{0};                    ///< of updates the first two are taken over
-    std::uint64_t pairs_without_reversals{0};  ///< and the last two
+    std::uint64_t pairs{0};                    ///< number of pairs of updates in the first two
+    std::uint64_t pairs_without_reversals{0};  ///< and in the last two
 };
 
 /// Angle between two directions [rad], exact for the smallest ones too; 0 when either has no
 /// length.
 [[nodiscard]] double angle_between_rad(Vec3 a, Vec3 b) noexcept;
 
-/// The updates in which a motion along the image reverses: from the one in which it turns by more
-/// than 90 degrees up to the one in which it is as far from there as a proxy that the friction
-/// holds needs to be dragged again, 2 mu depth. The motion's start counts as such a turn.
-/// `depths_px`: of each goal below the surface.
+/// The updates in which a motion along the image reverses: from the update in which it turns by
+/// more than 90 degrees, until the goal is 2 mu depth away, where a proxy that friction holds is
+/// dragged again. The motion's start counts as such a turn. `depths_px`: of each goal below the
+/// surface.
 [[nodiscard]] std::vector<char> reversal_updates(std::span<const Vec3> goals,
                                                  std::span<const double> depths_px, double mu);
 

@@ -1,4 +1,4 @@
-// A plot's frame: axes with round tick marks, and the way from values to the canvas.
+// A plot's frame: axes with round tick marks, and the mapping from values to the canvas.
 #include "core/plot/axes.hpp"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ void choose_ticks(Axis& axis) {
         axis.logarithmic ? decade_ticks(span, axis.most_ticks) : round_ticks(span, axis.most_ticks);
 }
 
-/// What is drawn of the values of one pixel column: as they come if few, else their range.
+/// Adds the values of one pixel column: all if they are few, else first, range and last.
 void add_column(std::vector<Vec2>& line, std::span<const Vec2> column) {
     if (column.size() <= 4) {
         line.insert(line.end(), column.begin(), column.end());
@@ -64,7 +64,7 @@ std::vector<Vec2> thinned(std::span<const Vec2> points) {
     return line;
 }
 
-// Okabe and Ito, "Color Universal Design" (2008): told apart by every common kind of colour vision.
+// Okabe and Ito, "Color Universal Design" (2008): distinct for every common kind of colour vision.
 constexpr Ink kBlue{0, 114, 178};
 constexpr Ink kVermillion{213, 94, 0};
 constexpr Ink kGreen{0, 158, 115};
@@ -100,7 +100,7 @@ std::vector<double> decade_ticks(ValueSpan span, int most) {
 
 std::string tick_text(double value) {
     std::string shown = short_text(std::abs(value) < 1e-300 ? 0.0 : value, 4);
-    // It writes 1e-05: one digit less says the same.
+    // short_text writes 1e-05: one digit less means the same.
     if (const auto e = shown.find("e-0"); e != std::string::npos) shown.erase(e + 2, 1);
     if (const auto e = shown.find("e+0"); e != std::string::npos) shown.erase(e + 1, 2);
     return shown;

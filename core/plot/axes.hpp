@@ -1,5 +1,6 @@
-// A plot's frame: axes with round tick marks, and the way from values to the canvas. How the plots
-// look: colours that a colour-blind reader tells apart, and each algorithm's line and marker.
+// A plot's frame: axes with round tick marks, and the mapping from values to the canvas. The style
+// of the plots: colours that colour-blind readers can distinguish, each algorithm's line and
+// marker.
 #pragma once
 
 #include <span>
@@ -64,7 +65,7 @@ class Axes {
     void draw_series(Canvas& canvas, std::span<const Vec2> values, const Stroke& stroke) const;
 
   private:
-    /// Likewise, on the middle of a pixel: a thin line along an axis is not blurred over two.
+    /// As at(), but at a pixel's centre: a thin line along an axis is not blurred over two pixels.
     [[nodiscard]] Vec2 sharp_at(double x, double y) const noexcept;
 
     Box area_;
@@ -84,9 +85,9 @@ inline constexpr double kTitleCap_px = 13.0;
 inline constexpr double kLabelCap_px = 10.0;
 inline constexpr double kNumberCap_px = 9.0;
 
-/// Nothing is said by colour alone: each algorithm has its own dashes and its own marker too.
+/// An algorithm's style: not colour alone, also its own dashes and its own marker.
 struct SeriesLook {
-    std::string name{};  ///< as a person reads it
+    std::string name{};  ///< as shown in the legend
     Stroke stroke{};
     Marker marker{Marker::none};
 };
@@ -96,7 +97,7 @@ struct SeriesLook {
 /// One entry under the other, from `corner` on: a piece of line with its marker, and the name.
 void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesLook>& entries);
 
-/// The title and, under it in quieter ink, what it was measured with.
+/// The title and, under it in paler ink, the settings of the measurement.
 void draw_title(Canvas& canvas, const std::string& title, const std::string& settings);
 
 }  // namespace dibhr

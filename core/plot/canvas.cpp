@@ -35,8 +35,7 @@ struct Freed {
         kFree(object);
     }
 };
-/// Finished first: cairo loses count of a recording that an SVG was made of; this frees what it
-/// holds.
+/// Finishes a surface before it is destroyed: cairo leaks a recording that an SVG was made of.
 void end_surface(cairo_surface_t* surface) noexcept {
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
@@ -138,7 +137,7 @@ Vec2 reachable(Vec2 p) {
 }
 
 void path_through(cairo_t* pen, std::span<const Vec2> points) {
-    constexpr double kNear_px = 0.1;  // closer to the one before than can be seen
+    constexpr double kNear_px = 0.1;  // nearer to the point before: not visible
     Vec2 last = reachable(points.front());
     cairo_move_to(pen, last.x, last.y);
     for (std::size_t k = 1; k < points.size(); ++k) {

@@ -25,7 +25,7 @@ enum class Dash { solid, dashed, dotted, dash_dot };
 enum class Marker { none, circle, square, triangle, diamond };
 enum class Align { left, centre, right };
 
-/// How a plot is written. An SVG's text can be selected and searched; so can a PDF's, which is one
+/// The file format of a plot. Text in an SVG or a PDF can be selected and searched; a PDF is one
 /// page as wide as a paper's text.
 enum class PlotFormat { png, svg, pdf };
 
@@ -62,8 +62,8 @@ struct TextStyle {
     bool upwards{false};  ///< reads from the bottom to the top
 };
 
-/// What lies outside the clip (at first everything is inside) is not drawn; points may be any
-/// finite number. Later strokes cover earlier ones. Needs no display, and writes no dates.
+/// Draws only inside the clip, which is the whole canvas at first; points may be any finite number.
+/// Later strokes cover earlier ones. Needs no display, and writes no dates.
 class Canvas {
   public:
     /// Throws InputError for a size that is not positive or beyond 16383.

@@ -1,4 +1,4 @@
-// The three curves from 0 to 1 that psychometric functions are stretched from.
+// The three standard curves from 0 to 1 of psychometric functions.
 #pragma once
 
 #include "core/psychophysics/psychometric.hpp"
@@ -12,10 +12,10 @@ struct CurvePoint {
 
 [[nodiscard]] CurvePoint standard_curve(Curve curve, double u) noexcept;
 
-/// Where the curve is `share`, in (0, 1).
+/// The place at which the curve is `share`, in (0, 1).
 [[nodiscard]] double standard_quantile(Curve curve, double share);
 
-/// The axis the curve is stretched along: x, or ln x.
+/// From x to the curve's axis, which is x or ln x, and back.
 [[nodiscard]] double on_axis(Curve curve, double x) noexcept;
 [[nodiscard]] double off_axis(Curve curve, double place) noexcept;
 

@@ -5,7 +5,7 @@
 
 namespace dibhr {
 
-/// Both ends belong to it; an end may be infinite: the data set no bound there.
+/// Closed. An infinite end: the data set no bound there.
 struct Interval {
     double low{0.0};
     double high{0.0};
@@ -16,7 +16,7 @@ struct Interval {
 inline constexpr double kConfidence = 0.95;
 inline constexpr double kSignificance = 0.05;
 
-/// How many of so many trials came out one way.
+/// The number of hits among trials.
 struct Count {
     int hits{0};
     int trials{0};
@@ -28,21 +28,21 @@ struct Count {
     }
 };
 
-/// Of the probability behind a count (Clopper & Pearson 1934): covers at least as often as it says.
-/// [0, 1] for no trials.
+/// The interval of the probability behind a count (Clopper & Pearson 1934): covers it at least as
+/// often as `confidence`. [0, 1] for no trials.
 [[nodiscard]] Interval exact_interval(Count count, double confidence = kConfidence);
 
 /// Two-sided, against a known probability: of all counts no likelier than this one.
 struct BinomialTest {
-    double exact_p{1.0};  ///< an effect where there is none: at most as often as it says
-    /// With half of the counts just as likely: about as often as it says (Lancaster 1961).
+    double exact_p{1.0};  ///< finds an effect where there is none at most as often as its level
+    /// With half of the counts just as likely: about as often as its level (Lancaster 1961).
     double mid_p{1.0};
 };
 
 /// `chance` in (0, 1). Both 1 for no trials.
 [[nodiscard]] BinomialTest binomial_test(Count count, double chance);
 
-/// A distance between two things felt, in standard deviations of what is felt.
+/// The distance between two stimuli, in standard deviations of the sensation.
 struct Sensitivity {
     double d_prime{0.0};
     Interval interval{};
@@ -64,7 +64,7 @@ struct Sensitivity {
 /// normal interval of Gourevitch & Galanter (1967).
 struct YesNoSensitivity {
     Sensitivity sensitivity{};
-    double criterion{0.0};  ///< above 0: rather no
+    double criterion{0.0};  ///< above 0: a tendency to "no"
 };
 
 [[nodiscard]] YesNoSensitivity yes_no_sensitivity(Count hits, Count false_alarms);

@@ -1,4 +1,4 @@
-// Psychometric functions: how often a person says so over how much of it there is.
+// Psychometric functions: the share of an answer over the strength of the stimulus.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace dibhr {
 
 enum class Curve { logistic, cumulative_gaussian, weibull };
 
-/// As a person reads it: "cumulative Gaussian".
+/// For people: "cumulative Gaussian".
 [[nodiscard]] const char* name_of(Curve curve) noexcept;
 
 /// share(x) = guess + (1 - guess - lapse) F(x), F rising from 0 to 1.
@@ -24,8 +24,8 @@ struct PsychometricFunction {
     double threshold{1.0};  ///< where F is `level`; in x's unit
     double scale{0.25};     ///< > 0; in x's unit, for Weibull of ln x
     double level{0.5};      ///< of F, without guesses and lapses: in (0, 1)
-    double guess{0.0};      ///< share at nothing to feel
-    double lapse{0.0};      ///< share missed of what cannot be missed
+    double guess{0.0};      ///< share without a stimulus
+    double lapse{0.0};      ///< share missed of the strongest stimulus
 
     [[nodiscard]] double share(double x) const;
     /// Slope of F at the threshold, per unit of x.
@@ -46,10 +46,10 @@ struct LevelCount {
 
 using LevelCounts = std::vector<LevelCount>;
 
-/// One more answer, its level beside equal ones.
+/// Adds an answer to the count of its level.
 void add_answer(LevelCounts& counts, double x, bool hit);
 
-/// What is known before the fit.
+/// The settings of a fit.
 struct FitSettings {
     Curve curve{Curve::logistic};
     double level{0.5};
@@ -64,14 +64,14 @@ struct PsychometricFit {
     PsychometricFunction function{};
     Interval threshold{};  ///< 95 %
     Interval scale{};      ///< likewise
-    double deviance{0.0};  ///< against a share of its own for every level
+    double deviance{0.0};  ///< against a free share for every level
     /// How often data from this very function fit worse: below 0.05 the curve does not fit.
     double fit_p{1.0};
     int trials{0};
 };
 
-/// Simulates a study's answers again for a person of this function: constant levels, or a staircase
-/// that goes its own way each time.
+/// Simulates a study's answers again for a person with this function: at constant levels, or by a
+/// staircase that runs anew each time.
 using Simulate = std::function<LevelCounts(const PsychometricFunction&, Random&)>;
 
 /// As many answers at the same levels.
@@ -83,13 +83,12 @@ using Simulate = std::function<LevelCounts(const PsychometricFunction&, Random&)
 [[nodiscard]] PsychometricFunction most_likely(const LevelCounts& counts,
                                                const FitSettings& settings);
 
-/// The fit without bootstraps, for many of them: of the threshold it says only whether it has
-/// bounds. An end is that of the search, or infinite where the likelihood there is not refused (by
-/// chi squared).
+/// The fit without bootstraps, for many fits. The threshold's interval shows only whether it has
+/// bounds: an end is that of the search, or infinite where chi squared does not reject the end.
 [[nodiscard]] PsychometricFit fitted_roughly(const LevelCounts& counts,
                                              const FitSettings& settings);
 
-/// Of fewer trials the threshold's interval covers clearly less often than it says (README.md).
+/// With fewer trials the threshold's interval covers clearly less often than 95 % (README.md).
 inline constexpr int kFewestTrialsOfThreshold = 60;
 
 /// The fit with its intervals: profile likelihood, its critical value found by a parametric

@@ -17,7 +17,7 @@ constexpr std::size_t kParameters = 3;
 
 /// Chi squared's 95 % with one degree of freedom: what a deviance reaches by chance of many trials.
 constexpr double kUsualCritical = 3.841459;
-/// No bootstrap lowers it farther: measured, README.md, Intervals of thresholds.
+/// Lower bound of the critical value, measured: README.md, Intervals of thresholds.
 constexpr double kLeastCritical = 3.5;
 
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
@@ -32,7 +32,7 @@ struct Bounds {
     Values low{}, high{};
 };
 
-/// Everything a fit looks at; `held` stays as it starts.
+/// The input of a fit; parameters in `held` keep their start values.
 struct Problem {
     const FitSettings& settings;
     LevelCounts counts{};  ///< x on the curve's axis
@@ -332,9 +332,9 @@ PsychometricFit fitted(const LevelCounts& counts, const FitSettings& settings,
     PsychometricFit fit = fit_at(problem, best, counts);
     const Bootstrap bootstrap = bootstrapped(fit.function, settings, simulate, seed);
     const auto interval = [&](Parameter held) {
-        // Of few trials the fitted function is often one that simulated studies cannot but find
-        // again (all right, or a step between two levels), and then they say that every other
-        // value is refused.
+        // With few trials the fitted function is often one that every simulated study finds again
+        // (all right, or a step between two levels). Their critical value would then reject every
+        // other value.
         const double critical =
             std::fmax(kLeastCritical, quantile_of(bootstrap.refusals[held], kConfidence));
         return profile_of(problem, held, best, critical);

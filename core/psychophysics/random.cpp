@@ -1,4 +1,4 @@
-// Draws of other forms than even bits.
+// Random numbers of other distributions.
 #include "core/psychophysics/random.hpp"
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Draws by chance that are the same on every platform and in every version of the program: the
-// order of a study and its simulated participants hang on them.
+// Random numbers that are the same on every platform and in every version of the program: the order
+// of a study and its simulated participants depend on them.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace dibhr {
 
-/// PCG32 (O'Neill 2014, XSH-RR): 2^63 streams of period 2^64. What std::uniform_int_distribution
-/// and its like give is each library's own affair; here a seed means the same numbers for good
-/// (`normal` to the last bit of the C library's `log`).
+/// PCG32 (O'Neill 2014, XSH-RR): 2^63 streams of period 2^64. The standard distributions differ
+/// between libraries; here a seed always gives the same numbers (`normal` up to the last bit of the
+/// C library's `log`).
 class Random {
   public:
     /// The same seed and stream give the same draws. Those of neighbouring seeds and streams begin
@@ -50,7 +50,7 @@ class Random {
     /// depends on nothing but the state).
     double normal() noexcept;
 
-    /// Of `trials` with this probability each, how many came out.
+    /// The number of successes in `trials` with this probability each.
     int binomial(int trials, double probability) noexcept;
 
     /// Every order as likely as the next (Fisher and Yates).
@@ -66,8 +66,8 @@ class Random {
     std::uint64_t increment_;
 };
 
-/// Draws of their own for every list of numbers. The streams of neighbouring numbers begin alike,
-/// so that they are mixed first (SplitMix64's finaliser).
+/// Independent draws for every list of numbers. Streams of neighbouring numbers begin alike, so the
+/// numbers are mixed first (SplitMix64's finaliser).
 [[nodiscard]] inline Random draws_for(std::uint64_t seed,
                                       std::initializer_list<std::uint64_t> which) noexcept {
     std::uint64_t stream = 0;

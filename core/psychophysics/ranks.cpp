@@ -55,7 +55,7 @@ std::vector<int> doubled_ranks(const std::vector<double>& values) {
 }
 
 /// In steps of a billionth of the largest, and without those of 0: 7/12 - 1/2 and 1/2 - 5/12 are
-/// as large as each other, whatever their last bits say. Ranks that hung on these would follow the
+/// as large as each other, whatever their last bits. Ranks that depended on these would follow the
 /// sign.
 std::vector<double> without_zeros(std::span<const double> differences) {
     constexpr double kSteps = 1e9;

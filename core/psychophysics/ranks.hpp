@@ -1,5 +1,5 @@
-// What participants' values say about all people: intervals and paired tests, one value a
-// participant and condition.
+// Inference from participants to all people: intervals and paired tests, one value a participant
+// and condition.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,22 @@ namespace dibhr {
 struct Estimate {
     double value{0.0};
     Interval interval{};
-    double confidence{kConfidence};  ///< which the interval has: more for an order-statistic one
+    double confidence{kConfidence};  ///< of the interval: higher for order statistics
     int count{0};
 };
 
-/// By Student's t; no bound for a single value, or for values that are all the same: these do not
-/// say how others vary.
+/// By Student's t; no bound for a single value, or for equal values: they do not show how others
+/// vary.
 [[nodiscard]] Estimate mean_of(std::span<const double> values);
 
-/// Between two of the values themselves, so that it covers at least as often as it says; no bound
-/// for fewer than 6 values.
+/// The interval lies between two of the values, so that it covers at least as often as its
+/// confidence; no bound for fewer than 6 values.
 [[nodiscard]] Estimate median_of(std::span<const double> values);
 
 /// A test's outcome.
 struct TestResult {
     std::string test{};  ///< its name, with how it was computed
-    int count{0};        ///< of participants that it rests on
+    int count{0};        ///< of participants in the test
     double statistic{0.0};
     double p{1.0};
     double effect{0.0};  ///< rank-biserial correlation in [-1, 1]; Cohen's d_z for t; Kendall's W
@@ -53,8 +53,8 @@ struct TestResult {
 /// ties). Its p is of 9,999 random orders within the rows, always the same ones.
 [[nodiscard]] TestResult friedman_test(const std::vector<std::vector<double>>& rows);
 
-/// For tests made together: each p such that in 5 % of such families one is below 0.05 by chance
-/// (Holm 1979). In the order given.
+/// For tests made together: corrected so that in at most 5 % of such families a p is below 0.05 by
+/// chance (Holm 1979). In the order given.
 [[nodiscard]] std::vector<double> holm_adjusted(const std::vector<double>& p);
 
 /// Fewer participants cannot reach p < 0.05 in a two-sided signed-rank test.

@@ -1,4 +1,4 @@
-// The way of a staircase.
+// The levels of a staircase.
 #include "core/psychophysics/staircase.hpp"
 
 #include <algorithm>

@@ -19,8 +19,8 @@ struct StaircaseRule {
     /// Until so many reversals, steps are `first_steps` times as long.
     int first_reversals{0};
     double first_steps{2.0};
-    int stop_reversals{0};  ///< ends after so many; 0: not for them
-    int most_trials{60};    ///< ends after so many at the latest
+    int stop_reversals{0};  ///< ends after so many reversals; 0: does not depend on them
+    int most_trials{60};    ///< ends after so many trials at the latest
 };
 
 /// The share right at which steps down and up are in balance: 0.5^(1/n) for equal
@@ -32,7 +32,7 @@ class Staircase {
   public:
     explicit Staircase(const StaircaseRule& rule) : rule_(rule), level_(rule.start) {}
 
-    /// Of the next trial.
+    /// The level of the next trial.
     [[nodiscard]] double level() const noexcept { return level_; }
     [[nodiscard]] bool finished() const noexcept;
     void answer(bool right);
@@ -40,7 +40,7 @@ class Staircase {
     struct Trial {
         double level{0.0};
         bool right{false};
-        bool reversal{false};  ///< after it, the way turned
+        bool reversal{false};  ///< the direction changed after this trial
     };
     [[nodiscard]] const std::vector<Trial>& trials() const noexcept { return trials_; }
     [[nodiscard]] int reversals() const noexcept { return reversals_; }
@@ -63,7 +63,7 @@ class Staircase {
 
 [[nodiscard]] LevelCounts counts_of(const std::vector<Staircase::Trial>& trials);
 
-/// Runs of the rule, `runs` of them a study, each going its own way.
+/// `runs` independent runs of the rule a study.
 [[nodiscard]] Simulate same_staircases(const StaircaseRule& rule, int runs = 1);
 
 }  // namespace dibhr

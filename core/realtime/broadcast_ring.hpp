@@ -1,5 +1,5 @@
-// The newest values for any number of listeners: one producer that never waits for them, however
-// many they are and however slow.
+// The newest values for any number of listeners. The producer never waits for them, however
+// many and however slow they are.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@
 
 namespace dibhr {
 
-/// Keeps the last N values. Wait-free at the producer's end; what a listener comes too late for is
-/// lost to it alone.
+/// Keeps the last N values. Wait-free for the producer. A listener that is too late loses values;
+/// other listeners do not.
 template <typename T, std::size_t N>
 class BroadcastRing {
     static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
@@ -25,7 +25,7 @@ class BroadcastRing {
         const auto words = std::bit_cast<Words>(value);
         const auto w = written_.load(std::memory_order_relaxed);
         Slot& slot = slots_[w & (N - 1)];
-        // Whoever sees a word of this value sees that all before it were written, too.
+        // A reader that sees a word of this value also sees all words before it.
         for (std::size_t k = 0; k < kWords; ++k) slot[k].store(words[k], std::memory_order_release);
         written_.store(w + 1, std::memory_order_release);
     }
@@ -33,7 +33,7 @@ class BroadcastRing {
     /// One reader, which belongs to one thread at a time. The ring outlives it.
     class Listener {
       public:
-        /// Of what is pushed from now on.
+        /// Reads what is pushed from now on.
         explicit Listener(const BroadcastRing& ring) noexcept
             : ring_(&ring), next_(ring.written_.load(std::memory_order_acquire)) {}
 
@@ -48,7 +48,7 @@ class BroadcastRing {
                 const Slot& slot = ring_->slots_[next_ & (N - 1)];
                 for (std::size_t k = 0; k < kWords; ++k)
                     words[k] = slot[k].load(std::memory_order_acquire);
-                // The slot may be another value's from when this one is N behind.
+                // The producer may have reused the slot once this value is N behind.
                 if (ring_->written_.load(std::memory_order_relaxed) - next_ >= N) continue;
                 ++next_;
                 value = std::bit_cast<T>(words);
@@ -56,7 +56,7 @@ class BroadcastRing {
             }
         }
 
-        /// How many values came and went before they were popped.
+        /// How many values were overwritten before they were popped.
         [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
 
       private:

@@ -1,4 +1,4 @@
-// Beats by the monotonic clock, and on what the kernel says a silent thread waits.
+// Beats by the monotonic clock; the kernel shows on what a silent thread waits.
 #include "core/realtime/heartbeat.hpp"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ void Heartbeat::also_computes() noexcept {
         system_call_ = std::max(before, of_this_thread);
         return;
     }
-    // Another thread has taken the heart over: the number stays, since a listener may be reading.
+    // Another thread now owns the heartbeat. The number stays: a monitor may be reading.
     dup3(of_this_thread, before, O_CLOEXEC);
     close(of_this_thread);
 }

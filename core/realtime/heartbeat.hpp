@@ -1,5 +1,5 @@
-// How a thread shows that it goes on, and how another one listens to it. A beat is wait-free;
-// a listener asks the kernel where it has heard nothing for long.
+// A thread beats to show that it is running, and another thread monitors the beats. A beat is
+// wait-free. After a long silence the monitor reads the thread's state from the kernel.
 #pragma once
 
 #include <atomic>
@@ -7,7 +7,7 @@
 
 namespace dibhr {
 
-/// One thread's: it beats while it has something to do, and rests while it has not.
+/// The heartbeat of one thread, which beats while it has work, and is idle while it has none.
 class Heartbeat {
   public:
     using Clock = std::chrono::steady_clock;
@@ -20,12 +20,12 @@ class Heartbeat {
     void beat(Clock::time_point now = Clock::now()) noexcept {
         last_.store(now, std::memory_order_relaxed);
     }
-    /// Nothing is to be heard until the next beat.
+    /// The thread is idle: no beat is expected until the next one.
     void rest() noexcept { last_.store(kResting, std::memory_order_relaxed); }
-    /// The calling thread goes on, too, while it computes without a beat, or waits for threads that
-    /// do, as in decoding, for two seconds at most: where it waits for a disk, itself or through
-    /// another thread, nothing is heard of it. (Where the kernel does not tell on what a thread
-    /// waits, beats are all that counts.)
+    /// For the calling thread computing counts as beating, and so does waiting for threads that
+    /// compute, as in decoding, for two seconds at most. Waiting for a disk, itself or through
+    /// another thread, does not count. (Where the kernel does not show on what a thread waits, only
+    /// beats count.)
     void also_computes() noexcept;
 
   private:
@@ -36,18 +36,18 @@ class Heartbeat {
     [[nodiscard]] Doing doing() const noexcept;
 
     std::atomic<Clock::time_point> last_{kResting};
-    std::atomic<int> system_call_{-1};  // a descriptor: what the kernel says of the thread
+    std::atomic<int> system_call_{-1};  // descriptor of the kernel's file on the thread
 };
 
-/// One listening thread's end.
+/// Monitors a heartbeat, for one thread.
 class HeartbeatListener {
   public:
-    /// `heart` outlives it; null: nobody is missed.
+    /// `heart` outlives the monitor; null: never silent.
     explicit HeartbeatListener(const Heartbeat* heart) noexcept : heart_(heart) {}
 
-    /// How long nothing has been heard; zero while the heart rests. To be called about once a
-    /// millisecond; asks the kernel, which may take a millisecond, only after kPatience and then
-    /// every kBetweenLooks.
+    /// Time since the last beat; zero while the thread is idle. To be called about once a
+    /// millisecond. Reads the thread's state from the kernel, which may take a millisecond, only
+    /// after kPatience and then every kBetweenLooks.
     [[nodiscard]] Heartbeat::Clock::duration silence(Heartbeat::Clock::time_point now) noexcept;
 
   private:
@@ -56,7 +56,7 @@ class HeartbeatListener {
     static constexpr std::chrono::seconds kLongestWaitForThreads{2};
 
     const Heartbeat* heart_;
-    Heartbeat::Clock::time_point computed_{};  // when it was last seen to compute
+    Heartbeat::Clock::time_point computed_{};  // when the thread was last found computing
     Heartbeat::Clock::time_point looked_{};
 };
 

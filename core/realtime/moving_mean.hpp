@@ -1,4 +1,4 @@
-// The exponential moving average of what is measured again and again.
+// The exponential moving average of repeated measurements.
 #pragma once
 
 namespace dibhr {

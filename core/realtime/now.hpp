@@ -1,4 +1,4 @@
-// Where what measures time takes it from: the machine's clock, or one that is moved by hand.
+// The clock as a parameter: the machine's, or one that a test sets.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace dibhr {
 
-/// May be called on any thread. `std::chrono::steady_clock::now` wherever nothing else is said.
+/// May be called on any thread. By default `std::chrono::steady_clock::now`.
 using Now = std::function<std::chrono::steady_clock::time_point()>;
 
 /// The reading of that clock at `time` [s].

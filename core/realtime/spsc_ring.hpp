@@ -36,7 +36,7 @@ class SpscRing {
         return true;
     }
 
-    /// How many wait: for the producer at most, for the consumer at least.
+    /// Number of values in the ring: an upper bound for the producer, a lower one for the consumer.
     [[nodiscard]] std::uint64_t size() const noexcept {
         const auto r = read_.load(std::memory_order_acquire);
         return write_.load(std::memory_order_acquire) - r;

@@ -1,4 +1,4 @@
-// Deadlines by clock_nanosleep, and what the scheduler grants.
+// Deadlines by clock_nanosleep, real-time priority and memory lock.
 #include "core/realtime/tick_timer.hpp"
 
 #include <pthread.h>
@@ -100,7 +100,7 @@ Grant ask_for_memory_lock() {
     return {false, std::string("refused: ") + std::strerror(errno)};
 }
 
-// So that the first deep call of a tick meets no page fault.
+// Avoids page faults in the first deep call of a tick.
 [[gnu::noinline]] void touch_stack() {
     std::array<volatile std::byte, kStackTouched_bytes> pages;
     for (std::size_t k = 0; k < pages.size(); k += 1024) pages[k] = std::byte{0};

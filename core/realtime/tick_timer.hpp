@@ -36,9 +36,8 @@ struct TickTiming {
     bool late{false};  ///< began a whole period or more after its deadline
 };
 
-/// The book-keeping of a periodic loop, without a clock of its own: which deadline is next, and
-/// what a tick that began then means. After a late tick the next deadline is the next one in the
-/// future.
+/// The deadlines of a periodic loop and the lateness of its ticks, without a clock of its own.
+/// After a late tick the next deadline is the next one in the future.
 class TickSchedule {
   public:
     using TimePoint = std::chrono::steady_clock::time_point;
@@ -48,7 +47,7 @@ class TickSchedule {
     /// Sets the first deadline to one period after `now`; keeps the counts.
     void start(TimePoint now) noexcept;
     [[nodiscard]] TimePoint next_deadline() const noexcept { return deadline_ + period_; }
-    /// Books the tick that began at `begin` for the next deadline.
+    /// Counts the tick that began at `begin` for the next deadline.
     TickTiming begin_tick(TimePoint begin) noexcept;
 
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
@@ -82,7 +81,7 @@ class TickTimer {
     bool started_{false};
 };
 
-/// Granted, or why not, in words for the Loop panel.
+/// Granted, or the reason why not, as text for the Loop panel.
 struct Grant {
     bool granted{false};
     std::string answer{};  ///< "SCHED_FIFO 80", "refused: needs rtprio in /etc/security/..."
@@ -93,7 +92,7 @@ struct RealtimeGrants {
     Grant memory_lock{};
 };
 
-/// Names the calling thread (15 characters are kept), makes its sleeps exact, asks for SCHED_FIFO,
+/// Names the calling thread (15 characters are kept), makes its sleeps exact, requests SCHED_FIFO,
 /// and locks the process's memory when the limit allows it without starving other threads. Threads
 /// made by the caller do not inherit the priority. A refusal is no error.
 [[nodiscard]] RealtimeGrants become_realtime(const char* thread_name);

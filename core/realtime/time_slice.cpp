@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// As the kernel has it, in its first version.
+/// The kernel's struct sched_attr, in its first version.
 struct Attributes {
     std::uint32_t size{sizeof(Attributes)};
     std::uint32_t policy{0};

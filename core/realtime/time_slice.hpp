@@ -1,4 +1,4 @@
-// How long a thread keeps a processor that others want, too: who takes shorter turns goes first.
+// How long a thread keeps a contended processor: threads with shorter slices run first.
 #pragma once
 
 #include <sys/types.h>
@@ -7,15 +7,16 @@
 
 namespace dibhr {
 
-/// For what works long and is not missed at once, such as drawing and decoding: whatever else wakes
-/// up, also in other programs, goes first. The kernel's own are 1.4 ms on two cores, 3 ms on many.
+/// For long work that is not urgent, such as drawing and decoding: other threads that wake up, also
+/// of other programs, run first. The kernel's default is 1.4 ms on two cores, 3 ms on many.
 inline constexpr std::chrono::microseconds kPatientSlice{50'000};
-/// For what is waited for.
+/// For urgent work.
 inline constexpr std::chrono::microseconds kPromptSlice{100};
 
-/// Asks for slices of that length, 0.1 to 100 ms, for a thread of this process (0: this one), whose
-/// priority stays; the threads that it makes later have usual ones. Whether it was granted: not by
-/// Linux before 6.12, where all slices are alike, and not for a real-time thread, which needs none.
+/// Requests slices of this length, 0.1 to 100 ms, for a thread of this process (0: the calling
+/// one). Its priority stays, and threads that it makes later have the default. False: not granted,
+/// as by Linux before 6.12, where all slices are alike, and for a real-time thread, which needs
+/// none.
 bool set_time_slice(std::chrono::nanoseconds slice, pid_t thread = 0) noexcept;
 
 }  // namespace dibhr

@@ -33,7 +33,7 @@ class TripleBuffer {
         return slots_[front_];
     }
 
-    /// Reader only: whether `front()` will give a value it has not given before.
+    /// Reader only: whether `front()` will return a new value.
     [[nodiscard]] bool fresh() const noexcept {
         return (middle_.load(std::memory_order_relaxed) & kFresh) != 0;
     }

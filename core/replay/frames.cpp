@@ -1,4 +1,4 @@
-// Finds, decodes, cleans and keeps what a session touched.
+// Finds, decodes, cleans and caches the frames of a session.
 #include "core/replay/frames.hpp"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ bool is_media(const fs::path& file) {
            is_picture_pattern(file);
 }
 
-/// Cleaning has changed since they were recorded.
+/// Whether the cleaning of this program differs from that of the recording.
 bool is_of_other_surfaces(const Session& session) {
     if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return false;
     const bool is_cleaned = session.fact("fill-holes") == "yes" ||
@@ -47,7 +47,7 @@ bool has_content(const fs::path& file, const SessionMedia& media) {
     }
 }
 
-// Kept of a run as quick as it can be, and of a window.
+// Size of the cache [bytes]: of a run without a window, and of a window.
 constexpr std::size_t kMostOfRun = std::size_t{512} << 20;
 constexpr std::size_t kMostOfWindow = std::size_t{256} << 20;
 constexpr double kNearAhead_s = 0.5;  // nearer than this, reading on is quicker than a jump
@@ -162,7 +162,7 @@ std::shared_ptr<const BumpMap> SessionFrames::bump(const SessionParameters& para
     return found->second;
 }
 
-/// Over the first video: mostly there is no other, and one of another size works as well.
+/// For the first video: mostly there is no other, and a video of another size works as well.
 void SessionFrames::lay(std::shared_ptr<const BumpMap>& bump, double size_px) const {
     stretch(bump, description_.depth_columns, description_.depth_rows, size_px);
 }
@@ -199,7 +199,7 @@ std::shared_ptr<const TouchMaps> SessionFrames::maps_of(const FrameSource& sourc
 }
 
 Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
-    // Of one frame alone.
+    // What depends on a second frame is not part of the key.
     FrameSource source = touched;
     source.motion = source.in_betweens = false;
     if (const Kept* kept = find(source, media_s)) return kept->frame;
@@ -242,7 +242,7 @@ FrameReader& SessionFrames::reader_of(Video& video) const {
 
 const SessionFrames::Kept* SessionFrames::find(const FrameSource& source, double media_s) const {
     const auto found = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Kept& kept) {
-        return kept.source == source && kept.frame.media_s == media_s;  // a name: same bits
+        return kept.source == source && kept.frame.media_s == media_s;  // same bits: an id
     });
     return found == kept_.rend() ? nullptr : &*found;
 }

@@ -1,5 +1,5 @@
-// What a session touched: its files found again and checked, its frames, decoded and cleaned as
-// they were, and its bump maps.
+// The frames and bump maps that a session touched: its files are found and checked again, its
+// frames decoded and cleaned as they were recorded.
 #pragma once
 
 #include <cstddef>
@@ -20,13 +20,13 @@
 
 namespace dibhr {
 
-/// Whether a file is a session: by its name, or by how it begins.
+/// Whether a file is a session: by its name, or by its first bytes.
 [[nodiscard]] bool names_session(const std::filesystem::path& file);
 
-/// Where to look for a recorded file: in its place, then beside the session.
+/// Finds a recorded file: in its recorded place, else beside the session.
 class SessionMediaFinder {
   public:
-    /// `any_content`: a file that has changed since is taken too.
+    /// `any_content`: accepts a file that has changed since.
     SessionMediaFinder(std::filesystem::path session, bool any_content);
 
     /// The file with the recorded content; `what` ("depth video") names it in messages. Reads it to
@@ -34,7 +34,7 @@ class SessionMediaFinder {
     [[nodiscard]] std::filesystem::path find(const SessionMedia& media, const std::string& what);
 
     [[nodiscard]] const std::filesystem::path& session() const noexcept { return session_; }
-    /// What was taken although it is not known to be the same, one sentence a file.
+    /// One sentence for each file that was accepted although it may differ.
     [[nodiscard]] const std::string& warning() const noexcept { return warning_; }
     void warn(const std::string& sentence);
 
@@ -44,23 +44,23 @@ class SessionMediaFinder {
     std::string warning_{};
 };
 
-/// How a source's frames were cleaned.
+/// The cleaning of a source's frames.
 [[nodiscard]] FrameCleaning cleaning_of(const FrameSource& source);
 
 struct SessionFramesOptions {
-    bool any_media{false};  ///< files that have changed are taken too
-    bool colour{false};     ///< for a window: with the colour, and no frame too many
-    bool motion{false};     ///< how they move is wanted, also where nobody looked for it
-    // Instead of what was recorded; nothing: as it was.
+    bool any_media{false};  ///< accepts files that have changed
+    bool colour{false};     ///< for a window: reads colour, and keeps fewer frames
+    bool motion{false};     ///< estimates motion also where the recording did not
+    // Instead of the recorded values; nothing: as recorded.
     std::optional<CleaningPreset> cleaning{};  ///< raw: without the recorded fingertip, too
     std::optional<Fingertip> finger{};
     std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
     double bump_size_px{0.0};      ///< of that one; SurfaceShape::bump_size_px
-    bool maps{true};               ///< false: without the touch maps that were felt
+    bool maps{true};               ///< false: without the recorded touch maps
 };
 
-/// Cleans frames as they were and keeps all of them as long as there is room: a video that repeats
-/// is decoded once, and going back a little is immediate. One thread at a time.
+/// Cleans frames as they were recorded, and caches as many as there is room for: a video that
+/// repeats is decoded once, and a small step back is immediate. One thread at a time.
 class SessionFrames final : public RecordedFrames {
   public:
     /// Finds all files the session names, checks that they are the same and opens the first video.
@@ -73,7 +73,7 @@ class SessionFrames final : public RecordedFrames {
     }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
 
-    /// Of the video that was touched first.
+    /// The description of the video that was touched first.
     [[nodiscard]] const MediaDescription& description() const noexcept { return description_; }
     /// See SessionMediaFinder.
     [[nodiscard]] const std::string& warning() const noexcept { return finder_.warning(); }
@@ -82,8 +82,8 @@ class SessionFrames final : public RecordedFrames {
     /// One of the session's videos, opened when it is needed.
     struct Video {
         std::filesystem::path colour{}, depth{};
-        bool in_colour{false};   ///< it is shown, or surfaces depend on it
-        DepthRequest request{};  ///< what its depth meant
+        bool in_colour{false};   ///< its colour is shown, or surfaces depend on it
+        DepthRequest request{};  ///< the recorded meaning of its depth
         std::unique_ptr<FrameReader> reader{};
         std::optional<double> last_s{};  ///< of the frame last read
     };
@@ -96,7 +96,7 @@ class SessionFrames final : public RecordedFrames {
     void read_bumps(const Session& session);
     void lay(std::shared_ptr<const BumpMap>& bump, double size_px) const;
     void read_maps(const Session& session);
-    /// Null: none were felt.
+    /// Null: the source has no touch maps.
     [[nodiscard]] std::shared_ptr<const TouchMaps> maps_of(const FrameSource& source,
                                                            const MediaDescription& media);
     [[nodiscard]] FrameReader& reader_of(Video& video) const;
@@ -110,7 +110,7 @@ class SessionFrames final : public RecordedFrames {
     std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> bumps_{};  // by recorded names
     std::shared_ptr<const BumpMap> other_bump_{};
     std::map<std::uint32_t, std::vector<SessionMap>> maps_{};  // by their versions
-    std::shared_ptr<const TouchMaps> decoded_maps_{};          // the last that were asked for
+    std::shared_ptr<const TouchMaps> decoded_maps_{};          // the last ones read
     MediaDescription description_{};
     std::deque<Kept> kept_{};  // the oldest first
     FrameMotion motion_{};

@@ -18,14 +18,14 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kTicksAhead = 400.0;  // at speed 1; what is decoded meanwhile does not show
+constexpr double kTicksAhead = 400.0;  // at speed 1: longer than decoding a frame takes
 constexpr std::size_t kBatch = 25;
 constexpr double kRunIn_s = 1.0;
 
-/// What is computed of each moment.
+/// What is computed for each moment.
 struct ComputedRuns {
-    std::optional<TouchParameters> other{};  ///< through these parameters
-    bool algorithms{false};                  ///< through all algorithms, with the same parameters
+    std::optional<TouchParameters> other{};  ///< with these parameters
+    bool algorithms{false};                  ///< with all algorithms and the same parameters
 
     [[nodiscard]] bool any() const noexcept { return other.has_value() || algorithms; }
 };
@@ -36,8 +36,8 @@ class SessionMoments {
     /// `opened` must outlive it.
     explicit SessionMoments(OpenedSession& opened) : opened_(opened) {}
 
-    /// The next moment will be the first tick at or after `from_s`. With `other` parameters, what
-    /// they give is computed from a second earlier on, so that the proxy has found its place.
+    /// The next moment will be the first tick at or after `from_s`. Computed runs begin a second
+    /// earlier, so that the proxy has found its place.
     void begin(double from_s, const ComputedRuns& runs) {
         std::vector<ParameterChange> changes;
         const std::optional<TouchParameters>& other = runs.other;
@@ -56,8 +56,8 @@ class SessionMoments {
                         runs.any() ? from_s - kRunIn_s : from_s);
     }
 
-    /// Nothing after the last one, or when it was given up before the proxy had found its place.
-    /// Throws InputError for a session or video that cannot be read on.
+    /// Nothing after the last one, or when cancelled before the proxy had found its place. Throws
+    /// InputError for a session or video that cannot be read on.
     [[nodiscard]] std::optional<SessionMoment> next(const std::atomic<bool>& given_up) {
         while (replay_ && !given_up && replay_->next()) {
             const TickRecord& tick = replay_->recorded();
@@ -66,7 +66,7 @@ class SessionMoments {
         return {};
     }
 
-    /// When the tick before this one was.
+    /// The time of the tick before this one.
     [[nodiscard]] double time_before(std::int64_t tick) const {
         auto query =
             opened_.session.reader().rows("SELECT t FROM tick WHERE tick < " +
@@ -130,12 +130,12 @@ OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
 }
 
 struct SessionPlayer::Implementation {
-    /// Where to read on.
+    /// A request to the reading thread: where to go on.
     struct Order {
         double from_s{0.0};
         std::optional<std::int64_t> before_tick{};  ///< instead: the tick before this one
         ComputedRuns runs{};
-        bool preview{false};  ///< what was recorded there is shown until the rest is computed
+        bool preview{false};  ///< shows the recorded moment there until the rest is computed
     };
 
     explicit Implementation(std::unique_ptr<OpenedSession> session)
@@ -160,7 +160,7 @@ struct SessionPlayer::Implementation {
 
     // The window's thread.
 
-    /// While the last jump has not arrived, the next one waits: pictures keep coming in a drag.
+    /// A jump waits until the last one has arrived, so that pictures keep coming during a drag.
     void go_to(Order wanted) {
         playback.now_s = wanted.from_s;
         if (jumping) {
@@ -240,11 +240,11 @@ struct SessionPlayer::Implementation {
         } else if (all_taken) {
             playback.playing = false;
         } else if (playback.waiting && moment) {
-            anchor(moment->tick.t_s);  // the clock waits for what is read
+            anchor(moment->tick.t_s);  // the clock waits for the reading thread
         }
     }
 
-    /// Beyond the part that is played it is the session's own.
+    /// Where a lap begins: with the played part, beyond that part with the session.
     [[nodiscard]] double lap_begins_s() const {
         const std::optional<MediaPart>& part = playback.part;
         return part && playback.now_s <= part->to_s ? part->from_s : playback.begin_s;
@@ -265,7 +265,7 @@ struct SessionPlayer::Implementation {
             bool at_end = false;
             const std::string trouble = attempt([&] { at_end = !read_on(read); });
             lock.lock();
-            if (waiting_order) continue;  // nobody wants these any more
+            if (waiting_order) continue;  // these are out of date
             std::move(read.begin(), read.end(), std::back_inserter(ahead));
             complete = at_end || !trouble.empty();
             if (!trouble.empty()) failure = trouble;
@@ -324,10 +324,10 @@ struct SessionPlayer::Implementation {
     Time anchored{};
     double anchored_s{0.0};
     bool jumping{false};
-    bool due_now{false};  // the next moment, whatever the clock says
+    bool due_now{false};  // take the next moment at once
     int steps{0};
 
-    // Everybody's, under the mutex.
+    // Of both threads, under the mutex.
     std::mutex mutex{};
     std::condition_variable asked{};
     std::optional<Order> waiting_order{};
@@ -336,7 +336,7 @@ struct SessionPlayer::Implementation {
     bool complete{false};  // no tick follows those that are ahead
     std::string failure{};
     bool leaving{false};
-    std::atomic<bool> superseded{false};  // what is read is not wanted any more
+    std::atomic<bool> superseded{false};  // the running read is out of date
 
     std::thread thread{};
 };
@@ -439,7 +439,7 @@ const ContactBand* SessionOutline::band() {
         try {
             band_ = result_.get();
         } catch (const InputError&) {
-            return nullptr;  // the player meets the same damage and tells
+            return nullptr;  // the player finds the same damage and reports it
         }
     }
     return band_.get();

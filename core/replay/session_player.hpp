@@ -1,5 +1,5 @@
-// Plays a session: its ticks are read, their frames decoded and other parameters computed ahead on
-// a thread of its own; the window takes what is due, and a band that shows when it was in contact.
+// Plays a session: a thread of its own reads ticks, decodes their frames and computes other
+// parameters ahead; the window takes the moments that are due. And the band of its contacts.
 #pragma once
 
 #include <array>
@@ -23,29 +23,29 @@
 
 namespace dibhr {
 
-/// A session and what it was recorded over. One thread at a time.
+/// A session and its frames. One thread at a time.
 struct OpenedSession {
-    /// Looks through the whole file. Throws InputError when it cannot be read, holds no tick, or a
-    /// file it was recorded over is missing or has changed (unless `any_media`).
+    /// Checks the whole file. Throws InputError when it cannot be read, holds no tick, or one of
+    /// its media files is missing or has changed (unless `any_media`).
     OpenedSession(const std::filesystem::path& file, bool any_media);
 
     Session session;
     SessionFrames frames;
 };
 
-/// One tick, and what was seen and felt in it.
+/// One tick, with its frames and parameters.
 struct SessionMoment {
     TickRecord tick{};
     std::int64_t count{0};                          ///< of the tick, as people count: from 0
-    std::shared_ptr<const TouchedFrames> frames{};  ///< the last there were; null before the first
+    std::shared_ptr<const TouchedFrames> frames{};  ///< the last ones so far; null: none yet
     const SessionParameters* parameters{nullptr};   ///< the session's; null: not known
     std::shared_ptr<const BumpMap> bump{};
-    std::optional<Touch> computed{};       ///< through other parameters than the recorded ones
-    std::vector<AlgorithmProxy> others{};  ///< of the algorithms that this is not of, if asked for
-    bool preview{false};                   ///< the same tick comes again, computed
+    std::optional<Touch> computed{};       ///< with other parameters than the recorded ones
+    std::vector<AlgorithmProxy> others{};  ///< of the other algorithms, if compare() is on
+    bool preview{false};                   ///< the same tick follows again, computed
 };
 
-/// What the window shows of it. Times are those of the ticks.
+/// The state of the player, for the window. Times are those of the ticks.
 struct SessionPlayback : Course {
     SessionPlayback() noexcept : Course{.playing = true} {}
 
@@ -53,8 +53,8 @@ struct SessionPlayback : Course {
     std::string failure{};  ///< a plain sentence when reading broke off; empty otherwise
 };
 
-/// All of it belongs to the window's thread; nothing waits for a disk or for decoding. Its clock is
-/// that of the pictures: what is asked for counts from the last one on.
+/// For the window's thread; no call waits for a disk or for decoding. The clock advances with the
+/// window's pictures: a call takes effect from the last picture on.
 class SessionPlayer final : public Transport {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -68,18 +68,18 @@ class SessionPlayer final : public Transport {
     void play() override;
     void pause() override;
     void seek(double t_s) override;
-    void step(int ticks) override;  ///< by that many forth, or by one back
+    void step(int ticks) override;  ///< above 0: so many forward; below 0: one back
     void set_looping(bool looping) override;
     void set_part(const std::optional<MediaPart>& part) override;
     void set_speed(double speed) override;
-    /// What these parameters give is computed from now on; nothing: as recorded.
+    /// Computes all ticks with these parameters from now on; nothing: as recorded.
     void compute(const std::optional<TouchParameters>& other);
-    /// Whether the other algorithms' proxies are computed, too, from a second before the moment
-    /// where that is asked for or a jump ends.
+    /// Whether the other algorithms' proxies are computed, too. They begin a second before the
+    /// present moment, or before the target of a jump.
     void compare(bool algorithms);
 
-    /// Once a picture, at that time: goes on to the last moment that is due and gives each one on
-    /// the way to `passed`.
+    /// Once a picture, at its time: advances to the last moment that is due, and calls `passed`
+    /// with each moment on the way.
     void advance(Time now, const std::function<void(const SessionMoment&)>& passed);
 
     /// Null until the first one has been read.
@@ -91,7 +91,7 @@ class SessionPlayer final : public Transport {
     std::unique_ptr<Implementation> implementation_;
 };
 
-/// Pieces of the time from the first tick to the last: which of them hold a contact.
+/// The time from the first tick to the last in equal pieces: which of them hold a contact.
 struct ContactBand {
     static constexpr std::size_t kPieces = 1200;
 
@@ -107,7 +107,7 @@ class SessionOutline {
     SessionOutline(const SessionOutline&) = delete;
     SessionOutline& operator=(const SessionOutline&) = delete;
 
-    /// Null until it is done, or when the session cannot be read on: whoever plays it says why.
+    /// Null until it is read, or when reading failed: the player reports why.
     [[nodiscard]] const ContactBand* band();
 
   private:

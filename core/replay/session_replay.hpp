@@ -22,14 +22,14 @@
 
 namespace dibhr {
 
-/// Gives what a session touched.
+/// Reads the frames and bump maps that a session touched.
 class RecordedFrames {
   public:
     virtual ~RecordedFrames() = default;
     /// The frame at exactly this presentation time, cleaned. Throws InputError when there is none.
     [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
-    /// Tells `from` how it becomes `to`, the next one, as it was told when they were touched;
-    /// frames that know it are left as they are.
+    /// Adds to `from` the motion to `to`, the next frame, as when they were touched. A frame that
+    /// has its motion is left as it is.
     virtual void connect(Frame& /*from*/, const Frame& /*to*/, const MotionWanted& /*wanted*/) {}
     /// Null: none was laid over the surface.
     [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
@@ -44,19 +44,19 @@ struct TouchedFrames {
 /// Makes the parameters of a run from those recorded.
 using ParameterChange = std::function<void(TouchParameters&)>;
 
-/// Several runs side by side, each with its own proxy: every frame is decoded once. With the
-/// parameters as recorded a run gives the recorded bits, unless ticks are missing.
+/// Several runs side by side, each with its own proxy; every frame is decoded once. With the
+/// recorded parameters a run gives the recorded bits, unless ticks are missing.
 class SessionReplay {
   public:
-    /// A run for each change; an empty one leaves the parameters as they were. Begins with the
-    /// first tick at or after `from_s`: in the midst of a session a run needs a moment to come to
-    /// where the recording was. Session and frames must outlive it.
+    /// A run for each change; an empty change keeps the recorded parameters. Begins with the first
+    /// tick at or after `from_s`: in the middle of a session a run needs some time to reach the
+    /// recorded proxy. Session and frames must outlive it.
     SessionReplay(const Session& session, RecordedFrames& frames,
                   std::vector<ParameterChange> changes,
                   double from_s = -std::numeric_limits<double>::infinity());
 
-    /// The next tick, through all runs. False after the last one. Throws InputError for a session
-    /// that cannot be read on, and what the frames throw.
+    /// Computes the next tick in all runs. False after the last one. Throws InputError for a
+    /// session that cannot be read on, and the exceptions of the frames.
     [[nodiscard]] bool next();
 
     [[nodiscard]] const TickRecord& recorded() const noexcept { return tick_; }
@@ -98,11 +98,11 @@ class SessionReplay {
 /// Whether an update gave what was recorded, bit by bit.
 [[nodiscard]] bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept;
 
-/// Samples without end: beyond a million, every second, fourth, ... one is kept for the quantiles.
+/// Any number of samples: beyond a million, only every second, fourth, ... is kept for quantiles.
 class Samples {
   public:
     void add(double value);
-    /// Count, mean and highest are of all.
+    /// Count, mean and highest are of all samples.
     [[nodiscard]] SampleStatistics statistics() const;
     [[nodiscard]] double sd() const noexcept { return spread_.sd(); }
 
@@ -113,7 +113,7 @@ class Samples {
     double highest_{0.0};
 };
 
-/// One run beside the recording. Ticks without a surface count for nothing but the bits and the
+/// One run compared with the recording. Ticks without a surface count only for the bits and the
 /// share of ticks in contact.
 class RunComparison {
   public:

@@ -1,4 +1,4 @@
-// Flushes and merges a session's write-ahead log beside the one who writes.
+// Flushes and merges a session's write-ahead log beside its writer.
 #include "core/session/log_keeper.hpp"
 
 #include <fcntl.h>
@@ -32,7 +32,7 @@ LogKeeper::Descriptor::~Descriptor() {
 
 LogKeeper::LogKeeper(const std::filesystem::path& session) try : database_(session) {
     database_.execute("PRAGMA busy_timeout = 0; PRAGMA synchronous = NORMAL");
-    database_.execute("SELECT count(*) FROM session");  // only now it knows of the log
+    database_.execute("SELECT count(*) FROM session");  // only now SQLite has opened the log
     log_.number = ::open((session.string() + "-wal").c_str(), O_RDONLY | O_CLOEXEC);
     if (log_.number < 0) throw_system_error("its log cannot be opened");
     thread_ = std::thread([this] { run(); });
@@ -58,8 +58,8 @@ void LogKeeper::begin(Database& writer) {
         paused_ = wanted_ = false;
     }
     if (!failure_.empty()) throw DatabaseError(failure_);
-    // Before a log is written over, its new beginning is flushed: a power cut must not leave the
-    // old one with some of the old pages. Otherwise no transaction waits for the disk.
+    // Before the log is overwritten its new beginning is flushed: a power cut must not leave the
+    // old beginning with some of the old pages. No other transaction waits for the disk.
     writer.execute(may_be_written_over_ ? "PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE"
                                         : "PRAGMA synchronous = OFF; BEGIN IMMEDIATE");
 }
@@ -83,7 +83,7 @@ void LogKeeper::run() {
 }
 
 void LogKeeper::flush() {
-    if (::fdatasync(log_.number) == 0 || errno == EINVAL) return;  // or there is no such thing
+    if (::fdatasync(log_.number) == 0 || errno == EINVAL) return;  // EINVAL: not flushable
     throw_system_error("it cannot be flushed to the disk");
 }
 

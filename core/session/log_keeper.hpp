@@ -1,4 +1,4 @@
-// Brings a session's write-ahead log to the disk from a thread of its own.
+// Flushes and merges a session's write-ahead log on a thread of its own.
 #pragma once
 
 #include <condition_variable>
@@ -11,20 +11,19 @@
 
 namespace dibhr {
 
-/// A busy disk takes seconds to flush what was written. A writer that flushes nothing itself has
-/// every commit safe from the end of the program at once, and through the keeper from a power cut
-/// within some seconds.
+/// A busy disk takes seconds to flush a file. So the writer flushes nothing itself: every commit
+/// survives the end of the program at once, and a power cut after some seconds, by the keeper.
 class LogKeeper {
   public:
-    /// `session`: in write-ahead mode, with its log, and merged by nobody else
+    /// `session`: in write-ahead mode, with its log, which no other code merges
     /// (`PRAGMA wal_autocheckpoint = 0`). Throws DatabaseError.
     explicit LogKeeper(const std::filesystem::path& session);
     ~LogKeeper();
     LogKeeper(const LogKeeper&) = delete;
     LogKeeper& operator=(const LogKeeper&) = delete;
 
-    /// Begins a transaction of the one who writes. Waits while the log is being emptied, for 0.15 s
-    /// at most. Throws DatabaseError when that fails, or flushing failed.
+    /// Begins a transaction of the writer. Waits while the log is being emptied, for 0.15 s at
+    /// most. Throws DatabaseError when the transaction cannot begin, or flushing failed.
     void begin(Database& writer);
 
   private:

@@ -29,16 +29,16 @@ using Clock = std::chrono::steady_clock;
 // The ring holds 16 s at 1 kHz; a transaction is lost when the program is killed, so it is short.
 constexpr auto kBetweenDrains = std::chrono::milliseconds(20);
 constexpr auto kLongestTransaction = std::chrono::milliseconds(100);
-// How often the wall clock is set beside the ticks' own: both may drift.
+// How often the wall clock is recorded beside the ticks' own clock: both may drift.
 constexpr auto kBetweenClocks = std::chrono::seconds(2);
-// What is taken at once; a transaction takes little longer than its time for it.
+// The most ticks taken at once, so that a transaction is little longer than its limit.
 constexpr std::size_t kMostInDrain = 4096;
 
 std::int64_t nanoseconds(Clock::time_point time) {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-/// Wherever the program goes from here; as it is given where the working directory is gone.
+/// The absolute path; the path as given where the working directory is gone.
 std::filesystem::path whole_path(const std::filesystem::path& file) {
     std::error_code gone;
     std::filesystem::path whole = std::filesystem::absolute(file, gone);
@@ -54,12 +54,12 @@ std::optional<SessionMedia> content_of(const std::filesystem::path& file,
         if (!sum) return std::nullopt;
         return SessionMedia{file, bytes, std::move(*sum)};
     } catch (const std::exception&) {
-        return std::nullopt;  // the session says nothing of its content then
+        return std::nullopt;  // the session then holds no sum of the file
     }
 }
 
-/// Sums up the content of files on threads of their own, so that nobody waits for large ones. For
-/// one thread. Files that cannot be read are left out.
+/// Computes the SHA-256 of files on threads of their own, so that no caller waits for large ones.
+/// For one thread. Files that cannot be read are left out.
 class FileSums {
   public:
     FileSums() = default;
@@ -75,7 +75,7 @@ class FileSums {
             }));
     } catch (const std::system_error&) {  // no thread for it: left out, too
     }
-    /// What has become known since the last call.
+    /// The sums that were completed since the last call.
     [[nodiscard]] std::vector<SessionMedia> take() {
         std::vector<SessionMedia> known;
         for (Sum& sum : sums_) {
@@ -129,7 +129,7 @@ struct Recorder::Implementation {
         thread.join();
     }
 
-    /// Leaves something to be written before the ticks that are pushed from now on.
+    /// Queues a note that is written before the ticks that are pushed from now on.
     void leave(std::function<void(Implementation&)> note) {
         const std::lock_guard lock(mutex);
         notes.push_back(std::move(note));
@@ -161,7 +161,7 @@ struct Recorder::Implementation {
         return asked;
     }
 
-    /// Empties the ring even when nothing can be written any more: the producer must not notice.
+    /// Empties the ring also after writing has failed: the producer must not find it full.
     void drain() {
         do {
             heart.beat();
@@ -182,7 +182,7 @@ struct Recorder::Implementation {
             batch.push_back(record);
     }
 
-    /// Whatever a tick of the batch refers to was left before the tick was pushed.
+    /// The notes to which a tick of the batch refers were queued before the tick was pushed.
     void add_batch() {
         std::vector<std::function<void(Implementation&)>> left;
         {
@@ -238,7 +238,7 @@ struct Recorder::Implementation {
             session->add_mark({std::max(first_s, t_s), tag, text});
     }
 
-    /// What was marked before the first tick, when there was no clock, is marked at that tick.
+    /// Marks made before the first tick, without a clock, are placed at that tick.
     void add_early_marks() {
         for (const SessionMark& mark : early_marks) {
             session->add_mark({first_s, mark.tag, mark.text});
@@ -287,8 +287,8 @@ struct Recorder::Implementation {
         status.recording = false;
     }
 
-    /// Does `step` unless writing broke off; when it breaks off now, says so once and lets the file
-    /// go: what was committed stays readable.
+    /// Does `step` unless writing failed before. Where it fails now, sets the failure once and
+    /// closes the file: what was committed stays readable.
     template <typename Step>
     void write(Step step) {
         if (!session) return;
@@ -313,13 +313,13 @@ struct Recorder::Implementation {
                              (anything_left() ? ". What was recorded until then is kept."
                                               : ". Nothing of it is kept.");
         }
-        session.reset();  // may wait for the disk: nobody who asks for the status does
+        session.reset();  // may wait for the disk: not under the mutex, so that status() does not
         transaction_begin.reset();
     }
 
     TickRing& ring;
     const Now now;
-    Heartbeat own_heart{};  // nobody listens
+    Heartbeat own_heart{};  // not monitored
     Heartbeat& heart;
     const std::uint64_t dropped_before;
     const Clock::time_point begin{now()};
@@ -351,7 +351,7 @@ Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const Sess
 
 Recorder::~Recorder() {
     implementation_.reset();
-    // Else what SQLite needed stays with the program. Takes a third of a millisecond.
+    // Returns SQLite's memory to the system. Takes a third of a millisecond.
     ::malloc_trim(0);
 }
 

@@ -22,7 +22,7 @@ struct RecorderStatus {
     std::uint64_t high_water{0};   ///< the most ticks that waited in the ring
     std::uint64_t bytes{0};        ///< on the disk
     double bytes_per_minute{0.0};  ///< by which the file grows; 0 in the first second
-    std::string failure{};  ///< a sentence when writing broke off; what was written stays readable
+    std::string failure{};  ///< a sentence when writing failed; what was written stays readable
 };
 
 /// Drains the ring into `file` (write-ahead log, a transaction at least every 250 ms). What is in
@@ -34,9 +34,8 @@ class Recorder {
 
     /// Creates the session file; throws InputError when it exists already or cannot be made.
     /// `facts` are name/value pairs kept with the session (program version, device, note,
-    /// participant). `heart`, if any, beats while something is written, and is silent while that
-    /// waits for the disk; it outlives the recorder. `now` is what its transactions and marks are
-    /// timed by.
+    /// participant). `heart`, if any, beats while the recorder writes, not while it waits for the
+    /// disk; it outlives the recorder. `now`: the clock of its transactions and marks.
     Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
              Heartbeat* heart = nullptr, Now now = std::chrono::steady_clock::now);
     ~Recorder();  ///< as finish()
@@ -48,13 +47,13 @@ class Recorder {
     /// Parameters that ticks may refer to from now on by their version.
     void parameters(const SessionParameters& parameters);
     /// The files that ticks may refer to from now on as media `number`; either may be empty.
-    /// `depth_meaning`: see SessionSource. Their content is summed up (SHA-256) on a thread of its
-    /// own once a tick touches them; of those that `grow`, as they are still being written, once
-    /// media_is_whole() says so.
+    /// `depth_meaning`: see SessionSource. The files' SHA-256 is computed on a thread of its own
+    /// once a tick touches them; of files that `grow`, which are still being written, after
+    /// media_is_whole().
     void media(std::uint32_t number, const std::filesystem::path& colour,
                const std::filesystem::path& depth, const std::string& depth_meaning = {},
                bool grow = false);
-    /// `contents`: what is known of them already, by whoever wrote them.
+    /// The growing files are complete. `contents`: of those whose writer knows them already.
     void media_is_whole(std::vector<SessionMedia> contents = {});
     /// The touch maps that ticks refer to by that version. May come after them.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
@@ -68,8 +67,8 @@ class Recorder {
 
     [[nodiscard]] RecorderStatus status() const;
 
-    /// Drains what is left and closes the file; the last word on how it went. Waits so long at most
-    /// for sums of large files. May be called twice.
+    /// Drains the ring and closes the file; returns the final status. Waits for the sums of large
+    /// files at most `for_sums`. May be called twice.
     RecorderStatus finish(std::chrono::milliseconds for_sums = kPatience);
 
   private:

@@ -16,7 +16,7 @@ namespace dibhr {
 
 namespace {
 
-/// A file of before a fact has no column for it: it then was what it is by default.
+/// The columns of a table. A file older than a column lacks it: its value is then the default.
 std::set<std::string> columns_of(const SessionReader& reader, const std::string& table) {
     std::set<std::string> columns;
     Statement query = reader.rows("SELECT name FROM pragma_table_info('" + table + "')");
@@ -32,8 +32,8 @@ PrimitiveKind primitive_named(const std::string& name) {
     return PrimitiveKind::none;
 }
 
-/// Nobody could set other numbers, and no proxy can walk with them. Spring and damper may be any:
-/// the safety stage holds what they give.
+/// Refuses numbers that nobody could set and no proxy can walk with. Spring and damper may have any
+/// value: the safety stage limits their force.
 void require_in_range(const TouchParameters& touch, const std::filesystem::path& file) {
     for (const TouchNumber& number : touch_numbers()) {
         if (number.topic == TouchTopic::spring || number.topic == TouchTopic::damper) continue;
@@ -45,7 +45,7 @@ void require_in_range(const TouchParameters& touch, const std::filesystem::path&
     }
 }
 
-/// Throws InputError for a word of a later version.
+/// Throws InputError for a name of a later version.
 void take_word(const std::string& word, const TouchChoice& choice, TouchParameters& touch,
                const std::filesystem::path& file) {
     if (choice.choose(word, touch)) return;
@@ -53,7 +53,7 @@ void take_word(const std::string& word, const TouchChoice& choice, TouchParamete
                      in_quotes(word) + " that is not known here; update dibhr");
 }
 
-/// Else what a device that was watched says of itself would be no number.
+/// Refuses dynamics that are not finite, or negative.
 void require_device(const DeviceDynamics& watched, const std::filesystem::path& file) {
     DeviceLimits device;
     device.dynamics = watched;
@@ -99,7 +99,7 @@ class Row {
     int column_{0};
 };
 
-/// The columns of a SessionMedia; `media`: what the table `media` is called in the question.
+/// The columns of a SessionMedia; `media`: the alias of the table `media` in the query.
 std::string media_columns(const SessionReader& reader, const std::string& media) {
     const bool has_head = columns_of(reader, "media").contains("head_bytes");
     return media + ".file, " + media + ".bytes, " + media + ".sha256, " +
@@ -288,7 +288,7 @@ void Session::keep(std::size_t bytes) {
 }
 
 void Session::read_extent() {
-    // Not count(*): that is one step, which no bound of the reader ends.
+    // Not count(*): that is one step of SQLite's machine, which the reader's bound cannot stop.
     Statement count = reader_.rows(
         "SELECT ifnull(sum(1), 0), ifnull(min(tick), 0), ifnull(max(tick), -1) FROM tick_data");
     if (!count.next()) return;
@@ -347,7 +347,7 @@ Session::Ticks::Ticks(const Session& session, double from_s)
 bool Session::Ticks::next(TickRecord& tick) {
     if (!query_.next()) return false;
     std::int64_t update_ns = 0;
-    std::int64_t state = 0;  // what of it the view does not give
+    std::int64_t state = 0;  // the bits that are not in the view
     std::string primitive;
     FramePair& frames = tick.frames;
     Row(query_).take(tick.tick, tick.t_s, tick.dt_s, tick.lateness_us, update_ns, tick.settings,

@@ -22,14 +22,14 @@ class Session {
     /// Reads all but the ticks.
     explicit Session(const std::filesystem::path& file);
 
-    /// Looks through the whole file for damage; a second or two for an hour's recording.
+    /// Checks the whole file for damage; takes a second or two for an hour's recording.
     void check() const;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return reader_.file(); }
     [[nodiscard]] const SessionFacts& facts() const noexcept { return facts_; }
-    /// The fact, or nothing in it.
+    /// The fact, or an empty text.
     [[nodiscard]] std::string fact(const std::string& key) const;
-    /// What may be lacking, as a sentence; empty: nothing.
+    /// A sentence on what may be missing in the file; empty: nothing.
     [[nodiscard]] std::string warning() const;
     /// In the order in which ticks first used them.
     [[nodiscard]] const std::vector<SessionParameters>& parameters() const noexcept {
@@ -40,7 +40,7 @@ class Session {
     [[nodiscard]] const std::vector<SessionSource>& sources() const noexcept { return sources_; }
     /// Null when there is none.
     [[nodiscard]] const SessionSource* source_of(const FrameSource& source) const noexcept;
-    /// The touch maps of that version; none: it does not hold them.
+    /// The touch maps of that version; empty: the session does not hold them.
     [[nodiscard]] std::vector<SessionMap> maps_of(std::uint32_t version) const;
     /// In order of time.
     [[nodiscard]] const std::vector<SessionMark>& marks() const noexcept { return marks_; }
@@ -51,12 +51,12 @@ class Session {
     /// How many ticks are missing between the first and the last.
     [[nodiscard]] std::int64_t missing() const noexcept { return missing_; }
 
-    /// As people count: from 0, the session's first one.
+    /// The tick's number as people count: the session's first tick is 0.
     [[nodiscard]] std::int64_t count_of(std::int64_t tick) const noexcept {
         return tick - first_tick_;
     }
 
-    /// For questions of one's own to the tables that README.md describes.
+    /// For other queries to the tables that README.md describes.
     [[nodiscard]] const SessionReader& reader() const noexcept { return reader_; }
 
     class Ticks;
@@ -67,7 +67,7 @@ class Session {
     void read_sources();
     void read_marks();
     void read_extent();
-    /// Counts what of the file stays in memory, and refuses one that holds too much.
+    /// Counts the bytes held in memory, and refuses a file that holds too many.
     void keep(std::size_t bytes);
     /// The time of the first tick of that number or a later one.
     [[nodiscard]] double time_from(std::int64_t tick) const;
@@ -86,18 +86,18 @@ class Session {
     std::size_t kept_bytes_{0};
 };
 
-/// The ticks in which a hand was asked where it is: those with a surface.
+/// The ticks in which a hand was read: those with a surface.
 struct HandTicks {
     std::int64_t all{0};
     std::int64_t stand_in{0};  ///< the mouse's, for a device that was not ready
 };
 
-/// Looks at every tick. Throws InputError for a damaged file.
+/// Reads every tick. Throws InputError for a damaged file.
 [[nodiscard]] HandTicks hand_ticks(const SessionReader& reader);
 
-/// A tick that begins so much after its deadline is late: a whole period, as in the loop itself.
+/// A tick that begins this much after its deadline is late: a whole period, as in the loop.
 inline constexpr double kLate_us = 1000.0;
-/// How many were. Looks at every tick. Throws InputError for a damaged file.
+/// The number of late ticks. Reads every tick. Throws InputError for a damaged file.
 [[nodiscard]] std::int64_t late_ticks(const SessionReader& reader);
 
 /// The ticks in order of time; must not outlive its session.

@@ -21,16 +21,16 @@ namespace dibhr {
 
 namespace {
 
-// A version that is held otherwise than before gets a number that no window hands out: 2^32 more.
+// A version that is lowered to other limits gets a number that no window uses: 2^32 more.
 constexpr int kHeldAgainShift = 32;
 // A reader takes no larger value at once.
 constexpr std::size_t kMostMapBytes = std::size_t{1} << 19;
 // Large pages waste little at their ends.
 constexpr const char* kFileLayout =
     "PRAGMA page_size = 16384; PRAGMA journal_mode = WAL; PRAGMA wal_autocheckpoint = 0";
-constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";  // also what closing merges
+constexpr const char* kFlush = "PRAGMA synchronous = NORMAL";  // also for the merge at closing
 
-/// Makes an empty file where there was none; the name of a file that exists is safe from us.
+/// Makes an empty file where there was none; never touches an existing file.
 const std::filesystem::path& made(const std::filesystem::path& file) {
     const int descriptor = open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor >= 0) {
@@ -68,7 +68,7 @@ std::string insert_parameters() {
     return insertion("OR IGNORE INTO parameters", columns);
 }
 
-/// Of the machine it is recorded on: what cannot be found out is left out.
+/// Facts of the machine that records; unknown ones are left out.
 SessionFacts machine_facts() {
     const Machine machine = this_machine();
     SessionFacts facts;
@@ -104,7 +104,7 @@ std::int64_t state_of(const TickRecord& record) {
            bit(record.standstill, at::kStandstill) | bit(record.motion_unknown, at::kMotionUnknown);
 }
 
-/// A time in nanoseconds, of which its unit has `nanoseconds`, where the same bits come of them.
+/// A time in whole nanoseconds (`nanoseconds` a unit); nothing where they give other bits.
 std::optional<std::int64_t> whole_nanoseconds(double value, double nanoseconds) noexcept {
     constexpr double kMost = 9e15;  // beyond, a real has no whole nanoseconds
     const double count = std::round(value * nanoseconds);
@@ -156,7 +156,7 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");
     set_fact("complete", "0");
     commit();
-    merge_log();  // a copy without the log is still a session that says what it is
+    merge_log();  // a copy without the log is still recognised as a session
     keeper_ = std::make_unique<LogKeeper>(file);
 } catch (const DatabaseError& error) {
     remove_database(file);
@@ -196,7 +196,7 @@ void SessionFile::add(const TickRecord& record) {
     row.run();
 }
 
-/// The time since the tick before follows, mostly, from its row.
+/// The time since the tick before mostly follows from that tick's row, and is then NULL.
 void SessionFile::add_times(const TickRecord& record) {
     const auto t_ns = whole_nanoseconds(record.t_s, kNanosecondsPerSecond);
     const bool goes_on = t_ns && last_t_ns_ && last_tick_ == record.tick - 1;
@@ -212,8 +212,8 @@ void SessionFile::add_times(const TickRecord& record) {
     last_t_ns_ = t_ns;
 }
 
-/// As the view takes them; this file is compiled so that products and sums are rounded one by one,
-/// as in SQLite.
+/// In the form that the view reads. This file is compiled without fused operations: products and
+/// sums are rounded one by one, as in SQLite.
 void SessionFile::add_forces(const TickRecord& record) {
     Statement& row = insert_tick_;
     const Vec3 wanted = record.spring_newton + record.own_newton;
@@ -294,7 +294,7 @@ void SessionFile::add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropp
         .run(t_ns, utc_s, dropped, high_water);
 }
 
-/// The parameters that the tick's force follows from: as they were told, held to its device.
+/// The parameters of the tick's force: the registered ones, lowered to the limits of its device.
 void SessionFile::use_settings(const TickRecord& record) {
     version_ = parameters_row_ = record.settings;
     limits_ = record.limits;
@@ -391,7 +391,7 @@ void SessionFile::end_log() noexcept {
     try_to("PRAGMA journal_mode = MEMORY");
 }
 
-/// What need not succeed: the file is as whole without, and readable with its log.
+/// For statements that may fail: the file is complete without them, and readable with its log.
 void SessionFile::try_to(const char* sql) noexcept {
     try {
         database_.execute(sql);

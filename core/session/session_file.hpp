@@ -29,42 +29,41 @@ class SessionFile {
     SessionFile& operator=(const SessionFile&) = delete;
 
     void begin();
-    /// With the rows of its parameters, frames and files, where it is the first to use them.
+    /// Adds the tick, and the rows of its parameters, frames and files where it uses them first.
     void add(const TickRecord& record);
-    /// Also notices when the file is gone from its place.
+    /// Throws also when the file was removed or replaced.
     void commit();
 
-    // Known from here on, and written with the first tick that uses them; files by absolute paths.
+    // Registered here, and written with the first tick that uses them; files by absolute paths.
     void know(const SessionParameters& parameters);
     void know_media(std::uint32_t number, const std::filesystem::path& colour,
                     const std::filesystem::path& depth, const std::string& depth_meaning,
                     bool grows = false);
-    /// Those that grew are whole now: their content, unless it is among these, is to be summed up,
-    /// too.
+    /// The growing files are complete: files that are not in `contents` are to be summed up.
     void media_is_whole(const std::vector<SessionMedia>& contents = {});
 
-    /// Of touch maps that ticks refer to by that version; once.
+    /// Adds the touch maps to which ticks refer by that version; once.
     void add_maps(std::uint32_t version, const std::vector<SessionMap>& maps);
     void set_fact(const std::string& key, const std::string& value);
     void add_mark(const SessionMark& mark);
     void add_clock(std::int64_t t_ns, double utc_s, std::uint64_t dropped,
                    std::uint64_t high_water);
 
-    /// Files that ticks refer to since the last call: their content is to be summed up.
+    /// Files that ticks refer to since the last call, and whose SHA-256 is to be computed.
     [[nodiscard]] std::vector<std::filesystem::path> take_new_files();
     void set_content(const SessionMedia& content);
 
     /// Moves what is in the write-ahead log into the file, so that one file remains after closing;
     /// to be called last.
     void merge_log();
-    /// A finished file needs no log, so that it can be read where nothing can be written. Stays as
-    /// it is while somebody reads it.
+    /// Ends the use of a log, so that the finished file can be read where nothing can be written.
+    /// Has no effect while another program reads the file.
     void end_log() noexcept;
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    /// On the disk, log included.
+    /// Bytes on the disk, log included.
     [[nodiscard]] std::uint64_t bytes() const;
-    /// Of what is recorded, wherever it is on the disk.
+    /// Bytes of the recorded content, in file or log.
     [[nodiscard]] std::uint64_t bytes_recorded();
 
   private:
@@ -102,11 +101,11 @@ class SessionFile {
     std::vector<FrameSource> sources_{};                              ///< by their rows, from 1
     std::optional<FramePair> pair_{};  ///< the last row of table pair
     std::int64_t pairs_{0};            ///< and its number
-    /// What was written of each version: as it was held to a device, and again where another hand
-    /// could stand less or more.
+    /// The rows written for each version: one for each set of device limits to which it was
+    /// lowered.
     std::map<std::uint64_t, std::vector<SessionParameters>> held_parameters_{};
     std::optional<std::uint64_t> version_{};   ///< of the last tick
-    std::optional<DeviceLimits> limits_{};     ///< and what it was held to
+    std::optional<DeviceLimits> limits_{};     ///< and its device limits
     std::uint64_t parameters_row_{0};          ///< its key in table parameters
     std::optional<double> newton_per_px_{};    ///< its spring's, where known
     std::int64_t last_tick_{0};                ///< its number

@@ -14,9 +14,9 @@
 namespace dibhr {
 namespace {
 
-constexpr int kLongestValue_bytes = 1 << 20;  ///< longer than anybody would write
+constexpr int kLongestValue_bytes = 1 << 20;  ///< longer than any real value
 
-/// SQLite's words, which may quote what the file holds.
+/// SQLite's message on one short line: it may quote the file's content.
 std::string brief(std::string_view words) {
     constexpr std::size_t kMostLetters = 200;
     return one_line(words, kMostLetters);
@@ -33,8 +33,7 @@ SessionReader::SessionReader(const std::filesystem::path& file)
     check_tables();
 }
 
-/// What is read are the tables of a recording and the view that dibhr makes of them: no other that
-/// could go on for ever.
+/// Requires the tables of a recording and dibhr's own view over them: any other could be endless.
 void SessionReader::check_tables() const {
     std::string names;
     for (const std::string_view name : kSessionTables)
@@ -57,8 +56,8 @@ void SessionReader::check_tables() const {
         refuse("its tables are not those of a recording");
 }
 
-/// The head of a file that was closed says how long it is, which is refused when it is shorter, and
-/// whether a log belongs to it.
+/// The head of a closed file holds its length, and whether a log belongs to it. Refuses a shorter
+/// file.
 SessionReader::Log SessionReader::log_by_head() const {
     std::error_code failed;
     if (!std::filesystem::exists(file_, failed))
@@ -71,9 +70,9 @@ SessionReader::Log SessionReader::log_by_head() const {
     std::ifstream stream(file_, std::ios::binary);
     stream.read(reinterpret_cast<char*>(head.data()), head.size());
     if (!stream.is_open()) throw InputError(file_.string() + ": cannot be read; make it readable");
-    // Asked after the head was read: a recording that ends meanwhile has no log any more.
+    // Checked after the head was read: a recording that ends meanwhile has no log any more.
     const bool logged = std::filesystem::exists(file_.string() + "-wal", failed);
-    // SQLite would take the log of an empty file for one that was left behind, and delete it.
+    // SQLite would delete the log of an empty file as a leftover.
     if (stream.gcount() == 0 && logged)
         throw InputError(file_.string() + ": is empty, and only " + file_.filename().string() +
                          "-wal, the log of its recording, is beside it; copy both again from where "

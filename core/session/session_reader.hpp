@@ -1,4 +1,4 @@
-// A session file open for reading, which stays as it is; errors in plain words.
+// A session file open for reading, which stays as it is; its errors as sentences.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ class SessionReader {
     /// Throws InputError for a file that is missing, cut short, damaged, no session of this
     /// version, or made to keep a reader busy.
     explicit SessionReader(const std::filesystem::path& file);
-    SessionReader(const SessionReader&) = delete;  // its database refuses in its name
+    SessionReader(const SessionReader&) = delete;  // its database refers to it
     SessionReader& operator=(const SessionReader&) = delete;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
@@ -23,23 +23,23 @@ class SessionReader {
         none,     ///< the recording ended, which merged it
         needed,   ///< the recording goes on, or was broken off
         absent,   ///< likewise, and it is not beside the file: merged by others, or not copied
-        foreign,  ///< beside a file whose recording ended: another one's, and not read
+        foreign,  ///< beside a file whose recording ended: of another file, and not read
     };
     [[nodiscard]] Log log() const noexcept { return log_; }
 
-    /// Looks through the whole file. Throws InputError when it is damaged.
+    /// Checks the whole file. Throws InputError when it is damaged.
     void check() const;
 
-    /// A question's rows; must not outlive this reader. Throws InputError when the file holds no
+    /// The rows of a query; must not outlive this reader. Throws InputError when the file holds no
     /// such tables or columns, and while the rows are read when it is damaged.
     [[nodiscard]] Statement rows(std::string_view sql) const { return {database_, sql}; }
 
   private:
-    /// Of a file that may be opened.
+    /// The state of the log by the file's head. Refuses a file that must not be opened.
     [[nodiscard]] Log log_by_head() const;
     void check_kind() const;
     void check_tables() const;
-    /// Foreign, or damaged.
+    /// Refuses a foreign or damaged file.
     [[noreturn]] void refuse(const DatabaseError& error) const;
     [[noreturn]] void refuse(const std::string& reason) const;
     [[noreturn]] void refuse_damaged(const std::string& words) const;

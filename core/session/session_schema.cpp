@@ -1,4 +1,4 @@
-// The tables, the view over the ticks, and what explains their columns.
+// The tables, the view over the ticks, and the explanations of its columns.
 #include "core/session/session_schema.hpp"
 
 #include <type_traits>
@@ -95,7 +95,7 @@ std::string own_of(const std::string& axis) {
     return "coalesce(d.o" + axis + ", 0.0)";
 }
 
-/// What the safety stage was given.
+/// The input of the safety stage.
 std::string wanted_of(const std::string& axis) {
     return "(" + spring_of(axis) + " + " + own_of(axis) + ")";
 }
@@ -106,14 +106,14 @@ std::string sent_of(const std::string& axis) {
            wanted_of(axis) + " END)";
 }
 
-/// As off_direction() and add_forces() of a session file have it.
+/// The inverse of off_direction() and add_forces() in session_file.cpp.
 std::string shortened_of(const std::string& axis) {
     return "CASE typeof(d.c" + axis + ") WHEN 'integer' THEN " + wanted_of(axis) + " * (CAST(" +
            sent_of("z") + " AS REAL) / " + wanted_of("z") + ") + d.c" + axis + " / CAST(" +
            std::to_string(kPartsPerNewton) + " AS REAL) ELSE " + sent_of(axis) + " END";
 }
 
-/// In a tick that follows its forerunner: the time between.
+/// The time since the tick before.
 std::string time_between() {
     return "CASE WHEN d.dt IS NULL THEN (d.t - (SELECT b.t FROM tick_data b WHERE b.tick = d.tick "
            "- 1)) / " +

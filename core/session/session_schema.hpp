@@ -8,29 +8,29 @@
 
 namespace dibhr {
 
-/// "dhap": the file says itself what it is (`PRAGMA application_id`).
+/// "dhap": identifies the file as a session (`PRAGMA application_id`).
 inline constexpr int kSessionApplicationId = 0x64686170;
 /// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
 inline constexpr int kSessionSchemaVersion = 2;
 
-/// Statements that make the tables of an empty database, and fill those that explain them. Ticks
-/// are stored in `tick_data` without what follows from the rest of a row; the view `tick` gives
-/// them whole.
+/// Statements that make the tables of an empty database, and fill the explaining ones. A value of a
+/// tick that follows from the rest of its row is not stored in `tick_data`; the view `tick`
+/// computes it.
 [[nodiscard]] std::string session_schema();
 
-/// What is read of a session are tables, so that reading ends; all but the view `tick`.
+/// The tables that are read of a session, besides the view `tick`.
 inline constexpr std::array<std::string_view, 8> kSessionTables{
     "session", "media", "source", "pair", "parameters", "tick_data", "clock", "mark"};
 
-/// The statement that makes that view, as it stands in a session file: a reader refuses any other,
-/// so that whoever changes it counts kSessionSchemaVersion up and still knows the one before.
+/// The statement of the view `tick`, as it is stored in a session file. A reader refuses any other:
+/// a change needs a higher kSessionSchemaVersion, and a reader for the one before.
 [[nodiscard]] std::string tick_view();
 
-/// Of `tick_data`.
+/// The number of columns of `tick_data`.
 inline constexpr int kTickDataColumns = 27;
 
-/// How `tick_data.state` holds a tick's small facts; the view takes them apart. What is usual comes
-/// first and is zero after that: one byte, also with the main button pressed.
+/// The bits of `tick_data.state`, which the view separates. Frequent values are in the low bits, so
+/// that the state usually fits in a byte, also with the main button pressed.
 namespace tick_state {
 inline constexpr int kContact = 0;
 inline constexpr int kPrimitive = 1;  // 2 bits
@@ -53,9 +53,9 @@ inline constexpr int kMotionUnknown = 23;
 inline constexpr double kNanosecondsPerSecond = 1e9;
 inline constexpr double kNanosecondsPerMicrosecond = 1e3;
 
-/// A force that a limit only shortened is stored as its z, and along x and y as whole such parts of
-/// a newton by which it is off the direction of what was wanted: 2^60, so that dividing by it loses
-/// nothing.
+/// A force that a limit only shortened is stored as its z, and for x and y as its distance from the
+/// direction of the wanted force, in whole parts of a newton: 2^60, so that the division loses no
+/// bit.
 inline constexpr std::int64_t kPartsPerNewton = std::int64_t{1} << 60;
 
 }  // namespace dibhr

@@ -1,5 +1,5 @@
-// What a session is made of: a tick as it is recorded and read back, plain data that passes through
-// a ring; and facts, parameters, sources and marks.
+// The data of a session: a tick as it is recorded and read back, plain data that passes through a
+// ring; and facts, parameters, sources and marks.
 #pragma once
 
 #include <bit>
@@ -18,7 +18,7 @@ namespace dibhr {
 
 /// Where a tick's depth frames came from: which files, cleaned how.
 struct FrameSource {
-    std::uint32_t media{0};  ///< number of the opened media, as told to the recorder
+    std::uint32_t media{0};  ///< number of the opened media, as registered with the recorder
     bool fill_holes{false};
     bool remove_spikes{false};
     bool smooth_steps{false};
@@ -26,11 +26,11 @@ struct FrameSource {
     bool colour_edges{false};
     bool steady{false};
     bool smooth_noise{false};
-    bool in_betweens{false};       ///< the two of the pair have some
-    bool motion{false};            ///< it is known how the first moves
+    bool in_betweens{false};       ///< there are frames between the two of the pair
+    bool motion{false};            ///< the motion of the first one is known
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
     double finger_relief_px{0.0};  ///< for which elevation of the highest level
-    std::uint32_t maps{0};  ///< version of the touch maps on them, as told to the recorder; 0: none
+    std::uint32_t maps{0};  ///< version of the touch maps on them; 0: none
 
     bool operator==(const FrameSource&) const = default;
 };
@@ -59,13 +59,13 @@ struct FramePair {
     FrameSource source{};
     std::int64_t from_frame{0}, to_frame{0};  ///< in the file, from 0
     double from_s{0.0}, to_s{0.0};            ///< presentation times in the file
-    double span_s{0.0};                       ///< how long the one takes to become the other
+    double span_s{0.0};                       ///< time from the one to the other
 
     bool operator==(const FramePair&) const = default;
 };
 
-/// All that a tick's result depends on, and the result. Grid space [px], newtons, seconds. What
-/// is not finite is recorded as infinity.
+/// The whole input of a tick, and its result. Grid space [px], newtons, seconds. A number that is
+/// not finite is recorded as infinity.
 struct TickRecord {
     std::int64_t tick{0};       ///< number of the tick in its loop; one more than the one before
     double t_s{0.0};            ///< monotonic, since the loop began
@@ -74,17 +74,17 @@ struct TickRecord {
     double lateness_us{0.0};    ///< after its deadline
     double update_us{0.0};      ///< time of the update
     std::uint64_t settings{0};  ///< version of the parameters
-    /// What they were held to; nothing: felt as they are. Not read back: the version then is that
-    /// of the parameters as they were held.
+    /// The device's limits, to which the parameters were lowered; nothing: not lowered. Not read
+    /// back: `settings` then is the version of the lowered parameters.
     std::optional<DeviceLimits> limits{};
 
     FramePair frames{};   ///< means nothing without a surface
     double blend{0.0};    ///< 0: from, 1: to
     double utc_s{0.0};    ///< wall time since 1970; set by reading back
-    double video_s{0.0};  ///< presentation time of what was touched; set by reading back
+    double video_s{0.0};  ///< presentation time of the touched surface; set by reading back
 
     Vec3 goal{0.0}, proxy{0.0}, spring_newton{0.0}, sent_newton{0.0};
-    Vec3 own_newton{0.0};  ///< what the device itself adds on the hand
+    Vec3 own_newton{0.0};  ///< the device's own force on the hand
     std::int32_t moves{0};
     std::int32_t i{-1}, j{-1};
     bool contact{false};        ///< never without a surface
@@ -92,16 +92,16 @@ struct TickRecord {
     std::uint8_t buttons{0};
     std::uint8_t cut{0};  ///< SafetyCut
 
-    bool surface{true};        ///< there was one; without, nothing was updated
+    bool surface{true};        ///< there was a surface; without, nothing was updated
     bool device_ready{true};   ///< attached and homed
     bool stand_in{false};      ///< the mouse, for a device that was not ready
     bool from_zero{false};     ///< the force began from zero again
-    bool lets_go{false};       ///< the hand was lifted or replaced: a contact was let go first
+    bool lets_go{false};       ///< the hand was lifted or replaced: a contact was released first
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
     bool catching_up{false};   ///< the tick ended before the proxy had caught up with its goal
-    bool gliding{false};       ///< parameters were on their way to those of `settings`
+    bool gliding{false};       ///< parameters were gliding to those of `settings`
     bool standstill{false};    ///< window, video or recorder stood still: the force goes to zero
-    /// What moves was to carry the proxy, but nothing was known of the motion in these frames.
+    /// Carrying was on, but the motion between these frames was not known.
     bool motion_unknown{false};
 };
 
@@ -119,11 +119,11 @@ using TickRing = SpscRing<TickRecord, 16384>;
 using SessionFacts = std::map<std::string, std::string>;
 
 /// A file that was touched, by its absolute path, and its content. Path empty: none; sum empty: the
-/// recording ended before it was known. A video that was recorded live has a head that is not in
-/// the sum: it got its length there when it ended.
+/// recording ended before the sum was known. The head of a video that was recorded live is not in
+/// the sum: the video's length was written there at its end.
 using SessionMedia = FileContent;
 
-/// Everything a person can tune that a force depends on.
+/// All settings of the user on which the force depends.
 struct SessionParameters {
     std::uint64_t version{0};  ///< ticks refer to it
     TouchParameters touch{};
@@ -153,15 +153,15 @@ void visit_numbers(SessionParameters& parameters, const Visit& visit) {
     visit(std::string_view("max_map_stiffness_newton_per_mm"), limits.max_stiffness_newton_per_mm);
 }
 
-/// What frames were made of.
+/// The files and the cleaning from which frames were made.
 struct SessionSource {
     FrameSource source{};
     SessionMedia colour{}, depth{};
     std::int64_t first_tick{0};
-    std::string depth_meaning{};  ///< as a sidecar says it (TOML); empty: levels as in the file
+    std::string depth_meaning{};  ///< in a sidecar's form (TOML); empty: levels as in the file
 };
 
-/// A touch map that was felt, as it is kept in a session.
+/// A touch map that was in use, as it is stored in a session.
 struct SessionMap {
     std::string kind{};  ///< "stiffness"
     double lowest{0.0};  ///< value of its lowest level; of the highest:

@@ -1,4 +1,4 @@
-// What sound is shaped with: small digital filters, a sample at a time, without allocation.
+// Small digital filters for the sound of touch, a sample at a time, without allocation.
 #pragma once
 
 #include <cmath>
@@ -6,14 +6,14 @@
 
 namespace dibhr {
 
-/// 0 for what nobody can hear: the smallest numbers make a processor slow.
+/// 0 for an inaudible value: denormal numbers make a processor slow.
 [[nodiscard]] inline double audible(double value) noexcept {
     constexpr double kNothing = 1e-15;
     return std::abs(value) < kNothing ? 0.0 : value;
 }
 
-/// Takes away what is slower than a cutoff: Butterworth's second order, by the bilinear transform,
-/// in the transposed direct form II.
+/// Removes frequencies below a cutoff: Butterworth, second order, by the bilinear transform, in the
+/// transposed direct form II.
 class HighPass {
   public:
     HighPass(double cutoff_hz, double rate_hz) noexcept {
@@ -36,11 +36,11 @@ class HighPass {
     double s1_{0.0}, s2_{0.0};
 };
 
-/// Rings down after an impulse, which gives it that `share` of an amplitude of 1.
+/// Rings down after an impulse, from an amplitude of `share`.
 class Resonance {
   public:
-    /// `decay_s`: until it has faded by 60 dB. It goes on ringing. Higher than what so many samples
-    /// a second can tell it is silent.
+    /// `decay_s`: until it has faded by 60 dB. A running ring goes on. Silent for a frequency that
+    /// is too high for the sample rate.
     void tune(double frequency_hz, double decay_s, double share, double rate_hz) noexcept {
         const double angle = 2.0 * std::numbers::pi * frequency_hz / rate_hz;
         if (angle > 0.9 * std::numbers::pi) {
@@ -66,8 +66,8 @@ class Resonance {
     double y1_{0.0}, y2_{0.0};
 };
 
-/// Leaves what is around a frequency, more than an octave, at gain 1: a state-variable filter by
-/// trapezoidal integration, which may be tuned at any sample.
+/// Passes more than an octave around a frequency, at gain 1: a state-variable filter by trapezoidal
+/// integration, which may be tuned at any sample.
 class BandPass {
   public:
     /// Below half the rate.

@@ -1,4 +1,4 @@
-// Ticks as they are heard.
+// The features of ticks, and their interpolation.
 #include "core/sound/heard_ticks.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ double sinc(double x) noexcept {
 
 }  // namespace
 
-/// Lanczos's kernel.
+/// The weights are Lanczos's kernel.
 HeardTicks::HeardTicks() noexcept {
     constexpr double kHalf = 0.5 * kNeighbours;
     for (std::size_t place = 0; place <= kPlaces; ++place) {

@@ -1,4 +1,4 @@
-// The last haptic ticks as they are heard, and what is between them: 1 kHz on its way to a sound.
+// The last haptic ticks as features for sound, and their interpolation from 1 kHz to its rate.
 #pragma once
 
 #include <array>
@@ -9,33 +9,33 @@
 
 namespace dibhr {
 
-/// A tick as it is heard.
+/// The features of a tick from which sound and rumble are made.
 struct HeardTick {
     double force_newton{0.0};    ///< while in contact
     double height_mm{0.0};       ///< of the proxy, summed up while in contact
     double speed_mm_per_s{0.0};  ///< of the proxy, while in contact
-    double tap{0.0};             ///< 0 .. 1: contact begins in this tick, or, quieter, ends
+    double tap{0.0};             ///< 0 .. 1: contact begins in this tick or, quieter, ends
 };
 
-/// Ticks are numbered from 0 on; half a second of them is kept.
+/// The last half second of ticks, numbered from 0.
 class HeardTicks {
   public:
     static constexpr std::size_t kKept = 512;
 
     HeardTicks() noexcept;
 
-    /// What is not finite counts as no touch at all.
+    /// A tick that is not finite counts as no touch at all.
     void add(const SoundTick& tick) noexcept;
 
     /// Number of the last one; -1: none yet.
     [[nodiscard]] std::int64_t newest() const noexcept { return newest_; }
-    /// Of the last one, whether a force may act.
+    /// Whether a force may act in the last tick.
     [[nodiscard]] bool force_on() const noexcept { return force_on_; }
     /// The nearest one that is kept.
     [[nodiscard]] const HeardTick& at(std::int64_t tick) const noexcept;
 
-    /// Force and height at a place between ticks, of those four before and after: what is in the
-    /// ticks up to 400 Hz as it is there, and nearly nothing of their own beat above 600 Hz.
+    /// Force and height at a place between ticks, from four ticks before and four after: passes the
+    /// ticks' content up to 400 Hz, and nearly nothing of their images above 600 Hz.
     [[nodiscard]] HeardTick between(double place) const noexcept;
     static constexpr double kLookAhead_ticks = 4.0;
 
@@ -52,7 +52,7 @@ class HeardTicks {
     bool force_on_{false};
     int ticks_since_change_{0};   ///< of contact, up to kChatter_ticks
     double speed_mm_per_s_{0.0};  ///< over a few milliseconds
-    double pressed_newton_{0.0};  ///< most of the last tens of milliseconds
+    double pressed_newton_{0.0};  ///< highest force of the last tens of milliseconds
     std::array<std::array<double, kNeighbours>, kPlaces + 1> weights_{};
 };
 

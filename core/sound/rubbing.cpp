@@ -14,7 +14,7 @@ constexpr double kForceHeard_per_newton = 0.9;
 constexpr double kHeightHeard_per_mm = 0.6;
 constexpr double kLoudestTexture = 0.6;
 constexpr double kFirmlyPressed_newton = 0.5;
-constexpr double kHalfScraping_mm_per_s = 60.0;  // at which it is half as loud as it gets
+constexpr double kHalfScraping_mm_per_s = 60.0;  // scraping reaches half of its loudness
 
 double firmness_of(const HeardTick& tick) noexcept {
     return std::clamp(tick.force_newton / kFirmlyPressed_newton, 0.0, 1.0);

@@ -1,5 +1,4 @@
-// What of touch is rubbing: texture and scraping, as the ear and a game pad's motors are given
-// them.
+// The rubbing part of touch: texture and scraping, for the speakers and a game pad's motors.
 #pragma once
 
 #include "core/sound/filters.hpp"
@@ -15,13 +14,13 @@ inline constexpr double kScrapingHeard = 0.8;  ///< of the hiss of a material
 /// Texture: force and height, above 30 Hz.
 class Texture {
   public:
-    /// Of so many felt moments a second.
+    /// `rate_hz`: calls of next() a second.
     explicit Texture(double rate_hz) noexcept;
 
-    /// Of the next moment; held softly to +-0.6, as the force may leap by newtons over an edge.
+    /// The next value, limited softly to +-0.6, as the force may jump by newtons over an edge.
     [[nodiscard]] double next(const HeardTick& felt) noexcept;
 
-    /// What was felt is forgotten: being there is no texture.
+    /// Clears the filters: a constant force and height are no texture.
     void be_quiet() noexcept;
 
   private:

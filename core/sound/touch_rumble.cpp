@@ -1,4 +1,4 @@
-// Envelopes of what touch sounds like.
+// Envelopes of the sound of touch.
 #include "core/sound/touch_rumble.hpp"
 
 #include <algorithm>

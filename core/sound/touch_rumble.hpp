@@ -1,5 +1,4 @@
-// Touch for the two motors of a game pad: what is heard of the ticks, as strengths. Ticks in,
-// numbers out; no device, no clock.
+// Touch for the two motors of a game pad: ticks in, strengths out; no device, no clock.
 #pragma once
 
 #include "core/sound/heard_ticks.hpp"
@@ -17,25 +16,24 @@ struct Rumble {
     bool operator==(const Rumble&) const = default;
 };
 
-/// A motor takes tens of milliseconds to turn faster or slower, so it is given not the sound but
-/// how loud that is:
+/// A motor takes tens of milliseconds to turn faster or slower, so it gets the loudness of the
+/// sound:
 /// - low: taps and releases as hard as they are, and where the force changes quickly;
 /// - high: texture and scraping, as loud as the material lets them be.
-/// What is felt shows in the next strength and fades within a tenth of a second. No function
-/// allocates.
+/// A tick acts on the next strength and fades within a tenth of a second. No function allocates.
 class TouchRumble {
   public:
     TouchRumble() noexcept;
 
-    /// Loudness and hiss count.
+    /// Only loudness and hiss are used.
     void choose(const SoundMaterial& material) noexcept;
 
     /// The next tick, a millisecond after the last. One whose force is off, or that is not finite,
     /// stops both motors.
     void add(const SoundTick& tick) noexcept;
 
-    /// How strongly now, so long after the last question [s]. Both 0 when ticks stay away for
-    /// longer than 20 ms.
+    /// The strengths now, `span_s` after the last call. Both 0 when no tick came for longer than
+    /// 20 ms.
     [[nodiscard]] Rumble after(double span_s) noexcept;
 
   private:
@@ -48,7 +46,7 @@ class TouchRumble {
     double unheard_s_{0.0};    ///< since the last tick came in
     double knock_{0.0};        ///< of the last tap, fading
     double slow_newton_{0.0};  ///< the force, as it changes slowly
-    double jolt_newton_{0.0};  ///< how far the force is from that
+    double jolt_newton_{0.0};  ///< difference of the force from `slow_newton_`
     double rubbed_{0.0};       ///< of the texture, fading
     double scraping_{0.0};
 };

@@ -1,4 +1,4 @@
-// Synthesis of what touch sounds like.
+// Synthesis of the sound of touch.
 #include "core/sound/touch_sound.hpp"
 
 #include <algorithm>
@@ -15,9 +15,9 @@ constexpr double kTapHeard = 0.8;
 constexpr double kBurst_s = 0.002;
 constexpr double kGain = 7.0;  // a slow stroke over sandpaper: about -30 dB at half the volume
 
-constexpr double kJitter_ticks = 1.0;  // that ticks may come too late
+constexpr double kJitter_ticks = 1.0;  // how late ticks may come
 constexpr double kTooFarBehind_ticks = 25.0;
-constexpr double kPaceGain = 0.002;  // of a tick behind: nobody hears the pitch change
+constexpr double kPaceGain = 0.002;  // a tick behind: an inaudible change of pitch
 constexpr double kMostPace = 0.02;
 constexpr double kGate_s = 0.004;
 constexpr double kVolumeFade_s = 0.02;
@@ -75,8 +75,8 @@ void TouchSound::render(std::span<float> samples) noexcept {
     for (float& sample : samples) sample = static_cast<float>(next_sample());
 }
 
-/// How far behind the newest tick: no farther than the block needs, or it would be heard late. A
-/// little too far or too near is made up for by the pace.
+/// Keeps the place behind the newest tick no farther than the block needs, so that the sound is not
+/// late. Small differences are corrected by the pace.
 void TouchSound::settle(double block_ticks) noexcept {
     constexpr double kMost = HeardTicks::kKept - 2.0 * kTooFarBehind_ticks;
     const double wanted = std::min(block_ticks + kJitter_ticks, kMost);
@@ -127,7 +127,7 @@ double TouchSound::next_sample() noexcept {
     return gate_ * std::tanh(kGain * volume_ * (texture + hiss + kTapHeard * ringing));
 }
 
-/// What rang before the force went off is not heard when it is on again.
+/// A ring from before the force went off must not sound when it is on again.
 void TouchSound::be_quiet() noexcept {
     for (Resonance& resonance : resonances_) resonance.be_quiet();
     texture_.be_quiet();

@@ -1,5 +1,5 @@
-// The sound of touch: taps, scraping and texture, made sample by sample of what is felt. Ticks in,
-// samples out; no recorded sounds, no device, no clock.
+// The sound of touch: taps, scraping and texture, computed sample by sample. Ticks in, samples out;
+// no recorded sounds, no device, no clock.
 #pragma once
 
 #include <array>
@@ -12,18 +12,18 @@
 
 namespace dibhr {
 
-/// How something sounds when it is touched.
+/// How a material sounds when it is touched.
 struct SoundMaterial {
     double frequency_hz{600.0};  ///< lowest of the resonances that a tap rings
-    double decay_s{0.05};        ///< until that has faded by 60 dB
-    double loudness{0.5};        ///< of all, 0 .. 1
+    double decay_s{0.05};        ///< until that resonance has faded by 60 dB
+    double loudness{0.5};        ///< of the whole sound, 0 .. 1
     double hiss{0.3};            ///< of scraping, 0 .. 1
     double grain_mm{0.4};        ///< between what scrapes: the hiss is around speed / grain
 
     bool operator==(const SoundMaterial&) const = default;
 };
 
-/// What a person chooses.
+/// The user's choice.
 struct SoundChoice {
     SoundMaterial material{};
     double volume{0.5};  ///< 0 .. 1
@@ -31,27 +31,26 @@ struct SoundChoice {
     bool operator==(const SoundChoice&) const = default;
 };
 
-/// Three sounds, added and softly held to [-1, 1]:
+/// Three sounds, added and softly limited to [-1, 1]:
 /// - a tap when contact begins, by the proxy's speed then, and a quieter one when it ends: an
 ///   impulse into the resonances of the material, which are a free bar's;
-/// - texture: force and height of the proxy as they are at 1 kHz, above 30 Hz. A bump every
-///   `period` is heard at speed / period, as it is felt;
+/// - texture: force and height of the proxy at 1 kHz, above 30 Hz. A bump every `period` sounds at
+///   speed / period, the frequency that the hand feels;
 /// - scraping: noise around speed / grain, louder with speed and force.
-/// What is in a tick is heard five milliseconds and a block later, a tap one millisecond and a
-/// block. No function but the constructor takes long, none allocates.
+/// A tick sounds five milliseconds and a block later, a tap one millisecond and a block. No
+/// function but the constructor takes long, none allocates.
 class TouchSound {
   public:
-    /// Of so many samples a second, held to 8000 .. 192000.
+    /// `rate_hz`: samples a second, limited to 8000 .. 192000.
     explicit TouchSound(double rate_hz) noexcept;
 
     void choose(const SoundChoice& choice) noexcept;
 
-    /// The next tick. What is not finite counts as no touch at all.
+    /// The next tick. A tick that is not finite counts as no touch at all.
     void add(const SoundTick& tick) noexcept;
 
-    /// The next samples, one channel in [-1, 1]; of one block about as many as of another. Silent
-    /// 5 ms after a tick whose force is off, and when ticks stay away for longer than 20 ms and
-    /// two blocks.
+    /// The next samples, one channel in [-1, 1]; blocks have about the same size. Silent 5 ms after
+    /// a tick whose force is off, and when no tick came for longer than 20 ms and two blocks.
     void render(std::span<float> samples) noexcept;
 
   private:
@@ -66,7 +65,7 @@ class TouchSound {
     double rate_hz_;
     SoundChoice choice_{};
     HeardTicks ticks_{};
-    double at_{0.0};         ///< the tick that taps are heard of
+    double at_{0.0};         ///< the present place among the ticks, for taps
     double pace_{0.0};       ///< ticks a sample
     bool waits_{true};       ///< for ticks
     double unheard_s_{0.0};  ///< since the last tick came in
@@ -74,7 +73,7 @@ class TouchSound {
     double gate_{0.0};      ///< 0: silent, 1: open
     double impulse_{0.0};   ///< for the resonances
     double burst_{0.0};     ///< level of the noise of an impact
-    double scraping_{0.0};  ///< level of that of sliding
+    double scraping_{0.0};  ///< level of the noise of sliding
     double volume_{0.0};
     std::uint32_t random_{0x9E3779B9U};
     std::array<Resonance, 4> resonances_{};

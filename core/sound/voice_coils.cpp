@@ -9,7 +9,7 @@ namespace dibhr {
 
 namespace {
 
-// The second is what the first firmware of a DualSense calls itself; a DualShock 4 does, too, and
+// The second name is that of a DualSense with its first firmware, and that of a DualShock 4, which
 // has two channels.
 constexpr std::array<std::string_view, 2> kPads{"DualSense", "Wireless Controller"};
 

@@ -1,5 +1,5 @@
-// SQLite with owners. A file that anybody may have made is held within bounds by SQLite's own
-// means: sqlite.org/security.html, "untrusted SQLite database files".
+// SQLite's objects with owners. Untrusted files are limited by SQLite's own means:
+// sqlite.org/security.html, "untrusted SQLite database files".
 #include "core/sqlite/database.hpp"
 
 #include <sqlite3.h>
@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kStepsPerLook = 10'000;  ///< of SQLite's machine
 
-/// What of it is stored: a database has no such thing as "no number".
+/// Infinity for no number, which a database cannot store.
 double storable(double value) noexcept {
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
 }
@@ -33,7 +33,7 @@ bool are_same(double a, double b) noexcept {
     return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
-/// SQLite does not tell that a file may not grow.
+/// A text if the file-size limit is met, which SQLite does not report; else empty.
 std::string file_size_limit_met(sqlite3* database) {
     constexpr rlim_t kStep = 32768;  // by which a session's files grow at once, at most
     const char* const file = sqlite3_db_filename(database, "main");
@@ -58,8 +58,7 @@ std::string read_only_uri(const std::filesystem::path& file, bool complete) {
            (complete ? "&immutable=1" : "");
 }
 
-/// Steps that a question about this file and its log may take at most, as all that they can hold is
-/// worth.
+/// The most steps of a query, by the size of the file and its log.
 std::uint64_t work_worth(const std::filesystem::path& file) {
     constexpr std::uint64_t kStepsAnyway = 20'000'000;
     constexpr std::uint64_t kStepsPerByte = 100;  // ten times what a session's longest row takes
@@ -194,7 +193,7 @@ LogState Database::merge_log(bool cut) {
     int merged = 0;
     const int mode = cut ? SQLITE_CHECKPOINT_TRUNCATE : SQLITE_CHECKPOINT_PASSIVE;
     const int result = sqlite3_wal_checkpoint_v2(handle_.get(), nullptr, mode, &pages, &merged);
-    const bool busy = primary(result) == SQLITE_BUSY;  // whatever keeps it busy
+    const bool busy = primary(result) == SQLITE_BUSY;  // for any reason
     if (result != SQLITE_OK && !busy) fail();
     return {busy, pages, merged};
 }

@@ -1,5 +1,5 @@
-// SQLite with owners: the one connection, the one statement and the one reader of large values;
-// errors in plain words.
+// SQLite's objects with owners: the one connection, the one statement and the one reader of large
+// values; errors as text.
 #pragma once
 
 #include <concepts>
@@ -20,14 +20,14 @@ struct sqlite3_stmt;
 
 namespace dibhr {
 
-/// What SQLite and the system said, without a file's name: whoever knows the file adds it.
+/// The message of SQLite or the system, without a file's name, which the caller adds.
 class DatabaseError : public std::runtime_error {
   public:
     enum class Cause {
         other,
         damaged,
-        endless,      ///< a question took more work than it may
-        too_long,     ///< a value is longer than any may be
+        endless,      ///< a query took more steps than its limit
+        too_long,     ///< a value is longer than the limit
         cannot_open,  ///< the file, or its log
     };
 
@@ -40,14 +40,14 @@ class DatabaseError : public std::runtime_error {
     Cause cause_;
 };
 
-/// Whether a file begins as a database does; false for one that is none or cannot be read.
+/// Whether a file begins as a database does; false also for one that cannot be read.
 [[nodiscard]] bool is_database(const std::filesystem::path& file);
-/// On the disk, with its log; what is not there counts nothing.
+/// The bytes on the disk of a database and its log; a missing file counts 0.
 [[nodiscard]] std::uint64_t database_bytes(const std::filesystem::path& file);
-/// The file and all that SQLite puts beside it, as far as it is there and can be removed.
+/// Removes the file and all that SQLite puts beside it, as far as possible.
 void remove_database(const std::filesystem::path& file);
 
-/// Owners' way to let go of what SQLite opened.
+/// The deleter of SQLite's objects.
 struct SqliteCloser {
     void operator()(sqlite3* database) const noexcept;
     void operator()(sqlite3_stmt* statement) const noexcept;
@@ -56,24 +56,24 @@ struct SqliteCloser {
 template <typename Handle>
 using SqliteHandle = std::unique_ptr<Handle, SqliteCloser>;
 
-/// A write-ahead log after some of it was merged into its file.
+/// The state of a write-ahead log after a merge into its file.
 struct LogState {
-    bool busy{false};        ///< somebody is in the way
+    bool busy{false};        ///< another connection uses the log
     std::int64_t pages{0};   ///< in the log
-    std::int64_t merged{0};  ///< of them
+    std::int64_t merged{0};  ///< pages of them in the file
 };
 
-/// One connection, for one thread at a time. Whatever fails, of its statements too, throws
-/// DatabaseError, or what the connection's Refusal makes of it.
+/// One connection, for one thread at a time. Every failure, of its statements too, throws
+/// DatabaseError, or the exception of the connection's Refusal.
 class Database {
   public:
-    /// Throws, mostly an InputError: the owner's sentence about the file, with the error in it.
+    /// Throws the owner's exception, mostly an InputError with the file and the error.
     using Refusal = std::function<void(const DatabaseError& error)>;
 
-    /// How long somebody else's transaction is waited for.
+    /// How long a call waits for another connection's transaction.
     static constexpr int kPatience_ms = 2000;
 
-    /// How a file that anybody may have made is read.
+    /// Options to read a file from an unknown source.
     struct ReadOnly {
         bool complete{false};  ///< no log belongs to it: no file beside it is made or read
         int longest_bytes{0};  ///< as for distrust()
@@ -85,16 +85,16 @@ class Database {
     /// Opens an existing file, which stays as it is.
     Database(const std::filesystem::path& file, const ReadOnly& how, Refusal refuse = {});
 
-    /// From here on the file is taken for anybody's: its tables run nothing, every cell is checked,
-    /// no value is longer than that, and a question ends after the work that all of the file and
-    /// its log is worth.
+    /// Treats the file as untrusted from now on: its tables run no code, every cell is checked, no
+    /// value is longer than `longest_bytes`, and the steps of a query are limited by the size of
+    /// the file and its log.
     void distrust(int longest_bytes);
     /// Runs statements that give no rows.
     void execute(const std::string& sql) const;
-    /// The one number that a question gives.
+    /// The number that is the result of a query.
     [[nodiscard]] std::int64_t number(std::string_view sql) const;
-    /// Merges what nobody else still reads and does not wait; `cut`: all of it, and empties the
-    /// log.
+    /// Merges the pages that no other connection reads, without waiting; `cut`: all pages, and
+    /// empties the log.
     LogState merge_log(bool cut);
 
   private:
@@ -103,9 +103,9 @@ class Database {
 
     void open(const std::string& name, int flags, int patience_ms);
     [[nodiscard]] SqliteHandle<sqlite3_stmt> prepared(std::string_view sql) const;
-    /// For one question.
+    /// Sets the step limit of the next query.
     void allow_work() const;
-    /// In words: "disk I/O error (File too large)".
+    /// As text: "disk I/O error (File too large)".
     [[nodiscard]] DatabaseError last_error() const;
     [[noreturn]] void fail(const DatabaseError& error) const;
     [[noreturn]] void fail() const { fail(last_error()); }
@@ -113,25 +113,25 @@ class Database {
     std::filesystem::path file_;
     Refusal refuse_;
     bool writes_{false};
-    /// Left to the question being answered, at its work; null: trusted. Outlives the connection.
+    /// Checks left to the running query; null: trusted, no limit. Outlives the connection.
     std::unique_ptr<std::uint64_t> looks_left_{};
     SqliteHandle<sqlite3> handle_{};
 };
 
-/// A value that is stored as a real, also a whole number, where an integer means something else;
-/// nothing: NULL.
+/// A value that is stored as a real even if it is a whole number: an integer in that column means
+/// something else. Nothing: NULL.
 struct SqlReal {
     std::optional<double> value{};
 };
 
-/// What is no text.
+/// Bytes that are no text.
 struct SqlBytes {
     std::string_view value{};
 };
 
-/// A prepared statement; must not outlive its database, which stays in its place. What fails is
-/// refused as Database says. Values are bound one after the other, each in the shortest form that
-/// gives the same bits again: columns without a type keep them as they are.
+/// A prepared statement; must not outlive its database, which must not be moved. A failure throws
+/// as Database does. Values are bound one after the other, each in the shortest form that gives the
+/// same bits again: columns without a type keep them as they are.
 class Statement {
   public:
     enum class Type { null, integer, real, text };  ///< text: also bytes
@@ -154,7 +154,7 @@ class Statement {
         bind(first);
         bind(second, more...);
     }
-    /// NULL where it equals what a reader takes instead.
+    /// NULL where the value equals `follows`, which the reader computes.
     void bind_unless(double value, double follows) noexcept;
     void bind_unless(std::int64_t value, std::optional<std::int64_t> follows) noexcept;
 
@@ -166,21 +166,21 @@ class Statement {
         run_once();
     }
 
-    /// Goes to the answer's next row; false after the last one.
+    /// Goes to the next row of the result; false after the last one.
     [[nodiscard]] bool next();
 
-    // The answer's columns count from 0.
+    // Columns of the result count from 0.
     [[nodiscard]] int columns() const noexcept;
     [[nodiscard]] std::string name(int column) const;
 
-    // What the row holds.
+    // The values of the row.
     [[nodiscard]] Type type(int column) const noexcept;
     [[nodiscard]] bool has(int column) const noexcept { return type(column) != Type::null; }
     [[nodiscard]] double real(int column) const noexcept;
     [[nodiscard]] std::int64_t integer(int column) const noexcept;
     /// Numbers, too, as text.
     [[nodiscard]] std::string text(int column) const;
-    /// Of what is no text.
+    /// Bytes that are no text.
     [[nodiscard]] std::string bytes(int column) const;
 
   private:

@@ -1,4 +1,4 @@
-// What the track encoder and the muxer promise beyond what clips and depth videos show of them.
+// The track encoder and the muxer, as far as clips and depth videos do not test them.
 extern "C" {
 #include <libavcodec/avcodec.h>
 #include <libavutil/error.h>
@@ -23,7 +23,7 @@ using namespace dibhr::test;
 
 namespace {
 
-/// Keeps back the pictures that others refer to in both directions.
+/// An encoder that delays pictures, because others refer to them in both directions.
 TrackEncoder delaying_encoder() {
     const AVCodec* const encoder = avcodec_find_encoder(AV_CODEC_ID_MPEG4);
     AvOwned<AVCodecContext> codec = new_encoder(encoder, 64, 48, AV_PIX_FMT_YUV420P);

@@ -1,4 +1,4 @@
-// What people and files say is shown as text, whatever it is.
+// Any text of people and files is safe to show.
 #include "core/files/plain_text.hpp"
 
 #include <ostream>

@@ -22,13 +22,13 @@ Algorithm each_algorithm() {
                     Algorithm::god_object);
 }
 
-/// 10^exponent, the exponent anywhere in between, of either sign.
+/// +-10^exponent, with a random exponent in the range.
 double any_size(test::Dice& dice, double least_exponent, double greatest_exponent) {
     const double size = std::pow(10.0, dice.uniform(least_exponent, greatest_exponent));
     return dice.uniform(0.0, 1.0) < 0.5 ? -size : size;
 }
 
-/// Near the image, at a VERTEX but for next to nothing, or anywhere a number can be.
+/// A place near the image, very near to a VERTEX, or anywhere in the range of numbers.
 double wild_coordinate(test::Dice& dice, double size_px, double now) {
     const double what = dice.uniform(0.0, 1.0);
     if (what < 0.5) return now + dice.uniform(-6.0, 6.0);

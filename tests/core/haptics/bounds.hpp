@@ -1,4 +1,4 @@
-// What every update keeps, whatever its goal, ground and algorithm.
+// The invariants of every update, whatever its goal, ground and algorithm.
 #pragma once
 
 #include <utility>
@@ -10,7 +10,7 @@
 
 namespace dibhr::test {
 
-/// Those that look at whole TRIANGLEs do half as many over a bump map.
+/// Algorithms that read whole TRIANGLEs make half as many moves over a bump map.
 inline int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
     const int half = surface.has_bump() ? 2 : 1;
     switch (algorithm) {
@@ -29,7 +29,7 @@ inline int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
 /// Follows one proxy from update to update.
 class BoundsWatch {
   public:
-    /// What the update to `goal` broke; null: nothing.
+    /// The invariant that the update to `goal` violated; null: none.
     [[nodiscard]] const char* broken_by(const DepthSurface& surface, Algorithm algorithm, Vec3 goal,
                                         const Proxy& proxy) {
         constexpr double kUnder_px = 1e-6;  // round-off at the greatest relief is less

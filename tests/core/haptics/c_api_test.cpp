@@ -1,4 +1,4 @@
-// dibhr.h, as a program in C sees it.
+// dibhr.h, as a program in C uses it.
 #include <array>
 #include <cmath>
 #include <cstdint>

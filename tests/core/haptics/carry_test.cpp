@@ -37,7 +37,7 @@ struct NamedMotion {
     Vec2 touched;  ///< at time 0
 };
 
-/// At `px_per_s` where it is touched, in an image of 640 x 480.
+/// Motion of `px_per_s` at the touched place, in an image of 640 x 480.
 std::vector<NamedMotion> motions(double px_per_s) {
     const Vec2 centre(320.3, 240.7);
     return {{"translating", translating(px_per_s * Vec2(0.8, -0.6)), {150.2, 390.4}},
@@ -350,7 +350,7 @@ TEST_CASE("without carry, or without motion, nothing is carried: the same bits",
 
 namespace {
 
-/// `ticks` of each algorithm.
+/// `ticks`: number of ticks of each algorithm.
 void require_not_thrown(int ticks) {
     constexpr int kColumns = 50;
     constexpr int kRows = 40;

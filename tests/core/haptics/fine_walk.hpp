@@ -1,4 +1,4 @@
-// A reference for DIBHR that knows nothing of EDGEs and VERTEXes: it creeps over the surface.
+// A reference for DIBHR that does not use EDGEs and VERTEXes: it creeps over the surface.
 #pragma once
 
 #include <algorithm>

@@ -31,7 +31,7 @@ GoalVelocity resting() {
     return velocity;
 }
 
-/// When a hand that starts to move at once has 1 - 1/e of its speed, between two ticks by a line.
+/// The time at which the velocity of a hand that starts at once reaches 1 - 1/e, interpolated.
 double rise_time_s(double cutoff_hz, double dt_s) {
     constexpr double kSpeed = 300.0;
     const double wanted = kSpeed * (1.0 - std::exp(-1.0));
@@ -74,7 +74,7 @@ class SlidingHand {
         return renderer.update(surface_, goal, parameters, input, {});
     }
 
-    /// Onwards at 500 px/s, to where it is then.
+    /// Moves on at 500 px/s; returns the goal.
     Vec3 slide(int ticks) {
         for (int k = 0; k < ticks; ++k) {
             goal_.x += 0.5;
@@ -83,7 +83,7 @@ class SlidingHand {
         return goal_;
     }
 
-    /// What the damper adds to the spring [N].
+    /// The damper's part of the force [N].
     [[nodiscard]] Vec3 damper_newton(const Touch& touch) const {
         const Vec3 spring = coupling_force(touch.proxy, touch.goal, Vec3(0.0), parameters.coupling);
         return touch.spring_force_newton - spring;
@@ -98,7 +98,7 @@ class SlidingHand {
     Vec3 goal_{10.0, 20.0, 90.0};
 };
 
-/// What comes between two goals of a hand, and makes the way between them no motion.
+/// Events between two goals after which their difference is not a motion of the hand.
 struct Interruption {
     const char* name;
     void (*happens)(SlidingHand& hand, SafetyInput& next);

@@ -47,7 +47,7 @@ class MovingScene {
           frames_per_s_(frames_per_s),
           motion_(std::move(motion)),
           ground_(std::move(ground)) {}
-    /// Everywhere of one elevation.
+    /// One elevation everywhere.
     MovingScene(int columns, int rows, double frames_per_s, PointMotion motion, double flat_px)
         : MovingScene(columns, rows, frames_per_s, std::move(motion),
                       [=](Vec2, double) { return flat_px; }) {
@@ -67,7 +67,7 @@ class MovingScene {
         return image;
     }
 
-    /// To the next frame: exact, to what a float holds.
+    /// The field to the next frame, exact in float precision.
     [[nodiscard]] std::shared_ptr<const MotionField> field(int frame) {
         auto& field = fields_[frame];
         if (!field) field = std::make_shared<const MotionField>(made_field(frame));
@@ -77,7 +77,7 @@ class MovingScene {
   private:
     [[nodiscard]] double time_of(int frame) const { return frame / frames_per_s_; }
 
-    /// The motion is linear in the place: three places tell all.
+    /// The motion is linear in the place: three places define it.
     [[nodiscard]] MotionField made_field(int frame) const {
         const auto way_at = [&](Vec2 place) {
             return motion_(begin_of(place, time_of(frame)), time_of(frame + 1)) - place;
@@ -98,7 +98,7 @@ class MovingScene {
         return field;
     }
 
-    /// Where what is at that place now was at time 0.
+    /// The place at time 0 of the point that is at `place` now.
     [[nodiscard]] Vec2 begin_of(Vec2 place, double t_s) const {
         const Vec2 origin = motion_({0.0, 0.0}, t_s);
         const Vec2 right = motion_({1.0, 0.0}, t_s) - origin;
@@ -118,7 +118,7 @@ class MovingScene {
     std::map<int, std::shared_ptr<const MotionField>> fields_{};
 };
 
-/// The motion that an update after another one sees, as a player would give it.
+/// The motion between two updates, as a player would publish it.
 inline SurfaceMotion motion_between(MovingScene& scene, double last_s, double now_s) {
     const double last = last_s * scene.frames_per_s();
     const double now = now_s * scene.frames_per_s();

@@ -1,5 +1,5 @@
-// The yardstick of PGA's cost: the shortest walk over the VERTEXes that has its friction, and so
-// its proxies.
+// The reference for PGA's cost: the shortest walk over the VERTEXes with PGA's friction, and so
+// with its proxies.
 #pragma once
 
 #include <cmath>
@@ -30,10 +30,10 @@ class PlainVertexWalk {
                  {goal.x, goal.y, surface.elevation_at(goal.x, goal.y)});
     }
 
-    /// How many VERTEXes it has come to.
+    /// The number of VERTEXes visited.
     [[nodiscard]] long arrivals() const noexcept { return arrivals_; }
 
-    /// Where the proxy is then.
+    /// The proxy's place after the update.
     Vec3 follow(const DepthSurface& surface, Vec3 goal) noexcept {
         at_.z = neighbours_ == 0 ? surface.elevation(i_, j_) : surface.elevation_at(at_.x, at_.y);
         walk(surface, goal);
@@ -148,7 +148,7 @@ class PlainVertexWalk {
         }
     }
 
-    /// At `count` neighbours from `first` on, but for those held: is one nearer than `nearest`?
+    /// Searches a neighbour nearer than `nearest`: `count` of them from `first` on, no held ones.
     void look(const DepthSurface& surface, Vec3 goal, int first, int count, unsigned held,
               Nearest& nearest) const noexcept {
         for (int k = first; k < first + count; ++k) {

@@ -20,7 +20,7 @@ using namespace dibhr;
 
 namespace {
 
-/// What a nasty hand goes over.
+/// The grounds of the tests.
 struct Ground {
     int columns;
     int rows;
@@ -40,7 +40,7 @@ constexpr std::array kGrounds{Ground{48, 37, 255.0}, Ground{2, 2, 255.0},   Grou
 /// A camera's and a video's, where a hand that jumps is not reached in one update.
 constexpr std::array kLargeGrounds{Ground{641, 481, 255.0}, Ground{1280, 720, 30.0}};
 
-/// Goals a nasty hand would give: smooth strokes, jitter, teleports, positions exactly on the grid.
+/// Hostile goals: smooth strokes, jitter, teleports, positions exactly on the grid.
 class NastyHand {
   public:
     NastyHand(std::uint64_t seed, const Ground& ground) : ground_(ground), dice_(seed) {}
@@ -80,7 +80,7 @@ Algorithm each_algorithm() {
 
 namespace {
 
-/// `updates` of DIBHR over all grounds, and a tenth as many of each of the others.
+/// `updates` of DIBHR over all grounds, and a tenth as many of each other algorithm.
 void require_bounds_kept(long updates) {
     const Algorithm algorithm = each_algorithm();
     const Ground ground = GENERATE(from_range(kGrounds));

@@ -1,5 +1,5 @@
-// Where a proxy may rest, found the slow way: every TRIANGLE and EDGE around it is asked whether it
-// leads nearer to the goal.
+// Where a proxy may rest, by a slow search: checks for every TRIANGLE and EDGE around the proxy
+// whether it leads nearer to the goal.
 #pragma once
 
 #include <algorithm>

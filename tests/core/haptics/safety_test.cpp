@@ -1,4 +1,4 @@
-// The safety stage and the coupling: what may reach a hand.
+// The safety stage and the coupling: which force may reach a hand.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -30,7 +30,7 @@ struct Reason {
     void (*apply)(SafetyInput&, Vec3&);
 };
 
-/// To send nothing.
+/// Sends zero force.
 const std::vector<Reason>& reasons_to_cut() {
     static const std::vector<Reason> reasons{
         {SafetyCut::off, [](SafetyInput& input, Vec3&) { input.force_enabled = false; }},

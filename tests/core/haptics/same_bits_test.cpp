@@ -1,4 +1,4 @@
-// Version 0.1's results, to the bit: what makes a walk faster must not move the proxy.
+// Version 0.1's results, to the bit: an optimisation of the walk must not move the proxy.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,5 +1,5 @@
 // DIBHR's walk by its written rules (core/haptics/README.md), primitive by primitive, with corners,
-// normals and distances as a textbook has them: slow, and without a line of the walk it is for.
+// normals and distances as in a textbook: slow, and without any code of the walk that it checks.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace dibhr::test {
 
 class SlowWalk {
   public:
-    /// `proxy`: as the last update left it, on a surface that stands still.
+    /// `proxy`: the result of the last update, on a surface that stands still.
     SlowWalk(const DepthSurface& surface, Vec3 goal, const Friction& friction, const Proxy& proxy)
         : surface_(surface), goal_(goal), friction_(friction), proxy_(proxy) {}
 
@@ -146,7 +146,7 @@ class SlowWalk {
         return is_above(triangle_around(surface_, vertex, goal_.x, goal_.y)) && leave();
     }
 
-    /// On an EDGE or a VERTEX what holds it is not all that surrounds it.
+    /// On an EDGE or a VERTEX other pieces than the one that holds the proxy may be free.
     bool go_on() {
         if (proxy_.position == judged_) return false;
         judged_ = proxy_.position;
@@ -251,7 +251,7 @@ class SlowWalk {
         return goal_ - height_over(triangle) * normal_of(triangle);
     }
 
-    /// How much of each corner a point is.
+    /// The barycentric coordinates of a point.
     [[nodiscard]] std::array<double, 3> shares(const Primitive& triangle, Vec3 point) const {
         const Vec3 corner = corners_of(triangle)[0];
         const double sign = triangle.side == TriangleSide::near_origin ? 1.0 : -1.0;

@@ -22,7 +22,7 @@ constexpr double kTick_s = 0.001;
 constexpr DeviceDynamics kDevice{
     .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.05, .delay_s = 0.002};
 
-/// What a device of coarse steps tells of a place.
+/// The reading of a place by a device with coarse steps.
 double in_steps(double place, double step) {
     return std::round(place / step) * step;
 }

@@ -1,4 +1,4 @@
-// What differs from pixel to pixel: sampled at the proxy, felt there and nowhere else.
+// Touch maps: sampled at the proxy, effective there and nowhere else.
 #include "core/haptics/touch_maps.hpp"
 
 #include <cmath>
@@ -144,7 +144,7 @@ TEST_CASE("a height map is elevation, and the walk over it is that over such gro
     for (int j = 0; j < kSide; ++j) {
         for (int i = 0; i < kSide; ++i) REQUIRE(painted.elevation(i, j) <= painted.ceiling());
     }
-    // Laid over images of another size it is not felt.
+    // Laid over images of another size the map has no effect.
     const DepthImage large = test::flat(kSide + 1, kSide, 100.0);
     CHECK(DepthSurface(large, large, 0.0, shape, nullptr, nullptr, &maps).elevation(3, 3) == 100.0);
 }

@@ -55,7 +55,7 @@ class WanderingVideo final : public RecordedFrames {
         return nullptr;
     }
 
-    /// What a player hands over at `now_s` of its time line.
+    /// The frames that a player publishes at `now_s` of its time line.
     [[nodiscard]] FrameWindow window_at(double now_s) {
         FrameWindow window;
         window.count = FrameWindow::kFrames;
@@ -71,7 +71,7 @@ class WanderingVideo final : public RecordedFrames {
     MovingScene scene_;
 };
 
-/// A hand on a tick over that video, and all that a person may do meanwhile.
+/// A hand on a tick over that video, with all actions of a person.
 class CarriedHand {
   public:
     explicit CarriedHand(WanderingVideo& video) : video_(video) {

@@ -1,5 +1,5 @@
-// Whatever the settings ask for, a device that a haptic tick runs with gets no more than it can
-// stand: without a window.
+// Whatever the settings, the device of a haptic tick gets no more than it can stand, also without a
+// window.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-// The haptic tick and its thread: what is felt, and when the force is taken off.
+// The haptic tick and its thread: which force is rendered, and when it is switched off.
 #include <algorithm>
 #include <array>
 #include <cmath>

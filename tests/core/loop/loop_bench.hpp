@@ -1,4 +1,4 @@
-// What a haptic tick is connected to in a test: a hand that the test moves, over a flat surface.
+// The connections of a haptic tick in a test: a hand that the test moves, over a flat surface.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace dibhr::test {
 
-/// A hand at a place the test gives; remembers what it was sent.
+/// A hand at a place that the test sets; stores the force sent to it.
 class TestHand final : public Device {
   public:
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
@@ -57,7 +57,7 @@ inline FrameWindow flat_window(int columns, int rows, std::uint64_t discontinuit
     return window;
 }
 
-/// All that a tick is connected to. The surface is flat at 100 px; the hand is 10 px under it.
+/// All connections of a tick. The surface is flat at 100 px; the hand is 10 px under it.
 struct Bench {
     TestHand hand{};
     TripleBuffer<FrameWindow> frames{};
@@ -74,7 +74,8 @@ struct Bench {
     }
 };
 
-/// When the last tick of any bench began. It runs in ticks: the machine's own does not count.
+/// The time at which the last tick of any bench began. It advances with the ticks, not with the
+/// machine's clock.
 inline std::chrono::steady_clock::time_point& bench_time() {
     static std::chrono::steady_clock::time_point now{std::chrono::hours(1)};
     return now;
@@ -88,7 +89,7 @@ inline void run_ticks(HapticTick& tick, int count) {
     }
 }
 
-/// What a recorder writes of the settings that were handed over last.
+/// The parameters that a recorder writes for the settings published last.
 inline SessionParameters as_recorded(const HapticSettings& handed) {
     return {.version = handed.version,
             .touch = handed.parameters,

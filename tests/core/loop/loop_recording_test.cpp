@@ -1,4 +1,4 @@
-// What the haptic tick hands to the recorder, and that it replays to the same bits.
+// The rows that the haptic tick pushes to the recorder replay to the same bits.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Two frames that a second lies between: rough ground that rises.
+/// Two frames a second apart: rough ground that rises.
 FrameWindow rising_window(int columns, int rows, float step = 1.0F) {
     FrameWindow window;
     for (std::size_t k = 0; k < 2; ++k) {
@@ -46,7 +46,7 @@ FrameWindow rising_window(int columns, int rows, float step = 1.0F) {
     return window;
 }
 
-/// Gives the window's frames back by their times.
+/// Finds the window's frames by their times.
 class WindowFrames final : public RecordedFrames {
   public:
     explicit WindowFrames(const FrameWindow& window) : window_(window) {}
@@ -83,7 +83,7 @@ void jump_about(Bench& bench, HapticTick& tick, int columns, int rows) {
     }
 }
 
-/// Replays a session to the same bits, tick by tick; gives how many ticks have `flag`.
+/// Replays a session to the same bits, tick by tick; returns the number of ticks with `flag`.
 std::uint64_t replayed(const Session& session, const FrameWindow& window, bool TickRecord::*flag) {
     WindowFrames frames(window);
     SessionReplay replay(session, frames, {{}});
@@ -98,7 +98,7 @@ std::uint64_t replayed(const Session& session, const FrameWindow& window, bool T
     return flagged;
 }
 
-/// With stability control: a device that a force moves, and energy that is watched.
+/// With stability control: a device that a force moves, and whose energy is controlled.
 void watch(Bench& bench, bool stable) {
     bench.handed.limits.stability = stable;
     bench.hand.described.limits.dynamics = {

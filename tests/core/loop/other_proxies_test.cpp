@@ -1,4 +1,4 @@
-// The other algorithms' proxies beside the one that is felt.
+// The other algorithms' proxies beside the running one.
 #include "core/loop/other_proxies.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ constexpr int kRows = 36;
 constexpr double kFrame_s = 0.033;
 constexpr int kTicks = 2400;
 
-/// Frames of the same kind of hostile ground, each another one, as a player hands them over.
+/// Different frames of the same kind of hostile ground, as a player publishes them.
 class HostileVideo {
   public:
     explicit HostileVideo(std::size_t kind) {
@@ -43,7 +43,7 @@ class HostileVideo {
         }
     }
 
-    /// What is handed over at `now_s`; another one than before, when `discontinuity` is.
+    /// The window published at `now_s`; its frames change with `discontinuity`.
     [[nodiscard]] FrameWindow at(double now_s, std::uint64_t discontinuity) const {
         FrameWindow window;
         window.count = FrameWindow::kFrames;
@@ -81,7 +81,7 @@ class HostileDrag {
         hand_over();
     }
 
-    /// The next tick, and what it leaves.
+    /// The next tick, and its results.
     WalkedTick next() {
         const int k = ticks_++;
         const double now_s = 0.001 * k;
@@ -148,7 +148,7 @@ const Proxy* proxy_of(const std::vector<AlgorithmProxy>& all, Algorithm algorith
     return found == all.end() ? nullptr : &found->proxy;
 }
 
-/// OtherProxies, given the ticks one by one.
+/// OtherProxies with the ticks one by one.
 struct Follower {
     void follow(HostileDrag& drag, const WalkedTick& tick) {
         REQUIRE(ring->push(tick));

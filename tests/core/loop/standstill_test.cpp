@@ -1,4 +1,4 @@
-// A window, video or recorder that stands still takes the force off, and gives it back by ramp.
+// While window, video or recorder stands still the force is off; then it returns by the ramp.
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -20,7 +20,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// A hand that presses with 3.8 N, while three hearts are listened to.
+/// A hand that presses with 3.8 N, while three heartbeats are monitored.
 struct ListeningBench : Bench {
     ListeningBench() {
         hand.described.limits.max_stiffness_newton_per_mm = 10.0;
@@ -46,7 +46,7 @@ struct ListeningBench : Bench {
         }
         return sent;
     }
-    /// None is listened to any more.
+    /// All heartbeats are idle: none is expected.
     void rest() {
         for (Heartbeat* heart : {&window, &video, &recorder}) heart->rest();
     }

@@ -1,4 +1,4 @@
-// What the strip charts are told of each tick.
+// The values of each tick for the strip charts.
 #include "core/loop/tick_strip.hpp"
 
 #include <algorithm>

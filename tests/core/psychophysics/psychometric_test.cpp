@@ -1,4 +1,4 @@
-// Psychometric functions and staircases: what a simulated person's answers give back.
+// Psychometric functions and staircases, fitted to a simulated person's answers.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -44,13 +44,13 @@ PsychometricFunction person_of(Curve curve, double guess) {
     return {curve, 0.5, scale, 0.5, guess, 0.02};
 }
 
-/// So many, each with so many bootstraps.
+/// The number of studies, and of bootstraps for each.
 struct Studies {
     int count{20};
     int bootstraps{99};
 };
 
-/// As the README tells where DIBHR_ALL_STUDIES is set.
+/// As in the README where DIBHR_ALL_STUDIES is set.
 Studies many_studies(int count) {
     if (std::getenv("DIBHR_ALL_STUDIES") != nullptr) return {1000, 399};
     return {count, 99};

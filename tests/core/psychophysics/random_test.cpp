@@ -1,4 +1,4 @@
-// Draws by chance: the same for ever, even, and independent of each other.
+// Random numbers: reproducible, uniform, and independent of each other.
 #include <algorithm>
 #include <array>
 #include <cmath>

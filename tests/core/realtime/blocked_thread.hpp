@@ -1,4 +1,4 @@
-// What the kernel says of another thread of this program: whether it waits, and in which call.
+// The kernel's state of another thread of this program: whether it waits, and in which call.
 #pragma once
 
 #include <sys/types.h>

@@ -1,4 +1,4 @@
-// The ring that many may listen to: each hears every value that it is in time for.
+// The ring with many listeners: each gets every value for which it is in time.
 #include "core/realtime/broadcast_ring.hpp"
 
 #include <algorithm>

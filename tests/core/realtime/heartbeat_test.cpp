@@ -1,5 +1,5 @@
-// Who listens to a heartbeat hears when its thread stands still, and only then. The time is the
-// test's own; what the kernel says of threads is true.
+// A monitor of a heartbeat detects when its thread stands still, and only then. The time is the
+// test's own; the state of threads is the kernel's.
 #include "core/realtime/heartbeat.hpp"
 
 #include <sys/syscall.h>
@@ -54,7 +54,7 @@ TEST_CASE("a heart that rests, has not begun or is none is never silent", "[hear
 
 namespace {
 
-/// What nobody writes into: who reads from it waits until it is closed.
+/// A pipe into which nothing is written: a reader waits until it is closed.
 class EndlessPipe {
   public:
     EndlessPipe() { REQUIRE(::pipe(ends_.data()) == 0); }
@@ -96,7 +96,7 @@ class BeatingThread {
     BeatingThread& operator=(const BeatingThread&) = delete;
 
     [[nodiscard]] pid_t id() const { return id_; }
-    /// Of one who listens once a millisecond, for so long from the beat on.
+    /// The silence found by a check once a millisecond, for that time after the beat.
     [[nodiscard]] Clock::duration longest_silence(std::chrono::milliseconds until) const {
         HeartbeatListener listener(&heart_);
         Clock::duration longest{};

@@ -1,4 +1,4 @@
-// What a 1 kHz thread asks of the system: granted and in force, or refused with a reason.
+// The requests of a 1 kHz thread to the system: granted and in effect, or refused with a reason.
 #include "core/realtime/tick_timer.hpp"
 
 #include <pthread.h>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// What the system says of a thread that asked, seen from inside it.
+/// The system's state of a thread after become_realtime(), read inside that thread.
 struct Seen {
     dibhr::RealtimeGrants grants{};
     std::string name{};
@@ -65,6 +65,6 @@ TEST_CASE("the thread carries its name, cut to what the kernel keeps", "[threads
 }
 
 TEST_CASE("a thread that asked sleeps without slack", "[threads]") {
-    // Real-time threads have none at all; the kernel then reports 0 or the 1 ns asked for.
+    // Real-time threads have none at all; the kernel then reports 0 or the requested 1 ns.
     CHECK(seen_from_a_thread("haptic").timer_slack_ns <= 1);
 }

@@ -1,4 +1,4 @@
-// Slices of the processor, asked of the kernel itself.
+// Slices of the processor, read from the kernel.
 #include "core/realtime/time_slice.hpp"
 
 #include <sched.h>
@@ -16,7 +16,7 @@
 namespace dibhr {
 namespace {
 
-/// Slices of their own came with Linux 6.12.
+/// Linux has slices for each thread since 6.12.
 bool has_slices() {
     utsname system{};
     uname(&system);

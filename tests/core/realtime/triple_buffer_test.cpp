@@ -27,7 +27,7 @@ struct Sample {
     }
 };
 
-/// Knows on which thread it may die.
+/// Checks that it is destroyed on the right thread.
 class Owned {
   public:
     Owned(std::thread::id owner, std::atomic<int>& freed_elsewhere)

@@ -25,7 +25,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Everything a person may do: four algorithms, other numbers, force off, a pause without a
+/// All actions of a person: four algorithms, other numbers, force off, a pause without a
 /// surface, a lifted hand, a device that pushes back, a force that meets its limit.
 void record_exploration(const SessionFolder& folder, MovingSurface& surface) {
     const auto ring = std::make_unique<TickRing>();
@@ -65,7 +65,7 @@ void record_exploration(const SessionFolder& folder, MovingSurface& surface) {
     go_on(900);
 }
 
-/// One flat picture for every frame that is asked for, and which video's each was.
+/// One flat picture for every requested frame; stores of which video each one was.
 class AskedFrames final : public RecordedFrames {
   public:
     std::vector<std::uint32_t> media{};

@@ -64,7 +64,7 @@ class MovingSurface final : public RecordedFrames {
     std::vector<std::shared_ptr<const DepthImage>> images_{};
 };
 
-/// Gives the ticks one after the other; what the hand does is made up, what it feels is computed.
+/// Makes ticks one after the other: the hand's motion is invented, the forces are computed.
 class Exploration {
   public:
     SessionParameters parameters{.version = 1, .touch = {}, .limits = {}, .bump = {}};

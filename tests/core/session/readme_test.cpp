@@ -21,7 +21,7 @@ std::string text_of(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What stands between ```sql and ``` in the README.
+/// The text between ```sql and ``` in the README.
 std::string example() {
     const std::string text =
         text_of(std::filesystem::path(DIBHR_SOURCE_DIR) / "core/session/README.md");

@@ -1,4 +1,4 @@
-// The recorder when the disk does not play along: plain words, and nothing lost that was written.
+// The recorder when the disk fails: a plain message, and nothing lost that was written.
 #include <sys/mount.h>
 #include <sys/resource.h>
 
@@ -52,7 +52,7 @@ class SmallDisk {
     bool mounted_{false};
 };
 
-/// Records until it fails; the producer goes on as if nothing had happened.
+/// Records until it fails; the producer does not notice.
 RecorderStatus record_until_it_fails(const std::filesystem::path& file) {
     const auto ring = std::make_unique<TickRing>();
     Recorder recorder(file, *ring, {});
@@ -69,7 +69,7 @@ RecorderStatus record_until_it_fails(const std::filesystem::path& file) {
     return recorder.finish();
 }
 
-/// What recording to `file` is refused with; empty when it is not.
+/// The error of recording to `file`; empty: none.
 std::string refusal_of(const std::filesystem::path& file) {
     const auto ring = std::make_unique<TickRing>();
     try {
@@ -97,7 +97,7 @@ class FileSizeLimit {
     rlimit before_{};
 };
 
-/// Works in a folder that is not there any more, until the object is gone.
+/// Makes a removed folder the working directory, until the object is destroyed.
 class LostFolder {
   public:
     explicit LostFolder(const std::filesystem::path& folder)

@@ -1,4 +1,4 @@
-// A recording that is killed: the file opens, is sound, and has all that was said to be in it.
+// A recording that is killed: the file opens, is intact, and holds all that was reported written.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
@@ -34,10 +34,10 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr int kLoop_per_ms = 1;
-// As fast as so many loops: the log is soon long enough to be merged into the file.
+// Faster than one loop: the log is soon long enough to be merged into the file.
 constexpr int kFast_per_ms = DIBHR_SANITIZED ? 4 : 20;
 
-/// A program that records, as fast as asked for, until it is killed.
+/// A program that records at a given rate until it is killed.
 class Child {
   public:
     Child(const std::filesystem::path& file, int ticks_per_ms, const std::string& flush)
@@ -85,7 +85,7 @@ class Child {
     pid_t child_{0};
 };
 
-/// At least so many ticks are in what is left, and it replays.
+/// At least that many ticks are in the file that is left, and it replays.
 void check_what_is_left(const Child& child, std::int64_t certain) {
     CAPTURE(child.file(), certain, child.pushed());
     REQUIRE(std::filesystem::exists(child.file()));
@@ -105,7 +105,7 @@ void check_what_is_left(const Child& child, std::int64_t certain) {
     CHECK(same);
 }
 
-/// Kills a recording when `when` becomes true; what it had said to be kept by then is.
+/// Kills a recording when `when` becomes true; all that it had reported as written is in the file.
 void kill_when(Child& child, const std::function<bool(const Child&)>& when) {
     bool ended = false;
     CHECK(eventually([&] {
@@ -172,7 +172,7 @@ TEST_CASE("a disk that flushes nothing takes nothing from a killed recording", "
 
 namespace {
 
-/// Kills so many recordings on such a disk; whatever was pushed half a second before is there.
+/// Kills recordings on such a disk; all ticks pushed half a second before are in the file.
 void kill_recordings(int kills, const std::string& flush) {
     constexpr int kAtATime = 5;
     constexpr milliseconds kMayLack(500);

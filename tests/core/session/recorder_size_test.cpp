@@ -94,8 +94,8 @@ Cost cost_of(Exploration& hand, std::int64_t ticks) {
     return cost;
 }
 
-/// In contact; every force meets the device's limit; and nothing follows, since it is also damped
-/// up and down, and the device adds a force.
+/// In contact; every force meets the device's limit; and no value follows from others: damping acts
+/// in z, too, and the device adds a force.
 enum class Kind { light, limited, worst };
 
 void touch_as(Kind kind, Exploration& hand) {

@@ -1,4 +1,4 @@
-// Every bit of every tick that a session gives back.
+// A session reads back every bit of every tick.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -23,7 +23,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Any real there is, and the ones that are easily lost.
+/// Random reals, and special ones that are easily lost.
 class AnyReal {
   public:
     double operator()() {

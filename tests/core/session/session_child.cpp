@@ -1,7 +1,7 @@
 // Records made-up ticks until it is killed: session_child FILE COUNTERS TICKS_PER_MS FLUSH.
-// COUNTERS is a file of Counters, through which the test sees how far it is; FLUSH says what the
-// disk does with what is to be flushed once ticks come: "works", "hangs" for ever, "fails", or how
-// many milliseconds it needs. Prints why the recording stopped, if it does.
+// COUNTERS is a file of Counters, by which the test follows the progress. FLUSH sets how a flush of
+// the disk behaves once ticks come: "works", "hangs" for ever, "fails", or the milliseconds that it
+// takes. Prints why the recording stopped, if it does.
 #include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/syscall.h>

@@ -1,4 +1,4 @@
-// What a recording program tells of itself while it records, in memory that its test shares.
+// Counters of a recording program, in memory that its test shares.
 #pragma once
 
 #include <atomic>
@@ -8,7 +8,7 @@ namespace dibhr::test {
 
 struct Counters {
     std::atomic<std::int64_t> pushed{0};  ///< ticks
-    std::atomic<std::int64_t> kept{0};    ///< of them, as the recorder's status says
+    std::atomic<std::int64_t> kept{0};    ///< written, by the recorder's status
 };
 
 }  // namespace dibhr::test

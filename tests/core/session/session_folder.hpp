@@ -1,4 +1,4 @@
-// A folder of a test's own, ticks to record in it, and SQLite's own eyes to read them.
+// A folder of a test's own, ticks to record in it, and plain SQLite to read them.
 #pragma once
 
 #include <sqlite3.h>
@@ -26,7 +26,7 @@ class SessionFolder : public TemporaryFolder {
 
 using Row = std::vector<std::string>;
 
-/// Runs a query read-only, past all of our own code; the first cell of an error is SQLite's
+/// Runs a query read-only, without dibhr's code; the first cell of an error is SQLite's
 /// message.
 inline std::vector<Row> query(const std::filesystem::path& file, const std::string& sql) {
     std::vector<Row> rows;
@@ -45,7 +45,7 @@ inline std::vector<Row> query(const std::filesystem::path& file, const std::stri
     return rows;
 }
 
-/// Changes a file past all of our own code; false when SQLite refuses.
+/// Changes a file without dibhr's code; false when SQLite fails.
 inline bool change(const std::filesystem::path& file, const std::string& sql) {
     sqlite3* database = nullptr;
     sqlite3_open(file.c_str(), &database);
@@ -60,7 +60,7 @@ inline std::string answer(const std::filesystem::path& file, const std::string& 
     return rows.empty() || rows[0].empty() ? "" : rows[0][0];
 }
 
-/// A record whose every field follows from its number.
+/// A record with all fields computed from its number.
 inline TickRecord tick_record(std::int64_t number) {
     TickRecord record;
     const auto n = static_cast<double>(number);
@@ -75,13 +75,13 @@ inline TickRecord tick_record(std::int64_t number) {
     return record;
 }
 
-/// Pushes a record for certain, as a producer that may wait: nothing is dropped.
+/// Pushes a record, waiting for room: nothing is dropped.
 inline void push(TickRing& ring, const TickRecord& record) {
     while (ring.size() == ring.room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     (void)ring.push(record);
 }
 
-/// A time that a test moves, and how often it was looked at.
+/// A clock that a test sets, with a count of its readings.
 struct HandClock {
     std::atomic<std::chrono::steady_clock::time_point> time{std::chrono::steady_clock::now()};
     std::atomic<int> looks{0};

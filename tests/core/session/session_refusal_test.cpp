@@ -1,4 +1,4 @@
-// What is said of files that are no session, or no whole one.
+// The errors for files that are no session, or an incomplete one.
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ using namespace dibhr::test;
 
 namespace {
 
-/// What opening and looking through the file is refused with.
+/// The error of opening and checking the file.
 std::string refusal_of(const std::filesystem::path& file) {
     try {
         const Session session(file);

@@ -1,4 +1,4 @@
-// What a session read back says of its ticks, and what they refer to.
+// A session read back: its ticks, and the rows to which they refer.
 #include "core/session/session.hpp"
 
 #include <chrono>

@@ -1,5 +1,4 @@
-// Touch in the motors of a game pad: what real haptic ticks do to them, and what any ticks must
-// not.
+// Touch in the motors of a game pad: the effect of real haptic ticks, and bounds for any ticks.
 #include "core/sound/touch_rumble.hpp"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// A touched plane, and what a pad is told of it every ten milliseconds.
+/// A touched plane, and a pad's strengths every ten milliseconds.
 struct Rumbling : TouchedPlane {
     explicit Rumbling(double period_px = 0.0, const SoundMaterial& material = {})
         : TouchedPlane(period_px) {
@@ -36,7 +35,7 @@ struct Rumbling : TouchedPlane {
     void press() {
         TouchedPlane::press([this] { feel(); });
     }
-    /// What comes after this is looked at.
+    /// Only strengths after this call are checked.
     void look() { told.clear(); }
     [[nodiscard]] Rumble most() const {
         Rumble most;

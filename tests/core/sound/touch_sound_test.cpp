@@ -1,4 +1,4 @@
-// The sound of touch: what real haptic ticks sound like, and what any ticks must not.
+// The sound of touch: of real haptic ticks, and bounds for any ticks.
 #include "core/sound/touch_sound.hpp"
 
 #include <algorithm>
@@ -45,11 +45,11 @@ class Listener {
     }
 
     [[nodiscard]] double now_s() const { return now_s_; }
-    /// When a sample is heard: a block is filled as a whole.
+    /// The time at which a sample is played: a block is filled as a whole.
     [[nodiscard]] static double time_s(std::size_t sample) {
         return static_cast<double>(sample) / kRate_hz + kBlock_s;
     }
-    /// Those that are heard between two moments.
+    /// The samples that are played between two moments.
     [[nodiscard]] std::span<const float> between(double from_s, double to_s) const {
         const auto index = [this](double t_s) {
             return static_cast<std::size_t>(
@@ -105,7 +105,7 @@ double peak_hz(std::span<const float> samples, double highest_hz = 3000.0) {
     return best_hz;
 }
 
-/// A touched plane, heard by a listener.
+/// A touched plane, with a listener of its ticks.
 struct Touching : TouchedPlane {
     explicit Touching(double period_px = 0.0, const SoundChoice& choice = {})
         : TouchedPlane(period_px), listener(choice) {}

@@ -1,4 +1,4 @@
-// The real tick over a plane, for all that listens to it.
+// The real tick over a plane, for tests of sound and rumble.
 #pragma once
 
 #include <cmath>

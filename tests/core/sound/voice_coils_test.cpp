@@ -1,4 +1,4 @@
-// The way to a pad's voice coils.
+// Names and channels of a pad's voice coils.
 #include "core/sound/voice_coils.hpp"
 
 #include <cstddef>
