@@ -1,4 +1,4 @@
-// A clip while it is written, and what becomes of it.
+// Writes a clip, and copies it to have the index at the begin.
 #include "core/clip/clip_file.hpp"
 
 #include <algorithm>
@@ -76,7 +76,7 @@ fs::path ClipFile::finish(double end_s, ClipEnd how) {
             OutputFile copy(target_);
             copy_with_index_at_begin(written_.written(), copy.written(), last_ms_, end_ms);
             return committed(copy, target_, name_);
-        } catch (const std::exception&) {  // no room for both: this one is as whole
+        } catch (const std::exception&) {  // no room for a copy: the first file is whole, too
             return committed(written_, target_, name_);
         }
     });

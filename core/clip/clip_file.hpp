@@ -1,4 +1,4 @@
-// The file of a clip: the pictures of a window, each shown at its own time.
+// Writes the file of a clip: the pictures of a window, each shown at its own time.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@ struct ColourImage;
 class Mp4File;
 class PictureEncoder;
 
-/// What happens to a file that has the name already.
+/// What happens when a file of that name exists.
 enum class ClipName { replaces, stands_beside };
 
-/// How a clip is finished: its index at the begin of the file takes a copy; at once, it is in
-/// pieces, which plays as well.
+/// How a clip is finished: with the index at the begin of the file, which needs a copy; or at once,
+/// with the index in pieces, which plays as well.
 enum class ClipEnd { well, at_once };
 
-/// An MP4 that appears whole or not at all. Until then it is a file beside it, called .part...,
-/// which plays up to a second before the last picture even when the program dies.
+/// An MP4 that appears whole or not at all. Until it is finished the clip is a file .part... beside
+/// it, which plays up to a second before the last picture even when the program dies.
 class ClipFile {
   public:
     /// Throws InputError when the file cannot be made.
@@ -30,17 +30,17 @@ class ClipFile {
     ClipFile(const ClipFile&) = delete;
     ClipFile& operator=(const ClipFile&) = delete;
 
-    /// `shown_s` counts from the clip's begin; a picture that is not at least a millisecond after
-    /// the one before is left out. The first one gives the video its size. Throws InputError: what,
+    /// `shown_s` counts from the clip's begin. A picture less than a millisecond after the one
+    /// before is dropped. The first picture sets the size of the video. Throws InputError: what,
     /// and which file.
     void add(const ColourImage& picture, double shown_s);
 
-    /// The last picture is seen until `end_s`. Gives the name that the file has. Throws InputError.
+    /// The last picture is shown until `end_s`. Returns the file's name. Throws InputError.
     std::filesystem::path finish(double end_s, ClipEnd how);
 
     /// Whether what is written so far plays.
     [[nodiscard]] bool plays() const noexcept;
-    /// Where it is written until then.
+    /// The file that is written until the clip is finished.
     [[nodiscard]] const std::filesystem::path& written() const noexcept {
         return written_.written();
     }

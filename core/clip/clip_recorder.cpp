@@ -14,8 +14,8 @@ namespace dibhr {
 
 namespace {
 
-/// For the calling thread: it gets little of what others want, and is off the processor as soon as
-/// the hand's wakes. Not nothing (SCHED_IDLE): the window's thread takes the same lock.
+/// Gives the calling thread the lowest priority that still runs: the haptic thread replaces it at
+/// once. Not SCHED_IDLE, because the window's thread waits for the same mutex.
 void give_way() {
     constexpr int kLeast = 19;
     const sched_param none{};

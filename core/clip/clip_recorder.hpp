@@ -1,4 +1,4 @@
-// Makes a clip on a thread of its own, from pictures that another thread hands over.
+// Makes a clip on its own thread, from pictures of another thread.
 #pragma once
 
 #include <chrono>
@@ -21,30 +21,30 @@ class ClipRecorder {
 
     /// Throws InputError when the file cannot be made.
     ClipRecorder(const std::filesystem::path& file, ClipName name);
-    /// Waits for the picture that is being encoded. Of a clip that was not stopped nothing remains.
+    /// Waits for the picture that is being encoded. Removes a clip that was not stopped.
     ~ClipRecorder();
     ClipRecorder(const ClipRecorder&) = delete;
     ClipRecorder& operator=(const ClipRecorder&) = delete;
 
-    /// False: it is behind, or over, and would drop a picture. So nobody needs to make one.
+    /// False: the encoder is behind, or the clip has ended, so that a picture would be dropped.
     [[nodiscard]] bool wants_picture() const;
     /// Never waits for the disk or the encoder. The first picture begins the clip.
     void add(ColourImage picture, Clock::time_point shown);
-    /// No more pictures come; the file is finished meanwhile.
+    /// Ends the pictures; the thread finishes the file.
     void stop(Clock::time_point end, ClipEnd how);
 
-    /// The clip is whole, or broke off; it may break off before it is stopped, too.
+    /// The clip is whole, or failed; it may also fail before stop().
     [[nodiscard]] bool done() const;
-    /// Waits at most so long for that. Until then it must not be destroyed by who cannot wait.
+    /// Waits at most so long for that. Before it is done, the destructor may wait.
     [[nodiscard]] bool done_within(std::chrono::milliseconds patience) const;
-    /// Waits for that. The name that the file has; once. Throws InputError when it broke off.
+    /// Waits for that. Returns the file's name; call it once. Throws InputError when it failed.
     std::filesystem::path result() { return result_.get(); }
 
     [[nodiscard]] std::uint64_t encoded() const;
     /// Whether what is written so far plays: on a busy machine the encoder lags seconds behind.
     [[nodiscard]] bool plays() const;
-    /// Where the clip is written until it is whole; plays up to a second before the last picture
-    /// that was encoded.
+    /// The file that is written until the clip is whole; it plays up to a second before the last
+    /// encoded picture.
     [[nodiscard]] const std::filesystem::path& written() const noexcept { return file_.written(); }
 
   private:
@@ -52,13 +52,13 @@ class ClipRecorder {
         ColourImage picture{};
         Clock::time_point at{};
     };
-    /// A few pictures: a machine that falls behind does so for good.
+    /// Only a few pictures: a machine that falls behind does not catch up.
     static constexpr std::size_t kMostWaiting = 4;
 
     std::filesystem::path work();
 
     ClipFile file_;
-    mutable std::mutex mutex_{};  // for what follows
+    mutable std::mutex mutex_{};  // for all members below
     std::condition_variable news_{};
     std::deque<Shown> waiting_{};
     bool stopped_{false};

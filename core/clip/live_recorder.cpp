@@ -1,4 +1,4 @@
-// The thread that encodes and writes.
+// The thread that encodes and writes live frames.
 #include "core/clip/live_recorder.hpp"
 
 #include <pthread.h>
@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t kMostWaiting = 90;  ///< frames: three seconds
 
-/// Nothing that is there is written over, and what cannot be written is told at the begin.
+/// Creates a file. Throws InputError for one that exists, or cannot be written.
 void make_new(const fs::path& file) {
     std::error_code unknown;
     if (fs::exists(file, unknown))
@@ -40,7 +40,7 @@ LiveFiles live_files_beside(const fs::path& session) {
     return {colour.replace_extension(".color.mkv"), depth.replace_extension(".depth.mkv")};
 }
 
-/// Opened with the first frame.
+/// The two tracks, opened with their first frame.
 struct LiveRecorder::Tracks {
     std::optional<LiveTrack> depth{};
     std::optional<LiveTrack> colour{};

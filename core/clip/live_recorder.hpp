@@ -1,4 +1,4 @@
-// Keeps what is live as two videos beside a session, on a thread of its own.
+// Records a live source as two videos beside a session, on its own thread.
 #pragma once
 
 #include <condition_variable>
@@ -16,7 +16,7 @@
 namespace dibhr {
 
 struct LiveFiles {
-    std::filesystem::path colour{};  ///< empty: it has none
+    std::filesystem::path colour{};  ///< empty: no colour
     std::filesystem::path depth{};
 };
 
@@ -25,23 +25,23 @@ struct LiveFiles {
 
 class LiveRecorder {
   public:
-    /// Throws InputError when one of the files is there already, or cannot be made.
+    /// Throws InputError when one of the files exists, or cannot be created.
     explicit LiveRecorder(LiveFiles files);
     ~LiveRecorder() { finish(); }
     LiveRecorder(const LiveRecorder&) = delete;
     LiveRecorder& operator=(const LiveRecorder&) = delete;
 
-    /// The next frame. Waits for nothing: what a slow disk leaves behind waits in memory, up to
-    /// some seconds; then it breaks off.
+    /// Adds a frame. Never waits: behind a slow disk frames queue in memory, up to some seconds;
+    /// then the recording fails.
     void add(const LiveRecord& record);
-    /// Writes what waits, and ends the files; no more is added.
+    /// Writes the queue and ends the files; later frames are ignored.
     void finish();
-    /// The same, and the files go: nobody refers to them.
+    /// The same, and removes the files, to which no session refers.
     void discard();
 
-    /// Of finished files, as far as it is known.
+    /// Size and hash of the finished files, as far as known.
     [[nodiscard]] std::vector<FileContent> contents() const;
-    /// A sentence when writing broke off; what was written until then plays.
+    /// A sentence when writing failed; the files play up to there.
     [[nodiscard]] std::string failure() const;
 
   private:

@@ -1,4 +1,4 @@
-// libav's encoder that loses nothing, and its Matroska writer.
+// Encodes by libav's lossless FFVHUFF, and writes Matroska.
 #include "core/clip/live_track.hpp"
 
 extern "C" {

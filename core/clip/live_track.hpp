@@ -1,4 +1,4 @@
-// One track of a live source, as a Matroska file that plays however it ends; inside the room.
+// Writes a track of a live source as a Matroska file that plays after a crash; inside the room.
 #pragma once
 
 #include <cstdint>
@@ -15,21 +15,21 @@
 
 namespace dibhr {
 
-/// Pictures of one form, every bit: FFVHUFF, whose pictures take a sixth to a twelfth of the time
-/// that FFV1's take, and a tenth to a fifth more room.
+/// Encodes pictures without loss by FFVHUFF: it takes a sixth to a twelfth of FFV1's time, and a
+/// tenth to a fifth more space.
 class LiveTrack {
   public:
-    /// Of such pictures. `tags`: what the file says of the track. Writes over the file. Throws
+    /// For pictures like `first`. `tags`: metadata of the track. Overwrites the file. Throws
     /// InputError, also when libav cannot encode such pictures.
     LiveTrack(const std::filesystem::path& file, const LiveLevels& first,
               const std::map<std::string, std::string>& tags);
     LiveTrack(const std::filesystem::path& file, const ColourImage& first);
 
-    /// Throws InputError where libav cannot encode the picture, it is of another size than the
-    /// first one, or e.g. the disk is full.
+    /// Throws InputError when libav cannot encode the picture, its size differs from the first, or
+    /// e.g. the disk is full.
     void add(const LiveLevels& picture, std::int64_t shown_ms);
     void add(const ColourImage& picture, std::int64_t shown_ms);
-    /// What the file holds then, if that is known.
+    /// Size and hash of the finished file, if known.
     std::optional<FileContent> finish();
 
   private:
@@ -40,7 +40,7 @@ class LiveTrack {
     void write(std::int64_t shown_ms);
 
     TrackEncoder encoder_;
-    SummedFile bytes_;  // before what writes to it
+    SummedFile bytes_;  // declared before the writer that uses it
     TrackFile file_;
 };
 

@@ -1,4 +1,4 @@
-// libav's MP4 writer.
+// Writes MP4 by libav.
 #include "core/clip/mp4_file.hpp"
 
 extern "C" {

@@ -1,4 +1,4 @@
-// An MP4 file of one video track, from packets.
+// Writes an MP4 file of one video track, from packets.
 #pragma once
 
 #include <cstdint>
@@ -8,22 +8,22 @@
 
 namespace dibhr {
 
-/// Where the index is: in pieces, so that what is written plays however it ends; or whole at the
-/// begin, as players and browsers like it best.
+/// Where the index is: in pieces, so that an unfinished file plays; or whole at the begin, where
+/// players and browsers need it to start quickly.
 enum class Mp4Index { in_pieces, at_begin };
 
 class Mp4File {
   public:
-    /// Writes over the file. Throws InputError.
+    /// Overwrites the file. Throws InputError.
     Mp4File(const std::filesystem::path& file, const AVCodecParameters& coded, Mp4Index index);
 
-    /// Takes the packet's content; its times are in 1/kTrackUnitsPerSecond s. It lasts until the
-    /// next one, and is written then. Throws InputError, e.g. when the disk is full.
+    /// Moves the content out of the packet, whose times are in 1/kTrackUnitsPerSecond s. It lasts
+    /// until the next one, and is written then. Throws InputError, e.g. when the disk is full.
     void write(AVPacket& packet);
-    /// The last one lasts until then. Throws InputError.
+    /// The last packet lasts until `end_ms`. Throws InputError.
     void finish(std::int64_t end_ms);
 
-    /// Whether the file, as it is now, has pictures: those of its finished pieces.
+    /// Whether the file has pictures now, in finished pieces.
     [[nodiscard]] bool plays() const noexcept { return file_.holds_packets(); }
 
   private:
@@ -34,8 +34,8 @@ class Mp4File {
     bool holds_packet_{false};
 };
 
-/// A copy of a finished one, its index at the begin: the same pictures at the same times. Throws
-/// InputError, also where the last picture that is read is not that of `last_ms`.
+/// Copies a finished file, with the index at the begin: the same pictures at the same times. Throws
+/// InputError, also when the last picture read is not that of `last_ms`.
 void copy_with_index_at_begin(const std::filesystem::path& from, const std::filesystem::path& to,
                               std::int64_t last_ms, std::int64_t end_ms);
 

@@ -1,4 +1,4 @@
-// libav's encoders, and the window's pictures as they want them.
+// Sets up libav's encoders, and converts the window's pictures for them.
 #include "core/clip/picture_encoder.hpp"
 
 extern "C" {
@@ -23,19 +23,19 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kPicturesPerSecond = 30;  // about: what the encoder reckons with
-constexpr int kPicturesToKey = 30;      // between two that can be sought, and kept after a crash
-constexpr int kH264Quality = 20;        // its crf: what is lost is hardly seen
+constexpr int kPicturesPerSecond = 30;  // about: the encoder's nominal rate
+constexpr int kPicturesToKey = 30;      // from key frame to key frame: seek, and loss in a crash
+constexpr int kH264Quality = 20;        // its crf: hardly visible losses
 constexpr int kMpeg4Quality = 3;        // 1: the best, 31
 
-/// By name: that a machine without their hardware has others, too, is found out too late.
+/// Software encoders by name: a hardware encoder that the machine lacks would fail too late.
 constexpr std::array<const char*, 3> kEncoders{"libx264", "libopenh264", "mpeg4"};
 
 int even(int pixels) {
     return std::max(pixels, 2) & ~1;
 }
 
-/// Colours as of HDTV, which players take where nothing is said.
+/// Marks colours as HDTV's, which players assume by default.
 void say_colours(AVCodecContext& codec) {
     codec.color_range = AVCOL_RANGE_MPEG;
     codec.colorspace = AVCOL_SPC_BT709;
@@ -43,8 +43,8 @@ void say_colours(AVCodecContext& codec) {
     codec.color_trc = AVCOL_TRC_BT709;
 }
 
-/// On the calling thread alone, a packet a picture: a hand is felt on the same machine. Null: this
-/// libav has no such encoder, or it takes no pictures of that size.
+/// Encodes on the calling thread only, because haptics run on the same machine; one packet for each
+/// picture. Null: libav has no such encoder, or it does not support that size.
 AvOwned<AVCodecContext> opened(const char* name, int columns, int rows) {
     const AVCodec* const encoder = avcodec_find_encoder_by_name(name);
     if (encoder == nullptr) return nullptr;
@@ -57,7 +57,7 @@ AvOwned<AVCodecContext> opened(const char* name, int columns, int rows) {
         codec->flags |= AV_CODEC_FLAG_QSCALE;
         codec->global_quality = FF_QP2LAMBDA * kMpeg4Quality;
     }
-    // Of libx264; the others do not know them.
+    // Options of libx264; the other encoders ignore them.
     av_opt_set(codec->priv_data, "preset", "veryfast", 0);
     av_opt_set(codec->priv_data, "tune", "zerolatency", 0);
     av_opt_set_int(codec->priv_data, "crf", kH264Quality, 0);
@@ -75,7 +75,7 @@ TrackEncoder encoder_for(int columns, int rows) {
                      "install the distribution's full libavcodec");
 }
 
-/// Where a picture lies in one of another size: the same shape, in the middle.
+/// Where a picture lies in one of another size: same shape, centred.
 struct Place {
     int left, top, columns, rows;
 };
@@ -106,7 +106,7 @@ InputError cannot_encode() {
 
 PictureEncoder::PictureEncoder(int columns, int rows) : encoder_(encoder_for(columns, rows)) {}
 
-/// The picture as it came, less its last row or column where their number is odd.
+/// The unscaled picture, without the last row or column where their number is odd.
 const AVFrame& PictureEncoder::copied(const ColourImage& picture) {
     AVFrame& frame = *picture_;
     give_buffer(frame, AV_PIX_FMT_RGB24, even(picture.columns), even(picture.rows));

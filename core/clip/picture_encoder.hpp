@@ -1,4 +1,4 @@
-// Pictures in, packets of a video out: H.264 where libav can write it, else MPEG-4.
+// Encodes pictures to packets of a video: H.264 where libav can write it, else MPEG-4.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ struct ColourImage;
 
 class PictureEncoder {
   public:
-    /// Of a video of columns x rows, 2 or more, cut to even numbers.
-    /// Throws InputError when libav has no encoder that takes it.
+    /// For a video of columns x rows, at least 2 each, reduced to even numbers.
+    /// Throws InputError when libav has no encoder for that size.
     PictureEncoder(int columns, int rows);
 
-    /// A picture of another size is scaled into the video's, between black borders where it has
-    /// another shape; one of less than 2 pixels a side, as of a window made that small, is left
-    /// out. `shown_ms` is later than that of the picture before. Throws InputError.
+    /// Scales a picture of another size into the video's, with black borders where the shape
+    /// differs; drops one of less than 2 pixels a side, as of a tiny window. `shown_ms` must be
+    /// later than that of the picture before. Throws InputError.
     void encode(const ColourImage& picture, std::int64_t shown_ms, const TrackEncoder::Sink& sink);
-    /// Gives what is still on its way; nothing may be encoded afterwards. Throws InputError.
+    /// Gives the remaining packets; no encode() afterwards. Throws InputError.
     void drain(const TrackEncoder::Sink& sink);
 
-    /// What a file has to know of the packets.
+    /// The parameters of the packets that a file needs.
     [[nodiscard]] AvOwned<AVCodecParameters> coded() const { return encoder_.coded(); }
 
   private:
@@ -31,8 +31,8 @@ class PictureEncoder {
     void place(const ColourImage& picture);
 
     TrackEncoder encoder_;
-    AvOwned<AVFrame> picture_{new_frame()};  // as it came, cut to even numbers
-    AvOwned<AVFrame> scaled_{new_frame()};   // as it is placed
+    AvOwned<AVFrame> picture_{new_frame()};  // unscaled, cropped to even numbers
+    AvOwned<AVFrame> scaled_{new_frame()};   // scaled to its place in the video
     AvOwned<SwsContext> scaler_{};
 };
 

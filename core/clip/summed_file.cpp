@@ -1,4 +1,4 @@
-// libav's bytes, on their way to the disk.
+// Writes, hashes and flushes libav's bytes.
 #include "core/clip/summed_file.hpp"
 
 extern "C" {
@@ -24,7 +24,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kPieceBytes = 1 << 16;
-constexpr std::chrono::seconds kBetweenFlushes{1};  // what a power cut takes; as of a session's log
+constexpr std::chrono::seconds kBetweenFlushes{1};  // most that a power cut loses
 
 }  // namespace
 
@@ -33,7 +33,7 @@ SummedFile::SummedFile(std::filesystem::path file)
       descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
     require_written(descriptor_ < 0 || !flushed_folder(file_.parent_path()) ? AVERROR(errno) : 0);
     auto* const buffer = static_cast<unsigned char*>(av_malloc(kPieceBytes));
-    // Whose bytes are constant from libavformat 61 on.
+    // `auto`, since the bytes are const from libavformat 61 on.
     const auto write_some = [](void* to, auto* bytes, int count) {
         return write(to, bytes, count);
     };

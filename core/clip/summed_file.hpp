@@ -1,4 +1,4 @@
-// A file that libav writes, whose content is known when it ends; inside the room.
+// A file that libav writes, with its hash computed on the way; inside the room.
 #pragma once
 
 #include <chrono>
@@ -11,24 +11,24 @@
 
 namespace dibhr {
 
-/// A power cut takes the last second of it, of a finished one nothing. Sums up what is appended
-/// behind a head, which alone may be written again: nobody waits for the sum of a large file when
-/// it ends.
+/// A power cut loses at most the last second, of a finished file nothing. Hashes the bytes appended
+/// behind a head, which alone may be rewritten: so the end of a large file needs no time to hash
+/// it.
 class SummedFile {
   public:
-    /// Writes over the file. Throws InputError.
+    /// Overwrites the file. Throws InputError.
     explicit SummedFile(std::filesystem::path file);
     ~SummedFile();
     SummedFile(const SummedFile&) = delete;
     SummedFile& operator=(const SummedFile&) = delete;
 
-    /// Where libav is to write; this one's.
+    /// The stream for libav to write to; owned by this object.
     [[nodiscard]] AVIOContext* bytes() const noexcept { return bytes_.get(); }
-    /// What was written until now may be written again. Once.
+    /// Ends the head: only the bytes up to here may be rewritten. Call it once.
     void end_head();
     /// Throws InputError, e.g. when the disk is full.
     void finish();
-    /// Of a finished one; nothing where more than the head was written again.
+    /// Size and hash of a finished file; nothing if more than the head was rewritten.
     [[nodiscard]] std::optional<FileContent> content();
 
   private:

@@ -1,4 +1,4 @@
-// vfork, pipes, and signals to a keeper.
+// Starts a keeper by vfork, reads its pipes, and sends it signals.
 #include "core/estimate/child_program.hpp"
 
 #include <fcntl.h>
@@ -27,9 +27,9 @@ namespace dibhr {
 namespace {
 
 constexpr int kPolitely = 10;                             // nice(2)
-constexpr std::size_t kMostWords = std::size_t{1} << 16;  ///< bytes that are taken at once
+constexpr std::size_t kMostWords = std::size_t{1} << 16;  ///< bytes read at once
 
-/// The words, and null at their end, as exec takes them.
+/// The arguments with a null at the end, as exec needs them.
 std::vector<char*> as_pointers(std::vector<std::string>& words) {
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);
@@ -38,7 +38,7 @@ std::vector<char*> as_pointers(std::vector<std::string>& words) {
     return pointers;
 }
 
-/// This program's own, and that Python is not to keep back what it prints.
+/// This program's environment, with Python set to print without a buffer.
 std::vector<std::string> environment() {
     constexpr std::string_view kUnbuffered = "PYTHONUNBUFFERED=";
     std::vector<std::string> all;
@@ -67,14 +67,13 @@ std::vector<std::string> environment() {
     throw InputError("the estimator cannot be started: " + name + " (" + std::strerror(why) + ")");
 }
 
-/// What the keeper gets of this program: the ends of pipes.
+/// The ends of pipes that the keeper gets.
 struct Ends {
     int output{-1}, life{-1}, trouble{-1};
 };
 
-/// Of the child, between its beginning and the keeper's: it shares this program's memory, so it
-/// calls the system alone, and changes nothing. What fails is written to `trouble`: an errno, less
-/// than 0.
+/// Runs in the child between vfork and exec. The child shares this program's memory, so this uses
+/// system calls only and changes nothing. On failure writes -errno to `trouble`.
 [[noreturn]] void become(char* const* words, char** variables, const Ends& ends,
                          ChildManner manner) {
     struct sigaction usual {};
@@ -93,12 +92,11 @@ struct Ends {
     ::_exit(EXIT_FAILURE);
 }
 
-/// 0, or why it could not be started; less than 0: why its keeper could not. The child borrows this
-/// program's memory until the keeper begins, as posix_spawn does it: a copy would disturb a hand
-/// that is felt meanwhile.
+/// Returns 0, the errno of the program, or -errno of its keeper. The child uses this program's
+/// memory until exec, as in posix_spawn: copying the memory would disturb the haptic thread.
 int start(const std::vector<std::string>& program, Ends ends, ChildManner manner, pid_t& child) {
-    // Closed by the program's beginning. (Where a sanitizer makes a copy of vfork(), no memory is
-    // shared through which it could be told.)
+    // A successful exec closes this pipe. (A pipe and not memory: with a sanitizer vfork() shares
+    // none.)
     std::array<int, 2> trouble{};
     if (::pipe2(trouble.data(), O_CLOEXEC) != 0) return -errno;
     ends.trouble = trouble[1];
@@ -111,7 +109,7 @@ int start(const std::vector<std::string>& program, Ends ends, ChildManner manner
     int why = 0;
     sigset_t all, before;
     ::sigfillset(&all);
-    ::pthread_sigmask(SIG_SETMASK, &all, &before);  // a handler of ours would run in the child, too
+    ::pthread_sigmask(SIG_SETMASK, &all, &before);  // our handlers must not run in the child
     const pid_t started = ::vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
     if (started == 0) become(arguments.data(), entries.data(), ends, manner);
     if (started < 0) why = -errno;
@@ -138,7 +136,7 @@ void give_way(pid_t who) noexcept {
 ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
     std::array<int, 2> output{-1, -1}, life{};
     if (::pipe2(output.data(), O_CLOEXEC) != 0 || ::pipe2(life.data(), O_CLOEXEC) != 0) {
-        for (const int end : output) ::close(end);  // those that were made
+        for (const int end : output) ::close(end);  // those that were opened
         throw InputError("the estimator cannot be started: too many files are open");
     }
     const int failed = start(words, {.output = output[1], .life = life[0]}, manner, child_);
@@ -156,7 +154,7 @@ ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
 
 ChildProgram::~ChildProgram() {
     ::close(life_);
-    // Only here: until now its number is no other program's.
+    // Reaped only here: until now no other process can get its number.
     while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
     }
     if (words_end_ >= 0) ::close(words_end_);

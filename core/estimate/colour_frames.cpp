@@ -1,4 +1,4 @@
-// Decodes the colour from its begin to its end.
+// Decodes a colour video from its begin to its end.
 #include "core/estimate/colour_frames.hpp"
 
 #include <algorithm>
@@ -19,11 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Beyond that a clock counts from 1970 or the start of a machine, and nobody else's is like it.
+/// A larger start means a clock that counts from 1970 or the machine's start: no other shares it.
 constexpr double kLongestStart_s = 1e5;
 
 void write_frame(const cv::Mat& picture, const fs::path& file) {
-    constexpr int kQuick = 1;  // of 9: they are read once
+    constexpr int kQuick = 1;  // of 9: the pictures are read once
     bool written = false;
     try {
         written =
@@ -83,7 +83,7 @@ ColourFrames write_colour_frames(const fs::path& colour, const fs::path& folder,
                                  const std::atomic<bool>& stop, const FramesTold& tell) {
     std::error_code failed;
     fs::remove_all(folder, failed);
-    fs::create_directories(folder, failed);  // what fails is told by the first picture
+    fs::create_directories(folder, failed);  // a failure is reported by the first picture
     return read_all(colour, stop, tell, [&](const cv::Mat& picture, std::size_t number) {
         if (!without.contains(number)) write_frame(picture, folder / (frame_name(number) + ".png"));
     });

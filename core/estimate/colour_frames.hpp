@@ -1,4 +1,4 @@
-// The frames of a colour video as an estimator gets them: when each is shown, and its picture.
+// Reads the frames of a colour video for an estimator: their times, and optionally pictures.
 #pragma once
 
 #include <atomic>
@@ -11,23 +11,23 @@
 
 namespace dibhr {
 
-/// What the depth of a colour video has to be like.
+/// The colour video's facts that its depth has to match.
 struct ColourFrames {
     std::filesystem::path file{};
     int columns{0}, rows{0};
     bool still{false};
-    double start_s{0.0};            ///< by the clock of its file; 0 where that is nobody else's
+    double start_s{0.0};            ///< by the clock of its file; 0 where no other file shares it
     std::vector<double> times_s{};  ///< of all frames, from the first
 
     [[nodiscard]] std::size_t count() const noexcept { return times_s.size(); }
-    /// Of a frame, about [s].
+    /// Mean interval [s].
     [[nodiscard]] double interval_s() const noexcept;
 };
 
-/// "000001" is the first: the name of its picture without its ending.
+/// The name of a frame's picture without its ending; "000001" is the first.
 [[nodiscard]] std::string frame_name(std::size_t number);
 
-/// How often what takes long is told: frames done, of about so many.
+/// Called during long work with the frames done, and about how many there are.
 using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
 
 /// Reads all of a video, a picture or a row of them. Throws InputError.
@@ -35,8 +35,8 @@ using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
                                               const std::atomic<bool>& stop,
                                               const FramesTold& tell);
 
-/// The same, and writes its pictures into the folder as PNG, which is emptied first; without those
-/// whose numbers are in `without`.
+/// The same, and writes the pictures as PNG into the folder, which it empties first; leaves out the
+/// numbers in `without`.
 [[nodiscard]] ColourFrames write_colour_frames(const std::filesystem::path& colour,
                                                const std::filesystem::path& folder,
                                                const std::set<std::size_t>& without,

@@ -1,4 +1,4 @@
-// Folders named by sums, a lock and a record in each.
+// Folders named by hashes, each with a lock and a record.
 #include "core/estimate/depth_cache.hpp"
 
 #include <fcntl.h>
@@ -44,7 +44,7 @@ std::string name_for(const std::string& colour_sha256, const std::string& comman
                      "): make it writable, or let XDG_CACHE_HOME name another folder");
 }
 
-/// A descriptor that holds it; negative: another program does.
+/// Locks the folder. Returns the descriptor; negative: another program has the lock.
 int locked(const fs::path& folder) {
     const int lock = ::open((folder / kLock).c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (lock < 0) refuse_folder(folder, std::strerror(errno));
@@ -73,11 +73,11 @@ std::optional<EstimateRecord> record_in(const fs::path& folder) try {
     const bool whole =
         !record.colour.times_s.empty() && record.colour.columns > 0 && record.colour.rows > 0;
     return whole ? std::optional(record) : std::nullopt;
-} catch (const std::exception&) {  // of another version, cut, or no record at all: made again
+} catch (const std::exception&) {  // of another version, truncated or no record: estimate again
     return std::nullopt;
 }
 
-/// Works after a fashion also where something cannot be removed: that is told when it is written.
+/// Ignores a failure to remove: a later write to that place reports it.
 void clear_away(const fs::path& place) {
     std::error_code failed;
     fs::remove_all(place, failed);

@@ -1,4 +1,4 @@
-// Where estimated depth is kept: a folder for each colour and command, by what they hold.
+// The cache of estimated depth: a folder for each colour content and command.
 #pragma once
 
 #include <cstddef>
@@ -13,22 +13,21 @@
 
 namespace dibhr {
 
-/// What is known of one estimation, written down beside it.
+/// The facts of one estimation, stored in its folder.
 struct EstimateRecord {
     ColourFrames colour{};
     std::string command{};
-    DepthStatement said{};    ///< of the estimator's numbers, the last time
-    std::string depth{};      ///< name of the finished file; empty: it is on its way
+    DepthStatement said{};    ///< on the estimator's numbers, at the last run
+    std::string depth{};      ///< name of the finished file; empty: not finished
     std::string sha256{};     ///< of that file
-    DepthStatement levels{};  ///< of that file, as write_depth() gives it
+    DepthStatement levels{};  ///< of that file, from write_depth()
 };
 
-/// The folder of one estimation. What is in it goes with a new one of the same only when it is
-/// asked to.
+/// The folder of one estimation, locked while this object lives. Its files stay for the next run.
 class EstimateFolder {
   public:
-    /// In `cache`, for a colour's content and a command; is made. Throws InputError where it cannot
-    /// be, or where another program is at it.
+    /// Creates the folder in `cache` for a colour's content and a command. Throws InputError when
+    /// that fails, or another program has the lock.
     EstimateFolder(const std::filesystem::path& cache, const std::string& colour_sha256,
                    const std::string& command);
     ~EstimateFolder();
@@ -38,16 +37,16 @@ class EstimateFolder {
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
     [[nodiscard]] std::filesystem::path frames() const { return path_ / "frames"; }
     [[nodiscard]] std::filesystem::path output() const { return path_ / "output"; }
-    /// All that the estimator said the last time.
+    /// The file with the estimator's output of the last run.
     [[nodiscard]] std::filesystem::path said() const { return path_ / "said.txt"; }
 
-    /// Nothing: there is none that can be understood.
+    /// Nothing: no valid record.
     [[nodiscard]] std::optional<EstimateRecord> record() const;
-    /// Whole or not at all. Throws InputError.
+    /// Writes the record, whole or not at all. Throws InputError.
     void keep(const EstimateRecord& record) const;
-    /// All but its lock.
+    /// Removes all files but the lock.
     void empty() const;
-    /// What only the estimator needed.
+    /// Removes the files that only the estimator needed.
     void drop_work() const;
 
   private:
@@ -55,7 +54,7 @@ class EstimateFolder {
     int lock_{-1};
 };
 
-/// A row of `dibhr depth --list`.
+/// An estimation in the cache: a row of `dibhr depth --list`.
 struct KeptEstimate {
     std::filesystem::path folder{};
     EstimateRecord record{};
@@ -63,10 +62,10 @@ struct KeptEstimate {
     std::uintmax_t bytes{0};
 };
 
-/// All in the cache, by the colour's name; no cache is an empty one.
+/// All estimations in the cache, sorted by the colour's name; empty without a cache.
 [[nodiscard]] std::vector<KeptEstimate> kept_estimates(const std::filesystem::path& cache);
 
-/// Removes one; false where another program is at it. Throws InputError when it cannot be.
+/// Removes one; false when another program has the lock. Throws InputError when that fails.
 bool forget_estimate(const KeptEstimate& kept);
 
 }  // namespace dibhr

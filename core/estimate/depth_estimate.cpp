@@ -36,7 +36,7 @@ double seconds_since(steady_clock::time_point begin) {
     return std::chrono::duration<double>(steady_clock::now() - begin).count();
 }
 
-/// All that an estimator says, or, of one that does not stop talking, its first and last words.
+/// Writes the estimator's output to a file; of a very long output only its begin and its end.
 class SaidFile {
   public:
     explicit SaidFile(const fs::path& file) : file_(file, std::ios::binary | std::ios::trunc) {}
@@ -60,14 +60,14 @@ class SaidFile {
 
   private:
     static constexpr std::size_t kMost = std::size_t{1}
-                                         << 19;  ///< bytes, of the first and the last
+                                         << 19;  ///< bytes of begin and end
 
     std::ofstream file_;
     std::size_t first_{0}, left_out_{0};
     std::string last_{};
 };
 
-/// One run of the estimator, watched until it ends.
+/// One run of the estimator, with its progress.
 class Run {
   public:
     Run(const EstimateRequest& request, const EstimateFolder& folder,
@@ -86,7 +86,7 @@ class Run {
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
-    /// How it ended; nothing when it was stopped. Throws InputError when it shows no sign of life.
+    /// Waits. How it ended; nothing when it was stopped. Throws InputError at a timeout.
     std::optional<ChildEnd> watched() {
         constexpr std::chrono::milliseconds kPause{50};
         constexpr double kLookAgain_s = 0.25;
@@ -113,7 +113,7 @@ class Run {
         tell();
     }
 
-    /// At what there is in its folder.
+    /// Counts frames and bytes in the output folder, and checks the timeout.
     void look() {
         looked_ = steady_clock::now();
         done_ = std::min(row_so_far(folder_.output()).size(), frames_);
@@ -142,7 +142,7 @@ class Run {
         watch_.tell(progress);
     }
 
-    /// As fast as from the first new frame on: before it a model was loaded.
+    /// From the speed since the first new frame: before that the estimator loads its model.
     std::optional<double> left_s(const EstimateProgress& now) {
         if (now.done <= before_) return std::nullopt;
         if (first_.done == 0) first_ = {now.done, now.elapsed_s};
@@ -163,7 +163,7 @@ class Run {
     double patience_s_;
     SaidFile said_;
     SpokenProgress spoken_{};
-    std::size_t before_{0};  ///< frames that were there already
+    std::size_t before_{0};  ///< frames of earlier runs
     std::size_t done_{0};
     FirstOnes first_{};
     std::uintmax_t bytes_{0};
@@ -178,7 +178,7 @@ FramesTold teller(EstimateWatch& watch, EstimateStep step) {
     };
 }
 
-/// Where a person looks after a failure.
+/// At which frame it failed, for the message.
 std::string how_far(const EstimatorCommand& command, const EstimateFolder& folder,
                     std::size_t frames) {
     const std::size_t done = row_so_far(folder.output()).size();
@@ -189,8 +189,8 @@ std::string how_far(const EstimatorCommand& command, const EstimateFolder& folde
     return words;
 }
 
-/// What the levels of the finished file mean: those of the estimator, which `said` is of, became
-/// `levels`.
+/// The meaning of the finished file's levels: `said` is on the estimator's numbers, `levels` on
+/// their conversion to levels.
 DepthStatement meaning_of(const DepthStatement& said, const DepthStatement& levels) {
     DepthStatement meaning = said;
     if (!meaning.unit) meaning.unit = DepthUnit::levels;
@@ -204,7 +204,7 @@ DepthStatement meaning_of(const DepthStatement& said, const DepthStatement& leve
     return meaning;
 }
 
-/// Looks, runs, checks and keeps; of one request.
+/// Performs one request: searches the cache, runs, checks and keeps.
 class Estimation {
   public:
     Estimation(const EstimateRequest& request, EstimateWatch& watch)
@@ -234,7 +234,7 @@ class Estimation {
     }
 
   private:
-    /// False when it was stopped. What is done already is not given again.
+    /// Reads the colour, and writes frames that are not done yet. False when it was stopped.
     bool has_frames() {
         const FramesTold tell = teller(watch_, EstimateStep::giving_frames);
         std::error_code failed;
@@ -268,7 +268,7 @@ class Estimation {
         const WholeOutputs outputs =
             command_.takes_frames() ? whole_outputs(folder_->output()) : WholeOutputs{};
         const std::size_t removed = outputs.removed.size();
-        // Where most are no pictures another run gives no others: write_depth() tells what is
+        // Where most are unreadable, another run would not help: write_depth() reports what is
         // wrong.
         if (failure.empty() && removed > 0 && removed < outputs.numbers.size())
             throw InputError("the estimator left a picture that cannot be read, " +
@@ -301,7 +301,7 @@ class Estimation {
         return made;
     }
 
-    /// What is said of it now, else the last time, goes into a sidecar.
+    /// Stores the record, and a sidecar by this request's statement, completed by the last one's.
     DepthEstimate opened(EstimateRecord record, bool kept_before) {
         DepthStatement said = request_.meaning;
         said.fill_in(record.said);

@@ -1,5 +1,5 @@
-// Depth for a video that has none: an estimator that a person has installed makes it, as a process
-// of its own; it is checked, kept, and found again.
+// Makes depth for a video that has none by an estimator that the user has installed. The estimator
+// runs as a process; its depth is checked, and kept in a cache.
 #pragma once
 
 #include <cstddef>
@@ -16,29 +16,29 @@ namespace dibhr {
 struct EstimateRequest {
     std::filesystem::path colour{};
     std::string command{};  ///< as EstimatorCommand takes it
-    /// Of the estimator's numbers; where it says nothing they are relative (DepthUnit::levels) and
-    /// near where bright, as those of most estimators are.
+    /// On the estimator's numbers. Default: relative (DepthUnit::levels), bright is near, as of
+    /// most estimators.
     DepthStatement meaning{};
     std::filesystem::path cache{};
-    double patience_s{600.0};                   ///< without any sign of life
-    bool again{false};                          ///< whatever is kept
+    double patience_s{600.0};                   ///< without output or new bytes
+    bool again{false};                          ///< ignore the cache
     ChildManner manner{ChildManner::ordinary};  ///< of the estimator, and of the thread that waits
 };
 
 struct DepthEstimate {
-    std::filesystem::path depth{};  ///< beside it a sidecar
+    std::filesystem::path depth{};  ///< with a sidecar beside it
     std::size_t frames{0};
-    bool kept_before{false};  ///< nothing was started
+    bool kept_before{false};  ///< from the cache; nothing was started
 };
 
-/// Makes the depth, or finds what was made before for the same content and the same command. For a
-/// thread that may wait. Nothing where the watch's stop() came first. Throws InputError: what went
-/// wrong, how far it came, and what to do next; what is done stays for the next time.
+/// Makes the depth, or finds it in the cache by content and command. For a thread that may wait.
+/// Nothing after the watch's stop(). Throws InputError: what went wrong, at which frame, and what
+/// to do next; finished frames stay for the next run.
 [[nodiscard]] std::optional<DepthEstimate> estimate_depth(const EstimateRequest& request,
                                                           EstimateWatch& watch);
 
-/// Copies depth and sidecar: into a file of that name, which ends as the depth's does, or into a
-/// folder, as NAME_depth beside whose colour it is found. Gives the file. Throws InputError.
+/// Copies depth and sidecar to a file, whose ending must be the depth's, or into a folder, as
+/// NAME_depth, so that it is found beside its colour. Returns the file. Throws InputError.
 std::filesystem::path copy_depth(const DepthEstimate& estimate, const std::filesystem::path& colour,
                                  const std::filesystem::path& out);
 

@@ -1,4 +1,4 @@
-// Looks through every form that may be the depth, and writes the first that fits.
+// Checks every form that may be the depth, and writes the first that fits.
 #include "core/estimate/depth_result.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr double kMostLevels = 65535.0;
 
-/// What is in all of its pictures.
+/// Facts of all pictures of one form.
 struct Survey {
     std::vector<double> times_s{};
     int columns{0}, rows{0}, bits{0};
@@ -62,13 +62,13 @@ std::string size_text(int columns, int rows) {
     return std::to_string(columns) + " x " + std::to_string(rows);
 }
 
-/// How many times as wide as high a pixel is of pictures that show all that the colour shows: 1, or
-/// of pictures squeezed to sides that a network takes, as DepthCrafter's. Throws InputError for
+/// Width of a pixel divided by its height, where the pictures show all of the colour: 1, except of
+/// pictures squeezed to sides that a network needs, as DepthCrafter's. Throws InputError for
 /// another shape.
 double pixel_aspect_of(const fs::path& file, int columns, int rows, const ColourFrames& colour) {
     constexpr double kMostOff = 0.02;
-    constexpr double kMostOff_px = 1.5;  // of small pictures, whose sides are whole
-    constexpr int kSides = 32;           // are multiples of it
+    constexpr double kMostOff_px = 1.5;  // of small pictures, whose sides are rounded
+    constexpr int kSides = 32;           // squeezed sides are multiples of it
     constexpr double kMostSqueezed = 0.12;
     const double wanted_rows = 1.0 * columns * colour.rows / colour.columns;
     const double off = std::fabs(rows - wanted_rows);
@@ -82,7 +82,7 @@ double pixel_aspect_of(const fs::path& file, int columns, int rows, const Colour
                      " or smaller: let it write the depth alone, not cropped");
 }
 
-/// A video of another rate that lasts as long.
+/// Whether it is a video of another rate with the same duration.
 bool lasts_as_long(const fs::path& file, const Survey& survey, const ColourFrames& colour) {
     constexpr double kIntervals = 2.0;
     constexpr double kShare = 0.02;
@@ -139,8 +139,8 @@ struct LevelRule {
     bool marks_holes{false};  ///< as level 0
 };
 
-/// Relative numbers may be below 0: then the farthest is 0. Of distances finer than needed, so that
-/// a sky takes nothing from what is near.
+/// Relative numbers may be below 0: then the lowest is level 0. Distances have steps of at most a
+/// millimetre, so that a far sky does not make near depth coarse.
 LevelRule rule_for_numbers(const Survey& survey, DepthUnit unit) {
     constexpr double kMillimetre_m = 0.001;
     LevelRule rule{.marks_holes = true};
@@ -166,7 +166,7 @@ cv::Mat levels_by(const LevelRule& rule, const cv::Mat& picture) {
         levels.setTo(0.0, ~finite_in(numbers));
     }
     cv::Mat whole;
-    levels.convertTo(whole, rule.bits == 8 ? CV_8U : CV_16U);  // rounded, within what there is
+    levels.convertTo(whole, rule.bits == 8 ? CV_8U : CV_16U);  // rounded and clamped
     return whole;
 }
 

@@ -1,4 +1,4 @@
-// From what an estimator has left to depth that goes with its colour: checked, in one file, at the
+// Converts an estimator's output to depth that matches its colour: checked, in one file, at the
 // colour's times.
 #pragma once
 
@@ -10,18 +10,18 @@
 
 namespace dibhr {
 
-/// Of the forms in which the depth is in `output` the likeliest that fits the colour is written
-/// into the folder `target`: depth.mkv, or of a still picture depth.png. It fits when it has as
-/// many frames, or is a video that lasts as long, and the colour's shape within 2 %; and it says
-/// something: it is not painted, and not the same everywhere. 8 and 16 bits stay to the bit, real
-/// numbers become 16 bits, of distances (`unit`) in steps of a millimetre or less.
+/// The written depth: depth.mkv, or of a still picture depth.png. write_depth() takes the likeliest
+/// form in `output` that fits: with as many frames, or a video of the same duration, and the
+/// colour's shape within 2 %; neither painted in colours nor the same everywhere. Levels of 8 and
+/// 16 bits stay unchanged; real numbers become 16 bits, distances (`unit`) in steps of a millimetre
+/// or less.
 struct DepthWritten {
     std::filesystem::path file{};
-    DepthStatement levels{};  ///< scale: the estimator's number that one is; no data where there is
+    DepthStatement levels{};  ///< scale: the estimator's number of one level; no data if any
 };
 
-/// Throws InputError: what does not fit, of the likeliest form. Nothing is written where `stop`
-/// becomes true: the file's name is empty.
+/// Throws InputError: why the likeliest form does not fit. Writes nothing when `stop` becomes true:
+/// the file's name is empty.
 [[nodiscard]] DepthWritten write_depth(const std::filesystem::path& output,
                                        const ColourFrames& colour, DepthUnit unit,
                                        const std::filesystem::path& target,

@@ -1,4 +1,4 @@
-// libav's FFV1 encoder and Matroska writer.
+// Encodes by libav's FFV1, and writes Matroska.
 #include "core/estimate/depth_video.hpp"
 
 extern "C" {
@@ -32,8 +32,8 @@ TrackEncoder encoder_for(const DepthVideoShape& shape) {
                     shape.bits == 8 ? AV_PIX_FMT_GRAY8 : AV_PIX_FMT_GRAY16LE);
     codec->sample_aspect_ratio = av_d2q(shape.pixel_aspect, kFinest);
     codec->color_range = AVCOL_RANGE_JPEG;
-    codec->gop_size = 1;  // any frame can be sought
-    codec->level = 3;     // with slices, which are decoded side by side, and check sums
+    codec->gop_size = 1;  // every frame is a seek target
+    codec->level = 3;     // with slices, which are decoded in parallel, and check sums
     require_written(avcodec_open2(codec.get(), encoder, nullptr), kSubject);
     return TrackEncoder(std::move(codec));
 }

@@ -1,4 +1,4 @@
-// A video of depth that loses nothing: FFV1 in Matroska, grey, 8 or 16 bits.
+// Writes a lossless video of depth: FFV1 in Matroska, grey, 8 or 16 bits.
 #pragma once
 
 #include <cstdint>
@@ -13,18 +13,18 @@ namespace dibhr {
 struct DepthVideoShape {
     int columns{0}, rows{0};
     int bits{16};              ///< of a level: 8 or 16
-    double pixel_aspect{1.0};  ///< how many times as wide as high a pixel is to be shown
+    double pixel_aspect{1.0};  ///< width of a shown pixel divided by its height
 };
 
 class DepthVideo {
   public:
-    /// Writes over the file. Throws InputError.
+    /// Overwrites the file. Throws InputError.
     DepthVideo(const std::filesystem::path& file, const DepthVideoShape& shape);
 
-    /// CV_8UC1 or CV_16UC1. `shown_s` is later than that of the picture before, by a millisecond at
-    /// least, and rounded to one. Throws InputError, e.g. when the disk is full.
+    /// CV_8UC1 or CV_16UC1. `shown_s` must be at least a millisecond after that of the picture
+    /// before; it is rounded to milliseconds. Throws InputError, e.g. when the disk is full.
     void add(const cv::Mat& levels, double shown_s, double interval_s);
-    /// Nothing may be added any more. Throws InputError.
+    /// No add() afterwards. Throws InputError.
     void finish();
 
   private:

@@ -1,4 +1,4 @@
-// Words for it, and the end of an estimator.
+// Texts of the progress, and the end of an estimator.
 #include "core/estimate/estimate_watch.hpp"
 
 #include <array>

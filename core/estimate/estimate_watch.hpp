@@ -1,4 +1,4 @@
-// How an estimation goes, and the wish to end it, between the thread that makes it and who watches.
+// The progress and the stop request of an estimation, shared by its thread and by others.
 #pragma once
 
 #include <sys/types.h>
@@ -11,18 +11,18 @@
 
 namespace dibhr {
 
-/// What is done now.
+/// The present step.
 enum class EstimateStep { looking, giving_frames, estimating, checking };
 
 struct EstimateProgress {
     EstimateStep step{EstimateStep::looking};
     std::size_t done{0}, of{0};  ///< frames; of 0: not known yet
-    bool counted{false};         ///< `done` is known: the estimator shows it
+    bool counted{false};         ///< `done` is known from the estimator
     std::optional<double> left_s{};
     double elapsed_s{0.0};  ///< since the estimator was started
     std::string said{};     ///< the last line of the estimator
 
-    /// Of this step, 0 to 1.
+    /// The part of this step that is done, 0 to 1.
     [[nodiscard]] double share() const noexcept {
         return of == 0 ? 0.0 : static_cast<double>(done) / static_cast<double>(of);
     }
@@ -34,21 +34,21 @@ struct EstimateProgress {
 /// For any thread.
 class EstimateWatch {
   public:
-    /// What is done so far stays for the next time.
+    /// Stops; finished frames stay for the next run.
     void stop() noexcept { stop_ = true; }
-    /// The same, and the estimator is killed now: this program ends.
+    /// The same, and kills the estimator now: this program is about to end.
     void stop_at_once() noexcept;
     [[nodiscard]] const std::atomic<bool>& stopped() const noexcept { return stop_; }
 
     void tell(const EstimateProgress& progress);
     [[nodiscard]] EstimateProgress progress() const;
 
-    /// The estimator's keeper; 0: none runs.
+    /// Sets the estimator's keeper; 0: none runs.
     void runs(pid_t keeper);
 
   private:
     std::atomic<bool> stop_{false};
-    mutable std::mutex mutex_{};  ///< of all below
+    mutable std::mutex mutex_{};  ///< of all members below
     EstimateProgress progress_{};
     pid_t keeper_{0};
     bool at_once_{false};

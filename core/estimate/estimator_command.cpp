@@ -1,4 +1,4 @@
-// Words, quotations and places.
+// Splits a command into words, and fills its places.
 #include "core/estimate/estimator_command.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::string_view kSpaces = " \t\r\n";
-/// What a shell takes for itself.
+/// Operators of a shell.
 constexpr std::array<std::string_view, 9> kOfAShell{"|", "||", "&", "&&", ";",
                                                     ">", ">>", "<", "2>"};
 
@@ -30,12 +30,12 @@ std::string home() {
     return folder != nullptr ? folder : "~";
 }
 
-/// Takes one word after the other off a text.
+/// Splits a text into words.
 class Splitter {
   public:
     explicit Splitter(const std::string& text) : text_(text) {}
 
-    /// Nothing at the end.
+    /// The next word; nothing at the end.
     std::optional<std::string> next() {
         at_ = std::min(text_.find_first_not_of(kSpaces, at_), text_.size());
         if (at_ == text_.size()) return std::nullopt;
@@ -85,13 +85,13 @@ class Splitter {
     std::string word_{};
 };
 
-/// A place in a word: from its { to its }, and what stands between.
+/// A place in a word, from { to }, and its name between them.
 struct Place {
     std::size_t begin{0}, length{0};
     std::string name{};
 };
 
-/// The first from there on; of small letters, digits and points, so that other braces stay.
+/// The first place from there on. Names have small letters, digits and points; other braces stay.
 std::optional<Place> next_place(const std::string& word, std::size_t from) {
     for (std::size_t begin = word.find('{', from); begin != std::string::npos;
          begin = word.find('{', begin + 1)) {

@@ -1,4 +1,4 @@
-// Sorts files by the numbers in their names, by form and by words.
+// Sorts files by the numbers, words and endings of their names.
 #include "core/estimate/estimator_output.hpp"
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
 constexpr int kPutLast = 100;
 constexpr int kVideo = 20;  ///< comes after all pictures and arrays
 
-/// By what a form can hold: 0 the finest.
+/// Rank by the precision of a form: 0 is the finest.
 int rank_of_form(const fs::path& file) {
     constexpr std::array<std::string_view, 7> kForms{".exr", ".pfm", ".npy", ".npz",
                                                      ".tif", ".png", ".pgm"};
@@ -35,8 +35,8 @@ int rank_of_form(const fs::path& file) {
     return static_cast<int>(form - kForms.begin());
 }
 
-/// Whether a word in the name, or in that of a folder on the way, says that it is none of depth's
-/// levels: those that estimators write beside them.
+/// Whether a word in the name, or in that of a folder above, is for other output of estimators than
+/// depth levels.
 bool says_other(const fs::path& relative) {
     constexpr std::array<std::string_view, 4> kOthers{"src", "input", "normal", "confidence"};
     for (const fs::path& part : relative) {
@@ -54,7 +54,7 @@ int rank_of(const fs::path& folder, const fs::path& file) {
     return form + (says_other(file.lexically_relative(folder)) ? kPutLast : 0);
 }
 
-/// Not hidden ones, which are on their way.
+/// Without hidden files, which are still being written.
 std::vector<fs::path> files_in(const fs::path& folder) {
     constexpr int kDeepest = 3;
     std::vector<fs::path> files;
@@ -95,7 +95,7 @@ std::vector<NumberInName> numbers_in(const fs::path& file) {
     return numbers;
 }
 
-/// Of pictures of the same name but for one number.
+/// Rows of pictures whose names differ in one number.
 std::vector<NumberedOutputs> rows_in(const fs::path& folder) {
     std::map<fs::path, NumberedOutputs> rows;
     for (const fs::path& file : files_in(folder)) {
@@ -111,7 +111,7 @@ std::vector<NumberedOutputs> rows_in(const fs::path& folder) {
     return all;
 }
 
-/// The pictures of a row, one after the other, each whole and of the first one's size.
+/// Gives the pictures of a row in order. A picture that is unreadable or of another size throws.
 class RowOfOutputs : public PictureSource {
   public:
     explicit RowOfOutputs(const NumberedOutputs& row) {
@@ -152,7 +152,7 @@ bool can_be_read(const fs::path& file) try {
     return false;
 }
 
-/// Compression tints grey pictures a little, in a few places.
+/// Whether a picture has colours; ignores slight tints by compression, in a few places.
 bool has_colours(const cv::Mat& picture) {
     constexpr double kTint = 12.0;  // of 255
     constexpr double kFew = 0.005;  // of the pixels

@@ -1,4 +1,4 @@
-// What an estimator has left in its folder: rows of pictures, arrays, videos.
+// Finds an estimator's output in its folder: rows of pictures, arrays, videos.
 #pragma once
 
 #include <cstddef>
@@ -13,35 +13,35 @@
 
 namespace dibhr {
 
-/// Pictures whose names differ in one number only: of one form, a frame each.
+/// Pictures of one form whose names differ in one number only: one for each frame.
 using NumberedOutputs = std::map<std::size_t, std::filesystem::path>;
 
-/// The row that tells how far it is: of the longest (one picture more or less counts for nothing)
-/// the one of the finest form. Empty where there is none.
+/// The row that shows the progress: of the longest rows (a difference of one picture does not
+/// count) the one of the finest form. Empty where there is none.
 [[nodiscard]] NumberedOutputs row_so_far(const std::filesystem::path& folder);
 
 struct WholeOutputs {
     std::set<std::size_t> numbers{};
-    std::vector<std::filesystem::path> removed{};  ///< which could not be read
+    std::vector<std::filesystem::path> removed{};  ///< unreadable pictures
 };
 
-/// Those in that row whose pictures are whole: the newest, which a crash may have cut, are read,
-/// and removed where they cannot be. None where they are not called by the frames' own names
-/// (frame_name): they count anew in each run.
+/// The whole pictures of that row. Reads the newest ones, which a crash may have truncated, and
+/// removes unreadable ones. None where names do not hold the frames' names (frame_name): such
+/// estimators count anew in each run.
 [[nodiscard]] WholeOutputs whole_outputs(const std::filesystem::path& folder);
 
-/// All bytes in the folder: they grow while something is written.
+/// All bytes in the folder, which grow while the estimator writes.
 [[nodiscard]] std::uintmax_t bytes_in(const std::filesystem::path& folder);
 
-/// One of the forms in which the depth may be there.
+/// One form in which the depth may be there: a row of pictures or a file.
 class DepthOutput {
   public:
     explicit DepthOutput(NumberedOutputs row) : row_(std::move(row)) {}
     explicit DepthOutput(std::filesystem::path file) : file_(std::move(file)) {}
 
-    /// From its first picture on, each time. Throws InputError.
+    /// Opens it at its first picture. Throws InputError.
     [[nodiscard]] std::unique_ptr<PictureSource> open() const;
-    /// Its pictures are painted: no levels. Throws InputError.
+    /// Whether the pictures have colours: no levels. Throws InputError.
     [[nodiscard]] bool is_painted() const;
     /// For messages.
     [[nodiscard]] const std::filesystem::path& file() const {
@@ -53,8 +53,8 @@ class DepthOutput {
     std::filesystem::path file_{};
 };
 
-/// All that may be depth in the folder and the folders in it, the likeliest first: numbers before
-/// videos, of pictures the finest form, and what is called like colour or input last.
+/// All that may be depth in the folder and its subfolders, the likeliest first: pictures and arrays
+/// before videos, the finest form first, and names for colour or input last.
 [[nodiscard]] std::vector<DepthOutput> depth_outputs(const std::filesystem::path& folder);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Lines, and two numbers in them.
+// Splits output into lines, and finds two numbers in them.
 #include "core/estimate/spoken_progress.hpp"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 4096;  ///< what is longer is no line
+constexpr std::size_t kLongestLine = 4096;  ///< longer lines are split
 
-/// The whole number that begins there; moves behind it. Nothing: none, or a larger one than any
-/// count of frames.
+/// The whole number at `at`; moves `at` behind it. Nothing: no number, or one too large for a count
+/// of frames.
 std::optional<std::size_t> number_at(std::string_view line, std::size_t& at) {
     constexpr std::size_t kMostDigits = 9;
     const std::size_t begin = at;
@@ -25,7 +25,7 @@ std::optional<std::size_t> number_at(std::string_view line, std::size_t& at) {
     return number;
 }
 
-/// "/" or " of " between two counts; its length, 0: neither.
+/// The length of "/" or " of " between two counts; 0: neither.
 std::size_t between_counts(std::string_view rest) {
     for (const std::string_view word : {"/", " / ", " of "})
         if (rest.starts_with(word)) return word.size();
@@ -43,7 +43,7 @@ void SpokenProgress::take(const std::string& text) {
         }
         if (!ends) line_ += c;
     }
-    note();  // a bar, and last words, wait for their end
+    note();  // a bar and the last line may have no end yet
 }
 
 void SpokenProgress::note() {

@@ -1,4 +1,4 @@
-// A surface as triangles, split as it is for touch: a coloured mesh, and a solid plate.
+// Writes a surface as the triangles that are touched: a coloured mesh, and a solid plate.
 #include <cstddef>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -33,7 +33,7 @@ std::uint64_t triangles_of(const DepthSurface& surface) {
            static_cast<std::uint64_t>(surface.rows() - 1);
 }
 
-/// The pixel of the colour picture under the middle of a VERTEX's own.
+/// The colour pixel at the centre of a VERTEX's pixel.
 std::string_view colour_under(const ColourImage& colour, const DepthSurface& surface,
                               GridPlace at) {
     const auto scaled = [](int k, int count, int colours) {

@@ -1,5 +1,5 @@
-// What all forms of a surface's file are made of: places as they are written, and bytes in large
-// pieces; inside the room.
+// Helpers of all forms of surface files: positions in millimetres, and buffered bytes; inside the
+// room.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace dibhr {
 
-/// The elevation of a VERTEX as it is written [px]: always finite.
+/// The elevation of a VERTEX in a file [px]: always finite.
 [[nodiscard]] inline double written_px(const DepthSurface& surface, int i, int j) noexcept {
     const double elevation = surface.elevation(i, j);
     return std::isfinite(elevation) ? elevation : 0.0;
@@ -29,7 +29,7 @@ namespace dibhr {
             static_cast<float>(written_px(felt.surface, i, j) * pitch_mm)};
 }
 
-/// Bytes on their way into a file, whose numbers are little-endian.
+/// Buffers bytes for a file; numbers are little-endian.
 class Pieces {
   public:
     explicit Pieces(OutputFile& file) : file_(file) { bytes_.reserve(kPiece_bytes + kSlack_bytes); }
@@ -50,7 +50,7 @@ class Pieces {
         add(place.y);
         add(place.z);
     }
-    /// What was added goes to the file. Throws InputError.
+    /// Writes the buffer to the file. Throws InputError.
     void send() {
         file_.write(bytes_);
         bytes_.clear();

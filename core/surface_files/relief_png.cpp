@@ -1,4 +1,4 @@
-// A surface as a grey picture of 16 bits. Through libpng itself, which takes it row by row.
+// Writes a surface as a grey picture of 16 bits, row by row through libpng.
 #include <png.h>
 
 #include <algorithm>
@@ -33,7 +33,7 @@ void take(png_structp png, png_bytep bytes, std::size_t count) {
 
 void flush_nothing(png_structp /*png*/) {}
 
-/// libpng's writer, whose bytes wait for the file. An error leaves libpng as an exception.
+/// libpng's writer, with a buffer before the file. An error leaves libpng as an exception.
 class PngWriter {
   public:
     explicit PngWriter(OutputFile& file)
@@ -99,7 +99,7 @@ class PngWriter {
     png_infop info_{nullptr};
 };
 
-/// Big-endian, as PNG has it.
+/// One row of greys, big-endian as in PNG.
 void grey_row(const DepthSurface& surface, int j, std::vector<png_byte>& row) {
     const double ceiling_px = surface.ceiling();
     const double greys_per_px = ceiling_px > 0.0 ? kHighestGrey / ceiling_px : 0.0;

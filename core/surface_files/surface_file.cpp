@@ -1,4 +1,4 @@
-// Which form a name asks for, and elevations as plain numbers.
+// Chooses the form by the name, and writes elevations as plain numbers.
 #include "core/surface_files/surface_file.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ ElevationRange elevation_range(const DepthSurface& surface) {
     return range;
 }
 
-/// The lowest row comes first; a negative scale says little-endian.
+/// The lowest row comes first; a negative scale means little-endian.
 void write_pfm(const FeltSurface& felt, OutputFile& file) {
     const DepthSurface& surface = felt.surface;
     Pieces pieces(file);

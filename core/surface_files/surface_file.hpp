@@ -1,5 +1,5 @@
-// A surface as a file, as it is felt: numbers for programs, a relief, a mesh and a solid plate for
-// other tools and machines.
+// Writes the touched surface as a file: numbers for programs, a relief, a mesh and a solid plate
+// for other tools and machines.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace dibhr {
 
 /// How a surface is written, row by row, a value or a corner for every VERTEX:
 /// pfm: its elevation [px], 32-bit real numbers;
-/// png: a grey relief of 16 bits, from 0 on the ground to 65535 at the surface's ceiling, which
-///      the file says in a text, as it says the pitch;
+/// png: a grey relief of 16 bits, from 0 on the ground to 65535 at the surface's ceiling; a text
+///      in the file states ceiling and pitch;
 /// ply: the mesh that is touched [mm], x to the right, y up, z to the viewer, with its colours;
 /// stl: a plate of 2 mm with the mesh on it [mm], closed, for a printer or a mill.
 enum class SurfaceFormat { pfm, png, ply, stl };
@@ -29,14 +29,14 @@ inline constexpr SurfaceFormat kSurfaceFormats[]{SurfaceFormat::pfm, SurfaceForm
 /// By the ending of the name, in small or capital letters; nothing for another one.
 [[nodiscard]] std::optional<SurfaceFormat> surface_format_of(const std::filesystem::path& file);
 
-/// How thick the plate of an STL file is under the lowest place of the surface [mm].
+/// Thickness of an STL file's plate under the lowest place of the surface [mm].
 inline constexpr double kPlate_mm = 2.0;
 
-/// What is written. What has no finite elevation is written as ground, 0 px.
+/// The surface to write. A place without a finite elevation is written as ground, 0 px.
 struct FeltSurface {
     DepthSurface surface;
     double pixel_pitch_mm;
-    const ColourImage* colour{nullptr};  ///< of all of it, of any size; null or empty: none
+    const ColourImage* colour{nullptr};  ///< of the whole surface, any size; null, empty: none
 };
 
 struct ElevationRange {
@@ -44,7 +44,7 @@ struct ElevationRange {
     double highest_px{0.0};
 };
 
-/// The lowest and the highest that is written.
+/// The lowest and the highest written elevation.
 [[nodiscard]] ElevationRange elevation_range(const DepthSurface& surface);
 
 /// Writes all of it; the caller commits the file. Holds a few rows in memory. Throws InputError.

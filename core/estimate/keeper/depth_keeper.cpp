@@ -1,7 +1,7 @@
-// Runs an estimator for dibhr, and sees to it that nothing of it goes on when it, or dibhr, ends:
-// depth-keeper LIFE TROUBLE PROGRAM... LIFE is a pipe whose other end dibhr holds as long as it
-// lives; into TROUBLE goes an errno where the program cannot be started. A program of its own: a
-// copy of dibhr's memory would disturb a hand that is felt meanwhile.
+// Runs an estimator for dibhr, and kills all its processes when it or dibhr ends:
+// depth-keeper LIFE TROUBLE PROGRAM... LIFE is a pipe whose other end dibhr holds while it lives;
+// into TROUBLE goes an errno when the program cannot be started. This is a separate program, since
+// a copy of dibhr's memory would disturb the haptic thread.
 #include <dirent.h>
 #include <fcntl.h>
 #include <poll.h>
@@ -23,9 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kGrace{
-    400};  ///< from when it is asked to end until it is killed
+    400};  ///< from SIGTERM to SIGKILL
 
-/// Of a child that has ended, too, until it is waited for.
+/// Whether that process is our child; also an ended one that was not waited for.
 bool is_child(const char* pid) {
     char name[64];
     char line[512];
@@ -38,8 +38,8 @@ bool is_child(const char* pid) {
     return behind_name != nullptr && std::atoi(behind_name + 3) == ::getpid();
 }
 
-/// Whoever has lost its parent is this program's child, whatever group or session it has left for.
-/// Whether there was any that it may kill.
+/// Kills all children. A process that has lost its parent becomes this program's child, in any
+/// group or session. True: there was one that it may kill.
 bool kill_children() {
     bool any = false;
     DIR* const processes = ::opendir("/proc");
@@ -66,7 +66,7 @@ bool kill_children() {
     ::_exit(EXIT_FAILURE);
 }
 
-/// Over the estimator: SIGTERM asks it to end, SIGUSR1 kills it at once.
+/// Watches the estimator: SIGTERM ends it with a grace time, SIGUSR1 kills it at once.
 class Watch {
   public:
     Watch(pid_t estimator, int life) : estimator_(estimator), life_(life) {
@@ -76,12 +76,12 @@ class Watch {
         signals_ = ::signalfd(-1, &heard, SFD_CLOEXEC | SFD_NONBLOCK);
     }
 
-    /// Until nothing of it is left. Gives its status.
+    /// Waits until no process of the estimator is left. Returns its status.
     int over() {
         while (!ended_ && !at_once_) {
             pollfd news[]{{life_, POLLIN, 0}, {signals_, POLLIN, 0}};
             ::poll(news, 2, patience_ms());
-            if (news[0].revents != 0) at_once_ = true;  // dibhr is gone
+            if (news[0].revents != 0) at_once_ = true;  // dibhr has ended
             take_signals();
             reap(::waitpid(-1, &status_of_one_, WNOHANG));
             if (latest_ <= Clock::now()) at_once_ = true;
@@ -122,10 +122,10 @@ class Watch {
     int status_{0}, status_of_one_{0};
     bool ended_{false};
     bool at_once_{false};
-    Clock::time_point latest_{Clock::time_point::max()};  ///< for it to end by itself
+    Clock::time_point latest_{Clock::time_point::max()};  ///< then it is killed
 };
 
-/// As the estimator did.
+/// Ends this program as the estimator ended.
 [[noreturn]] void end_as(int status) {
     if (!WIFSIGNALED(status)) ::_exit(WEXITSTATUS(status));
     const rlimit no_core{0, 0};

@@ -16,15 +16,15 @@ namespace dibhr {
 
 namespace {
 
-/// Of the highest level: what shakes less is not felt (0.15 px of 255, 0.005 N at 0.5 N/mm).
+/// Noise below this part of the highest level is not felt (0.15 px of 255, 0.005 N at 0.5 N/mm).
 constexpr float kFelt = 0.15F / 255.0F;
-/// What holds still may have ramps all the same.
+/// Depth with little noise may have ramps all the same.
 constexpr CleaningSteps kQuietSteps{
     .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
 constexpr double kReliefOfWords_px = 255.0;
 
-/// Scratch memory of pictures larger than 4K video is freed: it takes several times the picture,
-/// and few such pictures follow each other.
+/// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
+/// picture, and few such pictures follow each other.
 constexpr std::size_t kLarge = 9'000'000;
 
 template <typename... Scratch>
@@ -36,7 +36,7 @@ bool is_touchable(const DepthImage& image) {
     return image.columns >= 2 && image.rows >= 2;
 }
 
-/// What has no data becomes the farthest, never seen.
+/// Pixels without data become the farthest level, and are marked as unseen.
 DIBHR_VECTOR_CLONES void make_farthest(float* __restrict levels, std::uint8_t* __restrict unseen,
                                        std::size_t count) {
     for (std::size_t k = 0; k < count; ++k) {
@@ -94,7 +94,7 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
            (plan.noise.of_scale ? ", a scale a frame" : "");
 }
 
-/// What is left without data becomes the farthest.
+/// Holes that stay without data become the farthest level.
 void CleaningChain::close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held) {
     std::vector<float>& levels = lone.depth.levels;
     lone.made_up.resize(levels.size());

@@ -1,4 +1,4 @@
-// Makes recorded depth pleasant and safe to touch: all steps, in their order.
+// The chain of cleaning: applies all steps in their order to recorded depth.
 #pragma once
 
 #include <cstddef>
@@ -22,27 +22,27 @@
 
 namespace dibhr {
 
-/// What is done to the frames of one clip.
+/// The cleaning of the frames of one clip.
 struct CleaningPlan {
     CleaningSteps steps{};
     Fingertip finger{};
-    DepthNoise noise{};  ///< of the clip
+    DepthNoise noise{};  ///< measured in the clip
 
     bool operator==(const CleaningPlan&) const = default;
 };
 
-/// Images of more pixels take longer with all steps than most machines have.
+/// `automatic` does not take all steps for larger images: most machines have no time for them.
 inline constexpr std::size_t kMostForSensor = 1'000'000;
 
-/// The steps that `options` mean for a clip of such noise and size: `auto` takes what there is use
-/// and time for.
+/// The steps for a clip of this noise and size. `automatic` chooses the steps that the clip needs
+/// and that there is time for.
 [[nodiscard]] CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise,
                                    std::size_t pixels = 0);
 
-/// Whether `options` depend on the noise of the clip, which then is to be measured first.
+/// Whether the clip's noise must be measured before its steps are known.
 [[nodiscard]] bool needs_noise(const CleaningOptions& options);
 
-/// Whether frames cleaned alone are the same by both.
+/// Whether the steps that need one frame only are the same in both.
 [[nodiscard]] inline bool same_alone(const CleaningSteps& a, const CleaningSteps& b) noexcept {
     return a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
@@ -52,24 +52,24 @@ inline constexpr std::size_t kMostForSensor = 1'000'000;
 /// In one line, for a person: "auto: sensor, noise 0.9 px near, 6.9 far".
 [[nodiscard]] std::string in_words(const CleaningOptions& options, const CleaningPlan& plan);
 
-/// Cleans frames, each in two parts: alone, and then with those before and after it. What is off
-/// leaves every level as it is, but no data (NaN) becomes level 0, the farthest; the same frames
-/// give the same bits. Scratch memory is kept inside and reused: one thread at a time may call
-/// alone(), and one, that or another, finished().
+/// Cleans frames in two parts: clean_frame() needs one frame only, finish_frame() those before and
+/// after it, too. Steps that are off change no level, but no data (NaN) becomes level 0, the
+/// farthest. The same frames give the same bits. Each part has its own scratch memory: one thread
+/// at a time may call clean_frame(), and the same or another one finish_frame().
 class CleaningChain {
   public:
-    /// Spikes, holes and silhouettes of one frame. `held`: what pixels without data were before;
-    /// `colour`: of the same view, null where there is none.
+    /// Spikes, holes and silhouettes of one frame. `held`: the last levels of pixels without data;
+    /// `colour`: the picture of the same view, null: none.
     [[nodiscard]] LoneDepth alone(DepthImage image, const CleaningPlan& plan,
                                   std::span<const HeldLevel> held = {},
                                   const ColourImage* colour = nullptr);
 
-    /// All that is left, of frame `now` of `frames`, which follow each other in time and may be
-    /// only one: the depth of `frame`, which has none, and how it was cleaned.
+    /// The other steps for frame `now` of `frames`, which follow each other in time (one frame is
+    /// enough). Returns `frame` with its depth and cleaning set.
     [[nodiscard]] Frame finished(std::span<const LoneDepth* const> frames, std::size_t now,
                                  const CleaningPlan& plan, Frame frame = {});
 
-    /// Both parts of a frame that has none before or after it.
+    /// Both parts for a frame without frames before or after it.
     [[nodiscard]] Frame cleaned(DepthImage image, const CleaningPlan& plan,
                                 std::span<const HeldLevel> held = {});
 
@@ -79,7 +79,7 @@ class CleaningChain {
     void close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held);
 
     SpikeRemover spikes_{};
-    DepthImage seen_{};  ///< without anything filled
+    DepthImage seen_{};  ///< before holes are filled
     HeldFiller held_{};
     SmallHoleFiller small_holes_{};
     LargeHoleFiller large_holes_{};

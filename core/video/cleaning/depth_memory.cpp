@@ -1,4 +1,4 @@
-// What a pixel without data was a moment before.
+// Remembers the last levels, and decides which of them fill holes.
 #include "core/video/cleaning/depth_memory.hpp"
 
 #include <algorithm>
@@ -16,13 +16,13 @@ namespace dibhr {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr double kMostly = 0.9;  ///< of a patch
+constexpr double kMostly = 0.9;  ///< least share of a patch that has held levels
 
-// Measured on sensors' recordings, by the next level that such pixels had: one like a level within
-// 3 px comes back more often than what is behind; another one is behind 2 to 10 times as often.
+// Measured on sensors' recordings, by the next level of such pixels: with a similar level within
+// 3 px the held level comes back more often; else the background comes 2 to 10 times as often.
 constexpr int kLike_px = 3;
-constexpr int kSquare_px = 4;  ///< levels around are looked up by square,
-constexpr int kSquares = 2;    ///< so many to each side: 8 to 11 px
+constexpr int kSquare_px = 4;  ///< the levels around are found by squares,
+constexpr int kSquares = 2;    ///< this many to each side: 8 to 11 px
 
 bool is_like(float a, float b, float outline) {
     return std::fabs(a - b) <= outline;
@@ -38,7 +38,7 @@ bool has_its_like(const DepthImage& image, int i, int j, float level, float outl
     return false;
 }
 
-/// NaN is passed over.
+/// The lower of each two levels; NaN is ignored.
 DIBHR_VECTOR_CLONES void lower(float* __restrict levels, const float* other, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) levels[i] = other[i] < levels[i] ? other[i] : levels[i];
 }
@@ -110,7 +110,7 @@ void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
         const bool holds = behind == kInfinity ? was_seen(k)
                                                : is_like(level, behind, outline) ||
                                                      has_its_like(image, i, j, level, outline);
-        // What lies below all that is around would be a pit.
+        // A level below all levels around would be a pit.
         if (holds) used_.push_back({index, behind == kInfinity ? level : std::max(level, behind)});
     }
     for (const HeldLevel& level : used_) image.levels[level.index] = level.level;

@@ -1,4 +1,4 @@
-// What a pixel without data was a moment before: holes that come and go keep their last level.
+// The last level of pixels that have lost their data: holes that come and go keep it.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace dibhr {
 
-/// A level older than this is forgotten [s of media time].
+/// Levels are kept this long [s of media time].
 inline constexpr double kHold_s = 1.0;
 
 /// The last level of a pixel that has no data now.
@@ -21,26 +21,26 @@ struct HeldLevel {
     float level;
 };
 
-/// Goes along with the frames of a file, in their order.
+/// Remembers the last level of each pixel; takes the frames of a file in their order.
 class DepthMemory {
   public:
-    /// Of the frame's pixels without data those that had some less than kHold_s before, row-major.
+    /// Pixels without data in this frame that had data less than kHold_s before, row-major.
     [[nodiscard]] std::vector<HeldLevel> take(const DepthImage& depth, double media_s);
 
     /// The next frame does not follow the last one.
     void forget() noexcept;
 
   private:
-    std::vector<float> levels_{};           ///< the last of each pixel; empty: nothing was taken
-    std::vector<std::uint32_t> seen_in_{};  ///< in which frame, counted from 1; 0: in none
-    std::uint32_t whole_in_{0};             ///< in which all of them were, since when; 0: in none
-    std::deque<double> times_{};            ///< of the frames that are young enough
-    std::uint32_t oldest_{1};               ///< the first one of them
+    std::vector<float> levels_{};           ///< the last one of each pixel; empty: no frame yet
+    std::vector<std::uint32_t> seen_in_{};  ///< frame of that level, counted from 1; 0: none
+    std::uint32_t whole_in_{0};             ///< last frame, if it had no holes; else 0
+    std::deque<double> times_{};            ///< of the frames within kHold_s
+    std::uint32_t oldest_{1};               ///< number of the first of these
 };
 
-/// Puts held levels where nothing speaks against them. One is used where a level like it is seen
-/// within a few pixels, or where it is about the farthest around; where no data is near at all, if
-/// the hole was seen for the most part. So what moves away leaves no ghost in the hole behind it.
+/// Puts held levels into holes where they are plausible: where a similar level is within a few
+/// pixels, or the held level is about the farthest around. Where no data is near, most of the hole
+/// must have held levels. So a moving object leaves no ghost in the hole behind it.
 class HeldFiller {
   public:
     void fill(DepthImage& image, std::span<const HeldLevel> held);
@@ -51,9 +51,9 @@ class HeldFiller {
     [[nodiscard]] bool was_seen(std::size_t k) const;
 
     Patches patches_{};
-    std::vector<std::int32_t> patch_of_{};  ///< each held level
+    std::vector<std::int32_t> patch_of_{};  ///< of each held level
     std::vector<std::size_t> held_in_{};    ///< pixels of each patch
-    // The lowest levels of pixels in a column, a square and all around; infinity: no data.
+    // The lowest levels in a column of a square, in a square, and around it; infinity: no data.
     std::vector<float> in_row_{}, lowest_{}, farthest_{};
     std::vector<HeldLevel> used_{};
 };

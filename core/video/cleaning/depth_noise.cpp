@@ -1,4 +1,4 @@
-// Second differences in time, tile by tile: even motion has none.
+// Measures noise by second differences in time, tile by tile: even motion has none.
 #include "core/video/cleaning/depth_noise.hpp"
 
 #include <algorithm>
@@ -18,24 +18,24 @@ namespace dibhr {
 namespace {
 
 constexpr int kTile_px = 16;
-constexpr int kStep_px = 2;  ///< every second pixel both ways says enough
+constexpr int kStep_px = 2;  ///< every second pixel of a row and column is enough
 constexpr std::size_t kPixelsOfTile = kTile_px * kTile_px / (kStep_px * kStep_px);
 constexpr std::size_t kLeastChanges = 64;
 constexpr std::size_t kBins = 16;  ///< of levels
-// Of a bin: of fewer tiles something may move in most, so that they say nothing of noise.
+// Least tiles of a bin: in fewer, motion may be in most of them and would be taken for noise.
 constexpr std::size_t kLeastTiles = 4;
 constexpr double kLeastShare = 0.02;  ///< of the fullest bin
-constexpr double kOneSurface = 0.06;  ///< of the highest level: what varies more is more than one
-/// Of the tiles of a bin: in the quieter ones no outline passes.
+constexpr double kOneSurface = 0.06;  ///< of the highest level: a tile that varies more has several
+/// This quantile of a bin's tiles is its noise: tiles with less noise have no outline in them.
 constexpr double kQuieter = 0.4;
-// Of a normal distribution, from the means of the absolutes of second differences x[-1] - 2 x[0] +
-// x[1], and of differences from the mean of four around: sqrt(pi / 2) over sqrt(6), sqrt(5 / 4).
+// From a mean absolute value to the deviation of a normal distribution, for x[-1] - 2 x[0] + x[1]
+// and for differences from the mean of four around: sqrt(pi / 2) over sqrt(6), over sqrt(5 / 4).
 constexpr double kOfSecondDifference = 1.2533141 / 2.4494897;
 constexpr double kOfRoughness = 1.2533141 / 1.1180340;
 
-constexpr int kSmall_px = 320;  ///< enough to compare the scales of frames
+constexpr int kSmall_px = 320;  ///< enough columns to compare the scales of frames
 
-/// Every few pixels of it.
+/// Every n-th pixel, so that at most kSmall_px columns are left.
 DepthImage small_of(const DepthImage& frame) {
     const int step = (frame.columns + kSmall_px - 1) / kSmall_px;
     return image_of((frame.columns + step - 1) / step, (frame.rows + step - 1) / step,
@@ -55,7 +55,7 @@ struct Sample {
     double weight;
 };
 
-/// Of {1, away, away^2}, how much.
+/// Factors of {1, away, away^2}.
 using Powers = std::array<double, 3>;
 
 double squared_error(const std::vector<Sample>& samples, const Powers& powers) {
@@ -67,7 +67,7 @@ double squared_error(const std::vector<Sample>& samples, const Powers& powers) {
     return sum;
 }
 
-/// The best with those powers alone that `used` names, by normal equations.
+/// The best fit with the powers that are bits of `used`, by normal equations.
 Powers fitted(const std::vector<Sample>& samples, unsigned used) {
     std::array<std::array<double, 4>, 3> rows{};
     for (const Sample& s : samples) {
@@ -97,7 +97,7 @@ Powers fitted(const std::vector<Sample>& samples, unsigned used) {
     return powers;
 }
 
-/// None of the powers below zero: the best of all choices of powers.
+/// The best fit in which no factor is negative.
 Powers fitted(const std::vector<Sample>& samples) {
     Powers best{};
     double least = std::numeric_limits<double>::infinity();
@@ -147,7 +147,7 @@ void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top
             sum += change;
         }
     }
-    // What all of a tile does is motion, or the scale of the frame: noise differs within it.
+    // What all pixels of a tile share is motion, or the frame's scale: noise differs within a tile.
     if (count < 2) return;
     const auto pixels = static_cast<float>(count);
     const float mean = sum / pixels;
@@ -188,10 +188,10 @@ DepthNoise NoiseMeter::noise() const {
     const double highest = last_.highest_level;
     const bool moves = std::any_of(tiles_.begin(), tiles_.end(), [](const Tile& tile) {
         return tile.shaken.count >= kLeastChanges;
-    });  // else it is a still, whose grain is all it says
+    });  // else it is a still picture, of which only grain is known
     const auto is_one_surface = [highest](const Tile& tile) {
         return tile.rough.count >= kLeastChanges && tile.level.deviation() <= kOneSurface * highest;
-    };  // none at all: the noise itself varies by more
+    };  // where no tile is one surface, the noise itself varies by more
     const bool has_surfaces = std::any_of(tiles_.begin(), tiles_.end(), is_one_surface);
     for (const Tile& tile : tiles_) {
         if (tile.rough.count < kLeastChanges) continue;

@@ -1,4 +1,4 @@
-// How much the depth of a recording errs, measured in its first frames.
+// The noise of a recording's depth, measured in its first frames.
 #pragma once
 
 #include <algorithm>
@@ -13,40 +13,40 @@
 
 namespace dibhr {
 
-/// Standard deviation of a level about what it should be, by how far the surface is away: constant,
-/// and growing with the distance and with its square, as that of stereo cameras does (K. Khoshelham
-/// and S. Oude Elberink, Sensors 12, 2012). All in parts of the highest level.
+/// Standard deviation of a level by the surface's distance: a constant, a linear and a square part,
+/// as stereo cameras have it (K. Khoshelham and S. Oude Elberink, Sensors 12, 2012). All in parts
+/// of the highest level.
 struct DepthNoise {
     float constant{0.0F};
-    float linear{0.0F};  ///< more of it at the farthest level, falling to 0 at the nearest
-    float square{0.0F};  ///< the same, falling with the square
-    /// How far it is the same in pixels beside each other, in [0, 1]: blotches, not grain.
+    float linear{0.0F};  ///< added at the farthest level, falling to 0 at the nearest
+    float square{0.0F};  ///< likewise, falling with the square
+    /// How far neighbouring pixels have the same noise, in [0, 1]: 0 is grain, 1 is blotches.
     float blotched{0.0F};
-    /// Frames have a scale and a shift each, as those of estimators from single pictures have.
+    /// Each frame has its own scale and shift, as from estimators of depth from single pictures.
     bool of_scale{false};
 
     bool operator==(const DepthNoise&) const = default;
 
-    /// Of a level that is `height` parts of the highest one.
+    /// At a level; `height`: the level over the highest one.
     [[nodiscard]] float at(float height) const noexcept {
         const float away = 1.0F - height;
         return constant + away * (linear + away * square);
     }
 };
 
-// What a file of depth that was recorded live says of it beside its levels: the noise, by which it
-// is cleaned again, and the bits of a level.
+// Tags of a file with depth that was recorded live: the noise, so that it is cleaned alike again,
+// and the bits of a level.
 inline constexpr const char* kNoiseTag = "DIBHR_NOISE";
 inline constexpr const char* kBitsTag = "DIBHR_BITS";
 [[nodiscard]] std::string text_of(const DepthNoise& noise);
-/// Nothing where it is no such text.
+/// The noise in such a text; nothing if it is none.
 [[nodiscard]] std::optional<DepthNoise> noise_in(const std::string& text);
 
-/// How far levels of one surface may differ: so many standard deviations.
+/// How far levels of one surface may differ: a number of standard deviations.
 class NoiseBound {
   public:
     NoiseBound() = default;
-    /// No less than those of `least`, in parts of the highest level.
+    /// `least`: lower limit of the constant part, in parts of the highest level.
     NoiseBound(const DepthNoise& noise, float deviations, float least, double highest_level)
         : per_level_(1.0F / static_cast<float>(highest_level)) {
         const float levels = deviations * static_cast<float>(highest_level);
@@ -55,7 +55,7 @@ class NoiseBound {
         square_ = levels * noise.square;
     }
 
-    /// From this level [levels].
+    /// The bound at this level [levels].
     [[nodiscard]] float operator()(float level) const noexcept {
         const float away = std::max(1.0F - level * per_level_, 0.0F);
         return constant_ + away * (linear_ + away * square_);
@@ -66,20 +66,20 @@ class NoiseBound {
     float per_level_{1.0F};
 };
 
-/// Collects what stands still or moves evenly and is shaken all the same.
+/// Measures the noise of surfaces that stand still or move evenly.
 class NoiseMeter {
   public:
     static constexpr std::size_t kEnough = 10;  ///< frames, a third of a second
 
-    /// The next frame of the recording, as recorded: NaN is no data. Of another size or highest
-    /// level than the first one: passed over.
+    /// The next frame of the recording, not cleaned: NaN is no data. A frame of another size or
+    /// highest level than the first one is ignored.
     void add(DepthImage frame);
 
-    /// Of one or two frames it is what they are rough by. Nothing measured (no data): no noise.
+    /// With one or two frames only: by their roughness. Without data: no noise.
     [[nodiscard]] DepthNoise noise() const;
 
   private:
-    /// Of absolute values; NaN is passed over.
+    /// Mean of absolute values; NaN is ignored.
     struct Mean {
         double sum{0.0}, squares{0.0};
         std::size_t count{0};
@@ -108,7 +108,7 @@ class NoiseMeter {
 
     std::vector<Tile> tiles_{};
     DepthImage last_{}, before_last_{};
-    std::vector<LoneDepth> small_{};  ///< every frame, with few of its pixels
+    std::vector<LoneDepth> small_{};  ///< each frame, with fewer pixels
 };
 
 }  // namespace dibhr

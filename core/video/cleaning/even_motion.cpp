@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kReachInWidth = 40;  ///< a frame's motion is at most this part of the image's width
 constexpr int kCoarse_px = 2;
-// Of the first samples so many may be missed, or the motion is another.
+// A motion by which more of the first samples are missed is not tried any further.
 constexpr std::size_t kFirstSamples = 8;
 constexpr std::size_t kFirstMisses = 4;
 constexpr double kFoundShare = 0.6;
@@ -56,7 +56,7 @@ void MotionSearch::try_around(Best& best, const Motion& middle, int reach_px, in
     }
 }
 
-/// Or 0 where it is no more than `least`.
+/// How many samples are found; 0 if not more than `least`.
 std::size_t MotionSearch::count_found(const Motion& motion, std::size_t least) const {
     const std::ptrdiff_t to_a = away(a_, motion);
     const std::ptrdiff_t to_b = away(b_, motion);

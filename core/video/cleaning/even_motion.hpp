@@ -1,4 +1,4 @@
-// How a small part of an image moves, found in two frames beside it in time.
+// Finds how a small part of an image moves, from two neighbouring frames.
 #pragma once
 
 #include <cstddef>
@@ -10,27 +10,26 @@
 
 namespace dibhr {
 
-/// Pixels a frame.
+/// Motion from frame to frame [px].
 struct Motion {
     int right{0}, down{0};
 };
 
-/// Even motion: what is here was as far to one side in the frame before as it will be to the other
-/// in the frame after. Looked for up to a fortieth of the image's width a frame: of a hand at half
-/// a metre a second nine of ten samples are found so, of what a RealSense and a Kinect flip in most
-/// regions none.
+/// Searches even motion: a part was as far to one side in the frame before as it is to the other in
+/// the frame after. Up to a fortieth of the image's width a frame. Nine of ten samples of a hand at
+/// 0.5 m/s are found, and in most regions none of the pixels that a RealSense or a Kinect flips.
 class MotionSearch {
   public:
     struct BesideInTime {
         const float* levels;  ///< of a frame of the same size
-        int later;            ///< by so many frames; below 0: before this one
+        int later;            ///< frames after this one; below 0: before it
     };
     /// A pixel that may move.
     struct Sample {
         std::ptrdiff_t at;  ///< its index
         int i, j;           ///< its column and row
         float level;
-        float alike;  ///< so far off the same surface may be
+        float alike;  ///< largest difference of level on the same surface
     };
 
     /// The frames outlive the search.
@@ -39,12 +38,12 @@ class MotionSearch {
     void clear() { samples_.clear(); }
     void add(const Sample& sample) { samples_.push_back(sample); }
 
-    /// By which six of ten samples, of which there are some, are found in both frames; of equals
-    /// the first one. The first samples are looked for first: let them be from all over.
+    /// The motion by which most samples, at least six of ten, are found in both frames; of equals
+    /// the first one. There must be samples, and the first ones should be from the whole region.
     [[nodiscard]] std::optional<Motion> found() const;
 
-    /// The median of what a pixel is and was and will be. Nothing where it comes or goes over the
-    /// image's border, or no two of them are alike.
+    /// The median of a pixel's level in the three frames along the motion. Nothing where the motion
+    /// crosses the image's border, or no two levels are alike.
     [[nodiscard]] std::optional<float> level_along(const Motion& motion, int i, int j,
                                                    const NoiseBound& bound) const;
 

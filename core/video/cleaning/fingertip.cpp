@@ -3,9 +3,9 @@
 // VERTEX. Each piece lies over few pixels, together they cover every pixel, and the highest piece
 // over a pixel is where the ball rests. On a smooth surface that is about one candidate a pixel
 // whatever the radius. A candidate too many does no harm, as each is a point of the surface that
-// the ball must not enter; so what is looked for first, and rounded generously, is what can be left
-// out: what is not convex, what lies deeper than a ball can get (squares.hpp), and of what would
-// raise many pixels those where the ball would enter the surface not far away (narrowing.hpp).
+// the ball must not enter. So the code first leaves out pieces, with generous rounding: those not
+// convex, those deeper than a ball can get (squares.hpp), and of pieces over many pixels the part
+// where the ball would enter the surface nearby (narrowing.hpp).
 #include "core/video/cleaning/fingertip.hpp"
 
 #include <algorithm>
@@ -28,15 +28,15 @@ namespace {
 
 using namespace fingertip;
 
-/// The radius of the first of two balls, in the steps at which the second is felt.
+/// A wide ball is two dilations: radius of the first ball, in the pixel steps of the second.
 constexpr double kSmoothSteps = 4.0;
 
-/// Of a level, from 0: beyond these slopes have no squares.
+/// Largest level, from 0 [px, level]: beyond, the square of a slope would overflow.
 constexpr double kMost_px = 1e17;
 constexpr double kMost_level = 1e30;
-constexpr int kRoom_px = 10;  ///< beyond the ball's reach: pixels are raised by eights
+constexpr int kRoom_px = 10;  ///< beyond the ball's reach, as eight pixels are raised at once
 
-/// One pixel of so many in both directions, up to or beyond the last one.
+/// Every `step`-th pixel in both directions, up to or beyond the last one.
 DepthImage every(const DepthImage& fine, int step) {
     const int columns = (fine.columns + step - 2) / step + 1;
     const int rows = (fine.rows + step - 2) / step + 1;
@@ -45,7 +45,7 @@ DepthImage every(const DepthImage& fine, int step) {
     });
 }
 
-/// Raises every pixel to what is between the four of a coarse image around it.
+/// Raises every pixel to the level between the four pixels of a coarse image around it.
 void raise_between(const DepthImage& coarse, int step, DepthImage& fine) {
     for (int j = 0; j < fine.rows; ++j) {
         const int y = std::min(j / step, coarse.rows - 2);
@@ -62,7 +62,7 @@ void raise_between(const DepthImage& coarse, int step, DepthImage& fine) {
 
 struct Range {
     float highest;
-    bool touchable;  ///< every level is a number, and a slope between two has a square
+    bool touchable;  ///< every level is a number, and no slope's square overflows
 };
 
 DIBHR_VECTOR_CLONES Range range_of(const float* __restrict levels, std::size_t count, float most) {
@@ -95,7 +95,7 @@ DIBHR_VECTOR_CLONES void copy_up_to(float most, const float* __restrict from, st
 struct FingertipDilation::Scratch {
     int columns{0}, rows{0};
     Ball ball{};
-    RoomyImage touched{}, felt{};  ///< the image, and what it becomes
+    RoomyImage touched{}, felt{};  ///< the given image, and the dilated one
     CellRow above{}, below{};
     Triangles triangles{};
     EdgePass in_rows{}, in_columns{}, diagonal{};
@@ -141,7 +141,7 @@ void FingertipDilation::Scratch::dilate() {
     }
 }
 
-/// By the TRIANGLEs of the cells below a row, and the EDGEs inside and between them.
+/// Raises pixels by the TRIANGLEs of the cells below a row, and the EDGEs inside and between them.
 void FingertipDilation::Scratch::raise_by_cells(int row) {
     const auto cells = static_cast<std::size_t>(columns - 1);
     triangles.move(touched.pixel(0, row), touched.pixel(0, row + 1), below);
@@ -152,7 +152,7 @@ void FingertipDilation::Scratch::raise_by_cells(int row) {
                    cells, felt.pixel(1, row));
 }
 
-/// By a row's EDGEs and VERTICES.
+/// Raises pixels by a row's EDGEs and VERTICES.
 void FingertipDilation::Scratch::raise_by_row(int row) {
     const auto cells = static_cast<std::size_t>(columns - 1);
     in_rows.raise(above.far.y.data() + 1, below.near.y.data(), touched.pixel(0, row), ground, cells,
@@ -160,7 +160,7 @@ void FingertipDilation::Scratch::raise_by_row(int row) {
     vertices.raise(touched.pixel(0, row), ground, felt.pixel(0, row));
 }
 
-/// Without what rounding has led beyond the highest level.
+/// Without the padding, and with levels that rounding has raised too far cut to `most`.
 DepthImage FingertipDilation::Scratch::cropped(const DepthImage& image, float most) const {
     DepthImage dilated{columns, rows, image.highest_level, {}};
     dilated.levels.resize(image.levels.size());
@@ -186,8 +186,8 @@ DepthImage FingertipDilation::exactly_dilated(const DepthImage& image, const Fin
     return scratch_->cropped(image, range.highest);
 }
 
-/// A ball dilates as two do one after the other whose radii are its own together. After the first
-/// the surface is smooth enough for few pixels.
+/// One ball dilates like two after each other whose radii add up to its own. After the first one
+/// the surface is smooth enough to be thinned out.
 DepthImage FingertipDilation::dilated(const DepthImage& image, const Fingertip& finger) {
     assert(image.columns >= 2 && image.rows >= 2);
     if (!(finger.radius_px > 0.0) || !(finger.relief_px > 0.0)) return image;

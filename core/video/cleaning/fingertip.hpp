@@ -1,4 +1,4 @@
-// A fingertip instead of a point: the surface that a point feels where a ball would touch.
+// A ball as fingertip: dilates the surface, so that a point on it feels what the ball would.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@ namespace dibhr {
 
 class DepthSurface;
 
-/// Wider than 10 mm at 4K. Time and memory are bounded by it.
+/// Largest radius, more than 10 mm at 4K. It bounds time and memory.
 inline constexpr double kWidestFinger_px = 512.0;
-/// A wider one is felt at every second pixel, or third and so on, and linearly between them.
+/// A wider ball is computed at every second pixel, or third and so on, and linearly between them.
 inline constexpr double kWidestExactFinger_px = 64.0;
 
-/// What a point feels on a dilated image, a ball of the finger's radius feels on the image itself:
+/// A point feels on the dilated image what a ball of the finger's radius feels on the image itself:
 /// at every pixel p the level of the ball's lowest point where it comes to rest from above,
 ///     max over q, |p - q| <= radius, of z(q) + sqrt(radius^2 - |p - q|^2) - radius,
 /// over all points q of the triangulated height field (DepthSurface), not only over its vertices;
@@ -33,9 +33,9 @@ class FingertipDilation {
     FingertipDilation(FingertipDilation&&) noexcept;
     FingertipDilation& operator=(FingertipDilation&&) noexcept;
 
-    /// An image of the same size and highest level, at least 2 x 2, with data everywhere (no NaN).
-    /// No level is lower than the original's, none higher than its highest; the original's bits
-    /// where the radius or the relief is not above 0.
+    /// `image`: at least 2 x 2, without NaN. Returns an image of the same size and highest level,
+    /// with no level lower than the original's or above its highest. Where the radius or the relief
+    /// is not above 0: the original.
     [[nodiscard]] DepthImage dilated(const DepthImage& image, const Fingertip& finger);
 
   private:
@@ -45,12 +45,12 @@ class FingertipDilation {
     std::unique_ptr<Scratch> scratch_;
 };
 
-/// Where the ball whose lowest point is `proxy` (finite, grid space [px]) touches: the point of the
-/// `original` surface, made of the images before they were dilated, that is nearest to the ball's
-/// centre, of all points less than the radius and one pixel to its side. Between two frames the
-/// blend of two dilated images may be a little above the dilated blend: then the ball floats, and
-/// the point is farther from the centre than the radius. Grows with the square of the radius: 10 us
-/// for 10 px, 0.1 ms for 40 px.
+/// Where the ball whose lowest point is `proxy` (finite, grid space [px]) touches the `original`
+/// surface (of images before dilation): the point nearest to the ball's centre, among those less
+/// than the radius and one pixel to its side. Between two frames the blend of two dilated images
+/// may be a little above the dilated blend: then the ball does not touch, and the point is farther
+/// from the centre than the radius. Time grows with the square of the radius: 10 us for 10 px, 0.1
+/// ms for 40 px.
 [[nodiscard]] Vec3 contact_point(const DepthSurface& original, const Fingertip& finger,
                                  Vec3 proxy) noexcept;
 

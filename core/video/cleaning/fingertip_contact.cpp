@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// Of those offered, the point nearest to the ball's centre; the first of two as near.
+/// The offered point that is nearest to the ball's centre; of equally near ones the first.
 struct Nearest {
     Vec3 centre;
     Vec3 point;
@@ -60,13 +60,12 @@ void offer_cell(int i, int j, const Corners& z, Nearest& nearest) noexcept {
     nearest.offer_edge(c, d);
 }
 
-/// From a coordinate to the cells from `cell` to the next line.
+/// Distance from a coordinate to a row or column of cells, which ends one pixel after `cell`.
 double gap(double along, int cell) noexcept {
     return std::max({cell - along, along - (cell + 1), 0.0});
 }
 
-/// The cells in a row or column, of which `count` are, that are less than `reach` from a
-/// coordinate.
+/// Those of `count` cells in a row or column that are less than `reach` from a coordinate.
 struct Range {
     Range(double along, double reach, int count)
         : first(static_cast<int>(std::clamp(along - reach, 0.0, count - 1.0))),

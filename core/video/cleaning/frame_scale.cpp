@@ -1,4 +1,4 @@
-// Robust lines through the levels of frames that follow each other.
+// Fits robust lines through the levels of consecutive frames.
 #include "core/video/cleaning/frame_scale.hpp"
 
 #include <algorithm>
@@ -9,28 +9,27 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kRelief_px = 255.0;     ///< of the highest level, where pixels are said
+constexpr double kRelief_px = 255.0;     ///< elevation of the highest level for limits in pixels
 constexpr double kSamples = 1500.0;      ///< of a frame, on a grid
 constexpr std::size_t kBins = 16;        ///< of levels
-constexpr std::size_t kMostOfBin = 100;  ///< samples, where no level counts more than others
-constexpr std::size_t kThinned = 3;      ///< one of so many samples, where all count
+constexpr std::size_t kMostOfBin = 100;  ///< samples, in the fit where all levels count the same
+constexpr std::size_t kThinned = 3;      ///< every third sample, in the fit of all samples
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr std::size_t kLeastSamples = 64;
 constexpr int kFits = 5;                       ///< each with weights from the one before
 constexpr double kDeviationOfMedian = 1.4826;  ///< normal: standard deviation by median of sizes
 constexpr double kBiweight = 4.685;            ///< Tukey's, in standard deviations
-constexpr double kFlatRidge_px = 0.5;  ///< what spans no more levels says nothing of the gain
+constexpr double kFlatRidge_px = 0.5;  ///< a smaller span of levels does not tell the gain
 
-// When a map is believed: most of the picture agrees on it, so it is no hand that moves. When it is
-// flicker: it explains what changes in most of the pairs, and changes from pair to pair, which even
-// motion does not.
-constexpr double kAgreeing = 0.6;  ///< of the picture
-constexpr double kAgree = 3.0;     ///< standard deviations
-constexpr double kSmall = 0.3;     ///< of what has changed
+// A map is trusted if most of the picture agrees on it: a moving hand is only a part. It is flicker
+// if maps explain the changes of most pairs, and differ from pair to pair, unlike even motion.
+constexpr double kAgreeing = 0.6;  ///< least share of the picture
+constexpr double kAgree = 3.0;     ///< samples agree within these standard deviations,
+constexpr double kSmall = 0.3;     ///< or within this part of the median change
 constexpr double kMostGain = 1.3;
-constexpr double kExplains = 2.0;  ///< times as much had changed as is left
+constexpr double kExplains = 2.0;  ///< least ratio of the change before the map to that after it
 constexpr double kLeast_px = 0.05;
-constexpr double kFelt_px = 0.15;  ///< as in plan_of: what shakes less is not felt
+constexpr double kFelt_px = 0.15;  ///< as in plan_of: less flicker is not felt
 constexpr std::size_t kLeastPairs = 3;
 
 double middle(std::vector<float>& values) {
@@ -75,7 +74,7 @@ LevelMap mean_of(std::span<const LevelMap> maps) {
 
 }  // namespace
 
-/// Levels on a grid, NaN for what is no data; nothing of a frame that is not like that one.
+/// Takes levels on a grid, NaN for no data; none of frames of another size or highest level.
 void FrameScale::sample(std::span<const LoneDepth* const> frames, const DepthImage& like) {
     const auto pixels = static_cast<double>(like.levels.size());
     const int step = std::max(1, static_cast<int>(std::sqrt(pixels / kSamples)));
@@ -100,8 +99,8 @@ void FrameScale::thin() {
         thinned_.add(all_.from[k], all_.change[k]);
 }
 
-/// No more samples of one level than of others: else a wall, which says nothing of the gain, would
-/// outvote what stands before it.
+/// Takes about as many samples of each level: else a wall, which does not tell the gain, would
+/// outweigh the objects before it.
 void FrameScale::balance() {
     std::array<std::size_t, kBins> counts{};
     const auto per_level = static_cast<float>(kBins / highest_);
@@ -119,7 +118,7 @@ void FrameScale::balance() {
     }
 }
 
-/// Median of how far the samples' changes are from those that `change` says.
+/// Median of the distances of the samples' changes from those by `change`.
 double FrameScale::middle_of_sizes(const Samples& samples, const LevelMap& change) {
     const std::size_t count = samples.from.size();
     sizes_.resize(count);
@@ -130,7 +129,7 @@ double FrameScale::middle_of_sizes(const Samples& samples, const LevelMap& chang
     return middle(sizes_);
 }
 
-/// Iteratively reweighted, from the median change on.
+/// Iteratively reweighted least squares, from the median change on.
 FrameScale::Pair FrameScale::fitted(const Samples& samples) {
     const double least = kLeast_px * levels_per_px_;
     const double ridge = kFlatRidge_px * levels_per_px_ * kFlatRidge_px * levels_per_px_;
@@ -159,7 +158,7 @@ FrameScale::Pair FrameScale::fitted(const Samples& samples) {
     return pair;
 }
 
-/// What of the whole picture the map explains. `changed`: median of the changes' sizes.
+/// How much of the whole picture the map explains. `changed`: median of the changes' sizes.
 void FrameScale::judge(Pair& pair, double changed) {
     const double left = middle_of_sizes(all_, pair.change);
     const double least = kLeast_px * levels_per_px_;
@@ -177,7 +176,7 @@ void FrameScale::judge(Pair& pair, double changed) {
     pair.agreed = agrees && pair.map.gain < kMostGain && pair.map.gain * kMostGain > 1.0;
 }
 
-/// The sampled frame of that number and the next one.
+/// Fits the map from the sampled frame of that number to the next one.
 FrameScale::Pair FrameScale::compare(std::size_t one) {
     const std::vector<float>& now = levels_[one];
     const std::vector<float>& next = levels_[one + 1];
@@ -189,7 +188,7 @@ FrameScale::Pair FrameScale::compare(std::size_t one) {
     const double changed = middle_of_sizes(all_, {0.0, 0.0});
     thin();
     balance();
-    // Of a wall behind something small the second is right, of a hand before a wall the first.
+    // A wall behind a small object needs the second fit, a hand before a wall the first one.
     Pair plain = fitted(thinned_);
     Pair balanced = fitted(balanced_);
     judge(plain, changed);
@@ -197,8 +196,8 @@ FrameScale::Pair FrameScale::compare(std::size_t one) {
     return plain.off < balanced.off ? plain : balanced;
 }
 
-/// Whether maps explain what changes in most pairs, and differ from each other more than those of
-/// even motion do: by the second differences in time of where they put levels.
+/// Whether maps explain the changes of most pairs, and differ from each other more than those of
+/// even motion: by the second differences in time of the levels that they give.
 bool FrameScale::flickers(std::span<const Pair> pairs) const {
     if (pairs.size() < kLeastPairs) return false;
     const auto explained =
@@ -228,8 +227,7 @@ std::vector<LevelMap> FrameScale::maps(std::span<const LoneDepth* const> frames,
     std::size_t first = now - begin;
     std::size_t last = first;
     std::vector<Pair> pairs;
-    // Where more than half of them explain nothing it is no flicker: so most clips take half the
-    // time.
+    // No flicker once half of the pairs explain nothing: this halves the time for most clips.
     std::size_t left_to_fail = (near.size() - 1) / 2;
     const auto fails = [&](const Pair& pair) { return !pair.explains && left_to_fail-- == 0; };
     for (; first > 0; --first) {
@@ -245,7 +243,7 @@ std::vector<LevelMap> FrameScale::maps(std::span<const LoneDepth* const> frames,
         pairs.push_back(pair);
     }
     if (!flickers(pairs)) return maps;
-    const std::size_t at = now - begin - first;  // among those that belong together
+    const std::size_t at = now - begin - first;  // among the frames without a cut between them
     std::vector<LevelMap> from_now(pairs.size() + 1);
     for (std::size_t k = at; k < pairs.size(); ++k)
         from_now[k + 1] = from_now[k].then(pairs[k].map);
@@ -277,7 +275,7 @@ void scale_levels(const LoneDepth& frame, const LevelMap& map, LoneDepth& scaled
     const auto gain = static_cast<float>(map.gain);
     const auto offset = static_cast<float>(map.offset);
     const auto highest = static_cast<float>(frame.depth.highest_level);
-    // No data (NaN) stays so: it is neither lower nor higher.
+    // No data (NaN) stays NaN: it is neither lower nor higher.
     for (float& level : scaled.depth.levels) {
         level = gain * level + offset;
         level = level < 0.0F ? 0.0F : level;

@@ -1,4 +1,4 @@
-// Frames that each have a scale and a shift of their own are brought onto one.
+// Brings frames that each have their own scale and shift onto one scale.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace dibhr {
 
-/// Levels of one frame as those of another scale: gain * level + offset.
+/// Maps levels to another scale: gain * level + offset.
 struct LevelMap {
     double gain{1.0};
     double offset{0.0};  ///< [levels]
@@ -26,41 +26,40 @@ struct LevelMap {
     [[nodiscard]] LevelMap inverse() const noexcept { return {1.0 / gain, -offset / gain}; }
 };
 
-/// Estimators of depth from single pictures are right but for a scale and a shift, which differ
+/// Estimators of depth from single pictures are right except for a scale and a shift, which differ
 /// from frame to frame (R. Ranftl et al., Towards robust monocular depth estimation, TPAMI 2022):
-/// the whole scene flickers. Between frames that follow each other both are found where most of the
-/// picture agrees on them, and their means over kReachInTime frames to each side are put in their
-/// place. So what really changes evenly is followed without lag, but for the first and last frames.
+/// the whole scene flickers. Both are measured between consecutive frames, where most of the
+/// picture agrees on them, and replaced by their means over kReachInTime frames to each side. So
+/// even changes are followed without lag, except in the first and last frames.
 ///
-/// What does not flicker so stays as it is, to the bit: noise, holes, steps of levels, and what
-/// moves in one part of the picture or evenly in all of it. Same frames, same bits, whatever was
-/// asked for before; scratch memory is kept inside.
+/// Without such flicker levels keep their bits: with noise, holes, steps of levels, and motion in
+/// one part of the picture or evenly in all of it. The same frames give the same bits, whatever
+/// was computed before; scratch memory is kept inside.
 class FrameScale {
   public:
-    /// What brings each of `frames`, which follow each other in time, onto the scale that frame
-    /// `now` should have. Only the frames within kReachInTime of it are looked at; of the others,
-    /// of those behind a cut or of another size, and if nothing flickers of all, it is the
-    /// identity. NaN and what was made up do not count.
+    /// The maps that bring each of `frames`, which follow each other in time, onto the scale that
+    /// frame `now` should have. The identity for frames farther than kReachInTime, behind a cut or
+    /// of another size, and for all frames if nothing flickers. NaN and filled pixels do not count.
     [[nodiscard]] std::vector<LevelMap> maps(std::span<const LoneDepth* const> frames,
                                              std::size_t now);
 
-    /// The frames so mapped, or themselves where none needs to be. Valid until the next call, and
-    /// as long as they are.
+    /// The mapped frames; those that need no map are returned themselves. Valid until the next
+    /// call, and as long as `frames` are.
     [[nodiscard]] std::span<const LoneDepth* const> on_one_scale(
         std::span<const LoneDepth* const> frames, std::size_t now);
 
   private:
-    /// What two frames that follow each other say.
+    /// The map between two consecutive frames, and how far to trust it.
     struct Pair {
         LevelMap map{};              ///< from the earlier one's levels to the later one's
-        LevelMap change{};           ///< the same: what is added, by the level between the two
+        LevelMap change{};           ///< likewise the change, by the mean level of the two
         double low{0.0}, high{0.0};  ///< most levels are between these
-        double off{0.0};             ///< mean of how far levels are from it, outliers less
-        bool agreed{false};          ///< on by most of the picture
-        bool explains{false};        ///< most of what has changed
+        double off{0.0};             ///< robust mean of the levels' distances from it
+        bool agreed{false};          ///< most of the picture agrees on the map
+        bool explains{false};        ///< the map explains most of the changes
     };
-    /// Levels half way between two frames, and how much higher they are in the later one: so noise
-    /// of the one weighs as much as that of the other, and a gain is not taken for less.
+    /// Mean levels of two frames, and how much higher they are in the later one: so the noise of
+    /// both weighs the same, and the gain is not underestimated.
     struct Samples {
         std::vector<float> from{}, change{};
 
@@ -92,7 +91,7 @@ class FrameScale {
     std::vector<const LoneDepth*> frames_{};
 };
 
-/// The frame's levels in another scale, within those there are. What was never seen stays.
+/// Maps a frame's levels, clamped to [0, highest]. Unseen pixels keep their level.
 void scale_levels(const LoneDepth& frame, const LevelMap& map, LoneDepth& scaled);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// The lowest of what is near, and farther from data what is behind.
+// Near data the lowest level there; farther away the background, from a pyramid of levels.
 #include "core/video/cleaning/large_holes.hpp"
 
 #include <algorithm>
@@ -17,20 +17,20 @@ namespace dibhr {
 
 namespace {
 
-/// Nothing a fingertip rests on may fall away so near to data.
+/// A fingertip's reach: within it of data the surface must not fall away.
 constexpr int kReach_px = 10;
-/// Of the highest level: what lies so much lower than all around is felt as a pit (4 of 255 px).
+/// Of the highest level: a level this much lower than all around is felt as a pit (4 of 255 px).
 constexpr float kPit = 0.015F;
-constexpr float kReach_squares = 3.25F;  ///< no less between the centres of two squares
-/// A disc whose radius is this part of the width finds room only where nothing is to be bridged.
+constexpr float kReach_squares = 3.25F;  ///< kReach_px between centres of squares, rounded up
+/// A hole with room for a disc of this radius (a part of the width) is open: it is not bridged.
 constexpr double kOpenInWidth = 16.0;
 
-constexpr float kToTheRim = 2.0F;  ///< squares: so far a wide hole goes beyond its discs
+constexpr float kToTheRim = 2.0F;  ///< a wide hole goes this far beyond its discs
 
-constexpr std::size_t kChunk = 64;  ///< pixels of a row that are looked at together
+constexpr std::size_t kChunk = 64;  ///< pixels of a row that are checked together
 constexpr std::size_t kDiscRows = 2 * kReach_px + 1;
-/// How far a disc's rows reach to both sides, from its middle one on: 10, 9, 9, 9, 9, 8, 8, 7, 6,
-/// 4, 0. Numbers of spans, which reach 0, 4, 6, 7, 8, 9 and 10 pixels.
+/// A disc's rows reach 10, 9, 9, 9, 9, 8, 8, 7, 6, 4, 0 pixels to both sides, from the middle row
+/// on. kSpanOfRow: as indices of spans, which reach 0, 4, 6, 7, 8, 9 and 10 pixels.
 constexpr std::size_t kSpans = 7;
 constexpr std::array<std::size_t, kReach_px + 1> kSpanOfRow{6, 5, 5, 5, 5, 4, 4, 3, 2, 1, 0};
 
@@ -40,8 +40,8 @@ std::size_t chunks_in(int columns) {
 
 constexpr float kAbove = std::numeric_limits<float>::infinity();
 
-/// Above 0 where discs of this radius find room that hold no data, and `more` around; between two
-/// squares it can be interpolated.
+/// Above 0 where discs of this radius without data have room, and `more` around them. Values may be
+/// interpolated between two squares.
 void room_for_discs(const cv::Mat1f& to_data, float radius, float more, std::vector<float>& room) {
     // A square's distance to data is from centre to centre: half a square more than to its rim.
     cv::Mat1b no_centre;
@@ -53,13 +53,13 @@ void room_for_discs(const cv::Mat1f& to_data, float radius, float more, std::vec
     to_centre = radius + more - to_centre;
 }
 
-/// Everywhere in the row.
+/// Whether every pixel of the row has data.
 bool has_data(const DepthImage& image, int row) {
     return !has_holes(image.levels.data() + image.index(0, row),
                       static_cast<std::size_t>(image.columns));
 }
 
-/// The lowest of eight levels on.
+/// The lowest of each level and the seven after it.
 DIBHR_VECTOR_CLONES void lowest_of_eight(const float* levels, float* __restrict lowest,
                                          std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -80,8 +80,8 @@ DIBHR_VECTOR_CLONES void lower_of(const float* a, const float* b, const float* c
     for (std::size_t i = 0; i < count; ++i) lowest[i] = std::min(std::min(a[i], b[i]), c[i]);
 }
 
-/// The lowest levels within the spans of each pixel, from those `padded` to both sides by
-/// kReach_px, and of `eight` of them on.
+/// The lowest levels within the spans of each pixel, from the row `padded` by kReach_px on both
+/// sides and from its lowest_of_eight.
 void find_lowest_of_spans(const float* padded, const float* eight,
                           const std::array<float*, kSpans>& spans, std::size_t count) {
     std::copy_n(padded + 10, count, spans[0]);
@@ -93,7 +93,7 @@ void find_lowest_of_spans(const float* padded, const float* eight,
     lower_of(eight, eight + 8, eight + 13, spans[6], count);
 }
 
-/// What is lower in seven rows.
+/// Lowers levels to the lowest of seven rows.
 DIBHR_VECTOR_CLONES void lower(const float* const* rows, std::size_t at, float* __restrict level,
                                std::size_t count) {
     const float *a = rows[0] + at, *b = rows[1] + at, *c = rows[2] + at, *d = rows[3] + at,
@@ -103,7 +103,7 @@ DIBHR_VECTOR_CLONES void lower(const float* const* rows, std::size_t at, float* 
                             std::min(std::min(d[i], e[i]), std::min(f[i], g[i])));
 }
 
-/// What has no data becomes infinite.
+/// Copies levels; no data becomes infinity.
 DIBHR_VECTOR_CLONES void put_above(const float* levels, float* __restrict out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) out[i] = levels[i] == levels[i] ? levels[i] : kAbove;
 }
@@ -120,7 +120,7 @@ DIBHR_VECTOR_CLONES void fill_holes(float* __restrict levels, std::uint8_t* __re
     }
 }
 
-/// Where there was no data no level is lower than by a pit.
+/// Pixels that had no data are at most a pit lower than the data around.
 DIBHR_VECTOR_CLONES void lift(const float* seen, const float* farthest, float pit,
                               float* __restrict levels, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -152,7 +152,7 @@ void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
     lift_beside(image, seen, refused);
 }
 
-/// What is behind holes, in squares. False: there is no data anywhere.
+/// Finds the background of holes, in squares. False: there is no data anywhere.
 bool LargeHoleFiller::find_behind(const DepthImage& image) {
     if (!behind_.build(image)) return false;
     find_wide_and_open(image.columns);
@@ -160,8 +160,8 @@ bool LargeHoleFiller::find_behind(const DepthImage& image) {
     return true;
 }
 
-/// Where discs that hold no data find room, in squares and a little more, so that it can be told
-/// between them: discs too wide for a small hole, and those too wide for anything to be bridged.
+/// Finds, in squares, where discs without data have room: discs too wide for a small hole (wide),
+/// and discs too wide to be bridged (open).
 void LargeHoleFiller::find_wide_and_open(int columns) {
     const DepthImage& grid = behind_.squares();
     cv::Mat1b empty(grid.rows, grid.columns);
@@ -174,13 +174,13 @@ void LargeHoleFiller::find_wide_and_open(int columns) {
     };
     room_for_discs(to_data, squares(2.0 * kSmallInWidth), kToTheRim, wide_);
     room_for_discs(to_data, squares(kOpenInWidth), 0.0F, open_);
-    // Nor is open what a fingertip reaches from data.
+    // Not open within a fingertip's reach of data.
     std::transform(to_data.begin(), to_data.end(), open_.begin(), open_.begin(),
                    [](float away, float room) { return std::min(away - kReach_squares, room); });
 }
 
-/// The lowest levels of the rows that row `row` needs: of each pixel's neighbours left and right,
-/// within each distance that a row of the disc around it has.
+/// Computes the spans of the rows within reach of row `row`: the lowest level of each pixel's
+/// neighbours left and right, for each width that a row of the disc has.
 void LargeHoleFiller::widen(const DepthImage& seen, int row) {
     const auto columns = static_cast<std::size_t>(seen.columns);
     spans_.resize(kDiscRows * kSpans * columns);
@@ -203,7 +203,7 @@ float* LargeHoleFiller::span_of(int row, std::size_t number, std::size_t columns
     return spans_.data() + line * columns;
 }
 
-/// In those chunks of the row that are marked and have holes.
+/// The lowest level within reach, in those chunks of the row that are marked and have holes.
 void LargeHoleFiller::find_farthest(const DepthImage& seen, int row, const std::uint8_t* chunks) {
     widen(seen, row);
     const auto columns = static_cast<std::size_t>(seen.columns);
@@ -241,8 +241,7 @@ void LargeHoleFiller::lift_row(DepthImage& image, const DepthImage& seen, int ro
          image.levels.data() + at, static_cast<std::size_t>(image.columns));
 }
 
-/// Pixels whose data was refused stand as high as was found for them; beside them, too, nothing
-/// falls away.
+/// Refused pixels count with their new level, so the surface does not fall away beside them.
 void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
                                   std::span<const std::size_t> refused) {
     if (refused.empty()) return;
@@ -264,7 +263,7 @@ void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
     }
 }
 
-/// Those of each row that have a refused pixel of the row within reach.
+/// Marks chunks that have a refused pixel of their row within reach.
 void LargeHoleFiller::mark_chunks(const DepthImage& image, std::span<const std::size_t> refused) {
     const auto columns = static_cast<std::size_t>(image.columns);
     const std::size_t across = chunks_in(image.columns);

@@ -1,4 +1,4 @@
-// What stands where a depth image has no data far around: what is behind goes on there.
+// Fills the large holes of a depth image: the background is continued into them.
 #pragma once
 
 #include <cstddef>
@@ -11,14 +11,14 @@
 
 namespace dibhr {
 
-/// Fills all that is left, so that nothing falls into a hole: near data with the farthest surface
-/// there, between data with what is behind, and what is open with level 0.
+/// Fills all remaining holes, so that no finger falls into one: near data with the farthest surface
+/// there, between data with the background, and wide open areas with level 0.
 class LargeHoleFiller {
   public:
-    /// `seen` is the image before any hole was filled: no pixel that has no data in it stays lower
-    /// than all that it has within a fingertip's reach. Puts 1 into `unseen` (columns x rows, all
-    /// 0) where a hole is wider than a twentieth of the image's width. `refused` are pixels whose
-    /// data was not believed: what stands there instead does not end beside them either.
+    /// `seen`: the image before any hole was filled. A pixel without data in it gets no lower than
+    /// all its data within a fingertip's reach. `unseen` (columns x rows, all 0) becomes 1 where a
+    /// hole is wider than a twentieth of the image's width. `refused`: pixels whose data was
+    /// rejected as spikes; the surface does not fall away beside their new levels either.
     void fill(DepthImage& image, const DepthImage& seen, std::span<const std::size_t> refused,
               std::vector<std::uint8_t>& unseen);
 
@@ -35,13 +35,13 @@ class LargeHoleFiller {
                      std::span<const std::size_t> refused);
 
     LevelPyramid behind_{};
-    std::vector<float> wide_{}, open_{};                        ///< of its squares: above 0 inside
+    std::vector<float> wide_{}, open_{};                        ///< of squares: above 0 inside
     std::vector<float> level_row_{}, wide_row_{}, open_row_{};  ///< at the pixels of a row
-    DepthImage given_{};                                        ///< with what refused pixels became
-    std::vector<float> spans_{};             ///< by row and span, of as many rows as a disc has
-    std::vector<float> padded_{}, eight_{};  ///< of a row; the lowest of eight pixels on
-    std::vector<float> above_{};             ///< a row that is infinite
-    std::vector<std::uint8_t> chunks_{};     ///< of rows: 1 where something is to be looked at
+    DepthImage given_{};                                        ///< with refused pixels' new levels
+    std::vector<float> spans_{};             ///< by row and span, for the rows of one disc
+    std::vector<float> padded_{}, eight_{};  ///< of a row; lowest of a pixel and the seven after it
+    std::vector<float> above_{};             ///< a row of infinity
+    std::vector<std::uint8_t> chunks_{};     ///< of rows: 1 where pixels are to be checked
     std::vector<float> farthest_{};  ///< of one row: the lowest level in reach; infinity: none
     int widened_{0};                 ///< rows whose spans are known
 };

@@ -1,4 +1,4 @@
-// Means of the farther levels, and back to pixels between the squares' centres.
+// Means of the farther levels of squares, and interpolation from their centres back to pixels.
 #include "core/video/cleaning/level_pyramid.hpp"
 
 #include <algorithm>
@@ -17,8 +17,7 @@ constexpr int kSquare_px = LevelPyramid::kSquare_px;
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kAbove = std::numeric_limits<float>::infinity();
 
-/// The mean of the farther levels in a rectangle: of the lowest, and of those on one surface with
-/// it. NaN: no data there.
+/// The mean of the lowest level in a rectangle and of those on one surface with it. NaN: no data.
 float mean_behind(const DepthImage& image, int left, int right, int top, int bottom) {
     float lowest = kAbove;
     for (int j = top; j < bottom; ++j)
@@ -36,11 +35,11 @@ float mean_behind(const DepthImage& image, int left, int right, int top, int bot
                 count += 1.0F;
                 highest = std::max(highest, level);
             }
-    return std::clamp(sum / count, lowest, highest);  // rounding leads out of them
+    return std::clamp(sum / count, lowest, highest);  // against rounding
 }
 
-constexpr std::size_t kTogether = 64;  ///< squares
-/// Of squares side by side the levels of one pixel after the other.
+constexpr std::size_t kTogether = 64;  ///< squares that are computed together
+/// Levels by pixel of a square, then by square: the first pixels of all squares, the second ones.
 using Pixels = std::array<std::array<float, kTogether>, std::size_t{kSquare_px} * kSquare_px>;
 
 DIBHR_VECTOR_CLONES void take_apart(const float* row, float* __restrict first,
@@ -55,7 +54,7 @@ DIBHR_VECTOR_CLONES void take_apart(const float* row, float* __restrict first,
     }
 }
 
-/// As mean_behind, of kTogether squares.
+/// mean_behind of kTogether squares.
 DIBHR_VECTOR_CLONES void means_behind(const Pixels& pixels, float outline,
                                       float* __restrict means) {
     std::array<float, kTogether> lowest{};
@@ -84,7 +83,7 @@ DIBHR_VECTOR_CLONES void means_behind(const Pixels& pixels, float outline,
     }
 }
 
-/// The same of `squares` side by side, whose upper left pixel is `corner`.
+/// mean_behind of `squares` side by side, from the upper left pixel `corner` on.
 void means_behind(const float* corner, std::ptrdiff_t columns, float outline, float* means,
                   std::size_t squares) {
     Pixels pixels{};
@@ -100,7 +99,7 @@ void means_behind(const float* corner, std::ptrdiff_t columns, float outline, fl
     }
 }
 
-/// One level a square of `side` pixels, the farther where there are two.
+/// One level for each square of `side` pixels: of the farther surface where there are two.
 DepthImage thinned(const DepthImage& fine, int side) {
     DepthImage coarse{
         (fine.columns + side - 1) / side, (fine.rows + side - 1) / side, fine.highest_level, {}};
@@ -124,8 +123,8 @@ DepthImage thinned(const DepthImage& fine, int side) {
     return coarse;
 }
 
-/// Where the centre of one of many pixels lies between the centres of two squares, of which `count`
-/// are in a row; held at the border.
+/// Where a pixel's centre lies between the centres of two of `count` squares in a row; beyond the
+/// outermost centres it is at these.
 struct Place {
     Place(int pixel, int side, int count) {
         const float at = (static_cast<float>(pixel) + 0.5F) / static_cast<float>(side) - 0.5F;
@@ -139,7 +138,7 @@ struct Place {
     float share{0.0F};
 };
 
-/// Values of the grid's squares, between two of its rows.
+/// Interpolates values of the grid's squares between two rows.
 void mix_rows(const DepthImage& grid, const std::vector<float>& values, const Place& y,
               std::vector<float>& mixed) {
     mixed.resize(static_cast<std::size_t>(grid.columns));
@@ -154,7 +153,7 @@ float between(const std::vector<float>& row, const Place& x) {
     return before + x.share * (row[static_cast<std::size_t>(x.second)] - before);
 }
 
-/// What has no data becomes as high as the coarser squares around.
+/// Squares without data take the interpolated level of the coarser squares.
 void fill_from(const DepthImage& coarse, DepthImage& fine) {
     std::vector<float> row;
     for (int j = 0; j < fine.rows; ++j) {
@@ -165,7 +164,7 @@ void fill_from(const DepthImage& coarse, DepthImage& fine) {
     }
 }
 
-/// Between the centres of squares of kSquare_px; from the middle of the first one on.
+/// Interpolates between the centres of squares, from the middle of the first one on.
 DIBHR_VECTOR_CLONES void spread(const float* squares, float* __restrict out, std::size_t count) {
     for (std::size_t x = 0; x + 1 < count; ++x) {
         const float from = squares[x];
@@ -175,7 +174,7 @@ DIBHR_VECTOR_CLONES void spread(const float* squares, float* __restrict out, std
     }
 }
 
-/// The same at each pixel of a row, as Place has it.
+/// Interpolates at each pixel of a row, as Place does.
 void spread_row(const std::vector<float>& squares, std::vector<float>& pixels) {
     constexpr std::size_t kHalf = kSquare_px / 2;
     pixels.resize(squares.size() * kSquare_px);

@@ -1,4 +1,4 @@
-// A frame before what it has to do with those around it.
+// The depth of a frame after the steps of cleaning that need one frame only.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,19 @@
 
 namespace dibhr {
 
-/// A frame depends on so many before it, and as many after it.
+/// A cleaned frame depends on this many frames before it, and as many after it.
 inline constexpr std::size_t kReachInTime = 5;
 
-/// Whether levels of the two can be compared pixel by pixel.
+/// Whether the levels of both can be compared pixel by pixel.
 [[nodiscard]] inline bool are_alike(const DepthImage& a, const DepthImage& b) noexcept {
     return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
 }
 
-/// A frame cleaned as far as it can be on its own.
+/// Depth cleaned by CleaningChain::clean_frame.
 struct LoneDepth {
     DepthImage depth{};                   ///< no NaN
-    std::vector<std::uint8_t> made_up{};  ///< of its pixels, 1 where there was no data; or empty
-    std::vector<std::uint8_t> unseen{};   ///< of its pixels, 1 where nothing ever was; or empty
+    std::vector<std::uint8_t> made_up{};  ///< 1 for pixels that had no data; empty: all had data
+    std::vector<std::uint8_t> unseen{};   ///< 1 for pixels never seen; empty: all were seen
 };
 
 }  // namespace dibhr

@@ -17,29 +17,29 @@ constexpr int kTile_px = 8;
 constexpr std::size_t kScales = 5;            ///< pairs up to 2 * 2 * 2^4 = 64 px apart
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level
 constexpr float kBound = 3.0F;                ///< standard deviations
-/// What is off its median by more of either is a true shape: so many bounds, and deviations of the
-/// noise of the clip, whose codec may leave more of its own.
+/// A pixel farther from its median is a true shape: limits in bounds of the image, and in
+/// deviations of the clip's noise, as its codec may add noise of its own.
 constexpr float kMedianBounds = 4.0F, kMedianNoises = 12.0F;
 constexpr int kBorder_px = 2;  ///< of medians of medians
-/// Of the roughness, since its tails are heavier than a normal distribution's.
+/// Factor for the roughness, since its tails are heavier than a normal distribution's.
 constexpr float kRoughShare = 2.0F;
-/// Of the noise of the clip: what is left of grain after eleven frames, and of blotches.
+/// Part of the clip's noise that is left after the filter in time: of grain, and of blotches.
 constexpr float kGrainLeft = 0.35F, kBlotchesLeft = 1.0F;
-/// Of a normal distribution: the mean of its absolute values cut at twice that mean, times the
-/// deviation of a pixel from the mean of four.
+/// For a normal distribution: the mean of absolute values cut at twice that mean, times the
+/// deviation of a pixel from the mean of four others.
 constexpr float kOfRoughness = 1.0F / (0.735F * 1.118F);
 constexpr int kClippings = 5;
 constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
 
-/// What is put back: what is beyond so many deviations of noise after a binomial filter of 5 x 5,
-/// which leaves 0.27 of grain. Blotches it leaves: then it has to be much more.
+/// Shapes beyond this many deviations of noise, after a binomial filter of 5 x 5, are added again.
+/// The filter leaves 0.27 of grain, but all of blotches: with those shapes must be much larger.
 constexpr float kPutBackBeyond = 2.2F / kRoughShare;
 constexpr float kBinomialLeaves = 0.27F;
-/// Of grain, in every second pixel: the noise of the next scale. Blotches stay.
+/// Part of grain that is left in every second pixel: the next scale's noise. Blotches stay.
 constexpr float kLeftByTwoPasses = 0.35F;
 constexpr std::array<float, 5> kBinomial{1.0F / 16, 4.0F / 16, 6.0F / 16, 4.0F / 16, 1.0F / 16};
 
-/// Change towards the middle of two opposite pixels, less the farther it is from the centre.
+/// Change towards the mean of two opposite pixels, smaller the farther that is from the centre.
 inline float towards(float one, float other, float centre, float per_bound) {
     const float off = 0.5F * (one + other) - centre;
     return std::max(1.0F - std::fabs(off * per_bound), 0.0F) * off;
@@ -75,8 +75,8 @@ DIBHR_VECTOR_CLONES void roughness(const float* up, const float* row, const floa
         out[i] = std::fabs(row[i] - 0.25F * (row[i - 1] + row[i + 1] + up[i] + down[i]));
 }
 
-/// Of whole tiles side by side, of kTile_px columns and `rows` rows, the means without what is
-/// beyond twice the mean; `values` are `columns` a row.
+/// Twice the means of whole tiles side by side (kTile_px columns, `rows` rows), with values cut at
+/// twice the mean. `values`: rows of `columns`.
 DIBHR_VECTOR_CLONES void clipped_means(const float* values, std::ptrdiff_t columns,
                                        std::ptrdiff_t rows, float* __restrict twice_means,
                                        std::ptrdiff_t tiles) {
@@ -108,7 +108,7 @@ DIBHR_VECTOR_CLONES void add_changes(const float* now_above, const float* before
         changes[i] = 0.5F * ((now_above[i] - before_above[i]) + (now_below[i] - before_below[i]));
 }
 
-/// What was taken away, at most three deviations of it: an outlier is no shape.
+/// What smoothing removed, at most three deviations: an outlier is no shape.
 DIBHR_VECTOR_CLONES void taken_away(const float* before, const float* now, const float* per_bound,
                                     float* __restrict out, std::ptrdiff_t count) {
     for (std::ptrdiff_t i = 0; i < count; ++i) {
@@ -124,7 +124,7 @@ DIBHR_VECTOR_CLONES void sum_of_five(const std::array<const float*, 5>& rows, fl
         out[i] = kBinomial[0] * (a[i] + e[i]) + kBinomial[1] * (b[i] + d[i]) + kBinomial[2] * c[i];
 }
 
-/// Nearly all of what is far beyond the noise, nothing of what is within it (the non-negative
+/// Adds nearly all of shapes far beyond the noise, nothing of those within it (the non-negative
 /// garrote).
 DIBHR_VECTOR_CLONES void add_beyond(const float* shape, const float* per_bound, float noise_part,
                                     const float* now, float* __restrict out,
@@ -137,7 +137,7 @@ DIBHR_VECTOR_CLONES void add_beyond(const float* shape, const float* per_bound, 
     }
 }
 
-/// The median, unless the level is farther off it than outliers are.
+/// Levels become their medians, unless they are farther away than outliers are.
 DIBHR_VECTOR_CLONES void move_to_medians(const float* medians, const float* per_bound,
                                          const NoiseBound& most, float* __restrict levels,
                                          std::ptrdiff_t columns) {
@@ -167,7 +167,7 @@ DIBHR_VECTOR_CLONES void take_every_second(const float* fine, float* __restrict 
     for (std::ptrdiff_t i = 0; i < columns; ++i) coarse[i] = fine[2 * i];
 }
 
-/// Between the coarse scale's changes, of which there is one more than twice as many as columns.
+/// Adds the coarse scale's changes, interpolated; there is one more than half of the columns.
 DIBHR_VECTOR_CLONES void add_between(const float* changes, float* __restrict levels,
                                      std::ptrdiff_t columns) {
     for (std::ptrdiff_t x = 0; x < columns / 2; ++x) {
@@ -177,7 +177,7 @@ DIBHR_VECTOR_CLONES void add_between(const float* changes, float* __restrict lev
     if (columns % 2 != 0) levels[columns - 1] += changes[columns / 2];
 }
 
-/// From the middle of each tile to that of the next.
+/// Interpolates from the middle of each tile to that of the next.
 DIBHR_VECTOR_CLONES void spread(const float* tiles, std::ptrdiff_t count, float* __restrict out) {
     for (std::ptrdiff_t x = 0; x < count; ++x) {
         const float from = tiles[x];
@@ -189,12 +189,12 @@ DIBHR_VECTOR_CLONES void spread(const float* tiles, std::ptrdiff_t count, float*
 
 }  // namespace
 
-/// Of one row of tiles the means of the absolute differences from the pixels around, without what
-/// is beyond twice that mean: outlines. Rows [first_row, rows) of the row of tiles are known.
+/// For one row of tiles: means of the absolute differences from the pixels around, cut at twice the
+/// mean, so that outlines count less. Rows [first_row, rows) of the row of tiles are known.
 void NoiseSmoother::clip_to_twice_the_mean(int columns, int rows, int first_row) {
     const std::ptrdiff_t width = columns;
     const float* const rough = rough_.data() + first_row * width;
-    // The first one and the last ones are not whole: the picture's border is not known.
+    // The first tile and the last ones are not whole: roughness is not known at the border.
     const std::ptrdiff_t whole = std::max<std::ptrdiff_t>((width - 1) / kTile_px, 1);
     caps_.resize(static_cast<std::size_t>(tile_columns_));
     clipped_means(rough + kTile_px, width, rows - first_row, caps_.data() + 1, whole - 1);
@@ -254,7 +254,7 @@ void NoiseSmoother::measure_tiles(const DepthImage& image, const DepthNoise& noi
     }
 }
 
-/// Of the finest scale between the middles of the tiles; in order of the rows, each is made once.
+/// Bounds of the finest scale are interpolated between tiles, once a row, in order of the rows.
 const float* NoiseSmoother::bounds_of(const Scale& scale, int row) {
     if (&scale != scales_.data()) return scale.per_bound.data() + scale.index(0, row);
     for (; bounds_made_ <= row; ++bounds_made_)
@@ -287,7 +287,7 @@ void NoiseSmoother::spread_bounds(int row, float* out) {
     if (done < columns) std::fill(out + done, out + columns, tiles_.back());
 }
 
-/// One row of a pass; `rows(j)` are those of what it is made from.
+/// One row of a pass; `rows(j)`: row j of its input.
 template <typename Rows>
 void NoiseSmoother::pass(const Scale& scale, const Rows& rows, int j, int reach, float* out) {
     const std::ptrdiff_t columns = scale.columns;
@@ -307,8 +307,8 @@ void NoiseSmoother::pass(const Scale& scale, const Rows& rows, int j, int reach,
     }
 }
 
-/// Both passes of a scale and its part of the next one go down the image together, so that the few
-/// rows between them stay in the cache.
+/// Both passes of a scale and the reduction to the next one run row by row together, so that the
+/// few rows between them stay in the cache.
 void NoiseSmoother::go_down(Scale& fine, const float* from, Scale* coarse) {
     fine.levels.resize(fine.index(0, fine.rows));
     const auto given = [&](int j) { return from + fine.index(0, j); };
@@ -328,7 +328,7 @@ void NoiseSmoother::go_down(Scale& fine, const float* from, Scale* coarse) {
     }
 }
 
-/// What the coarse scale changes is added between its pixels, too.
+/// Adds the coarse scale's changes, interpolated between its pixels.
 void NoiseSmoother::add_coarse(Scale& fine, const Scale& coarse, int j) {
     const std::size_t above = coarse.index(0, j / 2);
     const std::size_t below = coarse.index(0, std::min((j + 1) / 2, coarse.rows - 1));
@@ -340,7 +340,7 @@ void NoiseSmoother::add_coarse(Scale& fine, const Scale& coarse, int j) {
     add_between(row_.data(), fine.levels.data() + fine.index(0, j), fine.columns);
 }
 
-/// Back again, all together as on the way down.
+/// The way back to the finer scale, again row by row together.
 void NoiseSmoother::go_up(Scale& fine, const float* before, const Scale* coarse) {
     for (Ring* ring : {&first_, &second_, &taken_, &bounds_}) ring->resize(fine.columns);
     bounds_made_ = 0;
@@ -376,7 +376,7 @@ void NoiseSmoother::put_back(const Scale& scale, int j, float* out) {
     add_beyond(both_.data(), bounds_of(scale, j), scale.noise_part, second_.row(j), out, columns);
 }
 
-/// From fine to coarse and back. `before`: the scale's levels, `from`: the same without outliers.
+/// Smooths from fine to coarse and back. `before`: the scale's levels, `from`: without outliers.
 void NoiseSmoother::go_through(std::size_t number, const float* from, const float* before) {
     Scale& fine = scales_[number];
     Scale* const coarse = number + 1 < scales_.size() ? &scales_[number + 1] : nullptr;
@@ -389,8 +389,8 @@ void NoiseSmoother::go_through(std::size_t number, const float* from, const floa
     go_up(fine, before, coarse);
 }
 
-/// The median of nine, twice, for outliers of two pixels by two: that of 25 would cost four times
-/// as much and take more of small shapes.
+/// The median of nine, twice, also removes outliers of two pixels by two. The median of 25 would
+/// cost four times as much and remove more small shapes.
 void NoiseSmoother::take_medians(DepthImage& image, const DepthNoise& noise) {
     medians_.resize(image.levels.size());
     before_ = image.levels;
@@ -403,7 +403,7 @@ void NoiseSmoother::take_medians(DepthImage& image, const DepthNoise& noise) {
     bounds_.resize(image.columns);
     bounds_made_ = 0;
     const NoiseBound most(noise, kMedianNoises, 0.0F, image.highest_level);
-    // At the border a slope's median is off it.
+    // At the border a slope's median is not on the slope.
     for (int j = kBorder_px; j < image.rows - kBorder_px; ++j) {
         const std::size_t at = image.index(kBorder_px, j);
         move_to_medians(medians_.data() + at, bounds_of(scales_.front(), j) + kBorder_px, most,

@@ -1,4 +1,4 @@
-// Smooths what is within the noise, and keeps what is beyond it.
+// Smooths differences within the noise, and keeps those beyond it.
 #pragma once
 
 #include <cstddef>
@@ -9,27 +9,27 @@
 
 namespace dibhr {
 
-/// First each pixel takes the median of those around it, unless it is farther off than noise could
-/// be: an outlier would be an edge to what follows. Then each pixel is drawn towards the
-/// middles of pairs of pixels opposite each other around it, along four directions, at growing
-/// distances and back, as far as they differ no more than noise does. So a slope is no edge,
-/// however steep, and beside an edge only the pairs along it count. What was taken away with it all
-/// and is more than noise over a few pixels is put back: small true shapes.
+/// 1. Each pixel takes the median of those around it, unless it differs by more than noise could: a
+///    remaining outlier would be an edge for the next step.
+/// 2. Each pixel is moved towards the means of pairs of opposite pixels, along four directions, at
+///    growing and then falling distances, as far as the differences are within the noise. So a
+///    slope is no edge, however steep, and beside an edge only the pairs along it count.
+/// 3. Removed shapes of a few pixels that are larger than noise are added again.
 class NoiseSmoother {
   public:
-    /// `noise` is the clip's; from pixel to pixel the image may be rougher, and then that counts.
-    /// At least 2 x 2 pixels. Same image, same bits.
+    /// `noise`: of the clip; where the image itself is rougher its roughness counts. The image has
+    /// at least 2 x 2 pixels. The same image gives the same bits.
     void smooth(DepthImage& image, const DepthNoise& noise);
 
   private:
-    /// Of the image, or of every second pixel of the scale before.
+    /// The image, or every second pixel of the scale before.
     struct Scale {
         int columns{0}, rows{0};
         std::vector<float> levels{};
-        // Not of the image, whose own are elsewhere or made as they are needed:
-        std::vector<float> before{};     ///< it was smoothed
-        std::vector<float> per_bound{};  ///< 1 / how far the middle of a pair may be off
-        float noise_part{0.0F};          ///< of the bound: what is beyond it is put back
+        // Of coarser scales only; those of the image are elsewhere or computed when needed:
+        std::vector<float> before{};     ///< levels before smoothing
+        std::vector<float> per_bound{};  ///< 1 / largest distance of a pair's mean [1 / level]
+        float noise_part{0.0F};          ///< part of the bound: larger shapes are added again
 
         [[nodiscard]] std::size_t index(int column, int row) const {
             return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -50,7 +50,7 @@ class NoiseSmoother {
     void pass(const Scale& scale, const Rows& rows, int j, int reach, float* out);
     void put_back(const Scale& scale, int j, float* out);
 
-    /// The last rows of what one pass hands to the next.
+    /// The last rows that one pass leaves for the next.
     class Ring {
       public:
         void resize(int columns) {
@@ -67,11 +67,11 @@ class NoiseSmoother {
         std::size_t columns_{0};
     };
 
-    std::vector<float> medians_{}, before_{};  ///< of the image; it with its outliers
+    std::vector<float> medians_{}, before_{};  ///< of the image; the image with its outliers
     std::vector<Scale> scales_{};
     int tile_columns_{0}, tile_rows_{0};
     std::vector<float> per_bound_of_tile_{};
-    std::vector<float> rough_{}, caps_{};  ///< of a row of tiles, by pixel and by tile
+    std::vector<float> rough_{}, caps_{};  ///< of a row of tiles: by pixel; by tile
     std::vector<float> lows_{}, highs_{};  ///< by column
     std::vector<float> tiles_{}, row_{}, across_{}, both_{};  ///< of a row
     Ring first_{}, second_{}, taken_{};

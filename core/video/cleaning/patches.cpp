@@ -1,4 +1,4 @@
-// Joins runs of pixels, row by row.
+// Finds runs of pixels and joins them row by row (union-find).
 #include "core/video/cleaning/patches.hpp"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ DIBHR_VECTOR_CLONES int any_hole(const float* levels, std::size_t count) noexcep
     return any;
 }
 
-/// 1 where there is data, changed by `other`: 1 where there is none.
+/// Marks data with 1 (`other` 0), or pixels without data (`other` 1). Returns 0 if there is none.
 DIBHR_VECTOR_CLONES int mark(const float* levels, int other, std::uint8_t* __restrict marks,
                              std::size_t count) noexcept {
     int any = 0;

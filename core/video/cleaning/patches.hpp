@@ -1,4 +1,4 @@
-// Connected pixels of a depth image: holes, and data that stands alone.
+// Connected pixels of a depth image: holes, and islands of data in holes.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace dibhr {
     return !std::isnan(level);
 }
 
-/// visit(begin, end) for each run of values of a row, [begin, end), of which `is_in` says yes.
+/// visit(begin, end) for each run of values of a row, [begin, end), for which `is_in` is true.
 template <typename Value, typename IsIn, typename Visit>
 void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& visit) {
     const Value* const end = row + columns;
@@ -28,7 +28,7 @@ void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& v
     }
 }
 
-/// The same of marks that are not 0.
+/// visit(begin, end) for each run of marks that are not 0.
 template <typename Visit>
 void visit_marked(const std::uint8_t* row, int columns, const Visit& visit) {
     const auto eight_from = [row](int at) {
@@ -47,17 +47,17 @@ void visit_marked(const std::uint8_t* row, int columns, const Visit& visit) {
     }
 }
 
-/// Whether some pixel of the image, or of so many, has no data.
+/// Whether any of the pixels has no data.
 [[nodiscard]] bool has_holes(const float* levels, std::size_t count) noexcept;
 [[nodiscard]] inline bool has_holes(const DepthImage& image) noexcept {
     return has_holes(image.levels.data(), image.levels.size());
 }
 
-/// Marks with 1 what has no data. Returns whether there is any.
+/// Marks pixels without data with 1, others with 0. Returns whether there are any.
 bool mark_holes(const float* levels, std::uint8_t* marks, std::size_t count) noexcept;
 
-/// Levels that differ by no more are of one surface, as noise allows; others are on two sides of an
-/// object's outline.
+/// Largest difference of levels on one surface, with noise [levels]. Levels that differ by more are
+/// on two sides of an object's outline.
 [[nodiscard]] float outline_levels(const DepthImage& image) noexcept;
 
 /// Patches of pixels with data or without (NaN), joined over edges and corners, row by row.
@@ -68,7 +68,7 @@ class Patches {
         int row, begin, end;
         std::int32_t patch;
     };
-    /// Around a patch: columns [left, right), rows [top, bottom), and how many pixels are in it.
+    /// The box around a patch, columns [left, right), rows [top, bottom), and its count of pixels.
     struct Patch {
         int left, right, top, bottom;
         std::size_t pixels;
@@ -92,7 +92,7 @@ class Patches {
     std::vector<std::uint8_t> marks_{};  ///< of a row
     std::vector<Run> runs_{};
     std::vector<Patch> patches_{};
-    std::vector<std::int32_t> parents_{};  ///< of each patch the one that it was joined to
+    std::vector<std::int32_t> parents_{};  ///< of each patch the one that it is joined to
 };
 
 }  // namespace dibhr

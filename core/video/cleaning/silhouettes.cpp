@@ -1,4 +1,4 @@
-// Makes ramps between near and far steps.
+// Finds ramps along lines of pixels, lets them vote for a side of each pixel, and moves pixels.
 #include "core/video/cleaning/silhouettes.hpp"
 
 #include <algorithm>
@@ -14,32 +14,32 @@ namespace dibhr {
 
 namespace {
 
-/// The relief that is drawn unless told otherwise is 255/720 of the picture's width; a ramp is this
-/// steep in it [px/px], or it is a surface that is seen.
+/// A ramp is at least kSteep in the default relief of 255/720 of the picture's width [px/px]; a
+/// flatter slope is a surface.
 constexpr double kRelief_widths = 255.0 / 720.0;
 constexpr double kSteep = 3.0;
 
 constexpr float kWidest_px = 19.0F;  ///< 13 px of ramp across a corner, from end to end
-/// As wide, on a line that slants, on one that does not, and on one that does not but should.
+/// That width in steps: on slanting lines, straight ones, and straight ones near the border.
 constexpr int kSlantingSteps = 14, kStraightSteps = 20, kMostSteps = 28;
-constexpr float kShoulder = 0.12F;    ///< of a ramp's steepest rise: it ends where it rises less
-constexpr float kEven = 2.5F;         ///< of a ramp's slope: what is steeper is a step already
-constexpr float kGoesOn = 0.18F;      ///< of a ramp's slope: no face goes on rising so steeply
-constexpr float kLevel = 0.02F;       ///< of a ramp's height a pixel: a face rises less at its end
+constexpr float kShoulder = 0.12F;    ///< of a ramp's steepest rise: below it the ramp ends
+constexpr float kEven = 2.5F;         ///< of a ramp's slope: a steeper rise is a step already
+constexpr float kGoesOn = 0.18F;      ///< of a ramp's slope: the most that a face may rise by
+constexpr float kLevel = 0.02F;       ///< of a ramp's height a pixel: the rise where a face begins
 constexpr float kLeastNoises = 8.0F;  ///< the height of a ramp, in standard deviations of the noise
-constexpr float kFlatNoises = 1.5F;   ///< what rises less is flat
+constexpr float kFlatNoises = 1.5F;   ///< a smaller rise is flat
 
-constexpr std::uint32_t kBelieved = 3;  ///< one in so many pixels across a ramp sees it
+constexpr std::uint32_t kBelieved = 3;  ///< a ramp counts if one in 3 pixels across it found it
 
-constexpr int kFace_px = 3;        ///< over twice as many a face's slope is taken
-constexpr int kSmooth_px = 2;      ///< to all sides, over which faces are smoothed
-constexpr float kAlike = 0.03F;    ///< of the highest level: so near two pixels are of one face
-constexpr int kWide_px = 5;        ///< in a narrower ramp the colour knows no better
-constexpr float kColours = 48.0F;  ///< the colours of two faces differ by so much [of 255]
-constexpr float kOwnSide = 0.25F;  ///< of that: so near a face's colour a pixel is on it
-constexpr int kSharp_px = 2;       ///< of a sharp edge are on neither side
+constexpr int kFace_px = 3;        ///< a face's slope is taken over twice this length
+constexpr int kSmooth_px = 2;      ///< faces are smoothed over this distance to all sides
+constexpr float kAlike = 0.03F;    ///< of the highest level: largest difference on one face
+constexpr int kWide_px = 5;        ///< in a narrower ramp the colour's edge is no better
+constexpr float kColours = 48.0F;  ///< least difference of two faces' colours [of 255]
+constexpr float kOwnSide = 0.25F;  ///< of that: a pixel this near to a face's colour is on it
+constexpr int kSharp_px = 2;       ///< a sharp edge has at most these pixels on neither side
 
-constexpr int kRowChunk = 64;  ///< pixels of a row that are looked at together
+constexpr int kRowChunk = 64;  ///< pixels of a row that are checked together
 
 struct Limits {
     float slope;  ///< least change of level a pixel
@@ -50,8 +50,8 @@ struct Pixel {
     int x, y;
 };
 
-/// The levels on a straight line of pixels through one of them, which is number 0; held at the
-/// border.
+/// The levels on a straight line of pixels through a centre, which is number 0. Beyond the border
+/// the last level is repeated.
 struct Line {
     const float* centre;
     std::ptrdiff_t stride;
@@ -62,7 +62,7 @@ struct Line {
     }
 };
 
-/// How many steps of -1, 0 or 1 lead from `at` to the last one of `count`.
+/// How many steps (-1, 0 or 1) lead from `at` to the last of `count` pixels.
 int steps_inside(int at, int step, int count) {
     if (step == 0) return 3 * kMostSteps;  // more than are ever taken
     return step > 0 ? count - 1 - at : at;
@@ -77,7 +77,7 @@ Line line_through(const DepthImage& image, Pixel at, Pixel step) {
             step.x + std::ptrdiff_t{step.y} * image.columns, -back, on};
 }
 
-/// The way up, and the one of eight neighbours that is most in its direction.
+/// The direction uphill, and the step to that of eight neighbours that is nearest to it.
 struct Uphill {
     float x, y;
     Pixel step;
@@ -111,9 +111,10 @@ std::optional<Uphill> uphill(const DepthImage& image, Pixel at) {
                            : kMostSteps};
 }
 
-/// Number of the pixel that the line's rise from 0 ends at, seen over one pixel and two so that a
-/// ripple is no end. `side` 1: onwards; -1: backwards, where it falls. `steepest` of the rises so
-/// far, and `flat`, say what is none. Beyond `most` steps and at the border it has no end.
+/// Number of the pixel at which the line's rise from pixel 0 ends, measured over one and two pixels
+/// so that a ripple is no end. `side` 1: onwards; -1: backwards, where the line falls. It ends at a
+/// rise small against `steepest`, the steepest so far, or below `flat`. Nothing: no end in `most`
+/// steps, or before the border.
 std::optional<int> end_of_rise(const Line& line, int side, int most, float flat, float& steepest) {
     const auto sign = static_cast<float>(side);
     most = std::min(most, (side > 0 ? line.last : -line.first) - 2);
@@ -127,30 +128,30 @@ std::optional<int> end_of_rise(const Line& line, int side, int most, float flat,
     return std::nullopt;
 }
 
-/// A ramp's end may be rounded: up to two pixels further, as long as the line goes on to rise.
+/// Moves the end of a ramp, which may be rounded, up to two pixels on while the line still rises.
 int settled(const Line& line, int end, int side, float least) {
     const auto sign = static_cast<float>(side);
     for (int k = 0; k < 2 && sign * (line(end + side) - line(end)) > least; ++k) end += side;
     return end;
 }
 
-/// Between neighbours from pixel `low` to pixel `high`.
+/// The largest rise between neighbours from pixel `low` to pixel `high`.
 float highest_step(const Line& line, int low, int high) {
     float highest = 0.0F;
     for (int k = low; k < high; ++k) highest = std::max(highest, line(k + 1) - line(k));
     return highest;
 }
 
-/// What is on one side of a ramp.
+/// The surface on one side of a ramp.
 struct Face {
     int end;             ///< number of its first pixel
-    float level, slope;  ///< there, and per step of the line
+    float level, slope;  ///< level at that pixel; slope per step of the line
 
     [[nodiscard]] float at(int k) const { return level + slope * static_cast<float>(k - end); }
 };
 
-/// The level is of three pixels, as far as noise allows. The slope is what two stretches beyond the
-/// end agree on, beyond noise, unless it is another outline.
+/// The level is the mean of three pixels, within the noise of the first. The slope is the part,
+/// beyond noise, that two stretches after the end have in common, unless that is another outline.
 Face face_from(const Line& line, int end, int side, float steepest, float noise) {
     const float level = line(end);
     const float middle = line(end + kFace_px * side);
@@ -170,7 +171,7 @@ struct Ramp {
 
 /// The ramp that pixel 0 of a line uphill is on.
 std::optional<Ramp> find_ramp(const Line& line, const Uphill& up, const Limits& limits) {
-    // The steeper side first: most pixels that are on no ramp are beside a step that is far higher.
+    // The steeper side first: most pixels that are not on a ramp are beside a much higher step.
     const int side = line(1) - line(0) > line(0) - line(-1) ? 1 : -1;
     const float flat = kFlatNoises * limits.noise;
     float steepest = 0.0F;
@@ -203,7 +204,7 @@ std::optional<Ramp> find_ramp(const Line& line, const Uphill& up, const Limits& 
                 face_from(line, settled(line, high, 1, least), 1, steepest_face, limits.noise)};
 }
 
-/// Number of the first pixel of the high side, if as many are on it as are nearer to it.
+/// Number of the first pixel of the high side, so that it has as many pixels as are nearer to it.
 int half_way_up(const Line& line, const Ramp& ramp) {
     int step = ramp.high.end;
     for (int k = ramp.low.end + 1; k < ramp.high.end; ++k)
@@ -211,7 +212,7 @@ int half_way_up(const Line& line, const Ramp& ramp) {
     return step;
 }
 
-/// Red, green and blue of the place of a pixel of the depth image.
+/// Red, green and blue at the place of a pixel of the depth image.
 cv::Vec3f colour_at(const ColourImage& colour, const DepthImage& image, Pixel at) {
     const auto place = [](int pixel, int count, int colour_count) {
         const std::int64_t middle = 2 * std::int64_t{std::clamp(pixel, 0, count - 1)} + 1;
@@ -224,8 +225,8 @@ cv::Vec3f colour_at(const ColourImage& colour, const DepthImage& image, Pixel at
     return {static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
 }
 
-/// Number of the first pixel of the high face's colour, if a sharp edge parts it from a clearly
-/// different one. `colour_of(k)`: of the pixel k of the line.
+/// Number of the first pixel in the high face's colour, if the colours of the faces are clearly
+/// different and there is one sharp edge between them. `colour_of(k)`: of pixel k of the line.
 template <typename ColourOf>
 std::optional<int> colour_edge(const ColourOf& colour_of, const Ramp& ramp) {
     const cv::Vec3f low = colour_of(ramp.low.end - 1);
@@ -236,16 +237,16 @@ std::optional<int> colour_edge(const ColourOf& colour_of, const Ramp& ramp) {
     int on_neither = 0;
     for (int k = ramp.low.end; k <= ramp.high.end; ++k) {
         const float part = (colour_of(k) - low).dot(across) / square;
-        if (part <= 0.5F && edge) return std::nullopt;  // and back again
+        if (part <= 0.5F && edge) return std::nullopt;  // a second edge
         if (part > 0.5F && !edge) edge = k;
         if (part > kOwnSide && part < 1.0F - kOwnSide) ++on_neither;
     }
     return on_neither <= kSharp_px ? edge : std::nullopt;
 }
 
-/// Puts not 0 into `steep` where the image rises, or falls, by more than `least` a pixel to both
-/// sides, over `reach` pixels or twice as many along the row, or over one or two along the column.
-/// `rows`: two above, the pixels' own, two below. Tells whether it does so anywhere.
+/// Sets `steep` to 0, or not 0 where the image rises, or falls, on both sides of a pixel by more
+/// than `least`, over `reach` or twice as many pixels of the row, or one or two of the column.
+/// `rows`: two above, the pixels' own, two below. Returns whether any is not 0.
 DIBHR_VECTOR_CLONES bool find_steep(const std::array<const float*, 5>& rows, int reach, int count,
                                     float least, int* __restrict steep) {
     const float* const up2 = rows[0];
@@ -292,7 +293,7 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     }
 }
 
-/// A face that goes on as it was may leave what levels there are; recorded numbers have no bounds.
+/// A continued face may leave the range of levels; recorded real numbers may be outside already.
 float SilhouetteSharpener::within(const DepthImage& image, float recorded, float level) noexcept {
     const auto highest = static_cast<float>(image.highest_level);
     return std::clamp(level, std::min(0.0F, recorded), std::max(highest, recorded));
@@ -319,7 +320,7 @@ SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
     return votes_[number - 1];
 }
 
-/// Which side the pixel is on, and at which level.
+/// Counts the votes: which side the pixel is on, and at which level.
 void SilhouetteSharpener::decide(Votes& votes) {
     const unsigned count = votes.lows + votes.highs;
     if (kBelieved * count * count < votes.steps) return;
@@ -329,8 +330,8 @@ void SilhouetteSharpener::decide(Votes& votes) {
                        : votes.low / static_cast<float>(votes.lows);
 }
 
-/// What it and its neighbours on the same side of the outline stand at: each is continued along a
-/// line of its own, and their noise would be seen as a comb.
+/// Mean level of a pixel and its neighbours on the same side of the outline: each was continued
+/// along its own line, and without smoothing their noise would look like a comb.
 float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) const {
     const int columns = image.columns;
     const int x = static_cast<int>(own.pixel) % columns;
@@ -353,7 +354,7 @@ float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) c
     return sum / count;
 }
 
-/// Pixels [begin, end) of a row, `reach` (0 or 1) times two from its ends or more.
+/// Checks pixels [begin, end) of a row, 2 * `reach` (0 or 1) pixels or more from its ends.
 void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int end, int reach) {
     const DepthImage& image = scene.image;
     const float least = std::max(scene.limits.slope, 2.0F * scene.limits.noise);
@@ -371,7 +372,7 @@ void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int
     }
 }
 
-/// Finds the ramp that the pixel is on, unless another pixel across a wide one did.
+/// Finds the ramp that the pixel is on, unless it was found from another pixel across a wide ramp.
 void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
     const Pixel at{column, row};
     const auto up = uphill(scene.image, at);
@@ -401,7 +402,7 @@ void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
                       static_cast<std::int16_t>(ramp->high.end), 1, ramp->low.at(0),
                       ramp->low.slope, ramp->high.at(0), ramp->high.slope});
     const Found& found = found_.back();
-    if (found.end - found.begin < kWide_px) return;  // cheap to find again, and not always the same
+    if (found.end - found.begin < kWide_px) return;  // quick to find again, and often another one
     for (int k = found.begin; k < found.end; ++k)
         votes_of(found.pixel(k)).ramp = static_cast<std::uint32_t>(found_.size());
 }

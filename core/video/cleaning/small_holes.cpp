@@ -1,4 +1,4 @@
-// Looks to all four sides of each pixel.
+// Finds the nearest levels on all four sides of each pixel of a hole.
 #include "core/video/cleaning/small_holes.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kSlopeOver_px = 3;  ///< over which a rim's slope is taken
+constexpr int kSlopeOver_px = 3;  ///< length over which a rim's slope is taken
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 }  // namespace
@@ -37,8 +37,8 @@ void SmallHoleFiller::keep_small(const DepthImage& image) {
     }
 }
 
-/// What a pixel in this column sees against `step` (1: above it, -1: below it). Where the one
-/// before is no data it is of the same patch, and what it saw is one pixel farther away.
+/// Updates the nearest level of this column against `step` (1: above the pixel, -1: below). If the
+/// pixel before has no data it is in the same hole: the nearest level is only one pixel farther.
 void SmallHoleFiller::enter_column(const DepthImage& image, int column, int row, int step) {
     Side& side = in_column_[static_cast<std::size_t>(column)];
     const int rim = row - step;
@@ -90,8 +90,8 @@ void SmallHoleFiller::estimate(const DepthImage& image) {
     }
 }
 
-/// A surface goes on from one side to the other, level or as its slope says; else the farther side
-/// is behind the nearer one.
+/// Both sides count if they can be one surface, level or by the slope of either; else only the
+/// farther one, as the background of the nearer one.
 SmallHoleFiller::Estimate SmallHoleFiller::between(const Side& one,
                                                    const Side& other) const noexcept {
     const auto alone = [](const Side& side) -> Estimate {
@@ -114,7 +114,7 @@ SmallHoleFiller::Estimate SmallHoleFiller::mean(const Estimate& one,
     const float weight = one.weight + other.weight;
     const float level = (one.level * one.weight + other.level * other.weight) / weight;
     const auto [lowest, highest] = std::minmax(one.level, other.level);
-    return {std::clamp(level, lowest, highest), weight};  // rounding leads out of them
+    return {std::clamp(level, lowest, highest), weight};  // against rounding
 }
 
 SmallHoleFiller::Estimate SmallHoleFiller::behind(const Estimate& one,

@@ -1,4 +1,4 @@
-// Small holes continue what is around them; what is behind an object goes on behind it.
+// Fills small holes with the surface around them; at an object's outline with the background.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace dibhr {
 
-/// A small hole is at most this part of the image's width wide and high.
+/// A small hole is at most the image's width over this number wide and high.
 inline constexpr int kSmallInWidth = 20;
 
-/// Fills patches that are no wider and no higher than a twentieth of the image's width. Each pixel
+/// Fills holes that are no wider and no higher than a twentieth of the image's width. Each pixel
 /// takes the mean of the nearest levels to its left, right, above and below, weighted by
-/// 1 / distance, which continues a plane. Where two of them are of different surfaces the nearer
-/// one is left out: what is behind an object goes on behind it.
+/// 1 / distance, which continues a plane. Where two of them are of different surfaces only the
+/// farther one counts: the background is continued behind an object.
 class SmallHoleFiller {
   public:
     void fill(DepthImage& image);
@@ -26,9 +26,9 @@ class SmallHoleFiller {
     struct Side {
         float level{0.0F};
         float slope{0.0F};  ///< change of level a pixel, towards the hole
-        int away{0};        ///< pixels; 0: there is none
+        int away{0};        ///< distance [px]; 0: there is none
     };
-    /// What the sides of a row or a column say.
+    /// The level from the sides in a row or a column, and its weight.
     struct Estimate {
         float level{0.0F};
         float weight{0.0F};  ///< 0: nothing
@@ -44,9 +44,9 @@ class SmallHoleFiller {
 
     Patches patches_{};
     std::vector<Run> runs_{};         ///< of small patches
-    std::vector<Side> above_{};       ///< of the pixels of all runs, one after the other
+    std::vector<Side> above_{};       ///< of all pixels of all runs in order
     std::vector<Side> in_column_{};   ///< the nearest level above, or below, by column
-    std::vector<float> estimates_{};  ///< of the pixels of all runs; NaN: nothing near
+    std::vector<float> estimates_{};  ///< likewise; NaN: no level on any side
     float outline_{0.0F};
 };
 

@@ -1,4 +1,4 @@
-// Pixels beyond all their neighbours, and patches alone in holes.
+// Finds pixels beyond all their neighbours, and islands of data in holes.
 #include "core/video/cleaning/spikes.hpp"
 
 #include <algorithm>
@@ -13,17 +13,17 @@ namespace dibhr {
 
 namespace {
 
-// 8 levels of 255 stand out of a curved surface seen in 8 bits. 5 below it are a pit in which a
-// point is caught; smoothing may deepen one by a level, so 4 are one too many. 16 bits are mostly
-// millimetres, of which 100 are far beyond a sensor's noise (up to 65 at 4 m).
+// 8 levels of 255 stand out from a curved surface in 8 bits. A pit of 5 levels catches a point;
+// smoothing may deepen a pit by one, so the limit is 4. 16 bits are mostly millimetres: 100 are far
+// beyond a sensor's noise (up to 65 at 4 m).
 constexpr double kSpike_share = 8.0 / 255.0;
 constexpr double kPit_share = 4.0 / 255.0;
 constexpr double kSpike_levels = 100.0;
-constexpr std::uint8_t kSpikeRounds = 16;  ///< one that is gone may leave another beside it
-constexpr int kIslandsInWidth = 80;        ///< squares side by side
+constexpr std::uint8_t kSpikeRounds = 16;  ///< a removed spike may leave another beside it
+constexpr int kIslandsInWidth = 80;        ///< a smaller island than the width over this is removed
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// In an order of comparisons that is always the same (Batcher's odd-even mergesort).
+/// Sorts with a fixed order of comparisons (Batcher's odd-even mergesort).
 void sort_eight(std::array<float, 8>& values) {
     for (std::size_t p = 1; p < 8; p *= 2)
         for (std::size_t k = p; k > 0; k /= 2)
@@ -36,7 +36,7 @@ void sort_eight(std::array<float, 8>& values) {
                 }
 }
 
-/// The levels of the pixels around one that have data.
+/// The levels of a pixel's neighbours that have data.
 class Neighbours {
   public:
     Neighbours(const DepthImage& image, int i, int j) {
@@ -61,7 +61,7 @@ class Neighbours {
     void add(float level) {
         levels_[count_] = level;
         count_ += is_data(level) ? 1U : 0U;
-        lowest_ = std::min(lowest_, level);  // NaN is passed over
+        lowest_ = std::min(lowest_, level);  // NaN is ignored
         highest_ = std::max(highest_, level);
     }
     void add_all(const float* centre, std::ptrdiff_t columns) {
@@ -81,13 +81,13 @@ class Neighbours {
     float lowest_{kInfinity}, highest_{-kInfinity};
 };
 
-/// How far beyond all its neighbours a pixel stands out of them.
+/// How far a spike is above or below all its neighbours, at least.
 struct Outstanding {
     explicit Outstanding(double highest_level)
         : above(static_cast<float>(std::min(kSpike_share * highest_level, kSpike_levels))),
           below(static_cast<float>(std::min(kPit_share * highest_level, kSpike_levels))) {}
 
-    /// `least` and `most`: of the neighbours. Not of a `level` that is NaN.
+    /// Whether `level` is a spike; `least`, `most`: of the neighbours. False for NaN.
     [[nodiscard]] bool operator()(float level, float least, float most) const {
         return level > most + above || level < least - below;
     }
@@ -95,7 +95,7 @@ struct Outstanding {
     float above, below;
 };
 
-/// As std::max and std::min, of a `level` that may be NaN: then it is passed over.
+/// As std::max and std::min, but a `level` of NaN is ignored.
 float higher(float level, float most) {
     return level > most ? level : most;
 }
@@ -103,7 +103,7 @@ float lower(float level, float least) {
     return level < least ? level : least;
 }
 
-/// Of the rows above and below a row, by column.
+/// The highest and lowest level of the rows above and below, by column.
 DIBHR_VECTOR_CLONES void find_range(const float* up, const float* down, float* __restrict highest,
                                     float* __restrict lowest, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -112,7 +112,7 @@ DIBHR_VECTOR_CLONES void find_range(const float* up, const float* down, float* _
     }
 }
 
-/// Marks the pixels [1, columns - 1) of a row that stand out. Returns whether there is any.
+/// Marks the spikes among pixels [1, columns - 1) of a row. Returns whether there are any.
 DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const float* low,
                                       Outstanding stands_out, std::uint8_t* __restrict outlying,
                                       std::size_t columns) {
@@ -133,7 +133,7 @@ DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const
 
 }  // namespace
 
-/// All rows at once but for the picture's border.
+/// Whole rows at a time; the pixels of the picture's border one by one.
 void SpikeRemover::find_spikes(const DepthImage& image) {
     const Outstanding stands_out(image.highest_level);
     const int columns = image.columns;
@@ -187,8 +187,8 @@ void SpikeRemover::remove_spikes(DepthImage& image) {
     }
 }
 
-/// At each pixel once a round, but for those whose level is so near the spike's new one that they
-/// cannot stand out.
+/// Checks each neighbour once a round, except those so near to the spike's new level that they
+/// cannot be spikes.
 void SpikeRemover::look_around(const DepthImage& image, const Spike& spike, std::uint8_t round) {
     const Outstanding stands_out(image.highest_level);
     for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1); ++j) {

@@ -1,4 +1,4 @@
-// Levels that no surface has.
+// Removes spikes and pits: levels that no surface has.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace dibhr {
 
-/// Takes away what stands out of all around it. NaN is no data.
+/// Removes pixels that stand out from all their neighbours. NaN is no data.
 class SpikeRemover {
   public:
-    /// A pixel beyond all its neighbours with data by more than a threshold takes their median, and
-    /// then maybe one beside it; one that has no such neighbour is no data. So is data alone in a
-    /// hole, on fewer pixels than a square of an eightieth of the image's width: what sensors make
-    /// up at outlines. At least 2 x 2 pixels.
+    /// A pixel that exceeds all its neighbours with data by more than a threshold takes their
+    /// median; its neighbours are then checked again. A pixel without such neighbours loses its
+    /// data. So do islands of data in holes with fewer pixels than a square of an eightieth of the
+    /// image's width: sensors invent them at outlines. The image has at least 2 x 2 pixels.
     void remove(DepthImage& image);
 
-    /// Nothing was removed of the next image.
+    /// The next image is not given to remove(): no pixel is refused.
     void forget() noexcept { refused_.clear(); }
     /// The pixels that lost their data.
     [[nodiscard]] std::span<const std::size_t> refused() const noexcept { return refused_; }
@@ -28,7 +28,7 @@ class SpikeRemover {
   private:
     struct Spike {
         int column, row;
-        float level;  ///< that it takes
+        float level;  ///< its new level
     };
 
     void remove_spikes(DepthImage& image);
@@ -40,7 +40,7 @@ class SpikeRemover {
     std::vector<std::size_t> refused_{};
     Patches patches_{};
     std::vector<Spike> spikes_{}, removed_{};
-    std::vector<std::uint8_t> looked_at_{};    ///< of every pixel, in which round
+    std::vector<std::uint8_t> looked_at_{};    ///< round in which each pixel was checked
     std::vector<std::uint8_t> outlying_{};     ///< of a row
     std::vector<float> highest_{}, lowest_{};  ///< of the rows above and below, by column
 };

@@ -1,4 +1,4 @@
-// Second differences at growing and falling distances.
+// Smooths by second differences at growing and then falling distances.
 #include "core/video/cleaning/step_smoothing.hpp"
 
 #include <algorithm>
@@ -12,8 +12,8 @@ namespace dibhr {
 
 namespace {
 
-/// Levels are counted in 128ths, so that any difference of two fits into 16 bits, of which sixteen
-/// to thirty-two are worked on at a time.
+/// Levels are counted in 128ths, so that the difference of any two fits into 16 bits: 16 to 32 are
+/// computed at a time.
 constexpr float kSubdivision = 128.0F;
 constexpr std::uint16_t kHalf = 64;
 
@@ -34,12 +34,12 @@ constexpr int kDelay = [] {
     return rows;
 }();
 
-/// Second difference of a pixel and its two neighbours; none across an edge.
+/// Second difference of a pixel and its two neighbours; 0 across an edge.
 std::int16_t second_difference(std::uint16_t before, std::uint16_t centre, std::uint16_t after,
                                std::uint16_t edge) {
     const auto back = static_cast<std::int16_t>(before - centre);
     const auto on = static_cast<std::int16_t>(after - centre);
-    // From -edge to edge is from 0 to twice that, and all else is above.
+    // As unsigned numbers, [-edge, edge] becomes [0, 2 edge], and all else is above.
     const auto back_above = static_cast<std::uint16_t>(back + edge);
     const auto on_above = static_cast<std::uint16_t>(on + edge);
     const auto sum = static_cast<std::int16_t>(back + on);
@@ -47,7 +47,7 @@ std::int16_t second_difference(std::uint16_t before, std::uint16_t centre, std::
                                                                                   : std::int16_t{0};
 }
 
-/// 13/64 of it, rounded: stable below 1/4. Spelt out, so that all fits into 16 bits.
+/// 13/64 of the difference, rounded: stable below 1/4. Computed so that all fits into 16 bits.
 std::int16_t smoothing(std::int16_t difference) {
     const auto thrice = static_cast<std::int16_t>(difference * 3);
     const auto quarter = static_cast<std::int16_t>(difference >> 2);
@@ -55,12 +55,12 @@ std::int16_t smoothing(std::int16_t difference) {
     return static_cast<std::int16_t>(static_cast<std::int16_t>(sixteen_changes + 8) >> 4);
 }
 
-/// As many pixels are smoothed together: all vectors of a row are whole.
+/// Pixels that are smoothed together, so that all vectors of a row are whole.
 constexpr std::size_t kTogether = 32;
 
-/// Of one row: `up` and `down` are the rows at the reach, `limits` how large a difference along the
-/// row may be at each pixel. Pixels stay within half a level of `given`, and the back wall stands.
-/// Nothing leaves the range of its neighbours, so that of levels is no limit.
+/// Smooths one row. `up`, `down`: the rows at the reach; `limits`: the largest difference along the
+/// row at each pixel. Pixels stay within half a level of `given`, and the back wall stays. No pixel
+/// leaves the range of its neighbours, so the range of levels needs no check.
 DIBHR_VECTOR_CLONES void smooth_row(const std::uint16_t* up, const std::uint16_t* row,
                                     const std::uint16_t* down, const std::uint16_t* given,
                                     const std::uint16_t* limits, Reach reach,
@@ -82,7 +82,7 @@ DIBHR_VECTOR_CLONES void smooth_row(const std::uint16_t* up, const std::uint16_t
     }
 }
 
-/// Real numbers may stand beyond the range of levels.
+/// Levels to 128ths. Real numbers may be outside the range of levels.
 DIBHR_VECTOR_CLONES void count_levels(const float* levels, std::uint16_t* __restrict counted,
                                       std::size_t count, float highest_level) {
     const float highest = highest_level;
@@ -93,8 +93,8 @@ DIBHR_VECTOR_CLONES void count_levels(const float* levels, std::uint16_t* __rest
     }
 }
 
-/// Within half a level of what they were, which may have lain between two counts, as may the
-/// highest.
+/// From 128ths back to levels, within half a level of the old ones: those, and the highest level,
+/// may lie between two 128ths.
 DIBHR_VECTOR_CLONES void take_levels(const std::uint16_t* counted, float* __restrict levels,
                                      std::size_t count, float highest_level) {
     const float highest = highest_level;
@@ -118,10 +118,10 @@ std::uint16_t* StepSmoother::Rows::row(int number) {
     return levels.data() + static_cast<std::size_t>(number % count) * stride + kFarthest;
 }
 
-/// Rows are kept for as long as a later pass reads them: those given to the last one, those that a
-/// pass made as far as the next one reaches.
+/// Rows are kept as long as they are read: given rows until the last pass, rows of a pass within
+/// the reach of the next one.
 void StepSmoother::set_size(std::size_t columns) {
-    columns_ = 0;  // until all of it has been done
+    columns_ = 0;  // until all memory is there
     given_.set_size(columns, kDelay + 2 * kReaches.front().px + 1);
     limits_.set_size(columns, static_cast<int>(kReaches.size()));
     passes_.resize(kReaches.size());
@@ -138,8 +138,8 @@ void StepSmoother::set_size(std::size_t columns) {
     columns_ = columns;
 }
 
-/// All passes go down the image together, each as far behind the one before as it reaches, so that
-/// the few rows between them stay in the cache.
+/// All passes run row by row together, each one behind the one before by its reach, so that the few
+/// rows between them stay in the cache.
 void StepSmoother::smooth(DepthImage& image) {
     const auto columns = static_cast<std::size_t>(image.columns);
     const auto highest = static_cast<float>(image.highest_level);

@@ -1,4 +1,4 @@
-// The terraces of levels of 8 bits.
+// Smooths the terraces of 8-bit levels.
 #pragma once
 
 #include <cstddef>
@@ -9,17 +9,17 @@
 
 namespace dibhr {
 
-/// Makes a slope again of what was cut into terraces of whole levels.
+/// Turns terraces of whole levels back into slopes.
 class StepSmoother {
   public:
-    /// Every pixel is drawn towards the line between its neighbours at growing and then falling
-    /// distances, not across edges, and kept within half a level of where it was, in steps of
-    /// 1/128: whatever the data says stays said. The back wall, level 0, stays. Of 8 bits
-    /// (is_eight_bit).
+    /// Moves every pixel towards the line between its neighbours at growing and then falling
+    /// distances, not across edges, in steps of 1/128 level. Each stays within half a level of its
+    /// own, so that rounded levels are the recorded ones. The back wall, level 0, stays. For images
+    /// of 8 bits (is_eight_bit).
     void smooth(DepthImage& image);
 
   private:
-    /// Some rows of an image, in 128ths of a level, from which may be read beyond both ends.
+    /// Some rows of an image, in 128ths of a level. They may be read beyond both ends.
     struct Rows {
         std::vector<std::uint16_t> levels{};
         std::size_t stride{0};
@@ -32,8 +32,8 @@ class StepSmoother {
 
     std::size_t columns_{0};
     Rows given_{};
-    Rows limits_{};               ///< of each pass one, of differences along the row
-    std::vector<Rows> passes_{};  ///< of each the rows that the next one needs
+    Rows limits_{};               ///< a row for each pass: limits of differences along the row
+    std::vector<Rows> passes_{};  ///< of each pass the rows that the next one needs
 };
 
 [[nodiscard]] inline bool is_eight_bit(const DepthImage& image) noexcept {

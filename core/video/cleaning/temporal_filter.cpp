@@ -1,4 +1,4 @@
-// Medians of five frames, then means of eleven of what is like them.
+// Medians of five frames, then means of those of eleven frames that are like the median.
 #include "core/video/cleaning/temporal_filter.hpp"
 
 #include <algorithm>
@@ -18,26 +18,26 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMedianReach = 2;       ///< frames to each side
-constexpr float kAlike = 3.0F;                ///< standard deviations; beyond nothing is mixed
-constexpr float kMadeUpShare = 0.05F;         ///< of the weight of what was seen
-constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: nothing is quieter
+constexpr float kAlike = 3.0F;                ///< standard deviations; beyond, levels do not mix
+constexpr float kMadeUpShare = 0.05F;         ///< weight of a filled pixel against a seen one
+constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
 
-// What a patch must be like to be followed although it stays for less than three frames: its rim is
-// held by a surface that stays. Measured on people who walk past within two frames and touch the
-// floor with their feet, and on hands, whose palm stays longer and holds the fingers.
+// A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
+// by") a surface that stays. Measured on people who walk past within two frames, whose feet touch
+// the floor, and on hands, whose palm stays longer than the fingers.
 constexpr int kWide_px = 5;
 constexpr double kHeldShare = 0.4;   ///< of the rim
-constexpr double kHeldWidths = 0.7;  ///< of a thin patch
+constexpr double kHeldWidths = 0.7;  ///< of a thin patch: rim pixels a width
 constexpr int kThinInWidth = 20;  ///< a thin patch is at most this part of the image's width wide
 constexpr int kHeldWithin_px = 4;
-constexpr float kSurely = 2.0F;  ///< bounds: another surface and no noise
+constexpr float kSurely = 2.0F;  ///< bounds; beyond, a level is another surface and not noise
 
-// What moves is found in the frames before and after. Regions are as large as a finger is wide.
+// Moving parts are found in the frames before and after, by regions as wide as a finger.
 constexpr int kRegion_px = 32;
-constexpr std::size_t kLeastOthers = 32;  ///< surely other pixels, or a region is not looked at
-constexpr std::size_t kSamples = 20;      ///< of them
-constexpr std::size_t kSpread = 7;        ///< no divisor: the first samples are from all over
-constexpr float kAlikeStep = 0.2F;        ///< of a sample's step off the median: still its surface
+constexpr std::size_t kLeastOthers = 32;  ///< surely other pixels; with fewer a region is skipped
+constexpr std::size_t kSamples = 20;      ///< of these pixels
+constexpr std::size_t kSpread = 7;        ///< coprime to 20: the first samples are from all over
+constexpr float kAlikeStep = 0.2F;        ///< of a sample's distance from the median: same surface
 
 float median_of_three(float a, float b, float c) {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -59,9 +59,9 @@ DIBHR_VECTOR_CLONES void medians(const float* a, const float* b, const float* c,
     for (std::size_t i = 0; i < count; ++i) out[i] = median_of_three(a[i], b[i], c[i]);
 }
 
-constexpr std::uint8_t kSurelyOther = 3;  ///< another surface, and no noise; 1: maybe that
+constexpr std::uint8_t kSurelyOther = 3;  ///< another surface, and not noise; 1: maybe
 
-/// Returns whether there is any.
+/// Marks levels of another surface than the reference. Returns whether there are any.
 DIBHR_VECTOR_CLONES bool mark_other(const float* levels, const float* reference,
                                     const NoiseBound& bound, std::uint8_t* __restrict marks,
                                     std::size_t count) {
@@ -90,14 +90,14 @@ DIBHR_VECTOR_CLONES void invert(const float* reference, const NoiseBound& bound,
     for (std::size_t i = 0; i < count; ++i) per_bound[i] = 1.0F / of(reference[i]);
 }
 
-/// Tukey's biweight: nothing at the bound and beyond.
+/// Tukey's biweight: 0 at the bound and beyond.
 inline float weight_of(float off, float per_bound) {
     const float part = off * per_bound;
     const float near = std::max(1.0F - part * part, 0.0F);
     return near * near;
 }
 
-/// What the levels of a pixel are averaged with.
+/// The weighted mean of a pixel's differences from its reference.
 struct Mean {
     float sum, weight;
 
@@ -182,7 +182,7 @@ DIBHR_VECTOR_CLONES void divide(const float* reference, const float* sum, const 
         out[i] = reference[i] + (weights[i] > 0.0F ? sum[i] / weights[i] : 0.0F);
 }
 
-/// How much of a patch's rim is held by the surface beside it.
+/// The rim of a patch, and how much of it is held by the surface beside it.
 struct Rim {
     int pixels{0};
     int held{0};
@@ -206,7 +206,7 @@ void TemporalFilter::gather(std::span<const LoneDepth* const> frames, std::size_
     }
 }
 
-/// The median of the frame and those near it; of four or three, of three. Of `count` pixels.
+/// The median of `count` pixels over the frame and those near it: over five frames, else three.
 void TemporalFilter::find_reference(const float* here, std::size_t at, std::size_t count,
                                     float* reference) const {
     const Neighbour* n = neighbours_.data() + first_near_;
@@ -221,8 +221,8 @@ void TemporalFilter::find_reference(const float* here, std::size_t at, std::size
     }
 }
 
-/// Row by row, so that what one pass leaves is at hand for the next. Returns whether anywhere the
-/// frame's own level is surely another one.
+/// Averages row by row, so that each row stays in the cache. Returns whether any of the frame's own
+/// levels is another surface than the median.
 bool TemporalFilter::average_rows(const LoneDepth& here, DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
     other_.resize(out.levels.size());
@@ -242,9 +242,9 @@ bool TemporalFilter::average_rows(const LoneDepth& here, DepthImage& out) {
     return any;
 }
 
-/// Where a frame has another level than the median it was there for two frames at most. It is
-/// followed all the same where it is a part of something that stays longer: between two sides of
-/// it, as when fingers pass one after the other, or a patch that it holds; and where it moves.
+/// Where a frame has another level than the median, that level lasts two frames at most. It is kept
+/// all the same where it is a part of a surface that stays longer: between two sides of it, as when
+/// fingers pass one after the other, or in a patch that it holds; and where it moves.
 void TemporalFilter::follow_parts(const LoneDepth& here, DepthImage& out) {
     followed_.assign(other_.size(), 0);
     follow_between(here.depth);
@@ -260,9 +260,9 @@ void TemporalFilter::follow_parts(const LoneDepth& here, DepthImage& out) {
     follow_motion(here, out);
 }
 
-/// Where most of what is other in a region is found in the frames before and after, moved by as
-/// much and to opposite sides, that moves: a flip is in one frame or two and stays in its place. At
-/// the ends of a clip two frames of one side say so.
+/// A region moves if most of its other pixels are found in the frames before and after, moved as
+/// far to opposite sides. A flip lasts one frame or two and does not move. At the ends of a clip
+/// two frames of one side are compared.
 void TemporalFilter::follow_motion(const LoneDepth& here, DepthImage& out) {
     if (count_ < 3) return;
     std::size_t now = 0;
@@ -282,7 +282,7 @@ void TemporalFilter::follow_motion(const LoneDepth& here, DepthImage& out) {
     }
 }
 
-/// Returns whether there are enough.
+/// Takes samples of the surely other pixels of a region. Returns whether there are enough.
 bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
                                   MotionSearch& search) {
     surely_.clear();
@@ -310,7 +310,7 @@ bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
     return true;
 }
 
-/// What was made up moves along: the shadow beside a hand.
+/// Filled pixels move along: the shadow beside a hand.
 void TemporalFilter::follow_region(const LoneDepth& here, const Region& region,
                                    const MotionSearch& search, DepthImage& out) {
     const std::optional<Motion> motion = search.found();
@@ -329,7 +329,7 @@ void TemporalFilter::follow_region(const LoneDepth& here, const Region& region,
     }
 }
 
-/// And not followed yet.
+/// Whether the level is another one than the median, and not followed yet.
 bool TemporalFilter::is_other(const LoneDepth& here, std::size_t at) const {
     if (followed_[at] != 0) return false;
     if (here.made_up.empty() || here.made_up[at] == 0) return other_[at] != 0;
@@ -354,7 +354,7 @@ void TemporalFilter::follow_between(const DepthImage& here) {
     }
 }
 
-/// Only the part of the image that has wide ones in it is looked at.
+/// Only the part of the image that has wide patches is processed.
 void TemporalFilter::follow_patches(const DepthImage& here) {
     const cv::Mat square = cv::Mat::ones(kWide_px, kWide_px, CV_8U);
     const cv::Mat other(here.rows, here.columns, CV_8U, other_.data());
@@ -380,7 +380,7 @@ void TemporalFilter::follow_patches(const DepthImage& here) {
         for (int i = 0; i < box.width; ++i)
             pixel[i] = held[static_cast<std::size_t>(patch[i])] != 0 ? 1 : 0;
     }
-    cv::dilate(wide, wide, square);  // what opening took off its corners
+    cv::dilate(wide, wide, square);  // the corners that opening has removed
     for (int j = 0; j < box.height; ++j) {
         const auto* const pixel = wide.ptr<std::uint8_t>(j);
         const std::size_t at = here.index(box.x, box.y + j);
@@ -390,7 +390,7 @@ void TemporalFilter::follow_patches(const DepthImage& here) {
     }
 }
 
-/// `left` and `top`: where in the image the patches' corner is.
+/// `left` and `top`: the place of `patches` in the image.
 std::vector<char> TemporalFilter::held_patches(const DepthImage& here, const cv::Mat& patches,
                                                const cv::Mat& to_rim, int count, int left,
                                                int top) const {
@@ -432,8 +432,8 @@ TemporalFilter::Held TemporalFilter::held_at(const DepthImage& here, int i, int 
     return {here.levels[at], reference, kSurely * bound_(here.levels[at])};
 }
 
-/// Whether the same surface, and not that of before and after, goes on in that direction to where
-/// it stays. Not of what only may be another one: blotches of noise hold each other.
+/// Whether in that direction the pixel's surface, and not that of the median, continues to pixels
+/// that are not other. For surely other pixels only: else blotches of noise would hold each other.
 bool TemporalFilter::is_held(const DepthImage& here, const Held& held, int i, int j, int right,
                              int down) const {
     for (int away = 1; away <= kHeldWithin_px; ++away) {
@@ -447,7 +447,7 @@ bool TemporalFilter::is_held(const DepthImage& here, const Held& held, int i, in
     return false;
 }
 
-/// Of `count` pixels from `at`, which are in one row; `reference` is the first one's.
+/// Averages `count` pixels from `at` on, in one row; `reference`: from the first pixel on.
 void TemporalFilter::average(const float* reference, std::size_t at, std::size_t count,
                              DepthImage& out) {
     per_bound_.resize(count);

@@ -1,4 +1,4 @@
-// What does not move keeps its level from frame to frame.
+// The filter in time: what does not move keeps its level from frame to frame.
 #pragma once
 
 #include <array>
@@ -20,26 +20,26 @@ namespace dibhr {
 class MotionSearch;
 
 /// Averages each pixel over the frames before and after it in which it is on the same surface.
-/// What is there for two frames and gone again was never there, but for what is as wide as a finger
-/// and a part of something that stays, and for what moves: it is beside its place before and after,
-/// to opposite sides. Even motion has no lag, since it looks as far ahead as back; where a surface
-/// leaves or comes, its frames are not mixed with those of the other one.
+/// Levels that last two frames or less are removed, with two exceptions: parts as wide as a finger
+/// that belong to a surface that stays; and moving parts, which are beside their place, on opposite
+/// sides, before and after. Even motion has no lag, since the filter reaches as far ahead as back.
+/// Where one surface replaces another, the frames of both are not mixed.
 class TemporalFilter {
   public:
-    /// Of frame `now` of `frames`, which follow each other in time. Frames of another size or
-    /// highest level are passed over. Same frames, same bits.
+    /// Filters frame `now` of `frames`, which follow each other in time. Frames of another size or
+    /// highest level are ignored. The same frames give the same bits.
     [[nodiscard]] DepthImage filtered(std::span<const LoneDepth* const> frames, std::size_t now,
                                       const DepthNoise& noise);
 
   private:
     struct Neighbour {
         const float* levels;
-        const std::uint8_t* made_up;  ///< null: none of it
+        const std::uint8_t* made_up;  ///< null: no pixel
     };
-    /// What may be held by what is beside it.
+    /// A pixel that may be a part of the lasting surface beside it.
     struct Held {
         float level, reference;
-        float alike;  ///< so far off another level may be
+        float alike;  ///< largest difference to that surface
     };
 
     /// Columns [left, right), rows [top, bottom).
@@ -72,13 +72,13 @@ class TemporalFilter {
     NoiseBound bound_{};
     std::array<Neighbour, 2 * kReachInTime + 1> neighbours_{};
     std::size_t count_{0};
-    std::size_t first_near_{0}, nearest_{0};  ///< of those that the median is of
+    std::size_t first_near_{0}, nearest_{0};  ///< the neighbours in the median: first, count
     std::vector<std::uint8_t> other_{};       ///< where the frame's own level is another surface
-    std::vector<std::uint8_t> inner_{};       ///< and all around it
-    std::vector<std::uint8_t> followed_{};    ///< 1 where that counts all the same
+    std::vector<std::uint8_t> inner_{};       ///< where that is so all around, too
+    std::vector<std::uint8_t> followed_{};    ///< 1 where the own level is kept all the same
     std::vector<std::uint8_t> nothing_made_up_{};  ///< a row of zeros
-    std::vector<std::size_t> surely_{};            ///< of a region, where that is surely so
-    // Of one row: the level that others are compared with, and of the mean.
+    std::vector<std::size_t> surely_{};            ///< pixels of a region with kSurelyOther
+    // Of one row: the level that others are compared with, and the sums of the mean.
     std::vector<float> reference_{}, per_bound_{}, sum_{}, weights_{};
 };
 

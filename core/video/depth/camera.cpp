@@ -21,7 +21,7 @@ cv::Point2d bent(const Lens& lens, cv::Point2d ray) {
     return ray * radial_stretch(lens.k, ray.dot(ray)) + aside(lens, ray);
 }
 
-/// The ray that is bent to that: what bends it is taken off again and again, until nothing changes.
+/// Inverts the distortion by fixed-point iteration; NaN if it does not converge.
 cv::Point2d straightened(const Lens& lens, cv::Point2d seen) {
     constexpr int kMostRounds = 100;  // real lenses take 10 in the middle, 40 at 120 degrees
     constexpr int kFirstRounds = 5;

@@ -1,4 +1,4 @@
-// Cameras as calibrations describe them; inside the room.
+// Models of cameras as calibrations describe them; inside core/video.
 #pragma once
 
 #include <array>
@@ -11,32 +11,32 @@
 
 namespace dibhr {
 
-/// How a lens bends what is not on its axis: Brown and Conrady's model with a rational radial part,
-/// as OpenCV and Microsoft have it.
+/// Distortion of a lens: Brown and Conrady's model with a rational radial part, as in OpenCV and
+/// Azure Kinect calibrations.
 struct Lens {
     std::array<double, 6> k{};  ///< radial: (1 + k1 r2 + k2 r4 + k3 r6) / (1 + k4 r2 + k5 r4 + ...)
     double p1{0.0}, p2{0.0};    ///< tangential
-    double widest{20.0};        ///< sideways over forwards, beyond which it is not known
+    double widest{20.0};        ///< valid up to this length of a ray (sideways over forwards)
 
     bool operator==(const Lens&) const = default;
 };
 
-/// What the radial part multiplies a ray with, the square of whose length is `r2`.
+/// The factor of the radial part for a ray; `r2`: square of its length.
 template <typename Number>
 [[nodiscard]] Number radial_stretch(const std::array<Number, 6>& k, Number r2) {
     return (Number{1} + r2 * (k[0] + r2 * (k[1] + r2 * k[2]))) /
            (Number{1} + r2 * (k[3] + r2 * (k[4] + r2 * k[5])));
 }
 
-/// A lens for what is done with every pixel of every frame, without branches: right to a
-/// thousandth of a pixel.
+/// A lens in floats for every pixel of every frame, without branches: exact to a thousandth of a
+/// pixel.
 class LensInFloats {
   public:
     explicit LensInFloats(const Lens& lens);
 
     struct Bent {
         float x, y;
-        bool known;  ///< the lens is, for that ray; no number is not
+        bool known;  ///< the ray is within the lens's valid range; false for NaN
     };
     [[nodiscard]] Bent bent(float x, float y) const {
         const float r2 = x * x + y * y;
@@ -51,19 +51,19 @@ class LensInFloats {
     float p1_, p2_, widest2_;
 };
 
-/// A ray is how far it goes to the right and down while it goes 1 forwards.
+/// A ray (x, y): how far it goes right and down for each 1 forwards.
 class Camera {
   public:
     Camera() = default;
-    /// Without a lens: a pinhole, as which intrinsics stand for a camera.
+    /// Without a lens: a pinhole camera, to which intrinsics convert.
     Camera(const Intrinsics& intrinsics, const Lens& lens = {});  // NOLINT(*explicit*)
 
     [[nodiscard]] const Intrinsics& intrinsics() const noexcept { return intrinsics_; }
     [[nodiscard]] const Lens& lens() const noexcept { return lens_; }
 
-    /// Where a ray meets the picture [px]; NaN beyond what the lens is known for.
+    /// Where a ray meets the picture [px]; NaN outside the lens's valid range.
     [[nodiscard]] cv::Point2d pixel_of(cv::Point2d ray) const;
-    /// What a place in the picture sees; NaN where the lens sees nothing.
+    /// The ray of a place in the picture; NaN where no ray is valid.
     [[nodiscard]] cv::Point2d ray_of(cv::Point2d pixel) const;
 
   private:
@@ -72,9 +72,9 @@ class Camera {
     bool bends_{false};
 };
 
-/// The ray of the middle of every pixel.
+/// The rays through the middles of all pixels.
 struct Rays {
-    cv::Mat right{};  ///< CV_32FC1, NaN where the lens sees nothing
+    cv::Mat right{};  ///< CV_32FC1, NaN where no ray is valid
     cv::Mat down{};
 };
 [[nodiscard]] Rays rays_of(cv::Size picture, const Camera& camera);
@@ -84,7 +84,7 @@ struct Placement {
     cv::Matx33d rotation{};
     cv::Vec3d shift_mm{};
 };
-/// Whether it is one of two cameras of a device: a rotation, and less than ten metres.
+/// Whether the placement is possible in one device: a rotation, and less than ten metres.
 [[nodiscard]] bool is_placement(const Placement& placement);
 
 /// The two cameras of a device that sees depth and colour.
@@ -93,10 +93,10 @@ struct CameraPair {
     Camera colour{};
     cv::Size colour_size{};    ///< of the pictures that `colour` is for
     Placement to_colour{};     ///< from the depth camera's axes to the colour camera's
-    std::string known_from{};  ///< who calibrated them: "Azure Kinect calibration"
+    std::string known_from{};  ///< origin of the calibration: "Azure Kinect calibration"
 };
 
-/// The same camera for pictures of another size, that are as wide, and cut above and below alike.
+/// The same camera for pictures of another size: as wide a view, cut equally above and below.
 [[nodiscard]] Camera camera_for(cv::Size picture, const Camera& camera, cv::Size calibrated);
 
 }  // namespace dibhr

@@ -16,12 +16,12 @@ namespace {
 
 constexpr float kNoDistance = std::numeric_limits<float>::infinity();
 
-/// What is behind something nearer by this part of its distance is hidden by it: more than a
-/// surface at a slant falls within a cell.
+/// A pixel this many times as far as the nearest one in its cell is hidden by it. A slanted surface
+/// falls by less within a cell.
 constexpr float kBehind = 1.03F;
 
-/// Cells are so many times as wide as what is seen lies apart, so that nothing is seen through a
-/// surface, or along its edge.
+/// Width of a cell over the distance of depth pixels in the colour picture: so the background is
+/// not seen through gaps of a surface or along its edge.
 constexpr double kCellWidth = 2.5;
 
 }  // namespace
@@ -68,7 +68,7 @@ cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::M
     return result;
 }
 
-/// In every row from the farther end of the hole; a row without data is as far as all that is seen.
+/// Fills holes of a row from their farther end; a row without data is as far as the farthest pixel.
 void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
     depth_mm.copyTo(depth_mm_);
     double farthest = 0.0;
@@ -88,10 +88,10 @@ void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
     }
 }
 
-/// A row in one go, without branches, as it is done for every pixel of every frame.
+/// Row by row and without branches, as it runs for every pixel of every frame.
 void ColourRegistration::project(const Camera& colour) {
     constexpr float kOutside = -1e4F;
-    constexpr float kFar = 1e5F;  // px; outside of the picture is outside, however far
+    constexpr float kFar = 1e5F;  // px; limit for places outside of the picture
     const cv::Size size = depth_mm_.size();
     for (cv::Mat* const map : {&x_, &y_, &distance_mm_}) map->create(size, CV_32FC1);
     const cv::Matx33f rotation = cameras_.to_colour.rotation;
@@ -116,7 +116,7 @@ void ColourRegistration::project(const Camera& colour) {
             const float ray_x = (there_x + shift[0]) / distance;
             const float ray_y = (there_y + shift[1]) / distance;
             const LensInFloats::Bent seen = lens.bent(ray_x, ray_y);
-            const bool is_seen = distance > 0.0F && seen.known;  // no number is not
+            const bool is_seen = distance > 0.0F && seen.known;  // false for NaN
             xs[i] = is_seen ? std::clamp(cx + fx * seen.x, kOutside, kFar) : kOutside;
             ys[i] = is_seen ? std::clamp(cy + fy * seen.y, kOutside, kFar) : kOutside;
             distances[i] = distance;
@@ -153,9 +153,9 @@ void ColourRegistration::find_hidden(cv::Size colour_size, double pixels_apart) 
     });
 }
 
-/// A quarter of a pixel to each side of every pixel. On one surface the colour picture is seen
-/// there as far on as towards the next pixel; where that is farther than pixels lie apart there is
-/// an edge between them, and each side keeps its own.
+/// Four places for every pixel, a quarter of a pixel to each side. On one surface they are
+/// interpolated towards the next pixel; if that is too far away there is an edge between, and each
+/// side keeps its own place.
 void ColourRegistration::make_finer(const cv::Mat& map, double pixels_apart, cv::Mat& finer) {
     const auto most = static_cast<float>(2.0 * pixels_apart);
     const auto towards = [most](float own, float next) {
@@ -182,7 +182,7 @@ void ColourRegistration::make_finer(const cv::Mat& map, double pixels_apart, cv:
     }
 }
 
-/// What is hidden shows what is beside it in its row, at the farther end: more of the background.
+/// Hidden pixels take the colour at the farther end of their run in the row: the background's.
 void ColourRegistration::uncover() {
     for (int j = 0; j < x_.rows; ++j) {
         const unsigned char* const hidden = hidden_.ptr<unsigned char>(j);

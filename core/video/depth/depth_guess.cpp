@@ -1,4 +1,4 @@
-// Measures pictures on a lattice of pixels and weighs what it sees.
+// Measures pictures on a lattice of pixels, and decides fact by fact.
 #include "core/video/depth/depth_guess.hpp"
 
 #include <algorithm>
@@ -15,12 +15,12 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kLatticePixels = 12000;  ///< looked at in each picture, about
+constexpr int kLatticePixels = 12000;  ///< about as many are taken of each picture
 
 // No data.
-constexpr double kLeastNone = 5e-4;  ///< share of pixels; fewer are no sensor's holes
-constexpr double kGap = 0.05;        ///< of the other levels' reach: sensors see nothing that near
-constexpr double kStandsOut8 = 4.0;  ///< times as many as of the three levels next to 0
+constexpr double kLeastNone = 5e-4;  ///< least share of pixels for a sensor's holes
+constexpr double kGap = 0.05;        ///< part of the levels' range that is too near for sensors
+constexpr double kStandsOut8 = 4.0;  ///< least ratio of zeros to pixels of levels 1 to 3
 
 // Unit.
 constexpr double kFarthest_mm = 20000.0;
@@ -28,7 +28,7 @@ constexpr double kUsualFarthest_mm = 12000.0;
 constexpr double kFifthsOfMillimetre = 0.2;
 constexpr double kMostMetres = 100.0;
 
-constexpr double kClear = 0.25;  ///< standard deviations that the middle or the floor stands out
+constexpr double kClear = 0.25;  ///< deviations by which middle and floor must differ
 
 // Range.
 constexpr double kTail = 0.005;
@@ -36,7 +36,7 @@ constexpr double kVeryTail = 1e-4;
 constexpr double kBeyondTail = 0.05;  ///< of the span
 constexpr double kBeyondVeryTail = 0.02;
 constexpr double kNearest = 0.9;
-constexpr double kOutlier = 1.0;  ///< of the span of the nearest so many, beyond them
+constexpr double kOutlier = 1.0;  ///< of the span of the nearest kNearest: beyond are outliers
 
 /// One picture's levels on a lattice.
 struct Lattice {
@@ -63,7 +63,7 @@ bool holds(const std::vector<double>& levels, double level) {
     return std::find(levels.begin(), levels.end(), level) != levels.end();
 }
 
-/// The levels of all lattices that are not no data, rising.
+/// The levels of all lattices without no data, in rising order.
 std::vector<float> sorted_levels(const std::vector<Lattice>& lattices,
                                  const std::vector<double>& no_data) {
     std::vector<float> levels;
@@ -76,7 +76,7 @@ std::vector<float> sorted_levels(const std::vector<Lattice>& lattices,
     return levels;
 }
 
-/// Of values in order; `share` in [0, 1].
+/// Quantile of values in rising order; `share` in [0, 1].
 template <typename Value>
 double quantile(const std::vector<Value>& rising, double share) {
     const auto last = static_cast<double>(rising.size() - 1);
@@ -125,11 +125,11 @@ struct Mean {
     }
 };
 
-/// Levels by where they are in the picture.
+/// Mean levels of areas of the picture.
 struct Places {
     Mean all{}, middle{}, border{}, floor{}, top{};
 
-    /// `x` and `y`: from the middle, -0.5 to 0.5.
+    /// `x` and `y`: from the middle, in [-0.5, 0.5].
     void add(double x, double y, double level) {
         all.add(level);
         if (std::fabs(x) < 0.25 && std::fabs(y) < 0.25) middle.add(level);
@@ -139,8 +139,8 @@ struct Places {
     }
 };
 
-/// How many standard deviations brighter the picture's middle is than its border, and its floor
-/// than its top, together; negative: darker. Things stand in the middle, and on a floor.
+/// How many standard deviations brighter the picture's middle is than its border, plus its floor
+/// than its top; negative: darker. Near objects are mostly in the middle, and on a floor.
 double brighter_where_near(const std::vector<Lattice>& lattices,
                            const std::vector<double>& no_data) {
     Places places;
@@ -162,7 +162,7 @@ double brighter_where_near(const std::vector<Lattice>& lattices,
     return brighter(places.middle, places.border) + brighter(places.floor, places.top);
 }
 
-/// The unit, and what a level is of it.
+/// A unit, and the size of one level in it.
 struct Scaled {
     DepthUnit unit;
     double scale;
@@ -187,7 +187,7 @@ DepthUnit guess_real_numbers(const std::vector<float>& levels, double brighter) 
     return brighter < -kClear || highest > 1.0 ? DepthUnit::m : DepthUnit::levels;
 }
 
-/// Values on the line on which elevation is linear, so turned that the nearest is the highest, in
+/// Values in which elevation is linear, with the sign that makes the nearest the highest, in rising
 /// order.
 std::vector<double> nearness_of(const std::vector<float>& levels, const DepthMeaning& meaning) {
     const double sign = meaning.near.value == NearLevels::bright ? 1.0 : -1.0;
@@ -203,7 +203,7 @@ std::vector<double> nearness_of(const std::vector<float>& levels, const DepthMea
     return nearness;
 }
 
-/// The farthest that is no outlier: sensors see walls through walls.
+/// The farthest value that is no outlier: sensors report some points far behind walls.
 double farthest_of(const std::vector<double>& nearness, double nearest, bool has_outliers) {
     if (!has_outliers) return quantile(nearness, kTail);
     const double most = quantile(nearness, 1.0 - kNearest);
@@ -212,7 +212,7 @@ double farthest_of(const std::vector<double>& nearness, double nearest, bool has
     return quantile(std::vector<double>(first, nearness.end()), kTail);
 }
 
-/// The ends of a plane's range differ, too.
+/// Makes the ends of a range differ, for a picture of one plane.
 DepthRange not_empty(DepthRange range, const DepthMeaning& meaning) {
     if (range.near != range.far) return range;
     const double some = std::max(std::fabs(range.far), meaning.scale.value);
@@ -229,7 +229,7 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
     const double most = quantile(nearness, 1.0 - kTail);
     const double least = farthest_of(nearness, most, meaning.is_metric() || disparity);
     const double span = most - least;
-    // What little there is beyond the tails may be a fingertip.
+    // A few pixels beyond the near tail may be a fingertip.
     double near = std::max(most + kBeyondTail * span,
                            quantile(nearness, 1.0 - kVeryTail) + kBeyondVeryTail * span);
     near = std::min(near, nearness.back());
@@ -241,7 +241,7 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
     return not_empty({value(near), value(far)}, meaning);
 }
 
-/// Whether anybody has said a fact of DepthStatement.
+/// A function that tells whether any statement has a fact of DepthStatement.
 auto said_by_any(const Voices& voices) {
     return [&voices](auto fact) {
         return std::any_of(voices.begin(), voices.end(),

@@ -1,4 +1,4 @@
-// Names, and one voice over another.
+// Names of the facts' values, and merging of statements by priority.
 #include "core/video/depth/depth_meaning.hpp"
 
 #include <array>
@@ -44,7 +44,7 @@ std::string_view name_of(Geometry value) noexcept {
 
 bool is_camera(const Intrinsics& intrinsics) {
     constexpr double kMost = 1e7;    // pixels; no picture is as large
-    constexpr double kLeast = 1e-3;  // below, a pixel sees all that is in front of the camera
+    constexpr double kLeast = 1e-3;  // below, one pixel sees everything before the camera
     const auto is_length = [](double value) { return value >= kLeast && value < kMost; };
     return is_length(intrinsics.fx) && is_length(intrinsics.fy) &&
            std::abs(intrinsics.cx) < kMost && std::abs(intrinsics.cy) < kMost;

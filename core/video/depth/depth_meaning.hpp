@@ -1,5 +1,5 @@
-// What the levels of a depth source mean: what somebody says of them, what is known in the end and
-// from whom, and how high a level stands. How they are to be cleaned is said in the same places.
+// What the levels of a depth source mean: statements of several origins, the meaning merged from
+// them, and how high a level stands. The requested cleaning is stated in the same places.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace dibhr {
 /// Which levels are near to the camera.
 enum class NearLevels { bright, dark };
 
-/// What a level times its scale is: of no unit and linear, of no unit and one over a distance, or a
-/// distance from the camera.
+/// What a level times its scale is: `levels` are linear in elevation without a unit, `disparity` is
+/// one over a distance without a unit, `mm` and `m` are distances from the camera.
 enum class DepthUnit { levels, disparity, mm, m };
 
 /// Where colour and depth are: in files of their own, in halves of one picture (colour first), or
@@ -27,8 +27,8 @@ enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_t
 /// How a picture holds depth: by its brightness, or by its hue.
 enum class DepthCode { grey, hue };
 
-/// The picture plane plus elevation, as in the paper, or the shape in millimetres, seen straight
-/// on.
+/// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
+/// millimetres, in orthographic view.
 enum class Geometry { relief, true_shape };
 
 [[nodiscard]] std::string_view name_of(NearLevels value) noexcept;
@@ -46,7 +46,7 @@ inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPackin
 inline constexpr std::array kDepthCodes{DepthCode::grey, DepthCode::hue};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 
-/// Values in the unit (level times scale): the nearest and the farthest that are told apart.
+/// The nearest and the farthest value that are not clamped, in the unit (level times scale).
 struct DepthRange {
     double near{0.0};
     double far{0.0};
@@ -54,19 +54,19 @@ struct DepthRange {
     bool operator==(const DepthRange&) const = default;
 };
 
-/// Of a pinhole camera, in depth pixels: the focal lengths, and where its axis meets the picture
-/// (0, 0: the centre of the first pixel).
+/// A pinhole camera in depth pixels: focal lengths, and where its axis meets the picture (0, 0: the
+/// centre of the first pixel).
 struct Intrinsics {
     double fx{0.0}, fy{0.0}, cx{0.0}, cy{0.0};
-    /// Said in place of those while the picture's size is not known: what it shows from its left to
-    /// its right edge [degrees]; 0: the others are said.
+    /// Horizontal field of view, given instead of the others while the picture's size is not known
+    /// [degrees]; 0: the others are given.
     double field_of_view_deg{0.0};
 
     bool operator==(const Intrinsics&) const = default;
 };
 
-/// Where the colour picture lies over the depth picture: so many depth pixels to the right and
-/// down, and so many times as large, about its middle.
+/// Where the colour picture lies over the depth picture: moved by depth pixels to the right and
+/// down, and scaled about its middle.
 struct Registration {
     double right_px{0.0}, down_px{0.0};
     double scale{1.0};
@@ -74,16 +74,16 @@ struct Registration {
     bool operator==(const Registration&) const = default;
 };
 
-/// Whether it is a camera at all: of finite numbers, and focal lengths of a thousandth of a pixel
-/// or more.
+/// Whether a camera can have these: finite numbers, and focal lengths of a thousandth of a pixel or
+/// more.
 [[nodiscard]] bool is_camera(const Intrinsics& intrinsics);
 
-/// The same for a picture of that size: of a field of view, with square pixels and the axis through
-/// the middle.
+/// The same in pixels for a picture of that size: a field of view becomes focal lengths of square
+/// pixels, with the axis through the middle.
 [[nodiscard]] Intrinsics in_pixels(const Intrinsics& said, int columns, int rows);
 
-/// What one voice says of a depth source: a file's own metadata, a sidecar, the panel, the command
-/// line. What it does not say is empty.
+/// Facts of a depth source from one origin: the file's metadata, a sidecar, the panel, the command
+/// line. Facts that it does not state are empty.
 struct DepthStatement {
     std::optional<NearLevels> near{};
     std::optional<DepthUnit> unit{};
@@ -99,17 +99,17 @@ struct DepthStatement {
     std::optional<double> finger_mm{};  ///< radius of the fingertip
 
     bool operator==(const DepthStatement&) const = default;
-    /// What `other` says, where this says nothing.
+    /// Takes from `other` the facts that this does not state.
     void fill_in(const DepthStatement& other);
 };
 
-/// Whose word a fact of the meaning is; a later one beats those before it.
+/// Where a fact of the meaning comes from; later ones have priority over those before.
 enum class Origin { assumed, found, sidecar, panel, command_line, recorded };
 
 /// "assumed", "found", "sidecar", "panel", "command line", "recorded".
 [[nodiscard]] std::string_view name_of(Origin value) noexcept;
 
-/// A fact and whose word it is.
+/// A fact and its origin.
 template <typename Value>
 struct Known {
     Value value{};
@@ -118,7 +118,7 @@ struct Known {
     bool operator==(const Known&) const = default;
 };
 
-/// What the levels of a source mean, all said.
+/// The complete meaning of the levels of a source.
 struct DepthMeaning {
     Known<NearLevels> near{NearLevels::bright};
     Known<DepthUnit> unit{DepthUnit::levels};
@@ -129,20 +129,20 @@ struct DepthMeaning {
     Known<DepthCode> code{DepthCode::grey};
     Known<Geometry> geometry{Geometry::relief};
     Known<std::optional<Intrinsics>> intrinsics{};  ///< nothing: not known
-    Known<Registration> registration{};  ///< beyond what the file's calibration says of it
-    Known<CleaningChoice> cleaning{};    ///< automatic: nobody says else
+    Known<Registration> registration{};  ///< in addition to the file's calibration
+    Known<CleaningChoice> cleaning{};    ///< automatic: not stated
     Known<double> finger_mm{0.0};        ///< 0: a point
-    std::string found_in{};  ///< where what was found was found: "TUM lists"; empty: nowhere
+    std::string found_in{};  ///< where `found` facts are from: "TUM lists"; empty: none
 
     [[nodiscard]] bool is_metric() const {
         return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
     }
-    /// All of it, as one voice: a recording's, or a sidecar's.
+    /// All facts as one statement, for a recording or a sidecar.
     [[nodiscard]] DepthStatement statement() const;
 };
 
-/// Each fact of depth with its name, out of a statement and a meaning, or out of two statements:
-/// visit(name, fact of one, fact of other).
+/// Visits each fact of a statement and a meaning, or of two statements: visit(name, fact of one,
+/// fact of other).
 template <typename One, typename Other, typename Visit>
 void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("near", one.near, other.near);
@@ -159,23 +159,22 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("finger_mm", one.finger_mm, other.finger_mm);
 }
 
-/// Statements by whose word they are, the strongest first.
+/// Statements with their origins, the one of highest priority first.
 using Voices = std::vector<std::pair<Origin, DepthStatement>>;
 
-/// What the strongest voice says of each thing; where none says anything it stays as it is.
+/// Sets each fact to that of the first statement that has it; facts without a statement stay.
 void hear(const Voices& voices, DepthMeaning& meaning);
 
-/// The value on the line on which elevation is linear: the value itself, or one over it.
+/// The value in which elevation is linear: the value itself, or one over it for disparity.
 [[nodiscard]] double on_the_line(DepthUnit unit, double value);
 
-/// The value in the unit that stands there, `nearness` in [0, 1] of the way from the farthest to
-/// the nearest.
+/// The value in the unit at an elevation; `nearness` in [0, 1]: from the farthest to the nearest.
 [[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);
 
-/// In one line, for a person: "distance 480 to 4210 mm, near is dark, no data is 0 and 65535".
+/// One line for people: "distance 480 to 4210 mm, near is dark, no data is 0 and 65535".
 [[nodiscard]] std::string in_words(const DepthMeaning& meaning);
 
-/// The names of what was assumed, as `info` lists them: "near", "unit", "scale", "range", ...
+/// The names of the assumed facts, as `info` lists them: "near", "unit", "scale", "range", ...
 [[nodiscard]] std::vector<std::string> assumed_facts(const DepthMeaning& meaning);
 
 }  // namespace dibhr

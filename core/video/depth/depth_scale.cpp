@@ -1,4 +1,4 @@
-// Levels to elevations, by table where there are few enough levels.
+// Levels of the source to levels of depth images, by table where there are few enough.
 #include "core/video/depth/depth_scale.hpp"
 
 #include <algorithm>
@@ -15,8 +15,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kFineSteps = 65535.0;  ///< where the source has no steps of its own
-/// Fewer millimetres than this would be taken for an 8-bit image's steps.
+constexpr double kFineSteps = 65535.0;  ///< highest level if the source has no equal steps
+/// A span of fewer millimetres would be taken for the steps of an 8-bit image.
 constexpr double kLeastMillimetres = 256.0;
 constexpr int kMostTabled = 16;
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ void map_levels(const cv::Mat& grey, const std::vector<float>& of_level, std::ve
     }
 }
 
-/// From a number to its level, where that is a straight line between two bounds.
+/// The mapping of a number to its level, where it is linear between two bounds.
 struct Linear {
     double scale, far, per_one, highest, lowest_of, highest_of;
 };
@@ -119,7 +119,7 @@ DepthImage DepthScale::image_of(const cv::Mat& picture) const {
     return depth;
 }
 
-/// The same as each number by itself, many at a time where that can be.
+/// Gives the same as operator() for each number, many at a time where possible.
 void DepthScale::map_row(const float* numbers, DepthImage& depth, int row) const {
     float* const out = depth.levels.data() + depth.index(0, row);
     if (meaning_.unit.value == DepthUnit::disparity) {

@@ -1,4 +1,4 @@
-// How high a level of the source stands: by its meaning, one rule a unit.
+// Converts levels of the source to levels of depth images, by their meaning, one rule a unit.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -18,35 +18,35 @@ namespace dibhr {
 ///   levels     (v - far) / (near - far)
 ///   mm, m      (far - v) / (far - near)
 ///   disparity  (1/far - 1/v) / (1/far - 1/near), for the distance is 1/v of some unknown unit
-/// where v = level * scale. What is beyond an end of the range stands at that end.
+/// where v = level * scale. Values beyond an end of the range are clamped to it.
 ///
-/// A depth image's levels are that, times its highest level: where one step of the source is the
-/// same everywhere it stays a step of 1 (levels of integers), or is in millimetres.
+/// A depth image's level is that times its highest level. If the source has equal steps, a step
+/// stays 1 (levels of integers), or levels are in millimetres.
 class DepthScale {
   public:
     /// `bits` of the source's levels; kRealBits: real numbers. The range's ends must differ.
     DepthScale(const DepthMeaning& meaning, int bits);
 
-    /// Levels as the file has them, of which the highest of so many bits is the nearest. Real
-    /// numbers stand as high as levels of 8 bits, and as far beyond them as they are.
+    /// Levels as in the file; the highest one of these bits is the nearest. Real numbers count as
+    /// levels of 8 bits, without clamping.
     [[nodiscard]] static DepthScale as_recorded(int bits);
 
-    /// NaN for no data: not finite, one of the levels that mean nothing, or, of a distance or a
-    /// disparity, not above zero where that cannot be.
+    /// The level of a depth image. NaN for no data: not finite, or a no-data level of the meaning.
+    /// A disparity not above 0 is the farthest level.
     [[nodiscard]] float operator()(double level) const;
 
     [[nodiscard]] double highest_level() const noexcept { return highest_; }
-    /// No level of the source is no data.
+    /// Whether every level of the source is data.
     [[nodiscard]] bool is_always_data() const noexcept { return always_data_; }
-    /// Nothing where levels are as recorded.
+    /// Nothing if levels are as recorded.
     [[nodiscard]] std::optional<DepthMeaning> meaning() const {
         return as_recorded_ ? std::nullopt : std::optional(meaning_);
     }
 
-    /// Of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers.
+    /// The depth image of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers.
     [[nodiscard]] DepthImage image_of(const cv::Mat& picture) const;
-    /// The same picture's distances from the camera [mm], CV_32FC1, also beyond the range; NaN for
-    /// no data. Of a meaning that is metric.
+    /// The picture's distances from the camera [mm], CV_32FC1, also beyond the range; NaN for no
+    /// data. The meaning must be metric.
     [[nodiscard]] cv::Mat distances_mm(const cv::Mat& picture) const;
 
   private:
@@ -55,11 +55,11 @@ class DepthScale {
 
     DepthMeaning meaning_;
     double highest_;
-    double far_;      ///< on the line on which elevation is linear
-    double per_one_;  ///< nearness of one on that line
+    double far_;      ///< the farthest value, linear in elevation
+    double per_one_;  ///< nearness for each 1 of that linear value
     bool always_data_;
-    bool as_recorded_{false};        ///< then real numbers may stand beyond the ends of the range
-    std::vector<float> of_level_{};  ///< of every integer level; empty: of real numbers
+    bool as_recorded_{false};        ///< then real numbers are not clamped to the range
+    std::vector<float> of_level_{};  ///< result for every integer level; empty: real numbers
 };
 
 }  // namespace dibhr

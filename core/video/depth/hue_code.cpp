@@ -1,4 +1,4 @@
-// Hues, the seam at red, and the ramp.
+// Computes hues, decides red, and decodes the ramp.
 #include "core/video/depth/hue_code.hpp"
 
 #include <algorithm>
@@ -18,11 +18,11 @@ namespace {
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 constexpr float kBelowOne = 1.0F - std::numeric_limits<float>::epsilon();
 
-/// Hues this near to the seam may be on its other side: noise of codecs.
+/// Hues this near to 0 or 1 may have changed sides by noise of codecs.
 constexpr float kRed = 0.06F;
-/// As near to red as the next hues of a surface that goes on into it.
+/// Hues of a surface that continues into red are this near to it.
 constexpr float kBesideRed = 0.25F;
-/// A side is certain with so many times the neighbours of the other.
+/// A side is certain if it has this many times the neighbours of the other.
 constexpr int kCertain = 4;
 
 /// Blue, green and red from 0 to 1, without gaps between rows, of a picture of 3 or 4 channels.
@@ -42,7 +42,7 @@ cv::Mat hue_saturation_value(const cv::Mat& picture) {
     return colours;
 }
 
-/// How far a colour is from grey; of a pure hue 1.
+/// Distance of a colour from grey; 1 for a pure hue.
 float chroma_of(const cv::Vec3f& pixel) {
     return pixel[1] * pixel[2];
 }
@@ -53,7 +53,7 @@ float hue_at(const cv::Vec3f& pixel, const HueCode& code) {
     return hue < code.nearest || hue > code.farthest ? kNone : hue;
 }
 
-/// The median chroma of pixels with data, of every few; 0 when there are none.
+/// The median chroma of every few pixels with data; 0 if there are none.
 float usual_chroma(const cv::Mat& colours, const cv::Mat& hues) {
     constexpr int kEvery = 3;
     std::vector<float> chromas;
@@ -69,15 +69,15 @@ float usual_chroma(const cv::Mat& colours, const cv::Mat& hues) {
     return *middle;
 }
 
-/// Around the circle, at most 0.5.
+/// Distance on the circle of hues, at most 0.5.
 float hue_distance(float a, float b) {
     const float apart = std::abs(a - b);
     return std::min(apart, 1.0F - apart);
 }
 
-/// Hues of two surfaces mixed are paler or darker than either, and lie anywhere between: a pixel
-/// that is, and has no pure one of its hue near it, is of neither. (One that is mixed with black
-/// has.)
+/// A mixture of two surfaces' hues is paler or darker than either, with any hue between. So a pale
+/// or dark pixel without a pure one of its hue beside it loses its data. (A pixel mixed with black
+/// has a pure one beside it.)
 void drop_mixtures(const cv::Mat& colours, cv::Mat& hues) {
     constexpr float kPure = 0.8F;  // of the usual chroma
     constexpr float kSameSurface = 0.03F;
@@ -104,12 +104,12 @@ void drop_mixtures(const cv::Mat& colours, cv::Mat& hues) {
     }
 }
 
-/// What surrounds the pixels of one red area.
+/// Counts of near and far hues around one red area.
 struct Rim {
     int near{0};
     int far{0};
 
-    [[nodiscard]] int side() const {  // -1: the nearest, 1: the farthest, 0: not told
+    [[nodiscard]] int side() const {  // -1: the nearest, 1: the farthest, 0: not known
         if (near > kCertain * far) return -1;
         return far > kCertain * near ? 1 : 0;
     }
@@ -141,7 +141,7 @@ std::vector<Rim> rims_of(const cv::Mat& hues, const cv::Mat& labels, int areas) 
     return rims;
 }
 
-/// Puts the areas of `mask` whose rim tells a side there.
+/// Moves the areas of `mask` to the side that their rim shows, if it does.
 void settle_areas(cv::Mat& hues, const cv::Mat& mask) {
     cv::Mat labels;
     const int areas = cv::connectedComponents(mask, labels, 8, CV_32S);
@@ -158,7 +158,7 @@ void settle_areas(cv::Mat& hues, const cv::Mat& mask) {
     }
 }
 
-constexpr double kLeastColoured = 0.02;  ///< of a picture whose colours say anything
+constexpr double kLeastColoured = 0.02;  ///< least share of coloured pixels
 
 bool has_colour(const cv::Vec3f& bgr) {
     return std::max({bgr[0], bgr[1], bgr[2]}) - std::min({bgr[0], bgr[1], bgr[2]}) > 0.15F;
@@ -168,7 +168,7 @@ float mean_of(const cv::Vec3f& bgr) {
     return (bgr[0] + bgr[1] + bgr[2]) / 3.0F;
 }
 
-/// Blue rises first, then green, then red.
+/// On the ramp from black: blue rises first, then green, then red.
 bool is_on_ramp(const cv::Vec3f& bgr) {
     constexpr float kBeside = 0.15F;  // codecs mix colours of neighbours
     const float along = 3.0F * mean_of(bgr);
@@ -209,7 +209,7 @@ void settle_red(cv::Mat& hues) {
     if (cv::countNonZero(high) > 0) settle_areas(hues, low | high);
 }
 
-/// Black, as dark as codecs leave it, is 0.
+/// Black, also where codecs made it a little brighter, is 0.
 cv::Mat ramp_levels(const cv::Mat& picture) {
     constexpr float kBlack = 0.06F;
     cv::Mat levels(picture.rows, picture.cols, CV_32F, cv::Scalar(0.0));

@@ -1,4 +1,4 @@
-// Draws the camera's surface into an orthographic grid, row by row.
+// Draws the camera's surface into an orthographic grid, triangle by triangle.
 #include "core/video/depth/true_shape.hpp"
 
 #include <algorithm>
@@ -18,21 +18,21 @@ namespace dibhr {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-constexpr double kUsualPoints = 1 << 19;  ///< of a grid, at most; large pictures may have more
+constexpr double kUsualPoints = 1 << 19;  ///< most points of a grid; more for larger pictures
 constexpr double kWidestRay = 20.0;       ///< sideways over forwards: 87 degrees
-constexpr double kNarrowestView = 0.005;  ///< of a picture, likewise: 0.3 degrees
+constexpr double kNarrowestView = 0.005;  ///< width of a picture, likewise: 0.3 degrees
 
-/// Steeper, in pixels of height to a pixel sideways, is an edge with something behind it: 86.4
-/// degrees. A sphere is whole up to its last pixel, and the noise of sensors, a hundredth or two of
-/// the distance, does not tear a surface.
+/// A steeper triangle is an edge with background behind it [pixels of height to a pixel sideways]:
+/// 86.4 degrees. So a sphere is whole up to its last pixel, and the noise of sensors, a hundredth
+/// or two of the distance, does not tear a surface.
 constexpr double kSteepest = 16.0;
-/// And so is a step of more than this part of the distance, whatever the size of a pixel.
+/// A larger step is an edge, too, as a part of the distance, whatever the size of a pixel.
 constexpr double kMostStep = 0.05;
 
-/// So far outside its border a triangle still counts, so that between two there is no gap [share].
+/// A triangle counts this far outside its border, so that there is no gap between two [share].
 constexpr float kOverlap = 1e-4F;
 
-/// Along one side: of the outermost rays (sideways over forwards), or of what they see [mm].
+/// Range along one axis: of rays (sideways over forwards), or of places [mm].
 struct Extent {
     double begin{0.0};
     double end{0.0};
@@ -40,7 +40,7 @@ struct Extent {
     [[nodiscard]] double length() const { return end - begin; }
 };
 
-/// Of rays.
+/// The range of rays.
 Extent span_of(const cv::Mat& rays) {
     Extent span;
     cv::minMaxLoc(rays, &span.begin, &span.end, nullptr, nullptr, rays == rays);
@@ -73,13 +73,13 @@ Extent extent_of(const Extent& rays, const DepthRange& range_mm) {
             std::max(rays.end * range_mm.near, rays.end * range_mm.far)};
 }
 
-/// Where samples have something in the range [mm].
+/// Places of the samples' pixels that are in the range [mm].
 struct Places {
     std::vector<float> x{};
     std::vector<float> y{};
 };
 
-/// One pixel of 4 x 4 says enough.
+/// Takes one pixel of 4 x 4, which is enough.
 Places places_in(const std::vector<cv::Mat>& samples_mm, const Rays& rays,
                  const DepthRange& range_mm) {
     constexpr int kStep = 4;
@@ -100,7 +100,7 @@ Places places_in(const std::vector<cv::Mat>& samples_mm, const Rays& rays,
     return places;
 }
 
-/// The part of an extent where nearly all places are, and some more; all of it when there are none.
+/// The part of an extent with nearly all places, and some more; all of it if there are no places.
 Extent around(std::vector<float>& places, const Extent& all) {
     constexpr double kLeftOut = 0.002;
     constexpr double kMore = 0.1;
@@ -117,20 +117,20 @@ Extent around(std::vector<float>& places, const Extent& all) {
     return {std::max(all.begin, begin - more), std::min(all.end, end + more)};
 }
 
-/// Of a pixel that is as large as the camera's.
+/// Mean focal length (geometric) of both axes [px].
 double focal_length(const Camera& camera) {
     return std::sqrt(camera.intrinsics().fx * camera.intrinsics().fy);
 }
 
-/// The points of the grid along one side, in the middle of the extent.
+/// Centres the points of the grid in the extent, along one axis.
 void lay_out(const Extent& extent, double pitch_mm, int& count, double& first_mm) {
     count = std::max(2, static_cast<int>(extent.length() / pitch_mm) + 1);
     first_mm = 0.5 * (extent.begin + extent.end - (count - 1) * pitch_mm);
 }
 
-/// The first whole number not below a coordinate of the grid, and the last not above it; both by
-/// kOverlap more. Of coordinates below 0 the first is 0, and so may the last be: cutting off the
-/// fraction, which costs less than rounding down, rounds those up.
+/// The first whole number not below a coordinate of the grid, and the last not above it, with
+/// kOverlap. Below 0 the first one is 0; the last one may be 0, too, as cutting off the fraction,
+/// which is faster than rounding down, rounds negative numbers up.
 int first_from(float coordinate) {
     return std::max(0, static_cast<int>(coordinate + (1.0F - kOverlap)));
 }
@@ -178,7 +178,7 @@ StraightPicture TrueShape::seen_straight_on(const cv::Mat& depth_mm, const cv::M
     DepthImage& image = picture.depth;
     image.columns = grid_.columns;
     image.rows = grid_.rows;
-    // As the elevations are rounded, so that none is higher.
+    // Rounded like the elevations, so that none is higher.
     image.highest_level =
         double{static_cast<float>(range_mm_.far) - static_cast<float>(range_mm_.near)};
     image.levels.assign(
@@ -216,8 +216,8 @@ void TrueShape::place_row(const cv::Mat& depth_mm, int row, std::vector<Corner>&
     }
 }
 
-/// The elevations at the points of the grid inside a triangle. One that turns its back is left out:
-/// the camera looks under it, and where its surface goes on there is something nearer in front.
+/// Draws the elevations at the grid points inside a triangle. A triangle seen from its back is left
+/// out: it faces away from the orthographic view, and something nearer covers it.
 void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthImage& image) const {
     const float b_x = b.x - a.x, b_y = b.y - a.y;
     const float c_x = c.x - a.x, c_y = c.y - a.y;
@@ -252,7 +252,7 @@ void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthIma
     }
 }
 
-/// Where in the colour picture the surface at every point of the grid was seen.
+/// Finds the place in the colour picture of the surface at every point of the grid.
 void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
     constexpr float kOutside = -2.0F;
     const LensInFloats lens(camera_.lens());

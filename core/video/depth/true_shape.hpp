@@ -1,6 +1,6 @@
-// The true shape of what a depth camera sees: its surface in millimetres, seen straight on instead
-// of from the camera, so that a ball is round and a table flat whatever its distance; inside the
-// room.
+// The true shape of what a depth camera sees: its surface in millimetres, in orthographic view
+// instead of the camera's perspective, so that a ball is round and a table flat at any distance;
+// inside core/video.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -24,30 +24,30 @@ struct StraightGrid {
     double top_mm{0.0};
 };
 
-/// The grid for what a camera sees between the two distances `range_mm` from its plane, which is
-/// much wider at the far one. It spans what `samples_mm` have there, pictures from all over the
-/// clip as TrueShape takes them, but for two thousandths of their pixels on each side, and a
-/// tenth more; without samples, or when those have nothing there, all that the camera can see.
+/// The grid for what a camera sees between the two distances `range_mm` from its plane. It spans
+/// the pixels of `samples_mm` (pictures from all over the clip, as TrueShape takes them) in that
+/// range, without two thousandths on each side, and a tenth more. Without such pixels it spans all
+/// that the camera can see, which is much wider at the far distance.
 ///
-/// It is as fine as the camera's pixels are at the nearest distance, so that nothing of a near hand
-/// is lost, but of no more points than half a million, or than the pictures have pixels if they
-/// have more: else a room behind the hand would make it grow with the square of far / near.
-/// Throws InputError when the intrinsics are no camera's, or the range is none.
+/// It is as fine as the camera's pixels at the nearest distance, so that nothing of a near hand is
+/// lost; but it has at most half a million points, or as many as the pictures have pixels: else a
+/// room behind the hand would make it grow with the square of far / near.
+/// Throws InputError if the intrinsics are no camera's, or the range is invalid.
 [[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Camera& camera,
                                          const DepthRange& range_mm,
                                          const std::vector<cv::Mat>& samples_mm = {});
 
-/// One moment of a grid.
+/// One frame, resampled on the grid.
 struct StraightPicture {
-    /// Elevation over the farthest distance [mm], of which the highest is that of the nearest; NaN
+    /// Elevation over the farthest distance [mm]; the highest level is at the nearest distance. NaN
     /// where nothing is seen: behind something nearer, outside the picture, without data.
     DepthImage depth{};
     ColourImage colour{};  ///< of the grid's size, black where nothing is seen; empty: none given
 };
 
-/// Resamples the pictures of one clip. The surface goes through the middle of every depth pixel
-/// that has data, in triangles, but not on from an edge to what is behind it; where it lies over
-/// itself the nearest is taken. Deterministic. Scratch memory is kept from picture to picture.
+/// Resamples the pictures of one clip. The surface is made of triangles between the middles of
+/// depth pixels with data, without those from an edge to the background. Where triangles overlap
+/// the nearest is taken. Deterministic. Scratch memory is kept from picture to picture.
 class TrueShape {
   public:
     /// For depth pictures of this size, with a grid that was made for the same camera and range.
@@ -55,14 +55,14 @@ class TrueShape {
               const StraightGrid& grid);
 
     [[nodiscard]] const StraightGrid& grid() const noexcept { return grid_; }
-    /// The relief that gives the depth image its true shape: elevation in grid pitches.
+    /// The relief for the depth image's true shape: the highest elevation in grid pitches.
     [[nodiscard]] double relief_px() const noexcept {
         return (range_mm_.far - range_mm_.near) / grid_.pitch_mm;
     }
 
-    /// `depth_mm`: CV_32FC1 of the clip's size, distances from the camera's plane; what is not
-    /// finite or not above 0 is no data, what is out of the range is moved into it along its ray.
-    /// `colour`: 8-bit BGR of any size and the same field of view, or empty.
+    /// `depth_mm`: CV_32FC1 of the clip's size, distances from the camera's plane. Not finite, or
+    /// not above 0, is no data; values outside the range are clamped along their ray. `colour`:
+    /// 8-bit BGR of any size and the same field of view, or empty.
     [[nodiscard]] StraightPicture seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour);
 
   private:

@@ -1,4 +1,4 @@
-// Bytes of arrays: straight from a file, or unpacked on the way.
+// Reads bytes of arrays from a file, or from a zip archive.
 #include "core/video/formats/array_bytes.hpp"
 
 #include <zip.h>
@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kEnding = ".npy";
-constexpr std::uint64_t kMostDeflated = 1032;  // bytes out of one
-constexpr std::uint64_t kMostPacked = 100;     // of what takes long to unpack
+constexpr std::uint64_t kMostDeflated = 1032;  // bytes that one byte can unpack to
+constexpr std::uint64_t kMostPacked = 100;     // the same for large arrays, which unpack slowly
 
 [[noreturn]] void refuse_as_cut(const fs::path& file) {
     throw InputError(shown(file) + " is cut off or damaged: copy it or save it again");

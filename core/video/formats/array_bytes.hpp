@@ -1,4 +1,4 @@
-// The bytes of numpy's arrays: of the one in a .npy file, of the named ones in a .npz (zip) file;
+// Reads the bytes of numpy arrays: the one of a .npy file, or the named ones of a .npz (zip) file;
 // inside the room.
 #pragma once
 
@@ -19,8 +19,8 @@ class ArrayBytes {
   public:
     virtual ~ArrayBytes() = default;
     [[nodiscard]] virtual std::uint64_t size() const = 0;
-    /// Cheap in rising order; what is compressed is read again from its beginning to go back.
-    /// Throws InputError when the bytes are not there.
+    /// Cheap at rising positions; to go back, compressed bytes are read again from the beginning.
+    /// Throws InputError when the bytes are missing.
     virtual void read(std::uint64_t at, std::span<std::uint8_t> into) = 0;
 };
 
@@ -32,9 +32,9 @@ class NamedArrays {
 
     [[nodiscard]] const std::filesystem::path& file() const { return file_; }
     [[nodiscard]] bool zipped() const { return archive_ != nullptr; }
-    /// Without ".npy"; the one of a .npy has no name.
+    /// Without ".npy"; the array of a .npy file has an empty name.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
-    /// Throws InputError when it cannot be read, or claims more than it can hold.
+    /// Throws InputError when it cannot be read, or when its header claims more than it can hold.
     [[nodiscard]] std::unique_ptr<ArrayBytes> open(const std::string& name) const;
 
   private:
@@ -45,7 +45,7 @@ class NamedArrays {
 
 [[nodiscard]] bool is_npy(std::string_view head);
 
-/// Whether it is a zip file with an array in it; `head`: how it begins.
+/// Whether the file is a zip archive with an array in it; `head`: its first bytes.
 [[nodiscard]] bool is_npz(const std::filesystem::path& file, std::string_view head);
 
 }  // namespace dibhr

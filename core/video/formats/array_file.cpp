@@ -1,4 +1,4 @@
-// Chooses the array of a file that is meant, and gives its frames with their times.
+// Chooses the array of a file by name, and reads its frames with their times.
 #include "core/video/formats/array_file.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ constexpr std::array<std::string_view, 2> kTimeNames{"times", "timestamps"};
 constexpr std::array<std::string_view, 1> kRateNames{"fps"};
 constexpr std::array<std::string_view, 3> kCameraNames{"k", "intrinsics", "intrinsic"};
 
-/// The array called by the first of these words, large or small letters; nothing when none is.
+/// The array with the first of these names, in any case; nothing when there is none.
 std::optional<std::string> named(const NamedArrays& arrays, Words words) {
     for (const std::string_view word : words)
         for (const std::string& name : arrays.names())
@@ -46,7 +46,7 @@ bool is_one_of(const std::string& name, Words words) {
     return std::find(words.begin(), words.end(), lower_case(name)) != words.end();
 }
 
-/// Throws InputError when none, or more than one, can be meant.
+/// The array of that role. Throws InputError when none, or more than one, is possible.
 std::string chosen(const NamedArrays& arrays, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
     const auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
@@ -68,8 +68,8 @@ NumpyArray opened(const NamedArrays& arrays, const std::string& name) {
     return {arrays.file(), arrays.open(name)};
 }
 
-/// The numbers of the array called so; none when there is none, or it is larger than `most`, or no
-/// array of numbers.
+/// The numbers of the array with one of these names; empty when it is missing, has more than
+/// `most`, or is no array of numbers.
 std::vector<double> numbers_of(const NamedArrays& arrays, Words words, std::int64_t most) {
     const auto name = named(arrays, words);
     if (!name) return {};
@@ -77,7 +77,7 @@ std::vector<double> numbers_of(const NamedArrays& arrays, Words words, std::int6
         NumpyArray array = opened(arrays, *name);
         return array.numbers(most);
     } catch (const InputError&) {
-        return {};  // the depth is there all the same
+        return {};  // the depth is readable without these
     }
 }
 
@@ -86,7 +86,7 @@ bool rises(const std::vector<double>& times) {
            std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
-/// Row by row the first nine numbers; nothing when they are no camera in pixels.
+/// The first nine numbers as a matrix, row by row; nothing when that is no camera in pixels.
 std::optional<Intrinsics> intrinsics_of(const std::vector<double>& rows) {
     if (rows.size() < 9) return std::nullopt;
     const Intrinsics camera{rows[0], rows[4], rows[2], rows[5]};

@@ -1,4 +1,4 @@
-// numpy's .npy and .npz files as pictures: what estimators of depth write; inside the room.
+// Reads numpy's .npy and .npz files as pictures, as depth estimators write them; inside the room.
 #pragma once
 
 #include <cstddef>
@@ -11,16 +11,16 @@
 
 namespace dibhr {
 
-/// Whether it is one; `head`: how it begins.
+/// Whether the file is a .npy or .npz; `head`: its first bytes.
 [[nodiscard]] bool is_array_file(const std::filesystem::path& file, std::string_view head);
 
-/// A .npz with an array called as colours are (images, rgb) and one called as depth is (depths,
-/// disp). False when it cannot be read.
+/// Whether a .npz has an array with a name for colour (images, rgb) and one with a name for depth
+/// (depths, disp). False when it cannot be read.
 [[nodiscard]] bool arrays_have_colour_and_depth(const std::filesystem::path& file);
 
-/// The frames of one array, read one after the other. Of a .npz the array called `depths`, `depth`,
-/// `disparity` or `disp` (colour: `images`, `rgb`), else its only one; the frames' times are those
-/// in `times` or `timestamps` [s], else `fps` or 30 a second; `K` or `intrinsics` is the camera.
+/// Reads the frames of one array in order. Of a .npz the array called `depths`, `depth`,
+/// `disparity` or `disp` (colour: `images`, `rgb`), else the only one. Times come from `times` or
+/// `timestamps` [s], else from `fps`, else 30 a second; `K` or `intrinsics` is the camera.
 class ArrayFile : public IndexedPictures {
   public:
     /// Throws InputError.

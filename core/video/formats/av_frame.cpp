@@ -1,4 +1,4 @@
-// What is in a frame of libav's, whatever its pixel format.
+// Reads levels and colours of libav's frames, in any pixel format.
 #include "core/video/formats/av_frame.hpp"
 
 extern "C" {
@@ -33,13 +33,13 @@ bool has(const AVPixFmtDescriptor& kind, std::uint64_t flag) {
     return (kind.flags & flag) != 0;
 }
 
-/// Levels are in the first component, as numbers.
+/// Whether the first component holds levels, as numbers.
 bool has_luma(const AVPixFmtDescriptor& kind) {
     return !has(kind, AV_PIX_FMT_FLAG_RGB) && !has(kind, AV_PIX_FMT_FLAG_PAL) &&
            !has(kind, AV_PIX_FMT_FLAG_BITSTREAM) && !has(kind, AV_PIX_FMT_FLAG_HWACCEL);
 }
 
-/// One component, or with transparency.
+/// Whether it has one component, or one and transparency.
 bool is_grey_kind(const AVPixFmtDescriptor& kind) {
     return has_luma(kind) && kind.nb_components <= 2;
 }
@@ -62,11 +62,11 @@ cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
     return levels;
 }
 
-/// Whether black is not 0 and white not the highest level. Grey is always whole, whatever its tag
-/// says: so every encoder and decoder of libav has it. Where no tag says it, levels beyond black
-/// and white do: grey that a codec without grey holds as a picture in colours of grey (H.264).
+/// Whether the range is limited: black is not 0, white not the highest level. Grey formats always
+/// have the full range, whatever their tag: libav's codecs treat them so. Without a tag, levels
+/// beyond black and white mean full range: as in grey stored in a codec without grey (H.264).
 bool is_limited(const AVFrame& frame, const AVPixFmtDescriptor& kind, const cv::Mat& luma) {
-    // Of all pixels: what compression adds beyond black and white, and far beyond them.
+    // Most of the pixels that compression moves beyond black and white, and far beyond.
     constexpr double kMostBeyond = 0.05;
     constexpr double kMostFarBeyond = 0.001;
     constexpr double kFar = 8.0;  // of 8 bits
@@ -92,7 +92,7 @@ cv::Mat stretched(const cv::Mat& levels, int bits) {
     return cv::min(cv::max(whole, 0.0), highest);
 }
 
-/// The same by table, in one pass.
+/// The same for 8 bits, by a table in one pass.
 cv::Mat stretched_bytes(const cv::Mat& levels) {
     cv::Mat every(1, 256, CV_8UC1);
     std::iota(every.begin<std::uint8_t>(), every.end<std::uint8_t>(), std::uint8_t{0});
@@ -166,7 +166,7 @@ cv::Mat FramePictures::converted(const AVFrame& frame, int pixel_format, int typ
                                        frame.height, static_cast<AVPixelFormat>(pixel_format),
                                        SWS_BICUBIC, nullptr, nullptr, nullptr));
     if (!scaler_) return {};
-    // The scaler writes whole vectors: beyond a row's end, and beyond the last one's.
+    // The scaler writes whole vectors: beyond the end of each row, also of the last one.
     constexpr int kVector = 64;
     const int columns = (frame.width + kVector - 1) / kVector * kVector;
     const cv::Mat room(frame.height + 1, columns, type);

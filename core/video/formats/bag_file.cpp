@@ -1,4 +1,4 @@
-// SQLite, bounded.
+// Opens a bag's database with bounds on texts, messages and time.
 #include "core/video/formats/bag_file.hpp"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ const fs::path& readable(const fs::path& file) {
     return file;
 }
 
-/// Without a log beside it the file is complete.
+/// Whether a write-ahead log lies beside the file; without one the file is complete.
 bool has_log(const fs::path& file) {
     std::error_code failed;
     return fs::exists(file.string() + "-wal", failed);
@@ -67,7 +67,7 @@ std::vector<std::uint8_t> BagFile::data(std::int64_t row, std::size_t most) {
     return data;
 }
 
-/// Tables with pages of their own, whose columns are not computed.
+/// Requires real tables (not views) without generated columns, which could execute expressions.
 void BagFile::check_tables() const {
     const bool there =
         database_.number(

@@ -1,4 +1,4 @@
-// One SQLite file of a ROS 2 bag: its topics and the bytes of its messages; inside the room.
+// Reads topics and messages of one SQLite file of a ROS 2 bag; inside the room.
 #pragma once
 
 #include <cstddef>
@@ -25,8 +25,8 @@ struct BagMessage {
     std::int64_t recorded_ns{0};
 };
 
-/// Read as what it is: a file that anybody may have made. It runs nothing, every cell is checked,
-/// and no question goes on for ever. Every method throws InputError when the file is damaged.
+/// Reads the file as untrusted input: executes nothing from it, checks every cell, and bounds every
+/// query. Every method throws InputError when the file is damaged.
 class BagFile {
   public:
     /// Throws InputError when it is no bag.

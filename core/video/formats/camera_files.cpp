@@ -1,4 +1,4 @@
-// Reads matrices of numbers, and JSON.
+// Parses matrices of numbers, and JSON.
 #include "core/video/formats/camera_files.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kLongest_bytes = 1 << 20;
 
-/// A discarded value when it is no JSON, or too long. Zeros behind it belong to what held it.
+/// A discarded value when it is no JSON, or too long. Ignores zero bytes after the text.
 Json json_of(const std::string& text) {
     if (text.size() > kLongest_bytes) return Json::value_t::discarded;
     return parsed_json(text.substr(0, text.find('\0')));
@@ -49,18 +49,18 @@ std::vector<double> numbers_in(const Json& json, const char* name) {
     return numbers;
 }
 
-/// How a mode of the Azure Kinect's depth camera cuts its picture out of the sensor's, which may be
-/// halved before (Azure-Kinect-Sensor-SDK, mode_specific_calibration.c).
+/// The part of the sensor that a mode of the Azure Kinect's depth camera shows; the sensor may be
+/// halved first (Azure-Kinect-Sensor-SDK, mode_specific_calibration.c).
 struct KinectMode {
     int columns, rows;
-    int sensor;  ///< its columns and rows, of this mode's pixels
+    int sensor;  ///< columns and rows of the sensor, in pixels of this mode
     int left, top;
 };
 constexpr std::array kKinectModes{
     KinectMode{320, 288, 512, 96, 90}, KinectMode{640, 576, 1024, 192, 180},
     KinectMode{512, 512, 512, 0, 0}, KinectMode{1024, 1024, 1024, 0, 0}};
 
-/// Of the camera at that place; a discarded value when there is none.
+/// The JSON of the camera at that location; a discarded value when there is none.
 Json camera_in(const Json& calibration, const char* location) {
     const Json::json_pointer place("/CalibrationInformation/Cameras");
     if (!calibration.is_object() || !calibration.contains(place)) return Json::value_t::discarded;
@@ -73,11 +73,11 @@ Json camera_in(const Json& calibration, const char* location) {
     return Json::value_t::discarded;
 }
 
-/// As it is written down: for a sensor of size 1, whose corner is 0, 0, in
-/// k4a_calibration_intrinsic_parameters_t's order: cx, cy, fx, fy, k1 to k6, two zeros, p2, p1.
+/// The stored camera, for a sensor of size 1 with its corner at 0, 0. Order of the parameters as in
+/// k4a_calibration_intrinsic_parameters_t: cx, cy, fx, fy, k1 to k6, two zeros, p2, p1.
 std::optional<Camera> unit_camera(const Json& camera) {
     constexpr std::size_t kParameters = 14;
-    constexpr double kUsualRadius = 1.7;  // where the calibration did not find one
+    constexpr double kUsualRadius = 1.7;  // where the calibration has none
     if (!camera.is_object()) return std::nullopt;
     const std::vector<double> p = numbers_in(camera["Intrinsics"], "ModelParameters");
     if (p.size() < 4) return std::nullopt;
@@ -92,8 +92,8 @@ std::optional<Camera> unit_camera(const Json& camera) {
     return finite ? std::optional(Camera({p[2], p[3], p[0], p[1]}, lens)) : std::nullopt;
 }
 
-/// Of a sensor of so many pixels, of which a picture begins at `left`, `top`; ours is the centre of
-/// the first pixel.
+/// The camera of a picture at `left`, `top` of a sensor of that size. Our origin is the centre of
+/// the first pixel, theirs its corner.
 Camera cut_out(const Camera& unit, cv::Size sensor, int left, int top) {
     const Intrinsics& i = unit.intrinsics();
     return {Intrinsics{i.fx * sensor.width, i.fy * sensor.height, i.cx * sensor.width - left - 0.5,
@@ -101,7 +101,7 @@ Camera cut_out(const Camera& unit, cv::Size sensor, int left, int top) {
             unit.lens()};
 }
 
-/// From the axes at which all cameras are written down, the depth camera's.
+/// The placement relative to the depth camera, whose axes all cameras use.
 std::optional<Placement> placement_of(const Json& camera) {
     if (!camera.contains("Rt") || !camera["Rt"].is_object()) return std::nullopt;
     const std::vector<double> rotation = numbers_in(camera["Rt"], "Rotation");

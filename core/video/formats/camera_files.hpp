@@ -1,4 +1,4 @@
-// Intrinsics as datasets write them beside their pictures; inside the room.
+// Reads camera intrinsics as datasets write them beside their pictures; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace dibhr {
 
-/// Of a camera file, and what else that says.
+/// The content of a camera file.
 struct CameraFile {
     Intrinsics intrinsics{};
-    int columns{0}, rows{0};  ///< of the pictures that they are for; 0: not said
+    int columns{0}, rows{0};  ///< picture size of the intrinsics; 0: not stated
     std::optional<double> levels_per_m{};
 };
 
-/// A matrix of 3 x 3 or 4 x 4 numbers, row by row, as ScanNet has it. Nothing when the file is
+/// Reads a matrix of 3 x 3 or 4 x 4 numbers, row by row, as in ScanNet. Nothing when the file is
 /// missing or holds no camera.
 [[nodiscard]] std::optional<CameraFile> read_camera_matrix(const std::filesystem::path& file);
 
@@ -25,12 +25,11 @@ struct CameraFile {
 /// Nothing as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_json(const std::filesystem::path& file);
 
-/// Microsoft's calibration of an Azure Kinect, as it is attached to its recordings, for depth
-/// pictures of that size, which says the mode. Nothing when the text is none, or there is no such
-/// mode.
+/// The depth camera by an Azure Kinect calibration, as attached to its recordings. The size of the
+/// depth pictures selects the camera mode. Nothing when the text is invalid or no mode fits.
 [[nodiscard]] std::optional<Camera> azure_kinect_depth_camera(const std::string& json,
                                                               cv::Size depth);
-/// The same, and its colour camera; nothing as above, or when that is not in it.
+/// The same, with the colour camera; nothing as above, or without a colour camera.
 [[nodiscard]] std::optional<CameraPair> azure_kinect_cameras(const std::string& json,
                                                              cv::Size depth);
 

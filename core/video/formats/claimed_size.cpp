@@ -1,4 +1,4 @@
-// Looks up two numbers in headers.
+// Reads the claimed size of a picture from its header.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace dibhr {
 
 namespace {
 
-/// Numbers anywhere in a picture; 0 beyond its end.
+/// Reads numbers anywhere in a picture; 0 beyond its end.
 class Header {
   public:
     explicit Header(std::istream& in) : in_(in) {}
@@ -48,7 +48,7 @@ ClaimedSize size_of_png(Header& header) {
     return {header.number(16, 4), header.number(20, 4), level_bytes * kChannels[kind]};
 }
 
-/// Rows below 0 are told from above.
+/// A negative number of rows means top-down order.
 ClaimedSize size_of_bmp(Header& header) {
     constexpr std::int64_t kOldest = 12;  ///< bytes of the first version's header
     header.set_little(true);
@@ -68,8 +68,8 @@ std::int64_t number_of(const std::string& word) {
     return std::strtoll(word.c_str(), nullptr, 10);
 }
 
-/// P1 to P6 say columns and rows, and P2, P3, P5 and P6 the highest level; P7 (PAM) says which is
-/// which.
+/// P1 to P6 have columns and rows, then P2, P3, P5 and P6 the highest level; P7 (PAM) names each
+/// number.
 ClaimedSize size_of_pnm(Header& header) {
     constexpr int kMostWords = 32;
     constexpr std::int64_t kMostChannels = 4;
@@ -94,7 +94,7 @@ ClaimedSize size_of_pnm(Header& header) {
     return size;
 }
 
-/// Where a page of a TIFF file tells of it: 32-bit offsets, or 64-bit ones (BigTIFF).
+/// The directory of a page of a TIFF file, with 32-bit offsets, or 64-bit ones (BigTIFF).
 struct TiffPage {
     std::int64_t at{0};
     std::int64_t entries{0};
@@ -113,7 +113,7 @@ TiffPage first_page(Header& header) {
             big ? 12 : 8};
 }
 
-/// Of the first page. A tile may be larger than the picture.
+/// The size of the first page, or of a tile, which may be larger.
 ClaimedSize size_of_tiff(Header& header) {
     constexpr std::int64_t kShort = 3;
     header.set_little(header.text(0, 1) == "I");
@@ -140,7 +140,7 @@ ClaimedSize size_of_tiff(Header& header) {
     return size;
 }
 
-/// The next segment's; what stands between two of them is passed over, as decoders do. Nothing when
+/// The position of the next marker; skips bytes between segments, as decoders do. Nothing when
 /// there is none near by.
 std::optional<std::int64_t> jpeg_marker(Header& header, std::int64_t at) {
     constexpr std::int64_t kMostBetween = 1 << 14;
@@ -151,7 +151,7 @@ std::optional<std::int64_t> jpeg_marker(Header& header, std::int64_t at) {
     return std::nullopt;
 }
 
-/// In the segment that begins the picture, behind those of what is said of it.
+/// The size in the start-of-frame segment, which follows the metadata segments.
 ClaimedSize size_of_jpeg(Header& header) {
     constexpr int kMostSegments = 1000;
     auto at = jpeg_marker(header, 2);
@@ -165,7 +165,7 @@ ClaimedSize size_of_jpeg(Header& header) {
     return {};
 }
 
-/// Of its canvas, or of its only picture, lossy or lossless.
+/// The size of the canvas, or of the only picture, lossy or lossless.
 ClaimedSize size_of_webp(Header& header) {
     constexpr std::int64_t kMostOfSide = 0x3fff;
     header.set_little(true);

@@ -40,8 +40,8 @@ struct Channels {
     std::vector<std::string> names{};
 };
 
-/// A channel that may be depth, unless the other stands beside it: then both are coordinates of
-/// something else (a normal, a texture).
+/// A channel that may be depth, unless the other one is in its layer, too: then both are
+/// coordinates of something else (a normal, a texture).
 struct DepthKind {
     std::string_view name;
     std::string_view not_beside;
@@ -62,8 +62,8 @@ bool has(const Imf::ChannelList& channels, const std::string& name) {
     return channels.findChannel(name) != nullptr;
 }
 
-/// The first layer for which `channels_in(list, layer, name)` is not empty, one that says `word`
-/// before the others.
+/// The first layer for which `channels_in(list, layer, name)` is not empty; preferably one whose
+/// name holds `word`.
 template <typename Choose>
 std::optional<Channels> find_channels(const Imf::MultiPartInputFile& input, std::string_view word,
                                       Choose channels_in) {
@@ -110,7 +110,7 @@ std::optional<Channels> find_colour(const Imf::MultiPartInputFile& input) {
                          });
 }
 
-/// What serves as depth where no channel is called so.
+/// The channels used as depth where none is named so.
 std::optional<Channels> find_grey(const Imf::MultiPartInputFile& input) {
     if (auto luminance = find_kind(input, {"Y", "X"})) return luminance;
     if (auto colour = find_colour(input)) return colour;
@@ -130,7 +130,7 @@ std::int64_t rows_of(const Box2i& window) {
     return std::int64_t{window.max.y} - window.min.y + 1;
 }
 
-/// The part of the data that is to be seen, at its place; `nothing` elsewhere.
+/// The data inside the display window, at its place; `nothing` elsewhere.
 cv::Mat in_display(const cv::Mat& values, const Box2i& data, const Box2i& display, float nothing) {
     if (data == display) return values;
     cv::Mat seen(static_cast<int>(rows_of(display)), static_cast<int>(columns_of(display)),
@@ -146,7 +146,7 @@ cv::Mat in_display(const cv::Mat& values, const Box2i& data, const Box2i& displa
     return seen;
 }
 
-/// The library takes memory for all channels of a tile, or of as many rows as are packed together.
+/// Bounds what the library allocates: all channels of a tile, or of the rows packed together.
 void require_plausible_blocks(const fs::path& file, const Imf::Header& header) {
     constexpr std::int64_t kMostRows = 256;
     std::int64_t channel_bytes = 0;
@@ -229,7 +229,7 @@ StillPicture read_exr(const fs::path& file, PictureRole role) {
         return role == PictureRole::colour ? read_colour(input, file) : read_depth(input, file);
     } catch (const InputError&) {
         throw;
-    } catch (const std::exception&) {  // the library's own words name its own insides
+    } catch (const std::exception&) {  // the library's messages name its internals
         refuse_as_damaged(file);
     }
 }

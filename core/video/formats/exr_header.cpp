@@ -1,4 +1,4 @@
-// Walks through the attributes of OpenEXR headers: a name, a type, a length, a value.
+// Checks the attributes of OpenEXR headers: a name, a type, a length, a value each.
 #include "core/video/formats/still_picture.hpp"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ struct FixedType {
     std::uint32_t bytes;
 };
 
-/// The types whose values are always as long, by "OpenEXR File Layout".
+/// The types with values of fixed length, by "OpenEXR File Layout".
 constexpr std::array kFixedTypes{FixedType{"box2f", 16},
                                  FixedType{"box2i", 16},
                                  FixedType{"chromaticities", 32},
@@ -52,15 +52,15 @@ class HeaderWalk {
     explicit HeaderWalk(const std::filesystem::path& file)
         : in_(file, std::ios::binary), left_(size_of(file)) {}
 
-    /// Past the magic number and the flags; whether these say several parts.
+    /// Skips the magic number and the flags. Whether the file has several parts.
     bool begin() {
         constexpr std::uint32_t kSeveralParts = 0x1000;
         skip(4);
         return (number() & kSeveralParts) != 0;
     }
 
-    /// Past one attribute. Its name, which is empty at the end of a header; nothing when it is not
-    /// sound.
+    /// Skips one attribute. Returns its name, empty at the end of a header; nothing when it is
+    /// invalid.
     std::optional<std::string> next() {
         std::string name = word();
         if (name.empty()) return sound_ ? std::optional(name) : std::nullopt;
@@ -98,7 +98,7 @@ class HeaderWalk {
                std::uint32_t{little[3]} << 24U;
     }
 
-    /// Up to a zero byte; at most 255 letters.
+    /// Reads up to a zero byte, at most 255 letters.
     std::string word() {
         std::array<char, 256> letters{};
         in_.getline(letters.data(), letters.size(), '\0');
@@ -135,7 +135,7 @@ class HeaderWalk {
 bool has_sound_exr_header(const std::filesystem::path& file) {
     HeaderWalk walk(file);
     const bool several = walk.begin();
-    bool at_begin = true;  // of a part's header; after the last one comes an empty one
+    bool at_begin = true;  // of a part's header; an empty header ends the list of parts
     while (const auto name = walk.next()) {
         if (name->empty() && (!several || at_begin)) return true;
         at_begin = name->empty();

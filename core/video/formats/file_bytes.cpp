@@ -1,4 +1,4 @@
-// How files begin, how large they may claim to be, and light as a screen shows it.
+// Reads the ends of files, bounds claimed sizes, and converts light to screen levels.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::uint64_t kMostCompressed = 65536;  // flat pictures in DWAB and HEVC; deflate: 1032
 
 std::uint8_t screen_level(float light) {
-    if (!(light > 0.0F)) return 0;  // no number is black, too
+    if (!(light > 0.0F)) return 0;  // also for NaN
     if (light >= 1.0F) return 255;
     const float level =
         light <= 0.0031308F ? 12.92F * light : 1.055F * std::pow(light, 1.0F / 2.4F) - 0.055F;

@@ -1,5 +1,5 @@
-// What the readers of forms share: how a file begins, what is refused before any reader sees it,
-// how large it may claim to be, and pictures of real numbers; inside the room.
+// Helpers of all readers: the first bytes of a file, the check before any reader opens it, bounds
+// for claimed sizes, and colours of real numbers; inside the room.
 #pragma once
 
 #include <algorithm>
@@ -14,33 +14,33 @@
 
 namespace dibhr {
 
-/// The first bytes of an ordinary file, or the last ones, at most so many; none when it is none, or
-/// cannot be read.
+/// The first bytes of a regular file, or the last ones, at most `most`; empty when it is no regular
+/// file, or cannot be read.
 [[nodiscard]] std::string beginning_of(const std::filesystem::path& file, std::size_t most);
 [[nodiscard]] std::string end_of(const std::filesystem::path& file, std::size_t most);
 
-/// So much of it as readers tell their files by.
+/// The first bytes, as many as readers need to recognise their files.
 [[nodiscard]] std::string head_of(const std::filesystem::path& file);
 
-/// In bytes; 0 when it cannot be told.
+/// In bytes; 0 when unknown.
 [[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
 
-/// Refuses what no decoder could read: missing, a directory, a pipe or device, no permission,
-/// empty, text, recordings that only their maker's programs read. Throws InputError: what,
-/// which file, what to do next.
+/// Throws InputError for a file that no reader can read: missing, a directory, a pipe or device, no
+/// permission, empty, text, a recording that only its maker's programs read. The message says
+/// what, which file, and what to do next.
 void require_readable(const std::filesystem::path& file);
 
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);
 
-/// Turns the byte order of each number of so many bytes.
+/// Reverses the byte order of each number of `bytes` bytes.
 inline void swap_bytes(std::span<std::uint8_t> numbers, std::size_t bytes) {
     for (; numbers.size() >= bytes; numbers = numbers.subspan(bytes))
         std::reverse(numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(bytes));
 }
 
-/// The one bound of what is decoded, whatever the form: a picture of 8K, with four 16-bit channels.
-/// To touch a surface of so many pixels takes a gigabyte.
+/// The bound of a decoded picture, for all forms: 8K with four 16-bit channels. To touch a surface
+/// of so many pixels takes a gigabyte.
 inline constexpr std::int64_t kMostPixels = std::int64_t{1} << 25;
 inline constexpr std::int64_t kMostPictureBytes = 8 * kMostPixels;
 /// The most pictures that one file holds: four days at 30 Hz.
@@ -50,29 +50,28 @@ inline constexpr std::int64_t kMostPictures = 10'000'000;
 [[nodiscard]] bool may_be_decoded(std::int64_t columns, std::int64_t rows,
                                   std::int64_t bytes_per_pixel) noexcept;
 
-/// Whether so many bytes can hold such a picture, however well it is compressed; never one beyond
-/// the bound.
+/// Whether a file of so many bytes can hold such a picture with any compression. False for a
+/// picture beyond the bound.
 [[nodiscard]] bool can_hold(std::uint64_t bytes, std::int64_t columns, std::int64_t rows,
                             std::int64_t bytes_per_pixel);
 
-/// Throws InputError when a header's picture is beyond the bound, or larger than what a file of
-/// that size can hold however well it is compressed: before memory is taken for it.
+/// Throws InputError when the picture of a header is beyond the bound, or larger than the file can
+/// hold with any compression. To be called before memory is allocated.
 void require_plausible_size(const std::filesystem::path& file, std::int64_t columns,
                             std::int64_t rows, std::int64_t bytes_per_pixel);
 
-/// How large a picture that OpenCV is to decode says it is, before that takes memory for it.
+/// The size that a picture's header claims, to be checked before OpenCV allocates memory.
 struct ClaimedSize {
     std::int64_t columns{0};
     std::int64_t rows{0};
     std::int64_t pixel_bytes{1};  ///< at most, decoded
 };
 
-/// By the header of a PNG, BMP, PNM, TIFF, WebP or JPEG picture that begins where the stream does;
-/// nothing of other forms, and where the header says none.
+/// Reads the header of a PNG, BMP, PNM, TIFF, WebP or JPEG picture at the begin of the stream;
+/// nothing for other forms, and for a header without a size.
 [[nodiscard]] std::optional<ClaimedSize> claimed_size(std::istream& picture);
 
-/// 8-bit BGR as a screen shows it (the sRGB transfer), of linear light from 0 to 1 in the same
-/// order.
+/// Converts linear light from 0 to 1 to 8-bit levels of a screen (sRGB); keeps the channels.
 [[nodiscard]] cv::Mat screen_colours(const cv::Mat& linear);
 
 }  // namespace dibhr

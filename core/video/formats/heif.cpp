@@ -56,7 +56,7 @@ Handle primary_of(heif_context& context, const fs::path& file) {
     return Handle(handle);
 }
 
-/// Nothing when the picture has none.
+/// The id of its depth picture; nothing when there is none.
 std::optional<heif_item_id> depth_id(const heif_image_handle& primary) {
     heif_item_id id = 0;
     if (heif_image_handle_get_list_of_depth_image_IDs(&primary, &id, 1) < 1) return std::nullopt;
@@ -88,8 +88,8 @@ cv::Mat plane_of(const heif_image& image, heif_channel channel, int type, const 
     return plane;
 }
 
-/// As far as levels times a scale can say it: quantised values begin at z_far or d_min, which is
-/// nothing only by chance.
+/// The depth facts that "level x scale" can express. Levels begin at z_far or d_min, so the scale
+/// is known only where d_min is 0.
 DepthStatement statement_of(const heif_image_handle& primary, heif_item_id id, int bits) {
     DepthStatement said;
     const heif_depth_representation_info* given = nullptr;

@@ -1,4 +1,4 @@
-// Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
+// Sets up OpenCV and FFmpeg: no messages of their own, no threads of OpenCV.
 #include "core/video/formats/libraries.hpp"
 
 extern "C" {
@@ -30,7 +30,7 @@ namespace dibhr {
 
 namespace {
 
-/// stderr belongs to the whole process: two that silence it at once could leave it silent.
+/// stderr is one for the process: two threads that discard it at once could leave it discarded.
 std::mutex& only_one() {
     static std::mutex mutex;
     return mutex;
@@ -51,10 +51,9 @@ void set_up_libraries() {
             cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
             av_log_set_level(AV_LOG_QUIET);
         }
-        // A file's own headers are unpacked into memory, too.
+        // Headers of files are unpacked into memory, too.
         av_max_alloc(static_cast<std::size_t>(kMostPictureBytes) + (std::size_t{1} << 20U));
-        // A pool of workers would wake on every conversion and push the haptic thread from its
-        // core.
+        // A thread pool would wake on every conversion and take the haptic thread's core.
         cv::setNumThreads(1);
     });
 }

@@ -1,4 +1,4 @@
-// Brings OpenCV and FFmpeg into the state this room needs: silent, and on our own threads only.
+// Sets up OpenCV and FFmpeg: no messages of their own, no threads of OpenCV.
 #pragma once
 
 #include <map>
@@ -7,13 +7,13 @@
 
 namespace dibhr {
 
-/// Once per process, before the first file is opened. With OPENCV_LOG_LEVEL set, which asks for
-/// words, they stay as they are.
+/// To be called before the first file is opened; works once. With OPENCV_LOG_LEVEL set, which
+/// requests messages, logging stays as it is.
 void set_up_libraries();
 
-/// While it lives, the standard error stream goes nowhere: the picture decoders under OpenCV
-/// (libpng, libjpeg) write to it themselves, and what is wrong is said by our own line. For the
-/// whole process, so only around one decoding; not with OPENCV_LOG_LEVEL set, which asks for words.
+/// Discards the standard error stream while it lives: picture decoders under OpenCV (libpng,
+/// libjpeg) write to it, and our own message reports the error. It acts on the whole process, so
+/// use it around one decoding only. No effect with OPENCV_LOG_LEVEL set, which requests messages.
 class QuietErrors {
   public:
     QuietErrors();
@@ -28,7 +28,7 @@ class QuietErrors {
 
 /// Versions by name: "libavcodec", "libavformat", "libswscale" ("59.37.100"), "libheif", "libzip",
 /// "opencv" ("4.6.0"), "openexr".
-/// Of the libraries that are loaded, not of those that the program was compiled against.
+/// These are the loaded libraries, not those that the program was compiled with.
 [[nodiscard]] std::map<std::string, std::string> library_versions();
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Reads numpy's headers, and pictures from the numbers behind them.
+// Parses numpy's headers, and reads pictures from the numbers behind them.
 #include "core/video/formats/numpy_array.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostHeaderBytes = 65536;
 
-/// What stands behind "'name':" in the header's dictionary; empty when it has no such name.
+/// The text behind "'name':" in the header's dictionary; empty when it has no such key.
 std::string_view value_of(std::string_view dictionary, const std::string& name) {
     const auto at = dictionary.find("'" + name + "':");
     if (at == std::string_view::npos) return {};
@@ -32,7 +32,7 @@ std::string_view value_of(std::string_view dictionary, const std::string& name) 
     return value == std::string_view::npos ? std::string_view() : dictionary.substr(value);
 }
 
-/// "(3, 4)": 3, 4. Nothing when it is written otherwise.
+/// "(3, 4)": 3, 4. Nothing for another syntax.
 std::optional<std::vector<std::int64_t>> shape_of(std::string_view text) {
     if (!text.starts_with('(')) return std::nullopt;
     std::vector<std::int64_t> shape;
@@ -52,7 +52,7 @@ std::optional<std::vector<std::int64_t>> shape_of(std::string_view text) {
     return std::nullopt;
 }
 
-/// "'<f4'" into the kind, the bytes and their order. False for what is no number here.
+/// Parses "'<f4'" into kind, bytes and byte order. False for an unsupported type.
 bool read_type(std::string_view text, NumpyHeader& header) {
     if (text.size() < 5 || text[0] != '\'' || text[4] != '\'') return false;
     header.kind = text[2];
@@ -103,7 +103,7 @@ std::string text_of(const std::vector<std::int64_t>& shape) {
     return "[" + text + "]";
 }
 
-/// How many numbers, as long as they fit into `most` bytes; nothing when not.
+/// The number of elements; nothing when they take more than `most_bytes`.
 std::optional<std::int64_t> count_of(const NumpyHeader& header, std::uint64_t most_bytes) {
     const auto bytes = static_cast<std::uint64_t>(header.number_bytes);
     std::uint64_t count = 1;
@@ -116,9 +116,9 @@ std::optional<std::int64_t> count_of(const NumpyHeader& header, std::uint64_t mo
     return static_cast<std::int64_t>(count);
 }
 
-/// OpenCV's type of the numbers; whole ones of four bytes as if they had a sign, of eight none.
+/// OpenCV's type of the numbers. NumpyArray::read() corrects u4, i8 and u8, which OpenCV lacks.
 int mat_type(const NumpyHeader& header) {
-    // By the bytes: 1, 2, 4 or 8, of real numbers at least 2.
+    // Index: 1, 2, 4 or 8 bytes; real numbers have at least 2.
     constexpr std::array kReal{CV_8U, CV_16F, CV_32F, CV_64F};
     constexpr std::array kSigned{CV_8S, CV_16S, CV_32S, CV_64F};
     constexpr std::array kUnsigned{CV_8U, CV_16U, CV_32S, CV_64F};
@@ -127,7 +127,7 @@ int mat_type(const NumpyHeader& header) {
     return types[static_cast<std::size_t>(doublings)];
 }
 
-/// OpenCV has no whole numbers of eight bytes.
+/// Converts whole numbers of eight bytes, which OpenCV does not have, to real ones in place.
 void make_real(cv::Mat& numbers) {
     for (double& number : cv::Mat_<double>(numbers)) {
         std::int64_t whole = 0;
@@ -136,7 +136,7 @@ void make_real(cv::Mat& numbers) {
     }
 }
 
-/// What OpenCV took for negative is beyond the highest number with a sign.
+/// Corrects unsigned numbers that OpenCV read as negative.
 void give_back_sign(cv::Mat& numbers) {
     cv::Mat real;
     numbers.convertTo(real, CV_64F);
@@ -192,7 +192,7 @@ PictureShape NumpyArray::pictures() const {
     return shape;
 }
 
-/// So many numbers from the `first` on, as one row.
+/// Reads `count` numbers from `first` on, as one row.
 cv::Mat NumpyArray::read(std::uint64_t first, std::int64_t count) {
     const auto number_bytes = static_cast<std::size_t>(header_.number_bytes);
     cv::Mat numbers(1, static_cast<int>(count), mat_type(header_));
@@ -205,7 +205,7 @@ cv::Mat NumpyArray::read(std::uint64_t first, std::int64_t count) {
     return numbers;
 }
 
-/// The numbers of all frames stand beside each other, column after column of the picture.
+/// In Fortran order the frame index varies fastest, then the row, then the column.
 cv::Mat NumpyArray::fortran_picture(const PictureShape& shape, std::int64_t frame) {
     if (whole_.empty()) whole_ = read(0, count_);
     const cv::Mat by_frame = whole_.reshape(1, static_cast<int>(count_ / shape.frames));

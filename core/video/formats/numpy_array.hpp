@@ -1,4 +1,4 @@
-// One numpy array as pictures: what its header says, and its numbers; inside the room.
+// Reads one numpy array as pictures: its header and its numbers; inside the room.
 #pragma once
 
 #include <cstdint>
@@ -12,17 +12,17 @@
 
 namespace dibhr {
 
-/// What a numpy header says (numpy.lib.format).
+/// The content of a numpy header (numpy.lib.format).
 struct NumpyHeader {
     char kind{'f'};       ///< f: real, i: whole, u: whole and not negative
     int number_bytes{4};  ///< 1, 2, 4 or 8
     bool swapped{false};  ///< not in this machine's byte order
-    bool fortran{false};  ///< the first index runs fastest
+    bool fortran{false};  ///< the first index varies fastest
     std::vector<std::int64_t> shape{};
     std::uint64_t data_at{0};  ///< where the numbers begin
 };
 
-/// [rows, columns], [frames, rows, columns], and either with 1, 3 or 4 channels behind.
+/// [rows, columns] or [frames, rows, columns], each also with 1, 3 or 4 channels at the end.
 struct PictureShape {
     std::int64_t frames{1};
     std::int64_t rows{0};
@@ -37,13 +37,13 @@ class NumpyArray {
 
     [[nodiscard]] const NumpyHeader& header() const { return header_; }
 
-    /// All of a small array in its own order; none of one with more than `most`. Throws InputError.
+    /// All numbers in the file's order; none if there are more than `most`. Throws InputError.
     [[nodiscard]] std::vector<double> numbers(std::int64_t most);
 
-    /// Throws InputError when these are no pictures, or pictures that are too large.
+    /// The shape as pictures. Throws InputError when it is none, or the pictures are too large.
     [[nodiscard]] PictureShape pictures() const;
 
-    /// Levels of 8 or 16 bits where the numbers are u1 or u2, else real ones. Throws InputError.
+    /// A frame: levels of 8 or 16 bits of u1 or u2, else real numbers. Throws InputError.
     [[nodiscard]] cv::Mat picture(const PictureShape& shape, std::int64_t frame);
 
   private:
@@ -54,7 +54,7 @@ class NumpyArray {
     std::unique_ptr<ArrayBytes> bytes_;
     NumpyHeader header_{};
     std::int64_t count_{1};
-    cv::Mat whole_{};  ///< in Fortran's order, where a picture lies all over the file
+    cv::Mat whole_{};  ///< the whole array, in Fortran order only: pictures are not contiguous
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Portable float maps: a header of four words, then rows from the lowest up.
+// Reads portable float maps: a header of four words, then rows from the lowest up.
 #include "core/video/formats/still_picture.hpp"
 
 #include <bit>

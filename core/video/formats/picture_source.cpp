@@ -1,4 +1,4 @@
-// Pictures one after the other: what all sources do alike.
+// What sources of pictures have in common.
 #include "core/video/formats/picture_source.hpp"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
-// What a reader of any form gives: pictures with presentation times, and what is known of them;
-// inside the room.
+// The interface of all readers: pictures with presentation times, and facts about them; inside the
+// room.
 #pragma once
 
 #include <cstddef>
@@ -20,18 +20,17 @@ namespace dibhr {
 
 struct LivePair;
 
-/// A decoded picture: 8-bit BGR, or as the file has it where depth needs it (8 or 16 bits or 32-bit
-/// real numbers, of which what is not finite is no data; 1 to 4 channels). Shared with nobody who
-/// writes.
+/// A decoded picture: 8-bit BGR, or for depth the unchanged levels (8 or 16 bits, or 32-bit real
+/// numbers, where not finite is no data; 1 to 4 channels). Shared; never written to.
 struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
-    double decoding_s{0.0};  ///< so long decoding one takes, as of late; 0: not known
-    std::shared_ptr<const LivePair> pair{};  ///< of which it is, where it came live
+    double decoding_s{0.0};  ///< mean time to decode a picture; 0: not known
+    std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
 };
 
-/// What is known of a source so far; it grows as frames are read.
+/// The facts about a source known so far; more as frames are read.
 struct SourceFacts {
     std::filesystem::path file{};
     int columns{0};
@@ -39,21 +38,21 @@ struct SourceFacts {
     int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers
     int channels{3};  ///< 1: grey
     std::string codec{};
-    double start_s{0.0};  ///< by the clock of its file; NaN: that is nobody else's
+    double start_s{0.0};  ///< by the clock of its file; NaN: not comparable with other files
     double duration_s{0.0};
     double frames_per_s{0.0};
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
-    bool live{false};          ///< it comes as it happens, and has neither length nor end
-    std::string trouble{};     ///< why less is read than at the opening; empty: nothing lacks
-    std::string notice{};      ///< what was passed over or chosen at the opening; mostly empty
-    DepthStatement known{};    ///< what the file's own metadata or its format says of its depth
-    std::string known_from{};  ///< where it says so: "EXR channel Z"; empty: nowhere
-    std::optional<DepthNoise> noise{};  ///< by which it was cleaned when it was recorded live
-    Lens lens{};                        ///< of the camera that `known.intrinsics` are of
-    bool other_camera{false};  ///< the colour beside it is of another one, which stands elsewhere
-    std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; none: not known
+    bool live{false};          ///< a live source: no length, no end
+    std::string trouble{};     ///< why less is readable than at the opening; empty: all is
+    std::string notice{};      ///< what the opening ignored or chose; mostly empty
+    DepthStatement known{};    ///< stated by the file's metadata or its format
+    std::string known_from{};  ///< the source of `known`: "EXR channel Z"; empty: none
+    std::optional<DepthNoise> noise{};  ///< used for cleaning when it was recorded live
+    Lens lens{};                        ///< of the camera of `known.intrinsics`
+    bool other_camera{false};  ///< its colour is from another camera at another place
+    std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 };
 
 class PictureSource {
@@ -67,25 +66,25 @@ class PictureSource {
     /// The next picture returned is the one shown at `time_s`: the first before the beginning, the
     /// last after the end.
     virtual void seek(double time_s) = 0;
-    /// The next picture returned is one near it, as soon as one can be had.
+    /// The next picture returned is one near it that is quick to decode.
     virtual void seek_near(double time_s) { seek(time_s); }
-    /// Goes through at most `most` pictures, so that the facts become exact; for a source that is
-    /// not read otherwise.
+    /// Reads at most `most` pictures, so that the facts become exact. For a source that is not read
+    /// otherwise.
     virtual void count_frames(std::int64_t /*most*/) {}
-    /// At most `most` pictures from all over it, the first among them, as cheap to get as can be;
-    /// the next picture returned is the first.
+    /// At most `most` pictures from all over the source, with the first one, chosen to be cheap to
+    /// decode. The next picture returned is the first.
     virtual std::vector<cv::Mat> samples(int most);
 };
 
-/// The pictures of another source, each changed in the same way: a half of it, decoded, stretched.
+/// The pictures of another source, each changed in the same way: cropped, decoded, stretched.
 class ChangedPictures : public PictureSource {
   public:
     using Change = std::function<cv::Mat(const cv::Mat&)>;
     using Tell = std::function<void(SourceFacts&)>;
 
-    /// `tell` puts into the facts of the source what the change makes of them, but the size, which
-    /// is that of the first changed picture. Reads that picture. Throws InputError when it is too
-    /// small to touch.
+    /// The last function adapts the source's facts to the change, except the size, which is that of
+    /// the first changed picture. Reads that picture. Throws InputError when it is too small to
+    /// touch.
     ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
@@ -107,10 +106,10 @@ class ChangedPictures : public PictureSource {
     std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
 
-/// Pictures a second of those that tell no time.
+/// Rate of pictures without times [1/s].
 inline constexpr double kPicturesPerSecond = 30.0;
 
-/// Pictures that are each read by number, from 0, and whose times are known at the opening.
+/// Pictures that are read by index, from 0, and whose times are known at the opening.
 class IndexedPictures : public PictureSource {
   public:
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
@@ -118,9 +117,9 @@ class IndexedPictures : public PictureSource {
     void seek(double time_s) override;
 
   protected:
-    /// One time a picture, rising, and at least one: the facts of time follow from them.
+    /// Sets the times, increasing, one for each picture and at least one, and the facts about time.
     void take_times(std::vector<double> times_s);
-    /// Why a picture is replaced by the one before it; the first reason stays.
+    /// Reports why a picture is replaced by the one before it; keeps the first report.
     void tell_trouble(const std::string& what);
 
     SourceFacts facts_{};
@@ -129,7 +128,7 @@ class IndexedPictures : public PictureSource {
     [[nodiscard]] virtual cv::Mat picture(std::size_t at) = 0;
 
     std::vector<double> times_s_{};  ///< from the first
-    std::size_t at_{0};              ///< the next one
+    std::size_t at_{0};              ///< index of the next picture
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// What is refused, told by how files begin, and by their names where that says too little.
+// Refuses unsupported files by their first bytes, and by their names where these are not enough.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace {
 using namespace std::string_view_literals;
 
 struct Foreign {
-    std::string_view begins;  ///< empty: as any
+    std::string_view begins;  ///< first bytes; empty: any
     std::string_view ending;  ///< of the name; empty: any
     std::string_view advice;
 };
@@ -39,7 +39,7 @@ constexpr std::string_view kZed =
     " is a recording of a ZED camera, which only the ZED SDK reads: export its left view and its "
     "depth as 16-bit PNG with the ZED SDK's SVO Export";
 
-// The first that fits.
+// The first entry that fits counts.
 constexpr std::array kForeign{
     Foreign{kZip, ".r3d", kRecord3d},
     Foreign{kZip, ".depthviewer",
@@ -67,20 +67,20 @@ bool hold(const std::string& bytes, std::string_view part) {
     return bytes.find(part) != std::string::npos;
 }
 
-/// The names in a zip archive are listed at its end.
+/// Whether a zip archive is Record3D's, by the names in the directory at its end.
 bool lists_record3d(const fs::path& file) {
     const std::string end = end_of(file, kLookedAt_bytes);
     return hold(end, "rgbd/") && hold(end, "metadata");
 }
 
-/// Its own codecs of depth, in the Matroska file's list of tracks.
+/// Whether a Matroska file's list of tracks has librgbd's depth codecs.
 bool is_of_librgbd(const fs::path& file) {
     const std::string begin = beginning_of(file, kLookedAt_bytes);
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
-/// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty for
-/// every other file.
+/// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty for a
+/// supported file.
 std::string advice_on_foreign(const fs::path& file) {
     const std::string head = head_of(file);
     const std::string ending = lower_case(file.extension().string());
@@ -94,8 +94,8 @@ std::string advice_on_foreign(const fs::path& file) {
     return {};
 }
 
-/// Whether the file begins like text: no zero and no control bytes. Playlists are text, too, and
-/// would make the decoder open other files. Text pictures (PNM) are not refused.
+/// Whether the file begins like text: no zero and no control bytes. Also refuses playlists, which
+/// would have the decoder open other files. Text pictures (PNM) are allowed.
 bool begins_like_text(const fs::path& file) {
     constexpr std::size_t kLines_bytes = 512;
     const std::string head = beginning_of(file, kLines_bytes);

@@ -1,4 +1,4 @@
-// Chooses the topics of a bag, puts their messages in order, and plays them.
+// Chooses a topic of a bag, sorts its messages by time, and decodes them.
 #include "core/video/formats/ros_bag.hpp"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::int64_t kLongestBag_ns = 1'000'000'000'000'000;  ///< a million seconds
 
-// When a message can have been recorded: sums and differences of such times are numbers, too.
+// Bounds of the recording time: sums and differences of such times do not overflow.
 constexpr std::int64_t kFirst_ns = 0;
 constexpr std::int64_t kLast_ns = 4'000'000'000'000'000'000;
 
@@ -38,7 +38,7 @@ bool is_bag_name(const fs::path& file) {
     return name.ends_with(".db3") || name.ends_with(".db3.zstd") || name.ends_with(".mcap");
 }
 
-/// The file, or those of a folder.
+/// Opens the file, or the files of a folder.
 BagFiles opened_bags(const fs::path& place) {
     BagFiles files;
     if (!is_folder(place)) {
@@ -59,7 +59,7 @@ bool is_of_pictures(const Topic& topic) {
     return topic.type == "sensor_msgs/msg/Image" || is_compressed(topic);
 }
 
-/// The first message of a topic of that name, and its whole data.
+/// The data of the first message of a topic of that name and type.
 std::optional<std::vector<std::uint8_t>> first_message(BagFiles& files, const Topic& wanted) {
     for (const auto& file : files) {
         for (const Topic& topic : file->topics()) {
@@ -71,7 +71,7 @@ std::optional<std::vector<std::uint8_t>> first_message(BagFiles& files, const To
     return std::nullopt;
 }
 
-/// How likely a topic is of that role; 0: it is not.
+/// How likely a topic is of that role; 0: impossible.
 int likelihood(const Topic& topic, const RosImage& image, PictureRole role) {
     const std::string name = lower_case(topic.name);
     const auto says = [&name](std::string_view word) {
@@ -91,10 +91,10 @@ int likelihood(const Topic& topic, const RosImage& image, PictureRole role) {
 
 struct Choice {
     Topic topic{};
-    std::string others{};  ///< of pictures, and what they hold: for a message
+    std::string others{};  ///< all picture topics with their encodings, for a message
 };
 
-/// Nothing of a topic when none is of that role.
+/// The most likely topic; an empty name when none is of that role.
 Choice chosen(BagFiles& files, PictureRole role) {
     Choice choice;
     int best = 0;
@@ -132,7 +132,7 @@ struct Stamped {
     std::int64_t time_ns;
 };
 
-/// In order, and each time once.
+/// Sorts by time, and keeps each time once.
 void put_in_order(std::vector<Stamped>& messages) {
     std::stable_sort(messages.begin(), messages.end(),
                      [](const Stamped& a, const Stamped& b) { return a.time_ns < b.time_ns; });
@@ -140,7 +140,7 @@ void put_in_order(std::vector<Stamped>& messages) {
     messages.erase(std::unique(messages.begin(), messages.end(), same), messages.end());
 }
 
-/// By their stamps, or, where one of them says nothing, by when they were recorded.
+/// The messages by their stamps, or, where one has none, all by their time of recording.
 std::vector<Stamped> messages_of(BagFiles& files, const Topic& wanted) {
     std::vector<Stamped> stamped;
     std::vector<Stamped> recorded;
@@ -177,7 +177,7 @@ class RosTopic : public IndexedPictures {
     }
 
   private:
-    /// One that cannot be decoded is told, and the one before it stays.
+    /// Where a picture cannot be decoded, reports it and returns the one before it.
     [[nodiscard]] cv::Mat picture(std::size_t at) override {
         try {
             const cv::Mat now = decoded(messages_[at]);
@@ -197,7 +197,7 @@ class RosTopic : public IndexedPictures {
                "compressing messages";
     }
 
-    /// Empty when it is broken.
+    /// Empty when the message is broken.
     [[nodiscard]] cv::Mat decoded(const Stamped& message) {
         const std::vector<std::uint8_t> data = files_[message.file]->data(message.row);
         const auto image = ros_image(data, is_compressed(topic_));
@@ -236,7 +236,7 @@ class RosTopic : public IndexedPictures {
         know_cameras();
     }
 
-    /// Of the pictures of that topic; nothing when the bag does not tell.
+    /// The camera of that topic's pictures; nothing when the bag has none.
     [[nodiscard]] std::optional<RosCamera> camera_of(const std::string& topic) {
         const auto info =
             first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
@@ -252,7 +252,7 @@ class RosTopic : public IndexedPictures {
         const auto colour = camera_of(colour_topic);
         if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
         facts_.other_camera = true;
-        // As RealSense's node tells it, beside its pictures.
+        // The topic in which RealSense's node publishes the placement.
         const std::string told_in =
             colour_topic.substr(0, colour_topic.rfind("/color/")) + "/extrinsics/depth_to_color";
         const auto message =

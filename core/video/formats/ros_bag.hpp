@@ -1,4 +1,4 @@
-// Bags of ROS 2 in SQLite (.db3): their topics of pictures, by the stamps of the messages; inside
+// Reads the picture topics of ROS 2 bags in SQLite (.db3), in order of the messages' stamps; inside
 // the room.
 #pragma once
 
@@ -11,16 +11,16 @@
 
 namespace dibhr {
 
-/// Whether it is a SQLite file, or a folder of a bag's files.
+/// Whether the place is a SQLite file, or a folder of a bag's files.
 [[nodiscard]] bool is_ros_bag(const std::filesystem::path& place, std::string_view head);
 
-/// Whether it holds pictures of that role. Throws InputError as below.
+/// Whether the bag has a topic of that role. Throws InputError as below.
 [[nodiscard]] bool ros_bag_holds(const std::filesystem::path& place, PictureRole role);
 
-/// The topic that is most likely of that role, by its encoding and its name; depth that was
-/// registered to the colour camera before other. What is known of depth: 16 bits are millimetres
-/// and floats metres (REP 118), 0 is no data, and the intrinsics of the topic's camera_info. Throws
-/// InputError when the file is no bag, is damaged, or holds no such topic.
+/// Opens the topic that is most likely of that role, by encoding and name; prefers depth registered
+/// to the colour camera. Facts about depth: 16 bits are millimetres and floats metres (REP 118), 0
+/// is no data, and the intrinsics of the topic's camera_info. Throws InputError when the file is no
+/// bag, is damaged, or has no such topic.
 [[nodiscard]] std::unique_ptr<PictureSource> open_ros_topic(const std::filesystem::path& place,
                                                             PictureRole role);
 

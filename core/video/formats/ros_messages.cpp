@@ -1,4 +1,4 @@
-// Takes messages to pieces; what is cut off or says absurd sizes is nothing.
+// Parses messages; a truncated message, or one with impossible sizes, gives nothing.
 #include "core/video/formats/ros_messages.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint32_t kLongestSide = 1U << 20;
 
-/// Reads a message from its beginning; beyond its end there is nothing but zeros, and it is told.
+/// Reads a message from its beginning. Beyond its end it gives zeros, and whole() is false.
 class CdrReader {
   public:
     explicit CdrReader(Bytes message) : bytes_(message) {
@@ -119,7 +119,7 @@ cv::Mat plain_picture(const RosImage& image) {
         !may_be_decoded(image.columns, image.rows, CV_ELEM_SIZE(encoding->type)))
         return {};
     const std::uint64_t row_bytes = std::uint64_t{image.columns} * CV_ELEM_SIZE(encoding->type);
-    // The last row may end with its pixels.
+    // The last row may lack the padding.
     const std::uint64_t needed = std::uint64_t{image.step} * (image.rows - 1) + row_bytes;
     if (image.step < row_bytes || needed > image.data.size()) return {};
     cv::Mat picture(static_cast<int>(image.rows), static_cast<int>(image.columns), encoding->type);
@@ -134,7 +134,7 @@ cv::Mat plain_picture(const RosImage& image) {
     return picture;
 }
 
-/// OpenCV takes memory for whatever a header says, which is at the beginning.
+/// Checks the header first, because OpenCV allocates memory for any size that a header claims.
 bool is_plausible_picture(Bytes data) {
     constexpr std::size_t kHeaderBytes = 1U << 16U;
     const Bytes begin = data.first(std::min(data.size(), kHeaderBytes));

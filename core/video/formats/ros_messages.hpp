@@ -1,5 +1,4 @@
-// The messages of ROS 2 that hold pictures, as they are stored: in OMG's CDR, version 1; inside the
-// room.
+// Parses ROS 2 messages with pictures, stored in OMG's CDR, version 1; inside the room.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +14,17 @@ namespace dibhr {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// How much of a message its stamp takes.
+/// The first bytes of a message up to the end of its stamp.
 inline constexpr std::size_t kStampBytes = 12;
 
-/// When the message's header says that it was taken, by the clock of its sender [ns]; nothing when
-/// it has no such header.
+/// The stamp in the message's header, by the clock of its sender [ns]; nothing when the message is
+/// too short.
 [[nodiscard]] std::optional<std::int64_t> ros_stamp_ns(Bytes message);
 
-/// Of a sensor_msgs/msg/Image, or of a CompressedImage, which does not tell its size.
+/// A sensor_msgs/msg/Image, or a CompressedImage, which does not state its size.
 struct RosImage {
     std::uint32_t columns{0}, rows{0}, step{0};  ///< step: bytes from row to row
-    std::string encoding{};                      ///< of a compressed one its format
+    std::string encoding{};                      ///< of a compressed image its format
     bool big_endian{false};
     bool compressed{false};
     Bytes data{};  ///< of the message
@@ -34,7 +33,7 @@ struct RosImage {
 /// Nothing when the message is broken.
 [[nodiscard]] std::optional<RosImage> ros_image(Bytes message, bool compressed);
 
-/// What a picture of that encoding can be taken for.
+/// What a picture of that encoding can be used as.
 enum class RosPicture { depth, grey, colour, unknown };
 [[nodiscard]] RosPicture kind_of(const RosImage& image);
 
@@ -42,16 +41,16 @@ enum class RosPicture { depth, grey, colour, unknown };
 /// when it is broken or of an unknown encoding.
 [[nodiscard]] cv::Mat picture_of(const RosImage& image);
 
-/// Of a sensor_msgs/msg/CameraInfo.
+/// A sensor_msgs/msg/CameraInfo.
 struct RosCamera {
     Camera camera{};
-    cv::Size size{};      ///< of the pictures that it is for
+    cv::Size size{};      ///< of its pictures
     std::string frame{};  ///< the name of its axes
 };
 /// Nothing when the message is broken, or has no camera.
 [[nodiscard]] std::optional<RosCamera> ros_camera(Bytes message);
 
-/// Of a realsense2_camera_msgs/msg/Extrinsics; nothing when it is broken, or none.
+/// Parses a realsense2_camera_msgs/msg/Extrinsics; nothing when the message is broken.
 [[nodiscard]] std::optional<Placement> ros_placement(Bytes message);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Pictures that OpenCV decodes, within bounds.
+// Reads pictures by OpenCV, within bounds.
 #include "core/video/formats/still_picture.hpp"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ bool is_tiff(const std::string& head) {
     return head.starts_with("II") || head.starts_with("MM");
 }
 
-/// OpenCV takes memory for whatever a header says.
+/// Checks the header first, because OpenCV allocates memory for any size that a header claims.
 void require_plausible_claim(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     const auto claimed = claimed_size(in);
@@ -48,7 +48,7 @@ cv::Mat decoded(const fs::path& file, int flags) {
         const QuietErrors quiet;
         picture = picture_codecs().read(file.string(), flags);
     } catch (const cv::Exception&) {
-        picture.release();  // refused, for example as too large: said below
+        picture.release();  // refused, for example as too large: reported below
     }
     if (picture.empty())
         throw InputError(shown(file) +

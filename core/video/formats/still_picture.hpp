@@ -1,4 +1,4 @@
-// One still picture out of a file, and who reads it by its form; inside the room.
+// The readers of still pictures, one for each form; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -19,35 +19,35 @@ struct StillPicture {
     std::string known_from{};  ///< as in SourceFacts
 };
 
-/// Whether OpenCV's codecs read it, or it is a WebP picture, also a damaged one, which they do not
-/// know any more: libav takes that for a video, and ends the program. Loads the codecs.
+/// Whether OpenCV's codecs read the file, or it is a WebP picture. OpenCV does not recognise a
+/// damaged WebP, and libav would take it for a video and end the program. Loads the codecs.
 [[nodiscard]] bool is_opencv_picture(const std::filesystem::path& file, std::string_view head);
 
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
 
-/// OpenEXR: depth as renderers and estimators leave it, often beside colours. Of its display
-/// window; outside its data window, and at renderers' infinity, is no data. Depth is the channel Z,
-/// else V, Y or R, of a layer that says depth before others; of R, G and B that differ all three.
-/// Throws InputError.
+/// OpenEXR, as renderers and estimators write it, often with colours. Reads the display window;
+/// outside the data window, and at a renderer's infinity, is no data. Depth is the channel Z, else
+/// V, Y or R, preferably of a layer named depth; of R, G and B that differ, all three. Throws
+/// InputError.
 [[nodiscard]] StillPicture read_exr(const std::filesystem::path& file, PictureRole role);
 
-/// Whether every attribute of an OpenEXR header lies in the file and is as long as its type. The
-/// library takes memory for what an attribute claims before it reads it, and goes on elsewhere when
-/// a length is wrong.
+/// Whether every attribute of an OpenEXR header lies in the file and has the length of its type.
+/// The library allocates what an attribute claims before it reads it, and loses its position when a
+/// length is wrong.
 [[nodiscard]] bool has_sound_exr_header(const std::filesystem::path& file);
 
-/// Channels R, G and B, and a Z or V. False when the file cannot be read.
+/// Whether it has channels R, G and B, and Z or V. False when the file cannot be read.
 [[nodiscard]] bool exr_has_colour_and_depth(const std::filesystem::path& file);
 
-/// Portable float maps (.pfm), as stereo datasets leave them. The values as they stand in the file:
-/// of its scale only the sign counts, which says the byte order, as in the readers of the datasets
-/// themselves (OpenCV divides by it). Throws InputError.
+/// Portable float maps (.pfm), as stereo datasets have them. Gives the values unchanged: of the
+/// file's scale only the sign counts, which is the byte order, as in the datasets' own readers
+/// (OpenCV divides by the scale). Throws InputError.
 [[nodiscard]] StillPicture read_pfm(const std::filesystem::path& file, PictureRole role);
 
-/// HEIC photos: the primary picture, or the depth picture that portraits have beside it, each
-/// turned as it says itself. Throws InputError, also when depth is asked for and there is none.
+/// HEIC photos: the primary picture, or the depth picture of a portrait, each turned as the file
+/// states. Throws InputError, also when depth is requested and there is none.
 [[nodiscard]] StillPicture read_heif(const std::filesystem::path& file, PictureRole role);
 
 /// False when the file cannot be read.

@@ -1,4 +1,4 @@
-// libav's decoder, and its pictures as OpenCV's.
+// Decodes by libav, and rotates the pictures.
 #include "core/video/formats/video_decoder.hpp"
 
 extern "C" {
@@ -26,7 +26,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostFailures = 4096;  ///< packets in a row that cannot be decoded: nothing follows
+constexpr int kMostFailures = 4096;  ///< failed packets in a row that count as the end
 
 std::string text_of_tag(std::uint32_t tag) {
     std::string text;
@@ -48,7 +48,7 @@ const std::uint8_t* display_matrix(const AVStream& stream) {
 #endif
 }
 
-/// Clockwise, 0 to 3, of a file that was recorded with the camera turned.
+/// Clockwise, 0 to 3, for a file recorded with a rotated camera.
 int quarter_turns(const AVStream& stream) {
     const std::uint8_t* const matrix = display_matrix(stream);
     if (matrix == nullptr) return 0;
@@ -59,15 +59,15 @@ int quarter_turns(const AVStream& stream) {
     return (static_cast<int>(std::lround(-anticlockwise / 90.0)) % 4 + 4) % 4;
 }
 
-/// Others have packets that show nothing, pictures of two fields in two packets, or (HEVC) call
-/// non-reference what a higher temporal layer refers to.
+/// Other codecs have packets without a picture, pictures of two fields in two packets, or (HEVC)
+/// mark as non-reference what a higher temporal layer refers to.
 bool marks_non_reference(const AVCodecParameters& coded) {
     const bool is_whole =
         coded.field_order == AV_FIELD_PROGRESSIVE || coded.field_order == AV_FIELD_UNKNOWN;
     return coded.codec_id == AV_CODEC_ID_H264 && is_whole;
 }
 
-/// As its container says; what its packets say instead is bounded by libav.
+/// Checks the size that the container claims; libav bounds the size in the packets.
 void require_plausible_frames(const std::filesystem::path& file, const AVCodecParameters& coded) {
     const AVPixFmtDescriptor* const kind =
         av_pix_fmt_desc_get(static_cast<AVPixelFormat>(coded.format));
@@ -124,13 +124,13 @@ bool VideoDecoder::decode() {
     return false;
 }
 
-/// Which picture was skipped is told by its time, so that it needs one, and to be shown.
+/// Skipped pictures are identified by their time: only shown pictures with a time may be skipped.
 bool VideoDecoder::may_skip(const AVPacket& packet) const noexcept {
     return packets_.seconds(packet.pts) < skip_before_s_ &&
            (packet.flags & (AV_PKT_FLAG_CORRUPT | AV_PKT_FLAG_DISCARD)) == 0;
 }
 
-/// Null: nothing follows. False: it cannot be decoded.
+/// Sends a packet to the decoder; null: the end. False: it cannot be decoded.
 bool VideoDecoder::send(const AVPacket* packet) {
     drained_ = packet == nullptr;
     const bool skip = packet != nullptr && may_skip(*packet);
@@ -140,7 +140,7 @@ bool VideoDecoder::send(const AVPacket* packet) {
     return true;
 }
 
-/// Pictures come in their order: those before the decoded one that did not come were skipped.
+/// Pictures come in order: those before the decoded one that did not come were skipped.
 void VideoDecoder::tell_skipped(double until_s) {
     const auto begin = may_be_skipped_s_.begin();
     skipped_s_.assign(begin, may_be_skipped_s_.lower_bound(until_s));

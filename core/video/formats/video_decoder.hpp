@@ -1,5 +1,5 @@
-// One video track through libav: its pictures in order of presentation time, with all the levels
-// that they hold; inside the room.
+// Decodes one video track through libav: pictures in order of presentation time, without losing
+// levels; inside the room.
 #pragma once
 
 #include <cstdint>
@@ -18,39 +18,39 @@
 
 namespace dibhr {
 
-/// Pictures come turned as the file says.
+/// Gives pictures rotated as the file states.
 class VideoDecoder {
   public:
     /// Decodes nothing yet. Throws InputError: cut off, of an unknown kind, no video.
     VideoDecoder(const std::filesystem::path& file, int track);
 
     [[nodiscard]] const VideoPackets& packets() const noexcept { return packets_; }
-    /// The name of the codec; as the container writes it, where that does.
+    /// The name of the codec: the container's tag, else the usual name.
     [[nodiscard]] std::string codec() const;
 
-    /// The next picture; false at the end. Packets that cannot be decoded are passed over.
+    /// The next picture; false at the end. Ignores packets that cannot be decoded.
     bool decode();
-    /// To the key frame at or before the time [s], which decode() then gives; false where the file
-    /// cannot jump.
+    /// Jumps to the key frame at or before the time [s], which decode() then gives; false where the
+    /// file cannot jump.
     bool jump(double time_s);
 
-    /// Until the next jump, non-reference pictures before that time [s] are skipped, if the codec
-    /// marks them (H.264): a run-up takes less.
+    /// Until the next jump the decoder skips non-reference pictures before that time [s], if the
+    /// codec marks them (H.264): decoding up to the target takes less time.
     void skip_non_reference_before(double time_s) noexcept;
-    /// The times [s] of those skipped between the last two decoded pictures, or after the last,
-    /// in their order.
+    /// The times [s] of pictures skipped between the last two decoded ones, or after the last, in
+    /// order.
     [[nodiscard]] const std::vector<double>& skipped_s() const noexcept { return skipped_s_; }
-    /// How many pictures were decoded so far: not those skipped.
+    /// How many pictures were decoded so far, without skipped ones.
     [[nodiscard]] std::int64_t decoded() const noexcept { return decoded_; }
 
-    /// Keeps the decoded picture, which need not be converted before it is known that it is wanted.
+    /// Keeps the decoded picture, so that it is converted only if it turns out to be needed.
     void keep();
-    /// The one kept last becomes the decoded one, and the other way round.
+    /// Exchanges the kept and the decoded picture.
     void swap_kept() noexcept { std::swap(frame_, kept_); }
 
-    // Of the decoded picture, as av_frame.hpp has it, but turned.
+    // Of the decoded picture, as in av_frame.hpp, but rotated.
 
-    /// From the track's beginning [s]; NaN when the file does not say.
+    /// From the track's beginning [s]; NaN: not known.
     [[nodiscard]] double time_s() const noexcept;
     [[nodiscard]] cv::Mat colour();
     [[nodiscard]] cv::Mat levels();
@@ -73,10 +73,10 @@ class VideoDecoder {
     FramePictures pictures_{};
     int quarter_turns_{0};  // clockwise
     bool drained_{false};
-    bool marks_non_reference_{false};  // the codec, packet by packet
+    bool marks_non_reference_{false};  // whether the codec marks packets as non-reference
     double skip_before_s_{kNever_s};
     std::int64_t decoded_{0};
-    std::set<double> may_be_skipped_s_{};  // given, and not decoded yet
+    std::set<double> may_be_skipped_s_{};  // sent to the decoder, not decoded yet
     std::vector<double> skipped_s_{};
 };
 

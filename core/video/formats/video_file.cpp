@@ -1,4 +1,4 @@
-// A video file as pictures in order of presentation time, with an exact seek.
+// Finds frames by their decoded times, and updates the facts as it reads.
 #include "core/video/formats/video_file.hpp"
 
 #include <algorithm>
@@ -27,19 +27,19 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kNearAhead_s = 1.0;   ///< up to here decoding on is as quick as a jump
-constexpr double kFewFrames = 3.0;     ///< before the wanted one none is skipped
-constexpr double kMissing_s = 0.5;     ///< less than this at the end is a container's rounding,
-constexpr double kMissingPart = 0.15;  ///< and less than this part may be a long last frame
-constexpr double kMostSampled = 1e8;   ///< pixels decoded to get samples: a third of a second
+constexpr double kNearAhead_s = 1.0;   ///< up to here decoding forward is as quick as a jump
+constexpr double kFewFrames = 3.0;     ///< directly before the wanted frame none is skipped
+constexpr double kMissing_s = 0.5;     ///< a shorter loss at the end may be rounding,
+constexpr double kMissingPart = 0.15;  ///< a smaller part may be a long last frame
+constexpr double kMostSampled = 1e8;   ///< pixels decoded for samples: a third of a second
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
-/// A whole file ends there at the earliest.
+/// The earliest end of a whole file.
 double least_end_s(double promised_s) {
     return promised_s - std::max(kMissing_s, kMissingPart * promised_s);
 }
 
-/// A copy that broke off still opens: its header promises more than the file holds.
+/// Throws InputError for a truncated copy, whose header claims more than the file holds.
 void require_whole(const std::filesystem::path& file, int track, double promised_s) {
     const double least_s = least_end_s(promised_s);
     if (!(least_s > 0.0)) return;
@@ -73,7 +73,7 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     if (role == PictureRole::depth) know_azure_kinect();
 }
 
-/// By this program.
+/// Facts of a live recording by this program.
 void VideoFile::know_live_recording() {
     const VideoPackets& packets = decoder_.packets();
     facts_.noise = noise_in(packets.tag(kNoiseTag));
@@ -101,8 +101,8 @@ void VideoFile::read_facts() {
     facts_.codec = decoder_.codec();
 }
 
-/// Its recordings name the mode of the depth camera, and carry the calibration of all cameras
-/// (Azure Kinect DK, record file format).
+/// Facts of an Azure Kinect recording, which has the mode of the depth camera and the calibration
+/// of all cameras (Azure Kinect DK, record file format).
 void VideoFile::know_azure_kinect() {
     const VideoPackets& packets = decoder_.packets();
     if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
@@ -121,7 +121,7 @@ void VideoFile::know_azure_kinect() {
         facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
 }
 
-/// Its packets were whole when it was opened.
+/// Reports an end before the duration that was verified at the opening.
 void VideoFile::notice_early_end() {
     const double end_s = time_s_ + interval_s_;
     if (jumped_ || !(end_s < least_end_s(promised_s_))) return;
@@ -151,7 +151,7 @@ bool VideoFile::grab() {
     }
     const double last_s = time_s_;
     const bool follows = index_ >= 0 && !jumped_;
-    // The first one fills the decoder's threads.
+    // The first frame also fills the decoder's threads.
     if (follows && decoder_.skipped_s().empty())
         decoding_s_ = moving_mean_from_first(decoding_s_, taken.count());
     time_s_ = decoder_.time_s();
@@ -169,7 +169,7 @@ bool VideoFile::grab() {
     return true;
 }
 
-/// They are frames like others, whose time is known.
+/// Counts skipped frames like decoded ones: their times are known.
 void VideoFile::count_skipped() {
     for (const double skipped_s : decoder_.skipped_s()) {
         time_s_ = skipped_s;
@@ -215,7 +215,7 @@ void VideoFile::place_at(double time_s) {
         index_ = at - times_.begin();
         return;
     }
-    // Beyond what was read without a gap: an estimate until the gap is read.
+    // Behind a gap: an estimate until the gap is read.
     const double frames_on = std::round((time_s - times_.back()) * facts_.frames_per_s);
     index_ = static_cast<std::int64_t>(times_.size()) - 1 +
              std::max<std::int64_t>(1, static_cast<std::int64_t>(frames_on));
@@ -231,9 +231,9 @@ std::optional<TimedPicture> VideoFile::next() {
     return timed(retrieve());
 }
 
-/// What is passed over is decoded and not converted.
+/// Earlier frames are decoded and not converted.
 std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
-    std::optional<TimedPicture> last;  // without a picture: the one that the decoder keeps
+    std::optional<TimedPicture> last;  // without a picture: the decoder keeps it
     for (; !ahead_.empty(); ahead_.pop_front()) {
         last = std::move(ahead_.front());
         if (last->time_s < earliest_s) continue;
@@ -279,7 +279,7 @@ void VideoFile::rewind_before(double time_s, RunUp run_up) {
     begin_again();
 }
 
-/// But for a few, as the frame shown then may have begun earlier.
+/// Except a few, as the frame shown at `time_s` may begin earlier.
 void VideoFile::skip_before(double time_s) {
     const double interval_s = std::max(interval_s_, 1.0 / facts_.frames_per_s);
     if (timed_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
@@ -303,8 +303,8 @@ void VideoFile::seek(double time_s) {
     run_up_to(wanted_s, {});
 }
 
-/// Of what is decoded on the way nothing is converted but what is shown then, the one that the
-/// decoder keeps, and what follows it. False: it was skipped.
+/// Decodes up to `wanted_s`. Converts only the frame shown then, which the decoder keeps, and the
+/// frame after it. False: the frame shown then was skipped.
 bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_then) {
     while (grab()) {
         const bool beyond = time_s_ > wanted_s;
@@ -326,12 +326,12 @@ bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_the
     return true;
 }
 
-/// After the last frame that was not.
+/// Whether a frame up to `time_s` was skipped since the last decoded one.
 bool VideoFile::skipped_until(double time_s) const {
     return !decoder_.skipped_s().empty() && decoder_.skipped_s().front() <= time_s;
 }
 
-/// To the key frame before it.
+/// Gives the key frame before it.
 void VideoFile::seek_near(double time_s) {
     ahead_.clear();
     grabbed_ = false;
@@ -370,7 +370,7 @@ void VideoFile::sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>&
     const double duration_s = facts_.duration_s;
     for (int k = 1; k < most; ++k) {
         const double wanted_s = duration_s * k / most;
-        // Where key frames are far apart the frames from here on are new, and the key frame is not.
+        // Where key frames are far apart, decode on instead of decoding the same key frame again.
         const auto key_s = decoder_.packets().key_frame_s(wanted_s);
         if (!key_s || *key_s > time_s_) {
             if (!decoder_.jump(wanted_s)) break;

@@ -1,4 +1,4 @@
-// A video file as pictures in order of presentation time, with an exact seek.
+// Reads a video file as pictures in order of presentation time, with an exact seek.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,8 @@
 
 namespace dibhr {
 
-/// Frame counts and rates of containers are estimates, so neither is ever used to find a frame:
-/// times are those of the decoded frames, and a seek goes before the wanted time and decodes
-/// forward.
+/// A container's frame count and rate are estimates and never used to find a frame: times are those
+/// of decoded frames, and a seek jumps before the wanted time and decodes forward.
 class VideoFile : public PictureSource {
   public:
     /// Reads the first frame. Throws InputError when the file cannot be opened, holds none,
@@ -27,12 +26,12 @@ class VideoFile : public PictureSource {
     std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
     void seek_near(double time_s) override;
-    /// How many pictures were decoded since it was opened, or began again.
+    /// How many pictures were decoded since the file was opened last.
     [[nodiscard]] std::int64_t decoded() const noexcept { return decoder_.decoded(); }
 
-    /// Decodes on without pictures, at most `most` frames, so that the facts become exact.
+    /// Decodes at most `most` more frames without converting them, so that the facts become exact.
     void count_frames(std::int64_t most) override;
-    /// A short file is decoded once, of a longer one some frames after each key frame nearby.
+    /// Decodes a short file once; of a longer one some frames after a key frame near each sample.
     std::vector<cv::Mat> samples(int most) override;
 
   private:
@@ -48,30 +47,30 @@ class VideoFile : public PictureSource {
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
-    TimedPicture retrieve_kept(TimedPicture kept);  ///< with its picture, which the decoder keeps
+    TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
-    void know_time();  ///< of the frame at index_
+    void know_time();  ///< appends that of the frame at index_ to times_
     void rewind_before(double time_s, RunUp run_up);
     void skip_before(double time_s);
     bool run_up_to(double wanted_s, std::optional<TimedPicture> shown_then);
     [[nodiscard]] bool skipped_until(double time_s) const;
     void place_at(double time_s);  ///< index of a frame reached by a jump
-    void learn();                  ///< rate and duration from the times read so far
+    void learn();                  ///< rate and duration, from the times read so far
 
     SourceFacts facts_{};
     PictureRole role_;
     int track_;
-    bool keeps_levels_{false};  ///< they have fewer bits than the file, and are as they are
+    bool keeps_levels_{false};  ///< levels have fewer bits than the file; do not scale them
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
-    std::vector<double> times_{};       ///< of all frames from the first without a gap
-    double promised_s_{0.0};            ///< as the container said at the opening
-    double decoding_s_{0.0};            ///< of a frame, as of late
-    double interval_s_{1.0 / 30.0};     ///< as the container says; for frames without a time
+    std::vector<double> times_{};       ///< of all frames from the first up to a gap
+    double promised_s_{0.0};            ///< duration by the container's header
+    double decoding_s_{0.0};            ///< mean time to decode a frame
+    double interval_s_{1.0 / 30.0};     ///< by the container; for frames without a time
     double time_s_{0.0};                ///< of the grabbed frame, or one skipped since
     std::int64_t index_{-1};            ///< of the grabbed frame
-    bool grabbed_{false};               ///< a jump left a decoded frame that `grab` gives first
+    bool grabbed_{false};               ///< a jump has decoded a frame that grab() gives first
     bool jumped_{false};                ///< times before the next frame are unknown
     bool counted_{true};                ///< index_ is exact
     bool ended_{false};                 ///< the last grab found no frame

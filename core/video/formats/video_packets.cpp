@@ -1,4 +1,4 @@
-// Opens a file, and reads on and jumps in one of its tracks.
+// Opens a file, and reads and jumps in one of its tracks.
 #include "core/video/formats/video_packets.hpp"
 
 extern "C" {
@@ -22,15 +22,15 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostPackets = 30000;  ///< looked through for the end: a quarter of an hour at 30 Hz
+constexpr int kMostPackets = 30000;  ///< searched for the end: a quarter of an hour at 30 Hz
 
 bool is_video(const AVStream& stream) noexcept {
     return stream.codecpar->codec_type == AVMEDIA_TYPE_VIDEO &&
            (stream.disposition & AV_DISPOSITION_ATTACHED_PIC) == 0;
 }
 
-/// What a file may be: containers and streams that hold all that they show. What names other files
-/// or hosts is left out (playlists as HLS, DASH, IMF and concat, SDP, rows of pictures, scripts).
+/// The allowed formats: containers and streams that hold all their data. Formats that name other
+/// files or hosts are left out (HLS, DASH, IMF and concat, SDP, rows of pictures, scripts).
 constexpr const char* kContainers =
     "matroska,mov,avi,nut,mpegts,mpeg,mpegvideo,flv,asf,ogg,ivf,mxf,yuv4mpegpipe,h264,hevc,av1,obu,"
     "m4v,mjpeg,gif,apng,dv,vc1";
@@ -43,7 +43,7 @@ std::vector<AVStream*> video_streams(const AVFormatContext* context) {
     return found;
 }
 
-/// What it holds is told by pictures of each stream, none of which is beyond the bound.
+/// Probes the streams by decoding some pictures, none beyond the bound.
 bool find_streams(AVFormatContext* context) {
     AvOptions options(context->nb_streams);
     options.set("max_pixels", std::to_string(kMostPixels));
@@ -94,7 +94,7 @@ double VideoPackets::frames_per_s() const noexcept {
 double VideoPackets::length_s() const noexcept {
     if (context_->duration <= 0) return static_cast<double>(stream_->duration) * unit_s();
     const double duration_s = static_cast<double>(context_->duration) / AV_TIME_BASE;
-    // A header counts from 0 of its clock; libav itself from the beginning.
+    // A header's duration counts from 0 of its clock, libav's own from the first picture.
     const bool of_header = context_->duration_estimation_method == AVFMT_DURATION_FROM_STREAM;
     return of_header ? duration_s - static_cast<double>(start()) * unit_s() : duration_s;
 }
@@ -109,9 +109,9 @@ double VideoPackets::start_s() const noexcept {
     // A transport stream begins at any time.
     const bool own_clock = (context_->iformat->flags & AVFMT_TS_DISCONT) != 0;
     if (own_clock) return std::numeric_limits<double>::quiet_NaN();
-    // Where decoding begins at 0 the file counts from there (MP4 without an edit list, or in
-    // fragments; FLV; NUT, which does not say when it decodes): pictures that wait for others are
-    // no later for it.
+    // Where decoding begins at 0, the file's time begins there (MP4 without an edit list, or in
+    // fragments; FLV; NUT, which has no decoding times): the delay until the first picture, which
+    // waits for others to be decoded, does not count.
     const double start_s = static_cast<double>(start()) * unit_s();
     const double waited_for = stream_->codecpar->video_delay;
     const bool begins_at_0 = first_decoded_ == AV_NOPTS_VALUE
@@ -177,7 +177,7 @@ std::int64_t VideoPackets::start() const noexcept {
 
 namespace {
 
-/// Of the packets from here on; negative when there is none, nothing when there are too many.
+/// The end of the following packets; negative without packets, nothing for too many.
 std::optional<double> end_of_packets_s(VideoPackets& packets) {
     double end_s = -1.0;
     int read = 0;
@@ -197,7 +197,7 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, int track
     if (!packets.is_open()) return std::nullopt;
     std::optional<double> end_s;
     if (packets.jump(from_s)) end_s = end_of_packets_s(packets);
-    if (!end_s || *end_s < from_s) {  // or the file cannot jump: look through it
+    if (!end_s || *end_s < from_s) {  // or the file cannot jump: search all of it
         VideoPackets all(file, track);
         if (!all.is_open()) return std::nullopt;
         end_s = end_of_packets_s(all);

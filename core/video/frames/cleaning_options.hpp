@@ -1,4 +1,4 @@
-// What is done to recorded depth before it is drawn and touched.
+// Options of cleaning: the steps applied to recorded depth before it is drawn and touched.
 #pragma once
 
 #include <array>
@@ -8,13 +8,13 @@
 
 namespace dibhr {
 
-/// The steps, in the order in which they are done; each on its own.
+/// The steps of cleaning in their order; each is on or off by itself.
 struct CleaningSteps {
     bool remove_spikes{false};  ///< single pixels that stand out, small patches alone in holes
-    bool fill_holes{false};     ///< where there is no data, take what was there, or is around
+    bool fill_holes{false};     ///< pixels without data take their last level, or one beside
     bool sharpen_silhouettes{false};  ///< ramps between near and far become steps
-    bool colour_edges{false};         ///< of wide ramps: where the colour has its edge
-    bool steady{false};               ///< what does not move keeps its level, frame after frame
+    bool colour_edges{false};         ///< wide ramps become a step at the colour's edge
+    bool steady{false};               ///< filter in time: what does not move keeps its level
     bool smooth_steps{false};         ///< 8-bit terraces, within half a level of the data
     bool smooth_noise{false};         ///< within the noise of the recording
 
@@ -33,13 +33,13 @@ void visit_steps(Steps& steps, const Visit& visit) {
     visit("smooth-noise", steps.smooth_noise);
 }
 
-/// Nothing: levels as they are in the file, no data the farthest.
+/// No step: levels as they are in the file; no data becomes the farthest level.
 inline constexpr CleaningSteps kRawSteps{};
-/// What can be told from one frame without knowing its noise.
+/// The steps that need one frame only, and no measured noise.
 inline constexpr CleaningSteps kGentleSteps{
     .remove_spikes = true, .fill_holes = true, .smooth_steps = true};
-/// All of it but the colour's edges, so that a surface is of its depth alone: for what cameras and
-/// estimators measure.
+/// For the depth of cameras and estimators: all steps but colour_edges, so that the surface depends
+/// on depth only.
 inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .fill_holes = true,
                                             .sharpen_silhouettes = true,
@@ -47,7 +47,7 @@ inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .smooth_steps = true,
                                             .smooth_noise = true};
 
-/// Which steps: those of a name, those that the noise of the clip asks for, or one's own.
+/// Which steps: a named set, the set chosen by the clip's noise (automatic), or the user's own.
 enum class CleaningPreset : std::uint8_t { automatic, raw, gentle, sensor, own };
 
 inline constexpr std::array<Word<CleaningPreset>, 5> kCleaningWords{
@@ -62,35 +62,35 @@ static_assert(has_all_in_order(kCleaningWords, CleaningPreset::own));
     return kCleaningWords;
 }
 
-/// Which steps are asked for.
+/// The requested steps.
 struct CleaningChoice {
     CleaningPreset preset{CleaningPreset::automatic};
-    CleaningSteps own{kGentleSteps};  ///< of CleaningPreset::own
+    CleaningSteps own{kGentleSteps};  ///< used with CleaningPreset::own
 
     bool operator==(const CleaningChoice&) const = default;
 };
 
-/// A ball that touches instead of a point; its lowest point is what is felt and drawn as the proxy.
+/// A ball that touches instead of a point. Its lowest point is the proxy that is felt and drawn.
 struct Fingertip {
-    double radius_px{0.0};  ///< 0: a point; not more than kWidestFinger_px counts
+    double radius_px{0.0};  ///< 0: a point; at most kWidestFinger_px is used
     double relief_px{0.0};  ///< elevation of the highest level, as in SurfaceShape
 
     bool operator==(const Fingertip&) const = default;
 };
 
-/// A thicker finger than anybody's [mm].
+/// Upper limit of the fingertip's radius: thicker than any finger [mm].
 inline constexpr double kThickestFinger_mm = 25.0;
 
-/// What is asked for.
+/// The requested cleaning.
 struct CleaningOptions {
     CleaningPreset preset{CleaningPreset::automatic};
-    CleaningSteps own{kGentleSteps};  ///< of CleaningPreset::own
+    CleaningSteps own{kGentleSteps};  ///< used with CleaningPreset::own
     Fingertip finger{};
 
     bool operator==(const CleaningOptions&) const = default;
 };
 
-/// What was done to a frame.
+/// The cleaning that was applied to a frame.
 struct FrameCleaning {
     CleaningSteps steps{};
     Fingertip finger{};

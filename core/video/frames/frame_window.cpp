@@ -1,4 +1,4 @@
-// The depth at a moment between frames.
+// Finds the two frames around a moment, and the two in-betweens that are felt and drawn.
 #include "core/video/frames/frame_window.hpp"
 
 #include <cstddef>

@@ -1,5 +1,5 @@
-// Frames, the depth at a moment between them, and what the player hands over: a few frames around
-// now and the clock.
+// Frames, the depth at a moment between them, and the window of frames that the player publishes
+// with its clock.
 #pragma once
 
 #include <algorithm>
@@ -25,38 +25,38 @@ namespace dibhr {
 /// One colour + depth frame, cleaned and ready to touch. Immutable once published.
 struct Frame {
     std::shared_ptr<const DepthImage> depth{};
-    /// Of the depth image's pixels, row-major: 1 where no surface was ever seen; null: seen all
-    /// over.
+    /// For each pixel of the depth image, row-major: 1 where no surface was ever seen. Null: every
+    /// pixel was seen.
     std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
     std::shared_ptr<const ColourImage> colour{};
-    bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
-    /// What a fingertip touches, of the same size; null: it is a point, and that is `depth`.
+    bool colour_of_view{false};  ///< from a camera, with the depth's own view as far as known
+    /// The surface that a ball as fingertip touches, of the same size; `depth` is it dilated by the
+    /// ball. Null: the fingertip is a point, which touches `depth`.
     std::shared_ptr<const DepthImage> beneath{};
-    /// What was painted on it; null: nothing.
-    std::shared_ptr<const TouchMaps> maps{};
-    /// Of the drawn image's pixels until the next frame; null: nothing is known of it.
+    std::shared_ptr<const TouchMaps> maps{};  ///< painted on the surface; null: none
+    /// Where each pixel of drawn() moves until the next frame; null: not known.
     std::shared_ptr<const MotionField> motion{};
-    /// What is felt and drawn on the way to the next frame, equally spaced in time: of N of them
-    /// the first is there at 1/(N + 1). Their times and numbers mean nothing. Null: the one frame
-    /// blends into the other.
+    /// The N in-betweens: frames felt and drawn before the next one, equally spaced in time, the
+    /// first at 1/(N + 1). Their time_s, media_s and index are not set. Null: this frame blends
+    /// into the next.
     std::shared_ptr<const std::vector<Frame>> between{};
     double time_s{0.0};        ///< on a playback timeline, which goes on across loops
     double media_s{0.0};       ///< presentation time in the file
     std::int64_t index{0};     ///< number of the frame in the file, from 0
-    std::uint32_t media{0};    ///< number of the media it is of, as given to the player
+    std::uint32_t media{0};    ///< number of its media, as given to the player
     FrameCleaning cleaning{};  ///< how its depth was cleaned
 
-    /// What is drawn: the surface that the fingertip touches, not the one that its lowest point
-    /// feels.
+    /// The drawn surface: the one that the ball touches, not the dilated one that its lowest point
+    /// follows.
     [[nodiscard]] const std::shared_ptr<const DepthImage>& drawn() const noexcept {
         return beneath ? beneath : depth;
     }
 };
 
-/// Containers round times to milliseconds: a time asked for matches a frame's within half of one.
+/// Containers round times to milliseconds: a requested time matches a frame's within half of one.
 inline constexpr double kTimeTolerance_s = 0.0005;
 
-/// Of the items that `source.next()` gives the first that is not before `earliest_s`, or the last.
+/// The first item of `source.next()` that is not before `earliest_s`, else the last item.
 template <typename Source, typename Item>
 std::optional<Item> first_from(double earliest_s, Source& source, double Item::*time_s) {
     std::optional<Item> first = source.next();
@@ -68,7 +68,7 @@ std::optional<Item> first_from(double earliest_s, Source& source, double Item::*
     return first;
 }
 
-/// How slowly and how fast a video or a session plays.
+/// Limits of the speed at which a video or a session plays.
 inline constexpr double kSlowestSpeed = 0.1;
 inline constexpr double kFastestSpeed = 4.0;
 
@@ -91,33 +91,32 @@ struct PlaybackClock {
     }
 };
 
-/// The depth at a moment: the two frames around it, and how far it is from the one to the other.
-/// What is felt and drawn lies between two neighbours of their in-betweens, where there are some.
+/// The depth at a moment: the two frames around it, and how far the moment is from one to the
+/// other. Where the frames have in-betweens, two of those are felt and drawn.
 struct DepthBlend {
     const Frame* from{nullptr};
     const Frame* to{nullptr};
     double blend{0.0};  ///< 0: from, 1: to
 
-    /// Whether the two make one surface to touch and draw: there, of one size and scale, 2 x 2 or
-    /// more.
+    /// Whether the two make one surface to touch and draw: both exist, have the same size and
+    /// scale, and 2 x 2 pixels or more.
     [[nodiscard]] bool makes_surface() const noexcept;
 
-    /// The two that are felt and drawn, one after the other, and the blend between them; without
-    /// in-betweens, and of frames that do not follow each other, these two. Valid as long as they
-    /// are.
+    /// The two neighbours among the frames and their in-betweens that are felt and drawn, and the
+    /// blend between them. Without in-betweens: the two frames. Valid as long as the frames are.
     [[nodiscard]] DepthBlend shown() const noexcept;
 
-    /// The one that the moment is nearer to.
+    /// The frame that is nearer to the moment.
     [[nodiscard]] const Frame& nearest() const noexcept { return blend < 0.5 ? *from : *to; }
 
-    /// Of frames that make one. Valid as long as they are.
+    /// The surface that is felt; makes_surface() must be true. Valid as long as the frames are.
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
         const DepthBlend pair = shown();
         return {*pair.from->depth,           *pair.to->depth, pair.blend, shape, bump,
                 pair.nearest().unseen.get(), from->maps.get()};
     }
-    /// The same of what is drawn.
+    /// The surface that is drawn.
     [[nodiscard]] DepthSurface drawn_surface(const SurfaceShape& shape,
                                              const BumpMap* bump = nullptr) const noexcept {
         const DepthBlend pair = shown();
@@ -130,13 +129,13 @@ struct DepthBlend {
     }
 };
 
-/// The depth at `time_s` in frames in order of their times, held at the first and the last. Null
-/// when there is none.
+/// The depth at `time_s` in frames that are in order of time; before the first frame it is the
+/// first, after the last the last. Null when there are none.
 [[nodiscard]] DepthBlend depth_at(std::span<const Frame> frames, double time_s) noexcept;
 
-/// Travels whole through a triple buffer, so a tick never mixes frames or clocks. Frames are in
-/// order of time and a few ahead, so that the reader crosses from one pair to the next by its own
-/// clock.
+/// Passes through a triple buffer as a whole, so a tick never mixes frames or clocks. Frames are in
+/// order of time, and some lie in the future, so that the reader goes on to the next pair by its
+/// own clock.
 struct FrameWindow {
     static constexpr std::size_t kFrames = 4;
 
@@ -145,7 +144,7 @@ struct FrameWindow {
     PlaybackClock clock{};
     /// Counts seeks, loops, jumps and new files: the force ramps after each.
     std::uint64_t discontinuity{0};
-    /// What is live was moving when its signal was lost: until it comes back there is no force.
+    /// A live source lost its signal while the surface moved: no force until the signal returns.
     bool silent{false};
 
     [[nodiscard]] DepthBlend at(double playback_s) const noexcept {

@@ -1,4 +1,4 @@
-// The kernel's streaming interface (docs.kernel.org: Video for Linux API, Streaming I/O).
+// Reads through the kernel's streaming interface (docs.kernel.org: V4L API, Streaming I/O).
 #include "core/video/live/depth_camera.hpp"
 
 #include <fcntl.h>
@@ -23,7 +23,7 @@ namespace dibhr {
 namespace {
 
 constexpr unsigned kBuffers = 4;
-constexpr int kLook_ms = 50;  ///< how soon it notices that it is over
+constexpr int kLook_ms = 50;  ///< how soon a read notices that it must stop
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
 v4l2_buffer buffer_of(unsigned index) {

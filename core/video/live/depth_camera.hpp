@@ -1,5 +1,5 @@
-// A depth camera of Linux's own (V4L2): its 16-bit form Z16, which libav does not know; inside the
-// room.
+// A depth camera through Linux's V4L2, in its 16-bit format Z16, which libav does not support;
+// inside the room.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,23 @@
 
 namespace dibhr {
 
-/// What is asked of the kernel; a test answers in its place.
+/// The system calls to the kernel; a test replaces them.
 class CameraCalls {
   public:
     virtual ~CameraCalls() = default;
-    // As the system's calls of these names, for one device.
+    // The system calls of these names, for one device.
     virtual int open(const char* device);
     virtual int ioctl(int descriptor, unsigned long request, void* argument);
     virtual void* map(int descriptor, std::size_t bytes, long offset);
     virtual void unmap(void* bytes, std::size_t count);
-    /// Whether a picture is there, or comes in so many milliseconds.
+    /// Whether a picture is ready, or becomes ready in so many milliseconds.
     virtual bool wait(int descriptor, int for_ms);
     virtual void close(int descriptor);
 };
 
 class DepthCamera {
   public:
-    /// Null: there is no such form, as of a colour camera, or it is not to be had now.
+    /// Null: no such format, as of a colour camera, or the device cannot be opened now.
     [[nodiscard]] static std::unique_ptr<DepthCamera> opened(const LiveName& name,
                                                              CameraCalls& calls);
     ~DepthCamera();
@@ -37,9 +37,9 @@ class DepthCamera {
 
     struct Picture {
         cv::Mat levels{};     ///< CV_16UC1
-        double stamp_s{0.0};  ///< by the kernel's monotonic clock; NaN: by another one
+        double stamp_s{0.0};  ///< by the kernel's monotonic clock; NaN: by another clock
     };
-    /// Waits for the newest picture. False: it is `over`, or the camera is gone.
+    /// Waits for the newest picture. False: the function returned true, or the camera is lost.
     [[nodiscard]] bool read(Picture& picture, const std::function<bool()>& over);
     [[nodiscard]] double frames_per_s() const noexcept { return frames_per_s_; }
 
@@ -56,7 +56,7 @@ class DepthCamera {
     void choose_rate(const LiveName& name);
     [[nodiscard]] bool start();
     [[nodiscard]] bool give_back(unsigned index);
-    /// False: none is there.
+    /// False: no picture is ready.
     [[nodiscard]] bool take(Picture& picture);
 
     CameraCalls& calls_;

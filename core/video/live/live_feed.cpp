@@ -1,4 +1,4 @@
-// Joins two connections by their stamps, or by when their pictures come.
+// Joins two connections by their stamps, or by the arrival of their pictures.
 #include "core/video/live/live_feed.hpp"
 
 #include <unistd.h>
@@ -22,14 +22,14 @@ using Clock = LiveFeed::Clock;
 
 constexpr double kLongestInterval_s = 0.5;
 constexpr std::size_t kLongestName = 100;
-constexpr std::chrono::milliseconds kUnheard{1500};  ///< what sent no packet since sends none
+constexpr std::chrono::milliseconds kUnheard{1500};  ///< without a packet for so long, none arrive
 
-/// A source without stamps has those of its pictures' coming.
+/// Pictures without a stamp get the time of their arrival.
 void stamp(LivePicture& picture) {
     if (!std::isfinite(picture.stamp_s)) picture.stamp_s = seconds_of(picture.arrived);
 }
 
-/// One that is not there need not be waited for.
+/// Refuses a camera that is not attached: waiting does not help.
 void require_camera(const LiveName& name, const std::filesystem::path& place) {
     if (name.kind != LiveKind::camera || ::access(name.url.c_str(), R_OK) == 0) return;
     throw InputError(shown(place) + (errno == ENOENT ? " is no camera that is attached: see "
@@ -89,7 +89,7 @@ bool LiveFeed::take(LivePicture picture, Role role) {
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
-        came_.notify_all();  // one may be due, or none will come
+        came_.notify_all();  // a pair may be due, or none will come
         if (!is_of_form(picture, is_depth ? depth_form_ : colour_form_)) return false;
         if (is_depth) heard_depth(now);
         if (!two_) {

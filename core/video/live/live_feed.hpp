@@ -1,4 +1,4 @@
-// What is live, joined: each depth picture with the colour that is nearest in time.
+// A live source: joins each depth picture with the colour picture nearest in time.
 #pragma once
 
 #include <chrono>
@@ -18,24 +18,24 @@
 
 namespace dibhr {
 
-/// How it stands with what is sent.
+/// The state of the connections.
 struct LiveSignal {
     std::chrono::steady_clock::time_point
-        last{};              ///< when a depth picture came; never: at the begin
-    bool other_form{false};  ///< pictures of another size or kind came: it is to be opened again
-    std::string trouble{};   ///< why it cannot be opened again; empty: it is open, or not yet tried
-    bool refused{false};     ///< trouble that nobody need wait for: it would be the same again
-    bool heard{false};       ///< packets come, whether or not they make pictures
+        last{};              ///< arrival of the last depth picture; default: none yet
+    bool other_form{false};  ///< pictures changed size or kind: open the source again
+    std::string trouble{};   ///< why it cannot be opened; empty: open, or not yet tried
+    bool refused{false};     ///< the trouble is permanent: waiting does not help
+    bool heard{false};       ///< packets arrive, with or without whole pictures
 };
 
-/// One or two connections. Keeps the newest pairs, so that any number of readers take what they
-/// have not had yet; every call may come from any thread.
+/// One or two connections. Keeps the newest pair, so that any number of readers can take it. Every
+/// method may be called by any thread.
 class LiveFeed {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// `colour` empty, or the depth's: one connection. `now` is what its waiting is measured by.
-    /// Throws InputError for what names nothing live.
+    /// `colour` empty or equal to `depth`: one connection. `now` is the clock that measures waits.
+    /// Throws InputError for a name that is not of a live source.
     LiveFeed(std::filesystem::path colour, std::filesystem::path depth, Now now = Clock::now);
     ~LiveFeed();
     LiveFeed(const LiveFeed&) = delete;
@@ -46,17 +46,17 @@ class LiveFeed {
     [[nodiscard]] bool is_of(const std::filesystem::path& colour,
                              const std::filesystem::path& depth) const;
 
-    /// Of one connection: whether its colours, and its levels, are looked at.
+    /// Of the depth's connection: whether it makes colour pictures, and levels.
     void want(bool colour, bool levels);
 
-    /// The newest pair after that number; waits until then. Null: none came, or none will.
+    /// The newest pair after that number; waits until `latest`. Null: none arrived, or none will.
     [[nodiscard]] std::shared_ptr<const LivePair> after(std::uint64_t number,
                                                         Clock::time_point latest);
-    /// When a picture that waits for its colour goes without; nothing: none waits.
+    /// When the waiting depth picture stops waiting for its colour; nothing: none waits.
     [[nodiscard]] std::optional<Clock::time_point> due() const;
     [[nodiscard]] LiveSignal signal() const;
-    /// Called with every pair, on any thread, by nobody any more once another one is set; empty:
-    /// none.
+    /// A function to be called for every pair, on any thread. When this returns, the one set before
+    /// is no longer called. Empty: none.
     void tell(std::function<void()> news);
 
   private:
@@ -64,7 +64,7 @@ class LiveFeed {
     bool take(LivePicture picture, Role role);
     void heard_depth(Clock::time_point now);
     void take_refusal();
-    /// What pictures of one connection have in common.
+    /// What all pictures of one connection must have in common.
     struct Form {
         cv::Size size{};
         int bits{8};
@@ -83,7 +83,7 @@ class LiveFeed {
     mutable std::mutex mutex_{};
     std::condition_variable came_{};
     LiveJoin join_{};
-    double interval_s_{1.0 / 30.0};  ///< between depth pictures, as of late
+    double interval_s_{1.0 / 30.0};  ///< mean time between depth pictures
     std::shared_ptr<const LivePair> newest_{};
     std::optional<Form> depth_form_{}, colour_form_{};  ///< of the first pictures
     LiveSignal signal_{};
@@ -91,7 +91,7 @@ class LiveFeed {
     std::mutex telling_{};
     std::function<void()> news_{};
 
-    std::unique_ptr<LiveStream> depth_stream_{}, colour_stream_{};  // last: they use all of it
+    std::unique_ptr<LiveStream> depth_stream_{}, colour_stream_{};  // last: they use all
 };
 
 }  // namespace dibhr

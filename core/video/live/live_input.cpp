@@ -1,4 +1,4 @@
-// libav, told to wait for nothing but the next picture.
+// Opens and reads a stream through libav, set up to wait for nothing but the next picture.
 #include "core/video/live/live_input.hpp"
 
 extern "C" {
@@ -33,18 +33,18 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::chrono::milliseconds kToOpen{4000};  ///< so long it may be silent at the begin
-constexpr std::chrono::milliseconds kSilent{1500};  ///< and so long later,
-/// or, where the sender would notice that nobody listens any more, so long: it may only pause.
+constexpr std::chrono::milliseconds kToOpen{4000};  ///< for the first packets
+constexpr std::chrono::milliseconds kSilent{1500};  ///< for each later packet;
+/// of a connection that its sender keeps, where silence may be a pause:
 constexpr std::chrono::minutes kSilentConnected{1};
 constexpr std::chrono::milliseconds kBetweenLooks{2};
-constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it is to end
-constexpr std::chrono::seconds kEarly{1};      ///< what comes so much too early is no camera's
-constexpr std::chrono::seconds kOtherTime{5};  ///< a clock that is so far ahead was set
+constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it must stop
+constexpr std::chrono::seconds kEarly{1};      ///< a camera's picture never comes so early
+constexpr std::chrono::seconds kOtherTime{5};  ///< a clock so far ahead was set
 constexpr int kPipeBytes = 1 << 16;
-constexpr std::int64_t kToTell_us = 500'000;  ///< of the stream, to tell what it holds
+constexpr std::int64_t kToTell_us = 500'000;  ///< of the stream, read to find out what it holds
 constexpr std::int64_t kToTell_bytes = 5'000'000;
-constexpr int kReordered_us = 50'000;  ///< so long a packet that is missing is waited for (RTP)
+constexpr int kReordered_us = 50'000;  ///< wait for a missing packet (RTP)
 constexpr int kMostThreads = 4;
 
 void set_up_devices() {
@@ -54,14 +54,14 @@ void set_up_devices() {
     });
 }
 
-/// It is no video. A pipe has what it has, and a server gives the same page again; what is sent to
-/// everybody may be met at a better moment.
+/// Refuses data that is no video. A pipe or a server would give the same again; a broadcast may be
+/// readable at the next try.
 [[noreturn]] void refuse_content(const LiveName& name, const std::string& what) {
     if (name.kind == LiveKind::pipe || name.url.starts_with("http")) throw LiveRefusal(what);
     throw InputError(what);
 }
 
-/// One channel, whole numbers.
+/// Makes one channel of whole numbers.
 cv::Mat whole_levels(cv::Mat levels) {
     if (levels.channels() > 1) levels = grey_of(levels);
     if (levels.depth() != CV_32F) return levels;
@@ -72,7 +72,7 @@ cv::Mat whole_levels(cv::Mat levels) {
 
 }  // namespace
 
-/// Bytes of a pipe, which nobody may have opened at its other end.
+/// Reads bytes of a pipe, which may have no writer yet.
 struct LiveInput::Pipe {
     explicit Pipe(const std::string& file, const std::string& shown)
         : descriptor(file.empty() ? ::dup(STDIN_FILENO)
@@ -94,7 +94,7 @@ struct LiveInput::Pipe {
     Pipe& operator=(const Pipe&) = delete;
 
     int descriptor;
-    bool has_writer;  ///< from the begin on
+    bool has_writer;  ///< from the start
     bool began{false};
 };
 
@@ -104,7 +104,7 @@ int LiveInput::is_over(void* input) noexcept {
                                                                                               : 0;
 }
 
-/// A pipe without a writer is not at its end before something has come.
+/// A pipe without a writer is not at its end before the first bytes.
 int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
     auto& self = *static_cast<LiveInput*>(input);
     Pipe& pipe = *self.pipe_;
@@ -125,7 +125,7 @@ int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
     return AVERROR_EXIT;
 }
 
-/// Of a pipe that something came out of nothing may be lost, and its end is told by the system.
+/// A pipe that has given bytes never times out: none may be lost, and the system reports its end.
 void LiveInput::await(std::chrono::milliseconds patience) {
     const bool began = pipe_ && pipe_->began;
     latest_ = began ? Clock::time_point::max() : Clock::now() + patience;
@@ -173,7 +173,7 @@ void LiveInput::refuse(const LiveName& name, const std::string& shown, int resul
 
 LiveInput::~LiveInput() = default;
 
-/// The depth of a camera has 16 bits where it has any.
+/// `as_depth`: requests 16-bit grey of a camera.
 int LiveInput::open(const LiveName& name, bool as_depth) {
     const AVInputFormat* const format =
         name.format.empty() ? nullptr : av_find_input_format(name.format.c_str());
@@ -201,9 +201,9 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
         avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format, options.data());
     if (result < 0) return is_over(this) != 0 ? AVERROR_EXIT : result;  // the context is freed
     context_.reset(context);
-    // The packets that tell what it holds are pictures, too, and all others may refer to the first.
+    // The packets read to probe the stream are pictures, too; all others may refer to the first.
     if (kind_ == LiveKind::network || pipe_) context->flags &= ~AVFMT_FLAG_NOBUFFER;
-    // A packet of a transport stream is a picture: nothing waits for the begin of the next one.
+    // A packet of a transport stream is a picture: do not wait for the begin of the next one.
     if (std::string_view(context->iformat->name) == "mpegts") context->flags |= AVFMT_FLAG_NOPARSE;
     do {
         result = avformat_find_stream_info(context, nullptr);
@@ -211,7 +211,7 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     return is_over(this) != 0 ? AVERROR_EXIT : result;
 }
 
-/// Threads that share a picture, none that take one each.
+/// Decodes with threads that share a picture; with a picture each they would add delay.
 void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
     const AVCodec* codec = nullptr;
     const int track = av_find_best_stream(context_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
@@ -237,7 +237,7 @@ void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
         if (context_->streams[k] != stream_) context_->streams[k]->discard = AVDISCARD_ALL;
 }
 
-/// False: nothing more comes.
+/// False: the stream has ended, or timed out.
 bool LiveInput::send_next() {
     await(silent_);
     for (;;) {
@@ -257,7 +257,7 @@ bool LiveInput::send_next() {
     }
 }
 
-/// What follows damage refers to it, up to a picture that refers to none.
+/// Pictures after damage refer to it, up to one that refers to no other.
 bool LiveInput::is_whole() {
     const AVFrame& frame = *frame_;
     const bool hurt = (frame.flags & AV_FRAME_FLAG_CORRUPT) != 0 || frame.decode_error_flags != 0;
@@ -265,8 +265,8 @@ bool LiveInput::is_whole() {
     return !damaged_;
 }
 
-/// Made pictures come as quickly as they are asked for, and so does a file in a pipe or on a
-/// server: in their own time, as everything else. What comes by itself is never waited for.
+/// Generated pictures, and a file in a pipe or on a server, arrive as fast as they are read: these
+/// wait for the time of their stamp. Pictures of a camera never wait.
 void LiveInput::keep_time(double stamp_s) {
     if (!std::isfinite(stamp_s)) return;
     const auto early = kind_ == LiveKind::made ? Clock::duration(0) : kEarly;
@@ -287,7 +287,7 @@ void LiveInput::keep_time(double stamp_s) {
     arrived_ = Clock::now();
 }
 
-/// False: it cannot be converted.
+/// False: the picture cannot be converted.
 bool LiveInput::take(LivePicture& picture) {
     const AVFrame& frame = *frame_;
     const std::int64_t stamp = frame.best_effort_timestamp;
@@ -312,7 +312,7 @@ bool LiveInput::take(LivePicture& picture) {
     return !picture.colour.empty() || !picture.levels.empty();
 }
 
-/// What is seen of it, for whoever looks at it as a picture, is its higher half.
+/// As a colour picture it shows the higher byte of each level.
 bool LiveInput::read_camera(LivePicture& picture) {
     await(kSilent);
     DepthCamera::Picture taken;

@@ -1,4 +1,4 @@
-// One connection to something live, through libav: its pictures as they come; inside the room.
+// One connection to a live source, through libav: its pictures as they arrive; inside the room.
 #pragma once
 
 #include <atomic>
@@ -17,49 +17,49 @@ struct AVStream;
 
 namespace dibhr {
 
-/// A picture as it came. Shared with nobody who writes.
+/// A picture as it arrived. Shared; never written to.
 struct LivePicture {
     using Clock = std::chrono::steady_clock;
 
-    cv::Mat colour{};          ///< 8-bit blue, green, red; empty: not wanted
-    cv::Mat levels{};          ///< one channel of 8 or 16 bits; empty: not wanted
+    cv::Mat colour{};          ///< 8-bit blue, green, red; empty: not requested
+    cv::Mat levels{};          ///< one channel of 8 or 16 bits; empty: not requested
     int bits{8};               ///< of a level
     bool grey{false};          ///< coded without colours
-    double stamp_s{0.0};       ///< by the clock of its source; NaN: it has none
-    double frames_per_s{0.0};  ///< as the source says; 0: it does not
+    double stamp_s{0.0};       ///< by the clock of its source; NaN: none
+    double frames_per_s{0.0};  ///< rate that the source states; 0: none
     std::string codec{};
     Clock::time_point arrived{};
 };
 
-/// What of a picture is made; may change while it runs.
+/// What is made of each picture, and the stop flag; may change while a connection runs.
 struct LiveWants {
     std::atomic<bool> colour{true};
     std::atomic<bool> levels{true};
-    std::atomic<bool> leaving{false};  ///< whatever waits ends
+    std::atomic<bool> leaving{false};  ///< every wait ends
 };
 
-/// What nobody need wait for: it would be the same another time.
+/// An error that another try would meet again.
 class LiveRefusal : public InputError {
   public:
     using InputError::InputError;
 };
 
-/// Keeps nothing back that has come: no frames of a decoder's threads, no buffer of a demuxer's.
-/// Pictures that hold damage are left out up to the next whole one.
+/// Adds no delay: no decoder threads that hold frames, no buffer in the demuxer. Damaged pictures
+/// are dropped, up to the next whole one.
 class LiveInput {
   public:
     using Clock = LivePicture::Clock;
 
     /// Waits for the first packets. Throws InputError: what, which place, what to do next; also
-    /// where nothing comes for a while; LiveRefusal where it never will. `heard`: when the last
-    /// packet came, whether or not it makes a picture. Both outlive it.
+    /// when nothing arrives for a while; LiveRefusal where nothing ever will. The last argument
+    /// gets the arrival time of each packet. It and `wants` must outlive this object.
     LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
               std::atomic<Clock::time_point>& heard);
     ~LiveInput();
     LiveInput(const LiveInput&) = delete;
     LiveInput& operator=(const LiveInput&) = delete;
 
-    /// Waits for the next picture. False: it has ended, nothing came for a while, or it leaves.
+    /// Waits for the next picture. False: end of the stream, timeout, or stop.
     [[nodiscard]] bool read(LivePicture& picture);
 
   private:
@@ -80,9 +80,9 @@ class LiveInput {
     const LiveWants& wants_;
     std::atomic<Clock::time_point>& heard_;
     LiveKind kind_;
-    std::chrono::milliseconds silent_;  // so long the next packet is waited for
+    std::chrono::milliseconds silent_;  // for the next packet
     CameraCalls calls_{};
-    std::unique_ptr<DepthCamera> camera_{};  // then there is nothing of libav's
+    std::unique_ptr<DepthCamera> camera_{};  // then libav is not used
     std::unique_ptr<Pipe> pipe_{};
     AvOwned<AVIOContext> bytes_{};
     AvOwned<AVFormatContext> context_{};
@@ -90,10 +90,10 @@ class LiveInput {
     AvOwned<AVFrame> frame_{new_frame()};
     AvOwned<AVPacket> packet_{new_packet()};
     FramePictures pictures_{};
-    AVStream* stream_{nullptr};   // the context's
-    Clock::time_point latest_{};  // then nothing has come for too long
+    AVStream* stream_{nullptr};   // owned by the context
+    Clock::time_point latest_{};  // when the present wait times out
     Clock::time_point arrived_{};
-    Clock::time_point begin_{};  // when the stamp first_s_ was due
+    Clock::time_point begin_{};  // when the picture with stamp first_s_ was due
     double first_s_{0.0};
     bool damaged_{false};
 };

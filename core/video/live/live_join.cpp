@@ -1,4 +1,4 @@
-// Joins by stamps; of clocks with another zero by how much later than their stamps pictures come.
+// Joins by stamps; of clocks with another zero, by the smallest delay from stamp to arrival.
 #include "core/video/live/live_join.hpp"
 
 #include <algorithm>
@@ -12,10 +12,10 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kStamps = 100;  ///< about three seconds
-constexpr double kOtherTime_s = 1.0;  ///< a clock that is so far off was set
-/// Clocks that agree so well are one clock: what is between them is the way, not the time.
+constexpr double kOtherTime_s = 1.0;  ///< a clock so far off was set
+/// Clocks that agree so well count as one: the difference is the network's delay.
 constexpr double kOneClock_s = 0.25;
-/// A picture that comes so much quicker than all before is one of those that piled up.
+/// A picture with so much less delay than all before belongs to a backlog.
 constexpr double kPiledUp_s = 0.005;
 constexpr std::chrono::seconds kLongestPile{2};
 constexpr std::size_t kMostColours = 8;
@@ -48,7 +48,7 @@ void LiveJoin::add_colour(LivePicture picture) {
     if (colours_.size() > kMostColours) colours_.pop_front();
 }
 
-/// When a colour picture was taken, by the depth's clock.
+/// The time of a colour picture by the clock of the depth.
 double LiveJoin::colour_s(const LivePicture& picture) const {
     const double apart_s = colour_line_.later_s() - depth_line_.later_s();
     return picture.stamp_s + (std::fabs(apart_s) < kOneClock_s ? 0.0 : apart_s);
@@ -62,15 +62,15 @@ const LivePicture* LiveJoin::nearest_colour(double depth_s) const {
     return nearest == colours_.end() ? nullptr : &*nearest;
 }
 
-/// Whether no nearer colour is to be waited for.
+/// Whether the depth picture need not wait for a nearer colour.
 bool LiveJoin::may_go(const LivePicture& depth, Time now) const {
     const double half_s = 0.5 * interval_s_;
     const bool waited = now - depth.arrived >= std::chrono::duration<double>(half_s);
     return waited || (!colours_.empty() && colour_s(colours_.back()) >= depth.stamp_s - half_s);
 }
 
-/// While a connection is opened its pictures pile up. When those come tells nothing of the way, and
-/// the colour of the first ones may be gone.
+/// While a connection opens, its pictures form a backlog. Their arrival says nothing about the
+/// delay, and colour of the first ones may be missing.
 bool LiveJoin::begins(Time now) {
     begun_ = begun_ || now - *first_depth_ > kLongestPile ||
              !(depth_line_.catches_up() || colour_line_.catches_up());

@@ -1,5 +1,5 @@
-// Which depth and which colour picture of two connections belong together: by their stamps, or by
-// when they come.
+// Decides which depth and colour pictures of two connections belong together: by their stamps, or
+// by their arrival.
 #pragma once
 
 #include <chrono>
@@ -14,32 +14,32 @@
 
 namespace dibhr {
 
-/// Of one moment. Where both are of one picture the colour is in the depth's.
+/// Depth and colour of one moment. Of one connection both members are the same picture.
 struct LivePair {
     LivePicture depth{};
     LivePicture colour{};
     std::uint64_t number{0};  ///< one more than that of the pair before it
 };
 
-/// What a live frame is made of, to be kept. Shared with nobody who writes.
+/// The pictures that a live frame was made of, for recording. Shared; never written to.
 struct TakenPictures {
-    cv::Mat levels{};  ///< of depth, before their meaning is looked up
+    cv::Mat levels{};  ///< of depth, before their meaning is applied
     int bits{8};       ///< of a level
-    cv::Mat colour{};  ///< 8-bit blue, green, red, as it came; empty: there is none
+    cv::Mat colour{};  ///< 8-bit blue, green, red, unchanged; empty: none
     std::shared_ptr<const LivePair> pair{};
 };
 
-/// How much later than its stamp a source's picture comes when it comes quickly: by that, stamps of
-/// clocks with another zero are compared. Plain data.
+/// The offset from a source's stamps to our clock: the smallest delay from stamp to arrival. With
+/// it, stamps of clocks with another zero are compared. Plain data.
 class StampLine {
   public:
-    /// A picture's, in order. Nothing is known any more where the clock was set to another time.
+    /// Adds a picture, in order. Starts again where the source's clock was set to another time.
     void add(double stamp_s, double arrived_s);
-    /// On our clock, of a stamp; 0 before anything was added.
+    /// To be added to a stamp; 0 before the first picture.
     [[nodiscard]] double later_s() const;
     [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
-    /// Whether the newest picture came quicker than all before, as those do that piled up. True of
-    /// the first one.
+    /// Whether the newest picture had a smaller delay than all before, as pictures of a backlog
+    /// have. True of the first picture.
     [[nodiscard]] bool catches_up() const noexcept { return catches_up_; }
 
   private:
@@ -47,22 +47,21 @@ class StampLine {
     bool catches_up_{true};
 };
 
-/// Every depth picture goes with the colour that is nearest in time, and waits for it half the time
-/// from picture to picture at most. Plain data.
+/// Joins each depth picture with the colour nearest in time, for which it waits at most half an
+/// interval. Plain data.
 class LiveJoin {
   public:
     using Time = LivePicture::Clock::time_point;
 
     void add_depth(LivePicture picture);
     void add_colour(LivePicture picture);
-    /// The time from depth picture to depth picture, as of late [s].
+    /// The mean interval of depth pictures [s].
     void set_interval(double interval_s) noexcept { interval_s_ = interval_s; }
 
-    /// Of the depth pictures that need not wait any more the newest, with its colour; nothing
-    /// before the first colour, and nothing while the pictures that piled up are worked off: two
-    /// seconds at most.
+    /// The newest depth picture that need not wait any longer, with its colour. Nothing before the
+    /// first colour, nor while a backlog is read: at most two seconds.
     [[nodiscard]] std::optional<LivePair> take(Time now);
-    /// When one that waits goes without; nothing: none waits.
+    /// When the oldest waiting depth picture stops waiting; nothing: none waits.
     [[nodiscard]] std::optional<Time> due() const;
 
   private:
@@ -74,8 +73,8 @@ class LiveJoin {
     std::deque<LivePicture> waiting_{};  ///< depth, for its colour
     std::deque<LivePicture> colours_{};  ///< the newest
     StampLine depth_line_{}, colour_line_{};
-    std::optional<Time> first_depth_{};  ///< when it came
-    bool begun_{false};                  ///< no more is piled up
+    std::optional<Time> first_depth_{};  ///< its arrival
+    bool begun_{false};                  ///< the backlog is read
     double interval_s_{1.0 / 30.0};
 };
 

@@ -1,4 +1,4 @@
-// What stands before the colon.
+// Splits names of live sources into kind, address and options.
 #include "core/video/live/live_name.hpp"
 
 #include <netdb.h>
@@ -18,12 +18,12 @@ namespace {
 
 struct Scheme {
     std::string_view begin;
-    std::string_view allowed;  ///< and what it runs on
-    bool needs_port;           ///< as it has none of its own
-    bool connected;            ///< its sender notices when nobody listens
+    std::string_view allowed;  ///< with the protocols below it
+    bool needs_port;           ///< it has no standard port
+    bool connected;            ///< the sender notices that the receiver has left
 };
 
-/// Nothing that leads to a file of this machine, whatever a playlist says.
+/// No protocol opens a file of this machine, whatever a playlist names.
 constexpr std::array<Scheme, 8> kNetwork{
     {{"rtsp://", "rtsp,rtp,udp,tcp", false, true},
      {"rtsps://", "rtsp,rtsps,rtp,srtp,udp,tcp,tls,crypto", false, true},
@@ -50,10 +50,10 @@ bool is_camera_device(const std::filesystem::path& place) {
     return std::filesystem::is_character_file(place, gone);
 }
 
-/// As the name of a network's has them.
+/// Of the name of a network stream.
 struct HostAndPort {
     std::string host{};
-    std::string port{};  ///< empty: there is none
+    std::string port{};  ///< empty: none
 };
 
 HostAndPort host_and_port(std::string_view name) {
@@ -82,7 +82,7 @@ void require_port(const std::string& name, const Scheme& scheme) {
                      ": name it as in " + std::string(scheme.begin) + "127.0.0.1:5000");
 }
 
-/// "size=640x480&rate=30" in libav's words.
+/// "size=640x480&rate=30" as libav's options.
 std::map<std::string, std::string> camera_options(std::string_view asked, const std::string& name) {
     std::map<std::string, std::string> options;
     while (!asked.empty()) {

@@ -1,4 +1,4 @@
-// Names of what is live: a camera, a stream from the network, a pipe, libav's made pictures.
+// Names of live sources: a camera, a network stream, a pipe, libav's generated pictures.
 #pragma once
 
 #include <filesystem>
@@ -15,30 +15,30 @@ enum class LiveKind {
     made      ///< lavfi:SPEC
 };
 
-/// How libav opens it.
+/// How libav opens a live source.
 struct LiveName {
     LiveKind kind{LiveKind::network};
-    std::string url{};     ///< what is given to libav; of a pipe the file, empty for standard input
-    std::string format{};  ///< libav's input device; empty: it looks
-    std::string allowed{};                         ///< protocols, no others may be followed
+    std::string url{};     ///< libav's URL; of a pipe the file, empty for standard input
+    std::string format{};  ///< libav's input device; empty: libav detects it
+    std::string allowed{};                         ///< the only protocols that libav may use
     std::map<std::string, std::string> options{};  ///< of the input
 };
 
-/// Whether a place is named so. Looks at no network and no disk, but whether /dev/videoN is a
-/// device.
+/// Whether a name is of a live source. Uses no network and no disk, except to check whether
+/// /dev/videoN is a device.
 [[nodiscard]] bool is_live(const std::filesystem::path& place);
 
 /// The name as others may read it: without a user and a password before the host.
 [[nodiscard]] std::string public_name(const std::filesystem::path& place);
 
-/// Of a camera `?size=640x480&rate=30` may follow. Throws InputError for what names nothing, and
+/// A camera's name may end with `?size=640x480&rate=30`. Throws InputError for any other name, and
 /// for a stream without the port that it needs.
 [[nodiscard]] LiveName live_name(const std::filesystem::path& place);
 
-/// Whether its sender notices when nobody listens any more: a silence there may be a pause.
+/// Whether the protocol tells the sender that the receiver has left: silence may then be a pause.
 [[nodiscard]] bool keeps_connection(const LiveName& name);
 
-/// Whether the host of a network's name is found; asks the network, and waits for it.
+/// Whether the host of a stream's name exists; asks the name server and waits for it.
 [[nodiscard]] bool has_known_host(const LiveName& name);
 
 }  // namespace dibhr

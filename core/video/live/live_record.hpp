@@ -1,4 +1,4 @@
-// What is kept of live frames while they are recorded.
+// What a recording of a live source keeps of each frame.
 #pragma once
 
 #include <cstdint>
@@ -15,23 +15,23 @@ struct TakenPictures;
 
 struct LiveRecord {
     std::shared_ptr<const TakenPictures> pictures{};
-    std::int64_t media_ms{0};  ///< its presentation time, from the recording's first
-    DepthNoise noise{};        ///< by which its depth was cleaned
+    std::int64_t media_ms{0};  ///< presentation time, from the first recorded frame
+    DepthNoise noise{};        ///< with which its depth was cleaned
 };
 
-/// Levels of depth as they came, row-major, of `bytes` each, the machine's order.
+/// Unchanged levels of depth, row-major, `bytes` each, in the machine's byte order.
 struct LiveLevels {
     int columns{0}, rows{0};
     int bits{8};   ///< of a level
-    int bytes{0};  ///< 1 or 2; 0: they are no whole numbers, and cannot be kept
+    int bytes{0};  ///< 1 or 2; 0: not whole numbers, cannot be recorded
     std::vector<std::uint8_t> levels{};
 };
 
 [[nodiscard]] LiveLevels levels_of(const LiveRecord& record);
-/// As it came; of no size where there is none.
+/// The unchanged colour; of no size where there is none.
 [[nodiscard]] ColourImage colour_of(const LiveRecord& record);
 
-/// Gets every frame that is shown, before it is. Waits for nothing.
+/// Gets every frame before it is shown. Never waits.
 using LiveSink = std::function<void(const LiveRecord&)>;
 
 }  // namespace dibhr

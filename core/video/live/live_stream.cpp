@@ -1,4 +1,4 @@
-// The thread that reads, and its patience with what does not answer.
+// The thread that reads, and tries again when a connection fails.
 #include "core/video/live/live_stream.hpp"
 
 #include <pthread.h>
@@ -13,7 +13,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFirstRest{100};  ///< before it is tried again; then longer
+constexpr std::chrono::milliseconds kFirstRest{100};  ///< before the next try; then longer
 constexpr std::chrono::milliseconds kLongestRest{1000};
 
 }  // namespace
@@ -59,7 +59,7 @@ void LiveStream::tell(std::string trouble) {
     trouble_ = std::move(trouble);
 }
 
-/// False: it is to end, as standard input is when it has ended.
+/// Runs one connection. False: the thread must end, as at the end of standard input.
 bool LiveStream::connect() {
     const bool once = name_.kind == LiveKind::pipe && name_.url.empty();
     try {

@@ -1,4 +1,4 @@
-// Something live, read on a thread of its own, and opened again whenever it breaks off; inside the
+// Reads a live source on its own thread, and opens it again whenever it breaks off; inside the
 // room.
 #pragma once
 
@@ -15,21 +15,21 @@ namespace dibhr {
 
 class LiveStream {
   public:
-    /// Gets every picture, on the stream's thread. False: no more are wanted, and the connection is
-    /// given up.
+    /// Gets every picture, on the stream's thread. False: the stream closes the connection and
+    /// ends.
     using Take = std::function<bool(LivePicture)>;
 
-    /// `refused` is called there, too, when it is said that no picture will come.
+    /// The last function is called on that thread at an error that waiting does not mend.
     LiveStream(LiveName name, std::string shown, Take take, std::function<void()> refused);
-    ~LiveStream();  ///< ends whatever it waits for
+    ~LiveStream();  ///< ends every wait
     LiveStream(const LiveStream&) = delete;
     LiveStream& operator=(const LiveStream&) = delete;
 
-    /// What of the pictures is made.
+    /// What is made of each picture.
     void want(bool colour, bool levels);
-    /// Why the last connection could not be made; empty: it could.
+    /// Why the last connection failed; empty: it did not.
     [[nodiscard]] std::string trouble() const;
-    /// When the last packet came, whether or not it made a picture; never: at the begin.
+    /// Arrival of the last packet, with or without a whole picture; default: none yet.
     [[nodiscard]] LiveInput::Clock::time_point heard() const { return heard_; }
 
   private:
@@ -44,7 +44,7 @@ class LiveStream {
     const std::function<void()> refused_;
     LiveWants wants_{};
     std::atomic<LiveInput::Clock::time_point> heard_{};
-    bool began_{false};  // the thread's: pictures came of this connection
+    bool began_{false};  // the thread's: this connection gave pictures
 
     mutable std::mutex mutex_{};
     std::condition_variable leave_{};

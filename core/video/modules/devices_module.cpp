@@ -1,4 +1,4 @@
-// The module of libav's devices: cameras, and libav's own made pictures.
+// The module of libav's devices: cameras, and pictures that libav generates (lavfi).
 extern "C" {
 #include <libavdevice/avdevice.h>
 

@@ -13,7 +13,7 @@ namespace dibhr {
 
 namespace fs = std::filesystem;
 
-/// Beside it where it was built, in a folder of its own where it is installed.
+/// Beside the program in a build folder; in lib/dibhr when installed.
 fs::path part_of_program(const std::string& file) {
     std::error_code ignored;
     const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();

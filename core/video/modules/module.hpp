@@ -1,5 +1,5 @@
-// What is loaded when it is first needed, as the libraries below it bring two hundred others:
-// linked into the program they would triple the time that each command takes to start.
+// Loads modules when they are first needed. Their libraries bring two hundred others: linked into
+// the program these would triple the time that each command takes to start.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace dibhr {
 
-/// A file that belongs to the program: it lies beside it, or in ../lib/dibhr.
+/// The path of a file that belongs to the program: beside the program, or in ../lib/dibhr.
 [[nodiscard]] std::filesystem::path part_of_program(const std::string& file);
 
 /// The address of `symbol` in the module libNAME.so, a part of the program. The module stays
-/// loaded. Throws InputError if it is missing, or what it needs.
+/// loaded. Throws InputError if it, or a library that it needs, is missing.
 [[nodiscard]] void* symbol_in_module(const char* name, const char* symbol);
 
 }  // namespace dibhr

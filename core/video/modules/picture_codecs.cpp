@@ -1,4 +1,4 @@
-// The codecs as their module offers them.
+// Loads the picture codecs from their module.
 #include "core/video/modules/picture_codecs.hpp"
 
 #include "core/video/modules/module.hpp"

@@ -1,4 +1,4 @@
-// Pictures in files and in memory, by OpenCV's codecs.
+// Reads and writes pictures in files and memory, by OpenCV's codecs.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -7,7 +7,7 @@
 
 namespace dibhr {
 
-/// Functions of OpenCV's imgcodecs: the meaning of arguments, results and errors is theirs.
+/// Functions of OpenCV's imgcodecs, with its arguments, results and errors.
 struct PictureCodecs {
     bool (*knows)(const std::string& file);
     cv::Mat (*read)(const std::string& file, int flags);
@@ -17,7 +17,7 @@ struct PictureCodecs {
     bool (*write)(const std::string& file, const cv::Mat& picture, const std::vector<int>& options);
 };
 
-/// Loads them when they are first asked for. Throws InputError if they are not there.
+/// Loads the codecs at the first call. Throws InputError if their module is missing.
 [[nodiscard]] const PictureCodecs& picture_codecs();
 
 /// 1, 3 or 4 channels (in OpenCV's order) of 8 or 16 bits, as a PNG file's bytes.

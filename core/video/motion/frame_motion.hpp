@@ -1,4 +1,4 @@
-// Tells a frame how it becomes the next one.
+// Connects a frame to the next one: its motion, and the in-betweens.
 #pragma once
 
 #include "core/video/frames/frame_window.hpp"
@@ -11,8 +11,8 @@ namespace dibhr {
 /// The same two frames give the same bits. One thread at a time.
 class FrameMotion {
   public:
-    /// Sets the motion of `from` and what lies between it and `to`, the next one; what is not
-    /// wanted, or cannot be told of frames that make no surface, is null.
+    /// Sets the motion of `from` and its in-betweens before `to`, the next frame. Null where they
+    /// are not wanted, or where the two frames make no surface.
     void connect(Frame& from, const Frame& to, const MotionWanted& wanted) {
         from.motion.reset();
         from.between.reset();

@@ -1,4 +1,4 @@
-// Depth and colour moved along the motion.
+// Moves depth and colour along the motion.
 #include "core/video/motion/in_betweens.hpp"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace dibhr {
 namespace {
 
 constexpr float kOfOneSurface = 12.0F / 255.0F;  // of the highest level
-constexpr float kHalf = 0.5F;                    // a level: what is cut off is rounded then
+constexpr float kHalf = 0.5F;                    // added to round before a fraction is cut off
 
 DIBHR_VECTOR_CLONES void blend_levels(const float* __restrict from, const float* __restrict to,
                                       float share, float* __restrict between, std::size_t count) {
@@ -35,24 +35,24 @@ DIBHR_VECTOR_CLONES void blend_bytes(const std::uint8_t* __restrict from,
             static_cast<std::uint8_t>((from[k] * (256 - share) + to[k] * share + 128) >> 8);
 }
 
-/// So many pixels at once.
+/// Pixels that are computed together.
 constexpr std::size_t kAtOnce = 64;
 using Floats = std::array<float, kAtOnce>;
 using Places = std::array<std::int32_t, kAtOnce>;
 
-/// Pixels of one row that are on their way.
+/// Moving pixels of one row of an in-between.
 struct Goers {
     std::size_t count{0};
     Places column{};
     Floats right{}, down{};  ///< their ways
-    Floats level{};          ///< of what is there, in one of the frames
-    Floats first{};          ///< how much the first frame counts, in [0, 1]
+    Floats level{};          ///< in one of the frames
+    Floats first{};          ///< weight of the first frame, in [0, 1]
 };
 
-/// Where they are in one of the frames: four pixels around a place, of which only those of one
-/// surface count.
+/// Where the pixels are in one of the frames: four pixels around each place, of which only those of
+/// one surface count.
 struct Taps {
-    Places at{};  ///< the one up left; the others are right of it and below
+    Places at{};  ///< the upper left one; the others are right of it and below
     std::array<Floats, 4> share{};
     Floats value{};  ///< the depth there
 };
@@ -81,7 +81,7 @@ DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, 
         const float b = levels[at + 1];
         const float c = levels[at + columns];
         const float d = levels[at + columns + 1];
-        // Of the surface that is nearest in depth to what goes.
+        // The surface that is nearest in depth to the moving pixel.
         const float level = goers.level[k];
         const float from_a = std::fabs(a - level);
         const float from_b = std::fabs(b - level);
@@ -98,7 +98,7 @@ DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, 
         const float of_b = std::fabs(b - nearest) > alike ? 0.0F : 1.0F;
         const float of_c = std::fabs(c - nearest) > alike ? 0.0F : 1.0F;
         const float of_d = std::fabs(d - nearest) > alike ? 0.0F : 1.0F;
-        // Some of it also where the place lies beyond that surface.
+        // A small share also where the place lies beside that surface.
         constexpr float kSome = 1e-4F;
         const float share_a = of_a * ((1.0F - u) * (1.0F - v) + kSome);
         const float share_b = of_b * (u * (1.0F - v) + kSome);
@@ -113,11 +113,11 @@ DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, 
     }
 }
 
-/// The colours of four pixels around each place, as words of which three bytes count.
+/// The colours of four pixels around each place, as 32-bit words of which three bytes count.
 struct Colours {
     std::array<std::array<std::uint32_t, kAtOnce>, 4> word{};
 };
-/// In whose words the three are the upper ones: the bytes after a picture's last one are not its.
+/// First bit of the three: right pixels are read a byte early, so not beyond the picture's end.
 constexpr std::array<int, 4> kFirstBit{0, 8, 0, 8};
 
 void read_colours(const ColourImage& image, const Taps& taps, std::size_t count, Colours& colours) {
@@ -137,7 +137,7 @@ struct Coloured {
     const Taps& taps;
 };
 
-/// One channel of all.
+/// Mixes one channel of all pixels.
 DIBHR_VECTOR_CLONES void mix_channel(const Coloured& before, const Coloured& after,
                                      const Floats& first, int channel,
                                      std::int32_t* __restrict mixed) {
@@ -161,7 +161,7 @@ bool has_colour(const Frame& frame) {
     return frame.colour && !frame.colour->rgb.empty();
 }
 
-/// The longest way, squared, and how many pixels go any that is worth going, in so many lanes.
+/// Longest way, squared, and count of pixels that move by kShortestWay_px or more, in kLanes parts.
 struct Moving {
     static constexpr std::size_t kLanes = 16;
     std::array<float, kLanes> farthest2{};
@@ -179,7 +179,7 @@ DIBHR_VECTOR_CLONES void measure(const MotionField::Way* __restrict ways, std::s
         }
 }
 
-/// Into how many parts the time between the two frames falls. A few pixels at the end do not count.
+/// Number of parts of the time between the two frames. A few pixels at the end are not measured.
 int parts_of(const MotionField& motion) {
     Moving moving;
     measure(motion.ways.data(), motion.ways.size(), moving);
@@ -187,7 +187,7 @@ int parts_of(const MotionField& motion) {
     const int count = std::accumulate(moving.count.begin(), moving.count.end(), 0);
     const double farthest_px = std::sqrt(static_cast<double>(farthest2));
     if (farthest_px < kWorthIt_px) return 1;
-    // Even: half way is where two faded frames are farthest from the truth.
+    // Even, so that one is half way, where two blended frames are farthest from the truth.
     const int wanted = 2 * static_cast<int>(std::ceil(farthest_px / (2.0 * kBetween_px)));
     const int affordable = kMostPixelsBetween / std::max(count, 1);
     return std::min({wanted, kMostParts, std::max(affordable, 2)});
@@ -195,7 +195,7 @@ int parts_of(const MotionField& motion) {
 
 }  // namespace
 
-/// Makes one frame after the other.
+/// Makes the in-betweens of two frames one after the other.
 class InBetweenMaker::Mover {
   public:
     void begin(const Frame& from, const Frame& to) {
@@ -226,7 +226,7 @@ class InBetweenMaker::Mover {
     [[nodiscard]] const DepthImage& first() const { return *from_->drawn(); }
     [[nodiscard]] const DepthImage& second() const { return *to_->drawn(); }
 
-    /// All but the levels.
+    /// Copies size and scale, not the levels.
     static void copy_form(const DepthImage& from, DepthImage& to) {
         to.columns = from.columns;
         to.rows = from.rows;
@@ -234,7 +234,7 @@ class InBetweenMaker::Mover {
         to.levels.resize(from.levels.size());
     }
 
-    /// What is felt of the drawn image.
+    /// Sets the depth that is felt, made of the drawn image.
     void lay(std::shared_ptr<DepthImage> depth, Frame& frame) {
         if (!from_->beneath) {
             frame.depth = std::move(depth);
@@ -288,7 +288,7 @@ class InBetweenMaker::Mover {
         if (colour != nullptr && !alike && same_colour_size()) move_colour(share, *colour);
     }
 
-    /// From column i of a row on, as many as are looked at at once; where to go on.
+    /// Takes up to kAtOnce moving pixels of a row from column i on. Returns where to continue.
     int take_goers(float share, int i, int j) {
         std::size_t count = 0;
         for (; i < course_.box().right && count < kAtOnce; ++i) {
@@ -360,7 +360,7 @@ class InBetweenMaker::Mover {
         return rgb;
     }
 
-    /// Of another size than the depth.
+    /// For colour of another size than the depth.
     void move_colour(float share, ColourImage& colour) const {
         const float right =
             static_cast<float>(colour.columns) / static_cast<float>(first().columns);

@@ -1,4 +1,4 @@
-// Frames between two frames, in which what moves is on its way.
+// Makes frames between two frames, in which moving parts are on their way.
 #pragma once
 
 #include <memory>
@@ -8,15 +8,15 @@
 
 namespace dibhr {
 
-/// How far what is seen moves from one to the next, where there are enough of them [px].
+/// Motion between neighbouring in-betweens, where their number is not limited [px].
 inline constexpr double kBetween_px = 2.0;
-/// Where nothing goes as far as this there are none [px].
+/// If no pixel moves as far as this there are no in-betweens [px].
 inline constexpr double kWorthIt_px = 1.5;
-/// So many parts, at most, the time between two frames falls into; of many pixels that move, fewer.
+/// Most parts of the time between two frames, and most moving pixels of all in-betweens together.
 inline constexpr int kMostParts = 8;
 inline constexpr int kMostPixelsBetween = 800'000;
 
-/// Makes them, each from memory that was used before.
+/// Makes in-betweens in reused memory.
 class InBetweenMaker {
   public:
     InBetweenMaker();
@@ -24,10 +24,10 @@ class InBetweenMaker {
     InBetweenMaker(InBetweenMaker&&) noexcept;
     InBetweenMaker& operator=(InBetweenMaker&&) noexcept;
 
-    /// Equally spaced in time, as `from.motion` says; null where it says nothing, or nothing goes
-    /// as far as kWorthIt_px. Both frames are of one size and scale. What is covered on the way
-    /// comes from the first and what is uncovered from the second; the nearer covers the farther;
-    /// what does not move blends from the one to the other. The same frames give the same bits.
+    /// In-betweens along `from.motion`, equally spaced in time; null without motion, or if nothing
+    /// moves as far as kWorthIt_px. Both frames have one size and scale. Pixels covered on the way
+    /// come from the first frame, uncovered ones from the second; nearer pixels cover farther ones;
+    /// pixels that do not move blend. The same frames give the same bits.
     [[nodiscard]] std::shared_ptr<const std::vector<Frame>> between(const Frame& from,
                                                                     const Frame& to);
 

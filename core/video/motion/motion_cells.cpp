@@ -1,4 +1,4 @@
-// Cells of one surface or two.
+// Splits cells into a near and a far part, and sums over similar parts.
 #include "core/video/motion/motion_cells.hpp"
 
 #include <algorithm>
@@ -10,11 +10,11 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kStep = 10.0F;  // between two surfaces in one cell; less is one
+constexpr float kStep = 10.0F;  // least gap between two surfaces in one cell
 
 constexpr int kBins = 32;
 
-/// The pixels of a cell.
+/// visit(value) for each pixel of a cell.
 template <typename Visit>
 void visit_pixels(const MotionPlane& plane, int i, int j, Visit visit) {
     for (int y = 0; y < kMotionCell_px; ++y) {
@@ -24,7 +24,7 @@ void visit_pixels(const MotionPlane& plane, int i, int j, Visit visit) {
     }
 }
 
-/// In the middle of the widest gap between the depths of a cell; below all where that is narrow.
+/// The middle of the widest gap between the depths of a cell; below all depths if it is narrow.
 float gap_between(const MotionPlane& depth, int i, int j, float lowest, float highest) {
     const float range = highest - lowest;
     if (!(range > kStep)) return lowest - 1.0F;
@@ -49,7 +49,7 @@ float gap_between(const MotionPlane& depth, int i, int j, float lowest, float hi
            (static_cast<float>(begin) + 0.5F * static_cast<float>(widest + 1)) / bins_per_level;
 }
 
-/// Of all pixels of each cell of a row.
+/// The range of all pixels, for each cell of a row.
 DIBHR_VECTOR_CLONES void find_range(const MotionPlane& depth, int j, float* __restrict lowest,
                                     float* __restrict highest) {
     const auto count = static_cast<std::ptrdiff_t>(depth.columns / kMotionCell_px);
@@ -70,7 +70,7 @@ DIBHR_VECTOR_CLONES void find_range(const MotionPlane& depth, int j, float* __re
     }
 }
 
-/// Into a near and a far part, where there is a gap.
+/// Splits a cell into a near and a far part, where there is a gap.
 void split_cell(const MotionPlane& depth, MotionCells& cells, int i, int j) {
     const std::size_t k = cells.between.index(i, j);
     const float between =
@@ -118,7 +118,7 @@ void make_cells(const MotionPlane& depth, MotionCells& cells) {
     }
 }
 
-/// At the right and the bottom of fewer.
+/// Picks one value of four neighbours; at the right and the bottom of fewer.
 template <typename Pick>
 void pick_of_four(const MotionPlane& from, MotionPlane& to, const Pick& pick) {
     to.resize(from.columns, from.rows);

@@ -1,4 +1,5 @@
-// The picture in cells, each of one surface or of a near and a far one, and sums over those alike.
+// The picture in cells, each with one surface or with a near and a far part, and sums over parts
+// that are alike in depth.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +12,7 @@
 
 namespace dibhr {
 
-/// One value of each cell for what is near in it and for what is far.
+/// Two values of each cell: for its near part [0], and its far part [1].
 struct MotionLayers {
     std::array<MotionPlane, 2> of{};
 
@@ -23,13 +24,12 @@ struct MotionLayers {
     }
 };
 
-/// What is summed over the pixels of a part of a surface, of the difference r between the second
-/// picture, moved, and the first, whose slope is x and y.
-/// The first three are of the difference alone.
+/// Sums over the pixels of a part: n counts them, r is the difference of the moved second picture
+/// from the first, x and y are the slopes of the first. The first three need the difference only.
 enum class MotionSum { n, r, rr, x, y, xx, xy, yy, xr, yr };
 inline constexpr std::size_t kMotionSums = 10;
 
-/// Which of them are wanted: as many as it says.
+/// How many of the sums are computed.
 enum class MotionMeasure : std::size_t { difference = 3, slopes = kMotionSums };
 
 struct MotionSums {
@@ -49,7 +49,7 @@ struct MotionSums {
     }
 };
 
-/// Which way parts go [px of the largest picture].
+/// How far parts move [px of the largest picture].
 struct MotionWays {
     MotionLayers right{}, down{};
 
@@ -67,12 +67,13 @@ struct MotionWays {
 struct MotionCells {
     int columns{0};
     int rows{0};
-    /// What is above it is the near part, the rest the far one; below all: there is no far part.
+    /// Depth that separates the parts: above it is the near part. Below all depths of the cell:
+    /// there is no far part.
     MotionPlane between{};
-    /// Depths of the parts [0, 255]; the highest is kNoPart where the cell has no such part.
+    /// Range of depth of the parts [0, 255]; `highest` is kNoPart where there is no such part.
     MotionLayers lowest{}, highest{};
 
-    std::vector<std::uint32_t> split{};  ///< indices of those that have both, in order
+    std::vector<std::uint32_t> split{};  ///< indices of cells with both parts, in order
 
     static constexpr float kNoPart = -1e9F;
 
@@ -81,24 +82,24 @@ struct MotionCells {
     }
 };
 
-/// One frame of the two.
+/// One of the two frames.
 struct MotionSide {
     MotionPictures pictures{};
     MotionCells cells{};
-    /// Of all that is in a cell, and nearer within an outline's reach; and in four of them, with
-    /// that one up left.
+    /// Of a cell: its lowest depth, and the highest within an outline's reach. Likewise of four
+    /// cells, of which it is the upper left one.
     MotionPlane lowest{}, highest{}, lowest_of_four{}, highest_of_four{};
 };
 
-/// Makes the cells of its pictures.
+/// Makes the cells of the side's pictures.
 void divide(MotionSide& side);
 
-/// Rows of cells [begin, end) that are looked at.
+/// Rows of cells [begin, end) that are processed.
 struct MotionRows {
     int begin{0}, end{0};
 };
 
-/// Depths that differ by less may be of one surface [0, 255].
+/// Depths that differ by less may be of one surface [depth, 0 to 255].
 inline constexpr float kMotionAlike = 12.0F;
 
 /// How alike two parts are in depth, in [0, 1], by the gap between their depths.
@@ -107,14 +108,14 @@ inline constexpr float kMotionAlike = 12.0F;
     return std::min(std::max(alike, 0.0F), 1.0F);
 }
 
-/// Sums over ways that lie about a place, of one place or, in a vector, of several.
+/// Sums over ways of parts around a place; in a vector: around several places.
 template <typename Value>
 struct MotionMoments {
     Value n{}, x{}, y{}, xx{}, xy{}, yy{};
     Value right{}, right_x{}, right_y{};
     Value down{}, down_x{}, down_y{};
 
-    /// Of what lies (i, j) away: its weight, and its way with that weight.
+    /// Adds a part that lies (i, j) cells away: its weight, and its way times that weight.
     [[gnu::always_inline]] void add(const Value& weight, const Value& rights, const Value& downs,
                                     float i, float j) {
         n += weight;
@@ -132,26 +133,25 @@ struct MotionMoments {
     }
 };
 
-/// Which parts are alike those around them: found once, asked for many sums. Near parts, which are
-/// everywhere, lie in planes; far ones in a list.
+/// How alike in depth each part is to those around it: found once, used for many sums. Near parts,
+/// which every cell has, are stored in planes; far parts in a list.
 class MotionKin {
   public:
     static constexpr int kReach = 2;           ///< cells to each side
-    static constexpr std::size_t kMargin = 8;  ///< read beyond an end, without meaning
+    static constexpr std::size_t kMargin = 8;  ///< values that may be read beyond the end
 
     void find(const MotionCells& cells);
 
-    /// For each part in the rows the sums over all parts up to `reach` (kReach at most) cells away,
-    /// the more the more alike their depths are.
+    /// Sums for each part in the rows: over all parts up to `reach` (kReach at most) cells away,
+    /// weighted by how alike they are.
     void gather(const MotionRows& rows, int reach, MotionMeasure measure, const MotionSums& from,
                 MotionSums& to) const;
 
-    /// For each wanted part the way that even motion would have, which turns and grows: that of the
-    /// plane through the ways of the wanted parts around it.
+    /// The way of even motion, which may turn and grow, for each wanted part: that of the plane
+    /// through the ways of the wanted parts around it.
     void smooth(const MotionLayers& wanted, const MotionWays& from, MotionWays& to);
 
-    /// Of the near part of every cell beside the near one so many cells away: how alike they are;
-    /// 0 where that is outside.
+    /// How alike each cell's near part is to the near part this many cells away; 0 outside.
     [[nodiscard]] const float* near_beside(int right, int down) const {
         return near_.data() + tap(right, down) * count_;
     }
@@ -177,9 +177,9 @@ class MotionKin {
     std::size_t count_{0};
     std::vector<float> near_{};
     std::vector<std::uint32_t> split_{};
-    /// With a far part at an end, and at most so many cells long: beside each other, farther.
+    /// Edges with a far part at one end or both: at most one cell long, and longer ones.
     std::array<std::vector<Edge>, kReach> far_{};
-    // For smooth(): of the ways around each part; and what each weighs, and its way, with a margin.
+    // For smooth(): moments of the ways around each part; weights and ways, with a margin.
     std::array<std::vector<MotionMoments<float>>, 2> moments_{};
     std::array<std::vector<float>, 3> padded_{};
 };

@@ -1,4 +1,4 @@
-// Pixels sent on their way, the nearest last.
+// Moves pixels along their ways, the nearest visible; then fills gaps and refines outlines.
 #include "core/video/motion/motion_course.hpp"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace dibhr {
 namespace {
 
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
-constexpr float kSameWay_px = 1.0F;              // parts of one thing differ by less
+constexpr float kSameWay_px = 1.0F;              // ways of one object differ by less
 constexpr float kOfOneSurface = 12.0F / 255.0F;  // of the highest level
-constexpr int kGap_px = 8;                       // the widest that is mended from its rim
-constexpr int kReach_px = 48;                    // how far to look for what goes on behind
+constexpr int kGap_px = 8;                       // widest gap that is filled from its rim
+constexpr int kReach_px = 48;                    // how far the continued background is searched
 
 int rounded(float value) {
     return static_cast<int>(std::floor(value + 0.5F));
@@ -37,7 +37,7 @@ DIBHR_VECTOR_CLONES void find_places_of(const Starts& from, float share, int col
     }
 }
 
-/// The pixels of a row around a place, and the weight of each, which falls to both sides.
+/// The pixels of a row around a place, with weights that fall to both sides.
 struct Tent {
     Tent(float place, int count)
         : middle(std::clamp(place, 0.0F, static_cast<float>(count - 1))),
@@ -82,7 +82,7 @@ void Course::begin(const MotionField& motion, const DepthImage& first, const Dep
     find_uncovered();
 }
 
-/// Around all that moves, and where it goes.
+/// The box around all moving pixels and their destinations.
 void Course::find_box() {
     Box box{motion_->columns, motion_->rows, 0, 0};
     for (int j = 0; j < motion_->rows; ++j)
@@ -126,7 +126,7 @@ void Course::find_goers() {
         }
 }
 
-/// Of goers [begin, end), a share of their ways from where they are.
+/// Destinations of entries [begin, end), at a share of their ways.
 void Course::find_places(float share, std::size_t begin, std::size_t end) {
     places_.resize(goers_.x.size());
     find_places_of({goers_.x.data() + begin, goers_.y.data() + begin, goers_.right.data() + begin,
@@ -134,7 +134,7 @@ void Course::find_places(float share, std::size_t begin, std::size_t end) {
                    share, columns_, rows_, places_.data() + begin, end - begin);
 }
 
-/// What is nearest of the first image shows.
+/// Moves the first image's pixels; the nearest one is visible.
 void Course::send_first(float share) {
     seen_ = still_;
     find_places(share, kStanding, first_goers_);
@@ -146,7 +146,7 @@ void Course::send_first(float share) {
     }
 }
 
-/// Something else is there at the end.
+/// Marks pixels of the first image that something else covers in the second.
 void Course::find_covered() {
     for (std::size_t k = kStanding; k < first_goers_; ++k) {
         if (places_[k] < 0) continue;
@@ -161,7 +161,7 @@ void Course::find_covered() {
         }
 }
 
-/// Nothing came there; where two neighbours that are alike did, it came with them.
+/// Adds pixels of the second image to which none moves, except between two such neighbours alike.
 void Course::find_uncovered() {
     const float alike = kOfOneSurface * static_cast<float>(second_->highest_level);
     const auto came = [&](int i, int j, float level) {
@@ -178,8 +178,8 @@ void Course::find_uncovered() {
         }
 }
 
-/// Of what is alike and nearest in the pixel's row or column of the second image, and was in the
-/// first; none: it stays.
+/// The way of the nearest pixel in the row or column of the second image that is alike in depth and
+/// is in the first image, too. None: no motion.
 MotionField::Way Course::way_beside(int i, int j) const {
     const float level = second_->at(i, j);
     const float alike = kOfOneSurface * static_cast<float>(second_->highest_level);
@@ -194,7 +194,7 @@ MotionField::Way Course::way_beside(int i, int j) const {
     return {};
 }
 
-/// Only where nothing of the first image shows.
+/// Moves the second image's pixels to places without a pixel of the first.
 void Course::send_second(float share) {
     find_places(share - 1.0F, first_goers_, goers_.x.size());
     for (std::size_t k = first_goers_; k < goers_.x.size(); ++k) {
@@ -206,7 +206,7 @@ void Course::send_second(float share) {
     }
 }
 
-/// What is left goes on from the farther side of the gap; a crack is as what it is in.
+/// Fills remaining gaps from their farther side; narrow cracks between equal sides likewise.
 void Course::mend() {
     for (int j = 0; j < rows_; ++j) {
         Seen* const row = seen_.data() + static_cast<std::ptrdiff_t>(j) * columns_;
@@ -224,8 +224,8 @@ void Course::mend() {
     }
 }
 
-/// How much of what is around the place where it was, and where it will be, is nearer than
-/// `level`.
+/// The share of pixels nearer than `level` around the place's origin in the first image and its
+/// destination in the second, mean of both.
 float Course::share_nearer(float level, MotionField::Way way, float share, int x, int y) const {
     const auto at = [&](const DepthImage& image, float times) {
         const Tent columns(static_cast<float>(x + box_.left) + times * way.right, image.columns);
@@ -243,7 +243,7 @@ float Course::share_nearer(float level, MotionField::Way way, float share, int x
     return 0.5F * (at(*first_, -share) + at(*second_, 1.0F - share));
 }
 
-/// What is seen at a place that something nearer, as it turns out, does not reach.
+/// The background that is visible at a place which a nearer pixel does not reach.
 Course::Seen Course::behind(const Seen& far, int x, int y) const {
     if (far.goer >= kStanding) return far;
     const float alike = kOfOneSurface * static_cast<float>(first_->highest_level);
@@ -255,7 +255,7 @@ Course::Seen Course::behind(const Seen& far, int x, int y) const {
     return first ? Seen{in_first, kStaysInFirst} : Seen{in_second, kStaysInSecond};
 }
 
-/// Of two beside each other, at the place of one: the near one is there if more around it is near.
+/// Decides for one of two neighbouring places: the near pixel is visible if most around is near.
 void Course::settle(float share, int x, int y, const Seen& near, const Seen& far) {
     const auto at = place(x, y);
     const bool is_near = seen_[at].goer == near.goer;
@@ -264,8 +264,8 @@ void Course::settle(float share, int x, int y, const Seen& near, const Seen& far
     if (is_near != reaches) settled_.push_back({at, reaches ? near : behind(far, x, y)});
 }
 
-/// Each image knows where an outline is to a pixel; the two, between which it goes, and the pixels
-/// along it, better.
+/// One image gives an outline's place to one pixel; both images, and the pixels along the outline,
+/// give it more exactly.
 void Course::settle_outlines(float share) {
     const float alike = kOfOneSurface * static_cast<float>(first_->highest_level);
     settled_.clear();

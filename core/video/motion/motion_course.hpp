@@ -1,4 +1,4 @@
-// What is to be seen at each pixel at a moment between two frames.
+// Warps two depth images along the motion: what is visible at a moment between two frames.
 #pragma once
 
 #include <cstddef>
@@ -15,52 +15,53 @@ struct Box {
     int left{0}, top{0}, right{0}, bottom{0};
 };
 
-/// A shorter way is not worth going: what goes it blends [px].
+/// Pixels with a shorter way do not move, but blend [px].
 inline constexpr float kShortestWay_px = 0.5F;
 
-/// Between two depth images, by the motion. Keeps scratch memory.
+/// Warps two depth images along the motion. Keeps scratch memory.
 class Course {
   public:
+    /// In which images a pixel is visible.
     enum class Shows : std::uint8_t {
-        as_it_was,  ///< nothing moves here: the one image blends into the other
-        both,       ///< what is in both images
-        first,      ///< what is covered in the second
-        second,     ///< what was covered in the first
+        as_it_was,  ///< nothing moves here: the first image blends into the second
+        both,       ///< in both images
+        first,      ///< covered in the second
+        second,     ///< covered in the first
     };
-    /// Which way what is here goes from the first image to the second, and its level in one.
+    /// A visible pixel: its way from the first image to the second, and its level in one of them.
     struct Pixel {
         MotionField::Way way{};
         float level{0.0F};
         Shows shows{Shows::as_it_was};
     };
 
-    /// From here on of these, which are there until the next ones.
+    /// Sets motion and images, which must exist until the next call.
     void begin(const MotionField& motion, const DepthImage& first, const DepthImage& second);
 
-    /// To `share` in (0, 1) of the way.
+    /// Warps to `share` in (0, 1) of the time between the images.
     void go(float share);
 
-    /// Where anything moves; outside of it all is as it was.
+    /// The box in which pixels move; outside of it nothing moves.
     [[nodiscard]] const Box& box() const { return box_; }
-    /// Whether anything moves at a pixel in the box.
+    /// Whether a pixel moves; it must be in the box.
     [[nodiscard]] bool moves(int i, int j) const { return seen_[index(i, j)].goer != kStays; }
-    /// Of a pixel in the box.
+    /// The visible pixel at a place in the box.
     [[nodiscard]] Pixel at(int i, int j) const {
         const Seen& seen = seen_[index(i, j)];
         return {goers_.way(seen.goer), seen.level, goers_.shows[seen.goer]};
     }
 
   private:
-    /// What is seen at a pixel: its level in an image, and which of the goers it is.
+    /// The visible pixel at a place: its level in an image, and its entry in the table.
     struct Seen {
         float level;
         std::uint32_t goer;
     };
-    /// Those that stand for many: what stays, in both images, in the first or in the second alone.
+    /// Entries shared by pixels that do not move: in both images, in the first or the second only.
     enum Standing : std::uint32_t { kStays, kStaysInFirst, kStaysInSecond, kStanding };
-    /// After them, pixels that go, or are covered where they stay.
+    /// The table: the shared entries, then pixels that move, or do not move and get covered.
     struct Goers {
-        std::vector<std::int32_t> x{}, y{};  ///< in the box of the first image, or of the second
+        std::vector<std::int32_t> x{}, y{};  ///< in the box, in the first image or the second
         std::vector<float> right{}, down{};  ///< its way
         std::vector<float> level{};
         std::vector<Shows> shows{};
@@ -72,7 +73,7 @@ class Course {
     [[nodiscard]] std::uint32_t index(int i, int j) const {
         return place(i - box_.left, j - box_.top);
     }
-    /// Of column x and row y of the box.
+    /// Index of column x and row y of the box.
     [[nodiscard]] std::uint32_t place(int x, int y) const {
         return static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(columns_) +
                static_cast<std::uint32_t>(x);
@@ -102,9 +103,9 @@ class Course {
     Box box_{};
     int columns_{0}, rows_{0};  ///< of the box
     Goers goers_{};
-    std::size_t first_goers_{0};          ///< those after them are in the second image alone
-    std::vector<std::int32_t> places_{};  ///< where each goes to in the box; below 0: out of it
-    std::vector<Seen> still_{};           ///< of the first image, without what goes
+    std::size_t first_goers_{0};          ///< entries from here on are in the second image only
+    std::vector<std::int32_t> places_{};  ///< destination in the box; below 0: outside of it
+    std::vector<Seen> still_{};           ///< the first image without its moving pixels
     std::vector<Seen> seen_{};
     struct Settled {
         std::uint32_t at;

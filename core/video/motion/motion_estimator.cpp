@@ -1,5 +1,5 @@
-// From coarse to fine: a search over all ways in small pictures, then steps downhill in larger
-// ones, each part with those that are alike around it; at the end, what shows that it moves at all.
+// From coarse to fine: a search over all ways in the smallest pictures, then steps downhill (least
+// squares) in larger ones, each part with similar parts around it; last, which parts surely move.
 #include "core/video/motion/motion_estimator.hpp"
 
 #include <algorithm>
@@ -14,31 +14,31 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kUnchanged = 0.1F;    // mean square of what differs less [levels]
-constexpr std::size_t kSmall = 1;     // the size of picture in which that is seen
-constexpr float kNoise = 0.08F;       // a share of what is left: noise falls by as much by chance
-constexpr float kFewPixels = 2.0F;    // of so many nothing is known
-constexpr float kFits = 50.0F;        // a mean square at which a part is trusted a quarter
-constexpr float kLeastTrust = 0.01F;  // in what fits not at all
-constexpr float kStiff = 0.5F;        // as if every pixel had such a slope, squared, to stay
+constexpr float kUnchanged = 0.1F;    // mean square below which nothing has changed [levels^2]
+constexpr std::size_t kSmall = 1;     // number of the picture in which changes are found
+constexpr float kNoise = 0.08F;       // share of the rest by which noise alone falls by chance
+constexpr float kFewPixels = 2.0F;    // with as few pixels a part is not known
+constexpr float kFits = 50.0F;        // mean square at which a part's trust is a quarter
+constexpr float kLeastTrust = 0.01F;  // of a part that does not fit at all
+constexpr float kStiff = 0.5F;        // squared slope of every pixel that holds a part in place
 constexpr float kMostStep = 1.5F;     // downhill, at once [px of the picture]
-constexpr float kOwnShare = 0.9F;     // of what a part's own way is off, against that of others
-constexpr float kApart_px = 0.5F;     // ways that differ by less are not worth trying
-// A part goes for sure, or if others do, when its mean square falls by this share of what is left
-// and of what codecs make of a still picture.
+constexpr float kOwnShare = 0.9F;     // factor on the mean square of a part's own way
+constexpr float kApart_px = 0.5F;     // ways that differ by less are not tried
+// A part surely moves (kSure), or moves if others do (kLikely), if its mean square falls by this
+// share of the rest plus a floor: what codecs change in a still picture.
 constexpr float kSure = 0.8F;
 constexpr float kSureFloor = 1.5F;
 constexpr float kSureWay_px = 0.12F;
 constexpr float kSurePixels = 500.0F;
 constexpr float kLikely = 0.2F;
 constexpr float kLikelyFloor = 0.3F;
-constexpr float kPlain = 3.0F;     // mean square that a way would change it by
-constexpr float kTried_px = 2.0F;  // a way no shorter than this
-constexpr int kMostPlain = 8;      // cells from what goes for sure
-constexpr int kJudges = 2;         // cells to each side that judge with one
+constexpr float kPlain = 3.0F;     // a part is plain if a way changes its mean square by less
+constexpr float kTried_px = 2.0F;  // least length of that way
+constexpr int kMostPlain = 8;      // cells from a part that surely moves
+constexpr int kJudges = 2;         // cells to each side that are judged together with one
 constexpr int kNeighbour = 2;      // cells to the next part whose way is tried
 
-/// Of a part and those around it: mean squares, without what all its pixels differ by.
+/// Mean square of the differences of a part, without their common offset.
 float mean_square(const MotionSums& sums, std::size_t part, std::size_t k) {
     const float n = sums[MotionSum::n].of[part].values[k];
     const float r = sums[MotionSum::r].of[part].values[k] / n;
@@ -49,7 +49,7 @@ bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
     return sums[MotionSum::n].of[part].values[k] > kFewPixels;
 }
 
-/// What the sums of a part would be if it went so much less, as far as slopes tell.
+/// Changes the sums to those of a way that is shorter by `way`, linearly by the slopes.
 void reckon_back(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
     const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
     at(MotionSum::r) -= at(MotionSum::x) * way.right + at(MotionSum::y) * way.down;
@@ -57,8 +57,8 @@ void reckon_back(MotionField::Way way, std::size_t part, std::size_t k, MotionSu
     at(MotionSum::yr) -= at(MotionSum::xy) * way.right + at(MotionSum::yy) * way.down;
 }
 
-/// Where the sum of squares, as far as slopes tell, is least; near `now` in directions in which
-/// there is no slope.
+/// The way at which the sum of squares is least, linearly by the slopes; near `now` in directions
+/// without slope.
 MotionField::Way lowest(const MotionSums& sums, std::size_t part, std::size_t k,
                         MotionField::Way now) {
     const auto mean = [&, n = sums[MotionSum::n].of[part].values[k]](MotionSum sum) {
@@ -116,7 +116,7 @@ float MotionEstimator::gap(const Part& a, const Part& b) const {
     return std::max(lowest(a) - highest(b), lowest(b) - highest(a));
 }
 
-/// Around what is wanted.
+/// The rows that have wanted parts.
 void MotionEstimator::find_rows() {
     rows_ = {};
     each_part([this](const Part& part, std::size_t k) {
@@ -135,7 +135,7 @@ void MotionEstimator::gather(int reach, MotionMeasure measure) {
     kin_.gather(rows_, reach, measure, sums_, gathered_);
 }
 
-/// Parts in or around which anything is not as it was. False: there is none.
+/// Finds parts in or around which anything has changed. False: there are none.
 bool MotionEstimator::find_changed() {
     wanted_.fill(0.0F);
     each_part([this](const Part& part, std::size_t k) { wanted_.of[part.part].values[k] = 1.0F; });
@@ -151,7 +151,7 @@ bool MotionEstimator::find_changed() {
         };
         const bool known = is_known(gathered_, part.part, k);
         still_.of[part.part].values[k] = known ? mean_square(gathered_, part.part, k) : 0.0F;
-        // Covered all over is changed, too.
+        // A part that is covered as a whole has changed, too.
         const bool changed =
             !known || gathered(MotionSum::rr) > kUnchanged * gathered(MotionSum::n);
         float& wanted = wanted_.of[part.part].values[k];
@@ -163,7 +163,7 @@ bool MotionEstimator::find_changed() {
     return any;
 }
 
-/// Of what noise alone has changed no way fits better than none.
+/// Drops parts that only noise has changed: with their way they fit no better than without.
 void MotionEstimator::leave_noise() {
     sum(kSmall, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
@@ -179,7 +179,7 @@ void MotionEstimator::leave_noise() {
     find_rows();
 }
 
-/// What fits badly where it goes says little of those around it: Geman and McClure's weights.
+/// A part that fits badly gets little weight for those around it: Geman and McClure's weights.
 void MotionEstimator::weigh_by_fit() {
     trust_ = wanted_;
     each_part([this](const Part& part, std::size_t k) {
@@ -198,8 +198,8 @@ void MotionEstimator::weigh_by_fit() {
         }
 }
 
-/// Alike parts turn and grow together: what is the same of them is how far each goes beyond even
-/// motion.
+/// One step of least squares. Similar parts turn and grow together, so they share one correction to
+/// even motion.
 void MotionEstimator::go_downhill(std::size_t size) {
     const float scale = 1.0F / static_cast<float>(1 << size);
     const float farthest = static_cast<float>(kFarthestMotion) *
@@ -234,7 +234,7 @@ void MotionEstimator::go_downhill(std::size_t size) {
     });
 }
 
-/// The ways of the parts so many cells away that are most alike in depth.
+/// Tries for each part the way of the most similar part this many cells away.
 void MotionEstimator::propose(int right, int down) {
     each_part([&](const Part& part, std::size_t k) {
         const int x = std::clamp(part.i + right, 0, from_.cells.columns - 1);
@@ -246,7 +246,7 @@ void MotionEstimator::propose(int right, int down) {
     });
 }
 
-/// Takes what was tried where it fits better.
+/// Takes the tried ways where they fit better.
 void MotionEstimator::take_better(float share) {
     gather(1, MotionMeasure::difference);
     each_part([&](const Part& part, std::size_t k) {
@@ -259,7 +259,7 @@ void MotionEstimator::take_better(float share) {
     });
 }
 
-/// Of parts that would go about the same way the sums are the same.
+/// Computes sums for parts whose tried way differs; others keep theirs.
 void MotionEstimator::attempt(std::size_t size) {
     const auto apart = [](float a, float b) { return std::fabs(a - b) > kApart_px; };
     bool any = false;
@@ -278,7 +278,7 @@ void MotionEstimator::attempt(std::size_t size) {
     take_better(1.0F);
 }
 
-/// Where the search or the steps went astray, a neighbour's way may fit, or none.
+/// Chooses for each part its own way, a neighbour's or none: search and steps may fail.
 void MotionEstimator::choose(std::size_t size) {
     best_.resize(from_.cells.columns, from_.cells.rows);
     best_.fill(std::numeric_limits<float>::infinity());
@@ -297,7 +297,7 @@ void MotionEstimator::choose(std::size_t size) {
     std::swap(ways_, chosen_);
 }
 
-/// How much better a part, with those around it, fits as it goes than as it stood.
+/// Judges by how much better a part, with those around it, fits with its way than without.
 void MotionEstimator::judge() {
     tried_.fill(0.0F);
     sum(0, wanted_, tried_, MotionMeasure::difference);
@@ -324,7 +324,7 @@ void MotionEstimator::judge() {
     });
 }
 
-/// Whether a part shows nothing that would tell if it went this way.
+/// Whether a part has too little texture to show if it moves this way.
 bool MotionEstimator::is_plain(const Part& part, Way way) const {
     const std::size_t k = from_.cells.between.index(part.i, part.j);
     if (!is_known(slopes_, part.part, k)) return true;
@@ -333,7 +333,7 @@ bool MotionEstimator::is_plain(const Part& part, Way way) const {
     };
     const float x = mean(MotionSum::x);
     const float y = mean(MotionSum::y);
-    // Its slopes are those of the smaller picture.
+    // The slopes are those of the smaller picture.
     constexpr float kPerWay = 1.0F / static_cast<float>(1 << (2 * kSmall));
     const float change = kPerWay * (way.right * way.right * (mean(MotionSum::xx) - x * x) +
                                     2.0F * way.right * way.down * (mean(MotionSum::xy) - x * y) +
@@ -342,8 +342,8 @@ bool MotionEstimator::is_plain(const Part& part, Way way) const {
     return change * std::max(kTried_px * kTried_px / squared, 1.0F) < kPlain;
 }
 
-/// What may go does where something beside it that is alike goes for sure, and what is plain goes
-/// with it, not too far away.
+/// From parts that surely move on: a similar neighbour that may move does, and plain ones, up to
+/// kMostPlain cells away, take the same way.
 void MotionEstimator::convince() {
     std::deque<Convinced> sure;
     each_part([this, &sure](const Part& part, std::size_t) {
@@ -371,7 +371,7 @@ void MotionEstimator::convince() {
     }
 }
 
-/// What is not known to go stays.
+/// Parts that do not surely move stay.
 void MotionEstimator::stop() {
     each_part([this](const Part& part, std::size_t) {
         if (verdict(part) != Verdict::goes) go(part, {});

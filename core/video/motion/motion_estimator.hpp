@@ -1,4 +1,4 @@
-// Estimates where every pixel of a frame has gone when the next one is there.
+// Estimates where every pixel of a frame moves until the next frame.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@
 
 namespace dibhr {
 
-/// To each side, no way is longer than this part of the picture's width.
+/// Longest way to each side, as a part of the picture's width.
 inline constexpr double kFarthestMotion = 1.0 / 16.0;
 
 /// The same two frames give the same bits; scratch memory is kept inside. One thread at a time.
 class MotionEstimator {
   public:
-    /// From one frame to the next, of one size and scale, at least 2 x 2; by their colour, or,
-    /// where one has none of its depth's view, by the depth. Null: nothing moves, or nothing shows
-    /// that it does.
+    /// The motion from one frame to the next, which have one size and scale and are at least 2 x 2.
+    /// By colour, or by depth where either frame has no colour of its depth's view. Null: nothing
+    /// moves, or there is no evidence that it does.
     [[nodiscard]] std::shared_ptr<const MotionField> between(const Frame& from, const Frame& to);
 
   private:
     using Way = MotionField::Way;
-    /// What is near in a cell, or what is far.
+    /// The near part of a cell (0), or the far one (1).
     struct Part {
         int i, j;
         std::size_t part;
@@ -37,7 +37,7 @@ class MotionEstimator {
     enum class Verdict : std::uint8_t { stays, may_go, goes };
     struct Convinced {
         Part part;
-        int plain;  ///< steps over what is plain
+        int plain;  ///< steps over parts without texture
     };
 
     [[nodiscard]] bool find_changed();
@@ -56,7 +56,7 @@ class MotionEstimator {
     void convince();
     void stop();
 
-    /// visit(part, index) of all.
+    /// visit(part, index of its cell) for all parts.
     template <typename Visit>
     void each_part(const Visit& visit) const;
     [[nodiscard]] Way way_of(const Part& part) const;
@@ -68,18 +68,18 @@ class MotionEstimator {
     MotionPictureMaker maker_{};
     MotionSearcher searcher_{};
     MotionSide from_{}, to_{};
-    /// What the second one was made of: mostly the next first ones.
+    /// Inputs of `to_`: mostly they are the next call's first frame.
     std::shared_ptr<const DepthImage> last_depth_{};
     std::shared_ptr<const ColourImage> last_colour_{};
     bool by_depth_{false};
-    MotionKin kin_{};        ///< of the first one's parts
-    MotionLayers wanted_{};  ///< 1: the part is looked at
-    MotionLayers trust_{};   ///< in what a part says of those around it, in [0, 1]
+    MotionKin kin_{};        ///< of the first frame's parts
+    MotionLayers wanted_{};  ///< 1: the part is processed
+    MotionLayers trust_{};   ///< weight of a part for those around it, in [0, 1]
     MotionRows rows_{};
-    MotionLayers differs_{};  ///< 1: what is tried is another way
+    MotionLayers differs_{};  ///< 1: the tried way is another one
     MotionWays ways_{}, tried_{}, chosen_{}, even_{};
-    MotionLayers best_{};   ///< how far off what was tried is
-    MotionLayers still_{};  ///< and standing still
+    MotionLayers best_{};   ///< least mean square of the tried ways
+    MotionLayers still_{};  ///< mean square without motion
     std::array<std::vector<Verdict>, 2> verdicts_{};
     MotionSums sums_{}, own_{}, gathered_{}, slopes_{};
     Reused<MotionField> fields_{};

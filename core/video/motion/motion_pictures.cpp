@@ -12,15 +12,15 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostPixels = 400'000;  // of the picture in which motion is looked for
-constexpr int kReach_px = 2;          // an outline's, around what is nearer
+constexpr int kMostPixels = 400'000;  // of the picture in which motion is searched
+constexpr int kReach_px = 2;          // of an outline around the nearer surface
 constexpr double kWhite = 255.0;
 
 int whole_cells(int pixels) {
     return (pixels + kMotionCell_px - 1) / kMotionCell_px * kMotionCell_px;
 }
 
-/// The last column and row go on.
+/// Repeats the last column and row up to whole cells.
 void continue_edges(MotionPlane& plane, int columns, int rows) {
     for (int j = 0; j < rows; ++j) {
         float* row = plane.row(j);
@@ -30,7 +30,7 @@ void continue_edges(MotionPlane& plane, int columns, int rows) {
         std::copy_n(plane.row(rows - 1), plane.columns, plane.row(j));
 }
 
-/// Every `step`-th level, white for the highest.
+/// Every `step`-th level, scaled to white for the highest.
 void thin_out(const DepthImage& depth, int step, MotionPlane& thin) {
     const int columns = (depth.columns + step - 1) / step;
     const int rows = (depth.rows + step - 1) / step;
@@ -45,7 +45,7 @@ void thin_out(const DepthImage& depth, int step, MotionPlane& thin) {
 }
 
 void grey_of(const ColourImage& colour, int columns, int rows, MotionPlane& grey) {
-    // OpenCV reads what it is given as if it could be written.
+    // OpenCV has no read-only pictures; this one is only read.
     const cv::Mat rgb(colour.rows, colour.columns, CV_8UC3,
                       const_cast<std::uint8_t*>(colour.rgb.data()));
     cv::Mat whole;
@@ -62,7 +62,7 @@ void grey_of(const ColourImage& colour, int columns, int rows, MotionPlane& grey
     continue_edges(grey, columns, rows);
 }
 
-/// A quarter, a half and a quarter of three pixels in a row and in a column.
+/// Weights of 1/4, 1/2 and 1/4 for three pixels in a column, and in a row.
 DIBHR_VECTOR_CLONES void soften_rows(const float* __restrict above, const float* __restrict here,
                                      const float* __restrict below, float* __restrict to,
                                      int count) {

@@ -1,4 +1,4 @@
-// What motion is looked for in: two frames as grey pictures and outlines, at four sizes each.
+// The pictures in which motion is searched: each frame as grey and depth, at four sizes.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ struct MotionPlane {
     [[nodiscard]] const float* row(int j) const { return values.data() + index(0, j); }
 };
 
-/// Halvings of a picture: the last one has one pixel a cell.
+/// Number of sizes of a picture, each half of the one before: the last one has one pixel a cell.
 inline constexpr int kMotionSizes = 4;
 /// Side of a cell in the largest picture [px].
 inline constexpr int kMotionCell_px = 8;
@@ -40,22 +40,22 @@ struct MotionPictures {
     int step{1};
     std::array<MotionPlane, kMotionSizes> grey{};
     std::array<MotionPlane, kMotionSizes> level{};  ///< the depth
-    /// The nearest of it in each pixel, and within 2 px of the largest picture: an outline belongs
-    /// to what is nearer.
+    /// The nearest depth in each pixel, and within 2 px of the largest picture: an outline belongs
+    /// to the nearer surface.
     std::array<MotionPlane, kMotionSizes> here{}, near{};
 };
 
-/// Makes them; keeps scratch memory.
+/// Makes a frame's pictures; keeps scratch memory.
 class MotionPictureMaker {
   public:
-    /// `by_depth`: the grey is the depth's, too.
+    /// `by_depth`: grey is the depth, too.
     void make(const Frame& frame, bool by_depth, MotionPictures& pictures);
 
   private:
     MotionPlane depth_{}, scratch_{};
 };
 
-/// How much the picture in which motion is looked for is thinned out: every second pixel, ...
+/// The picture in which motion is searched has every n-th pixel of the frame: returns n.
 [[nodiscard]] int motion_step(int columns, int rows);
 
 }  // namespace dibhr

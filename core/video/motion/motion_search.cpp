@@ -1,4 +1,4 @@
-// All ways, in the smallest pictures.
+// Tries all ways in the smallest pictures.
 #include "core/video/motion/motion_search.hpp"
 
 #include <algorithm>
@@ -15,13 +15,13 @@ namespace {
 constexpr int kAround = 2;  // cells to each side that are compared with one
 constexpr int kSide = 2 * kAround + 1;
 constexpr auto kPlanes = std::size_t{kSide} * std::size_t{kSide};
-constexpr float kMostOff = 40.0F;   // of grey, and of depth: what is farther off is as bad
-constexpr float kOutside = 20.0F;   // of what goes beyond the picture
-constexpr float kPerCell = 0.02F;   // what a longer way must be better by
-constexpr float kStayShare = 0.9F;  // of what staying is off
+constexpr float kMostOff = 40.0F;   // upper limit of a difference, of grey and of depth
+constexpr float kOutside = 20.0F;   // difference of cells that move out of the picture
+constexpr float kPerCell = 0.02F;   // cost of a way for each cell of its length
+constexpr float kStayShare = 0.9F;  // factor and offset that favour no motion
 constexpr float kStayLess = 0.2F;
 
-/// Which plane of weights is of the cell so many away.
+/// Index of the plane of weights for the cell this many away.
 constexpr std::size_t tap_of(int right, int down) {
     return static_cast<std::size_t>(down + kAround) * kSide +
            static_cast<std::size_t>(right + kAround);
@@ -40,7 +40,7 @@ DIBHR_VECTOR_CLONES void compare_row(const Compared& row, float* __restrict off,
     }
 }
 
-/// Begins at a cell; weights lie in planes.
+/// Differences and weights from a cell on; weights lie in planes.
 struct Scored {
     const float* off;
     std::ptrdiff_t columns;
@@ -48,7 +48,7 @@ struct Scored {
     std::size_t plane;
 };
 
-/// So many in a row that their scores stay where sums are made.
+/// Cells in a row that are scored together, so that their sums stay in registers.
 constexpr std::ptrdiff_t kAtOnce = 64;
 
 DIBHR_VECTOR_CLONES void score_cells(const Scored& scored, float* __restrict score) {
@@ -78,7 +78,7 @@ DIBHR_VECTOR_CLONES void take_better(const float* __restrict score, float share,
 
 }  // namespace
 
-/// Shares of one.
+/// Weights of the cells around each cell, which add up to 1.
 void MotionSearcher::weigh(const MotionSide& from, const MotionKin& kin) {
     const std::size_t count = from.cells.between.values.size();
     const std::size_t plane = count + kAtOnce;
@@ -90,7 +90,7 @@ void MotionSearcher::weigh(const MotionSide& from, const MotionKin& kin) {
             const float* const alike = kin.near_beside(x, y);
             for (std::size_t k = 0; k < count; ++k) sum[k] += alike[k];
         }
-    for (std::size_t k = 0; k < count; ++k) sum[k] = 1.0F / sum[k];  // each is like itself
+    for (std::size_t k = 0; k < count; ++k) sum[k] = 1.0F / sum[k];  // > 0: each is like itself
     for (int y = -kAround; y <= kAround; ++y)
         for (int x = -kAround; x <= kAround; ++x) {
             const float* const alike = kin.near_beside(x, y);
@@ -100,8 +100,7 @@ void MotionSearcher::weigh(const MotionSide& from, const MotionKin& kin) {
         }
 }
 
-/// Rows around those that are wanted; between rows of cells and beyond them lies what weighs
-/// nothing.
+/// Compares the wanted rows and those around. Values between rows and beyond them have weight 0.
 void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to,
                              const MotionRows& rows, int right, int down) {
     const MotionPlane& grey = from.grey.back();
@@ -138,7 +137,7 @@ void MotionSearcher::attempt(const MotionRows& rows, int right, int down, Motion
                 ways.down.of[0].values.data() + begin, end - begin);
 }
 
-/// What is far in a cell.
+/// Far parts take the way of the most similar near part around.
 void MotionSearcher::follow(const MotionCells& cells, MotionWays& ways) const {
     for (const std::uint32_t k : cells.split) {
         const int i = static_cast<int>(k) % cells.columns;

@@ -1,4 +1,4 @@
-// The way of every part, roughly, of all ways that there are.
+// Searches a rough way for every part: tries all ways.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace dibhr {
 
-/// Tries every way in the smallest pictures, by grey and depth. Keeps scratch memory.
+/// Tries all ways in the smallest pictures, by grey and depth. Keeps scratch memory.
 class MotionSearcher {
   public:
-    /// Of the parts in the rows, whole cells to each side, at most `reach`; to stay where nothing
-    /// is much better. In the smallest picture a cell is a pixel of its near part: a far one goes
-    /// as the near one around it that is most alike.
+    /// The ways of the parts in the rows, by whole cells, at most `reach` to each side; 0 where no
+    /// way is much better. In the smallest picture a cell is a pixel of its near part; a far part
+    /// takes the way of the most similar near part around it.
     void search(const MotionSide& from, const MotionSide& to, const MotionKin& kin,
                 const MotionRows& rows, int reach, MotionWays& ways);
 
@@ -27,8 +27,8 @@ class MotionSearcher {
 
     std::ptrdiff_t columns_{0};
     std::size_t margin_{0};
-    std::vector<float> off_{};      ///< of each cell, with a margin before and after them
-    std::vector<float> weights_{};  ///< in planes: of the cells around, for each cell
+    std::vector<float> off_{};      ///< difference of each cell, with a margin before and after
+    std::vector<float> weights_{};  ///< of the cells around each cell, a plane for each neighbour
     std::vector<float> score_{}, best_{};
 };
 

@@ -1,4 +1,4 @@
-// The way that even motion would have at a part, from those around it.
+// Smooths ways: the way of even motion at a part, from the parts around it.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,8 +18,8 @@ static_assert(kLanes <= MotionKin::kMargin);
 
 using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 
-/// What lies about each near part: at every tap how alike it is and where; what each part weighs,
-/// and its way, with that weight.
+/// The neighbours of each near part: for every tap similarity and offset; for every part its
+/// weight, and its way times that weight.
 struct About {
     std::array<const float*, kAround> alike{};
     std::array<std::ptrdiff_t, kAround> away{};
@@ -28,13 +28,13 @@ struct About {
     const float* down{nullptr};
 };
 
-// What is not part of its caller is not compiled for wider vectors.
+// Always inline: only code inside DIBHR_VECTOR_CLONES functions is compiled for wider vectors.
 
 [[gnu::always_inline]] inline void load(Lanes& lanes, const float* from) {
     std::memcpy(&lanes, from, sizeof(lanes));
 }
 
-/// Of kLanes parts from `at` on.
+/// Moments of kLanes parts from `at` on.
 [[gnu::always_inline]] inline void sum_moments(const About& about, std::size_t at,
                                                MotionMoments<float>* to) {
     MotionMoments<Lanes> sums;
@@ -61,10 +61,10 @@ DIBHR_VECTOR_CLONES void sum_all_moments(const About& about, std::size_t count,
     for (std::size_t at = 0; at < count; at += kLanes) sum_moments(about, at, to + at);
 }
 
-/// What the plane that lies nearest to all is at their place; across a line in which they all lie
-/// it is level.
+/// The value at the place itself of the plane fitted to all ways around. If they all lie on a line
+/// the plane is level across it.
 void plane_through(const MotionMoments<float>& moments, float& right, float& down) {
-    constexpr float kRidge = 0.3F;  // where they lie to one side the plane would tilt with noise
+    constexpr float kRidge = 0.3F;  // else ways on one side only would tilt the plane by noise
     const float share = 1.0F / moments.n;
     const float x = moments.x * share;
     const float y = moments.y * share;

@@ -1,4 +1,4 @@
-// Between the middles of four cells.
+// Interpolates between the middles of four cells.
 #include "core/video/motion/motion_spread.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace dibhr {
 namespace {
 
 constexpr float kWhite = 255.0F;
-constexpr float kLeastShare = 1e-3F;  // of a cell whose middle is a whole cell away
+constexpr float kLeastShare = 1e-3F;  // share of a cell whose middle is one cell away
 
 /// The parts of four cells around some pixels.
 struct Around {
@@ -24,7 +24,7 @@ struct Around {
     };
     std::array<Part, 8> parts{};
     std::size_t count{0};
-    bool goes{false};  ///< any of them
+    bool goes{false};  ///< any of them moves
 };
 
 Around parts_around(const MotionCells& cells, const MotionWays& ways, int i, int j) {
@@ -43,8 +43,7 @@ Around parts_around(const MotionCells& cells, const MotionWays& ways, int i, int
     return around;
 }
 
-/// Pixels of a row between the middles: how far to the right one each is, in [0, 1], and the row
-/// down.
+/// Where pixels of a row lie between the middles, in [0, 1]: each to the right, and the row down.
 struct Between {
     const float* right;
     float down;
@@ -96,7 +95,7 @@ void fill_tile(const DepthImage& depth, const Around& around, const Tile& tile, 
         return cells - std::floor(cells);
     };
     const auto px = static_cast<float>(step);
-    // The picture's borders are not whole.
+    // Tiles at the picture's border are not whole.
     std::array<float, kMotionCell_px> levels{}, right{};
     std::array<MotionField::Way, kMotionCell_px> ways{};
     for (int begin = tile.left; begin < tile.right; begin += kMotionCell_px) {

@@ -1,4 +1,4 @@
-// From the ways of parts to those of pixels.
+// Spreads the ways of parts to pixels.
 #pragma once
 
 #include <memory>
@@ -10,8 +10,8 @@
 
 namespace dibhr {
 
-/// Every pixel goes as the parts around it that are alike it in depth, the nearer the more. Null:
-/// none goes anywhere. `step`: as the cells' pictures are thinned out.
+/// Every pixel takes the mean way of the parts around it that are alike it in depth, weighted by
+/// nearness. Null: nothing moves. `step`: of the thinned-out pictures of the cells.
 [[nodiscard]] std::shared_ptr<const MotionField> spread_motion(const DepthImage& depth,
                                                                const MotionCells& cells, int step,
                                                                const MotionWays& ways,

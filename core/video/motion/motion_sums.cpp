@@ -14,16 +14,16 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kCovered = 16.0F;  // so much nearer than it was it is something else
+constexpr float kCovered = 16.0F;  // if this much nearer, a place shows another surface
 constexpr float kOutline = 20.0F;  // an outline's contrast, to each side
-constexpr float kLost2 = 400.0F;   // the difference of what cannot have gone there, squared
+constexpr float kLost2 = 400.0F;   // squared difference of pixels that cannot have moved there
 
-/// A picture's value and the one half a pixel aside, as weights of four pixels.
+/// Weights of four pixels for a place between them.
 struct Between {
     float a, b, c, d;
 };
 
-/// So far aside of a whole pixel, in [0, 1).
+/// For a place this far from a whole pixel, in [0, 1).
 Between between(float right, float down) {
     return {(1.0F - right) * (1.0F - down), right * (1.0F - down), (1.0F - right) * down,
             right * down};
@@ -31,11 +31,11 @@ Between between(float right, float down) {
 
 /// Pixels of one cell whose moved places are inside.
 struct Block {
-    // Of the first picture, the first pixel; of the second one, up left of where it goes.
+    // Of the first picture the first pixel; of the second one the pixel up left of its destination.
     const float *grey, *moved_grey;
     const float *level, *moved_level;
-    const float *here, *moved_here;  ///< the second: the pixel nearest to where it goes
-    const float *near, *moved_near;  ///< as `here`
+    const float *here, *moved_here;  ///< the second: the pixel nearest to the destination
+    const float *near, *moved_near;  ///< likewise
     std::ptrdiff_t stride;
     std::ptrdiff_t above, below;  ///< to the rows for the slope down, at the picture's border 0
     int columns, rows;
@@ -45,9 +45,9 @@ struct Block {
     bool near_part, slopes, outline;
 };
 
-// What is not part of its caller is not compiled for wider vectors.
+// Always inline: only code inside DIBHR_VECTOR_CLONES functions is compiled for wider vectors.
 
-/// So many pixels in a row.
+/// kSide pixels of a row.
 template <int kSide>
 using Pixels [[gnu::vector_size(kSide * sizeof(float))]] = float;
 
@@ -56,7 +56,7 @@ template <int kSide>
     std::memcpy(&pixels, from, sizeof(pixels));
 }
 
-/// Each sum in so many lanes, one for each column.
+/// The sums, each in one lane for each column.
 template <int kSide>
 struct Lanes {
     Pixels<kSide> n{}, r{}, rr{}, x{}, y{}, xx{}, xy{}, yy{}, xr{}, yr{};
@@ -89,7 +89,7 @@ template <int kSide, bool kSlopes>
     sum(MotionSum::yr) = sum_of<kSide>(lanes.yr);
 }
 
-/// Of the picture, at a way between pixels.
+/// Interpolates the picture between pixels.
 template <int kSide>
 [[gnu::always_inline]] inline void load_between(Pixels<kSide>& pixels, const float* from,
                                                 std::ptrdiff_t stride, const Between& weights) {
@@ -113,7 +113,7 @@ template <int kSide>
     y = 0.5F * (after - before);
 }
 
-/// Differences and slopes of pixels that count `w` times.
+/// Adds products of differences and slopes with weight `w`.
 template <int kSide>
 [[gnu::always_inline]] inline void add_products(const Pixels<kSide>& w, const Pixels<kSide>& r,
                                                 const Pixels<kSide>& x, const Pixels<kSide>& y,
@@ -127,7 +127,7 @@ template <int kSide>
     lanes.yr += wy * r;
 }
 
-/// A cell of one surface, which nothing can cover.
+/// Sums of a whole cell of one surface that nothing can cover.
 template <int kSide, bool kSlopes>
 [[gnu::always_inline]] inline void sum_plain(const Block& block, float* sums) {
     Lanes<kSide> lanes{};
@@ -154,7 +154,7 @@ template <int kSide, bool kSlopes>
     put<kSide, kSlopes>(lanes, sums);
 }
 
-/// The outline between the near part and the far one, as a picture of one contrast.
+/// Adds the outline between near and far part, as a picture of fixed contrast.
 template <int kSide, bool kSlopes>
 [[gnu::always_inline]] inline void add_outline(const Block& block, Lanes<kSide>& lanes) {
     Pixels<kSide> level, after, near, x, y;
@@ -185,14 +185,14 @@ template <int kSide, bool kSlopes>
     }
 }
 
-/// A cell that is whole.
+/// Sums of a whole cell.
 template <int kSide, bool kSlopes>
 [[gnu::always_inline]] inline void sum_whole(const Block& block, float* sums) {
     Lanes<kSide> lanes{};
     Pixels<kSide> grey, moved, here, near, moved_here, moved_near, x, y;
     const Pixels<kSide> none{};
     const Pixels<kSide> one = none + 1.0F;
-    // What is above `between` is near; far is what is not above.
+    // Depths above the threshold are near, the others far.
     const Pixels<kSide> above = block.near_part ? one : none;
     const Pixels<kSide> not_above = one - above;
     for (int j = 0; j < kSide; ++j) {
@@ -222,7 +222,7 @@ template <int kSide, bool kSlopes>
     put<kSide, kSlopes>(lanes, sums);
 }
 
-/// One pixel after the other, where the picture ends, and in small pictures.
+/// Sums pixel by pixel, at the picture's border and in small pictures.
 [[gnu::always_inline]] inline void sum_pixels(const Block& block, float* sums) {
     const auto sum = [sums](MotionSum which) -> float& {
         return sums[static_cast<std::size_t>(which)];
@@ -297,7 +297,7 @@ DIBHR_VECTOR_CLONES void sum_plain_block(const Block& block, int side, float* su
         sum_plain<kMotionCell_px / 2, false>(block, sums);
 }
 
-/// Adds to what is 0.
+/// `sums` must be 0 before.
 DIBHR_VECTOR_CLONES void sum_block(const Block& block, float* sums) {
     const bool whole = block.at_left + block.at_right == 0 && block.rows == block.columns;
     if (whole && block.columns == kMotionCell_px)
@@ -312,7 +312,7 @@ struct Span {
     int begin, end;
 };
 
-/// The pixels of [begin, end) that stay, with the one after them, within `count`.
+/// The pixels of [begin, end) that, moved by `way`, and the one after them, are within `count`.
 Span inside(int begin, int end, int way, int count) {
     return {std::max(begin, -way), std::min(end, count - 1 - way)};
 }
@@ -322,7 +322,7 @@ struct Part {
     std::size_t layer;
 };
 
-/// Sums over one part after the other.
+/// Computes the sums part by part.
 class Summing {
   public:
     Summing(const MotionSide& from, const MotionSide& to, std::size_t size, bool slopes)
@@ -336,7 +336,7 @@ class Summing {
     void sum(const Part& part, float right, float down, float* sums) const;
 
   private:
-    /// Where a part goes [px of the picture].
+    /// The moved pixels of a part [px of the picture].
     struct Moved {
         Span x{}, y{};
         int right, down;  ///< whole pixels
@@ -354,7 +354,7 @@ class Summing {
     bool slopes_;
 };
 
-/// Of one surface, and of about one depth, as is all where it goes.
+/// Whether the part is a whole cell of one surface, about as deep as all at its destination.
 bool Summing::is_plain(const Part& part, const Moved& moved) const {
     const MotionPlane& grey = from_.pictures.grey[size_];
     if (halvings_ < 2 || part.layer != 0 || moved.x.end - moved.x.begin < side_ ||
@@ -412,7 +412,7 @@ void Summing::sum_any(const Part& part, const Moved& to, const Between& weights,
     sum_block(block, sums);
 }
 
-/// Of a way in pixels of the picture.
+/// `right`, `down`: the way in pixels of the picture.
 void Summing::sum(const Part& part, float right, float down, float* sums) const {
     const MotionPlane& grey = from_.pictures.grey[size_];
     Moved to{};

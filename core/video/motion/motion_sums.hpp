@@ -1,5 +1,5 @@
-// How far two pictures are from each other when each part of one is moved, and which way they come
-// nearer.
+// Sums over each part of a picture, moved by its way: the difference from the other picture, and
+// in which direction it falls.
 #pragma once
 
 #include "core/video/motion/motion_cells.hpp"
@@ -7,9 +7,9 @@
 
 namespace dibhr {
 
-/// Of every part that is `wanted` (above 0), moved by its way, at size `size` (0: the largest):
-/// slopes too, or the difference alone. Others keep theirs. Pixels that go beyond the picture, or
-/// behind what is nearer, are left out.
+/// Sums of every `wanted` part (above 0), moved by its way, in picture number `size` (0: the
+/// largest): with slopes or without. Other parts keep theirs. Pixels that move out of the picture,
+/// or behind something nearer, do not count.
 void sum_differences(const MotionSide& from, const MotionSide& to, std::size_t size,
                      const MotionLayers& wanted, const MotionWays& ways, MotionMeasure measure,
                      MotionSums& sums);

@@ -1,4 +1,4 @@
-// What of the time between frames is left out for a while, on a machine that is too slow for it.
+// Pauses in-betweens and motion for a while on a machine that is too slow for them.
 #pragma once
 
 #include <algorithm>
@@ -8,21 +8,21 @@
 
 namespace dibhr {
 
-/// In-betweens are left out first, then all of it, for longer each time that it was tried again in
-/// vain. Plain numbers: belongs to one thread.
+/// Pauses in-betweens first, then motion as well; each further pause is twice as long. For one
+/// thread.
 class MotionThrottle {
   public:
-    /// For so many frames at most.
+    /// `longest`: upper limit of a pause [frames].
     explicit MotionThrottle(int longest) : longest_(longest) {}
 
-    /// What is to be done at the next frame; to be asked once a frame.
+    /// The part of `wanted` to compute at the next frame. Call once a frame: it counts pauses down.
     [[nodiscard]] MotionWanted affordable(const MotionWanted& wanted) noexcept {
         const bool motion = is_over(motion_);
         const bool in_betweens = is_over(in_betweens_) && motion;
         return {wanted.motion && motion, wanted.in_betweens && in_betweens};
     }
 
-    /// There was no time for what was done.
+    /// Begins a pause: there was no time for `done`.
     void begin_rest(const MotionWanted& done) noexcept {
         if (!done.any()) return;
         Rest& rest = done.in_betweens ? in_betweens_ : motion_;
@@ -30,11 +30,11 @@ class MotionThrottle {
         rest.next = std::min(2 * rest.next, longest_);
     }
 
-    /// That much was done, of a frame that took `busy_s` in all, where they come `interval_s`
-    /// apart: a rest begins unless frames are done well before the next one comes.
+    /// Adds the cost of a frame with `done`: it took `busy_s`, and frames come `interval_s` apart.
+    /// Begins a pause unless frames are finished well before the next one comes.
     void took(const MotionWanted& done, double busy_s, double interval_s) noexcept {
         constexpr double kMostShare = 0.7;
-        constexpr double kOfNewest = 0.2;  // the weight of the newest of a moving mean
+        constexpr double kOfNewest = 0.2;  // weight of the newest value in the moving mean
         if (!done.any()) return;
         share_ = moving_mean_from_first(share_, busy_s / interval_s, kOfNewest);
         if (share_ <= kMostShare) return;
@@ -42,10 +42,10 @@ class MotionThrottle {
         share_ = 0.0;
     }
 
-    /// As at the beginning.
+    /// Back to the state at the beginning.
     void forget() noexcept { *this = MotionThrottle(longest_); }
 
-    /// What is left out at present.
+    /// What is paused at present.
     [[nodiscard]] bool motion_rests() const noexcept { return motion_.left > 0; }
     [[nodiscard]] bool in_betweens_rest() const noexcept { return in_betweens_.left > 0; }
 
@@ -62,7 +62,7 @@ class MotionThrottle {
 
     int longest_;
     Rest motion_{}, in_betweens_{};
-    double share_{0.0};  ///< of the time from frame to frame, as of late; 0: nothing is known
+    double share_{0.0};  ///< moving mean of busy_s / interval_s; 0: not known
 };
 
 }  // namespace dibhr

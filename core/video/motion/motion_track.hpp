@@ -1,4 +1,4 @@
-// From update to update: what has moved in the video since the last one.
+// Tracks, from update to update, how the video's surface has moved since the last one.
 #pragma once
 
 #include <cstdint>
@@ -8,12 +8,12 @@
 
 namespace dibhr {
 
-/// Told of every update, whoever runs them: the loop, a replay, a run without a clock. Goes by the
-/// frames' names in their media, which a recording gives again.
+/// Must get every update, in the loop, in a replay and in a run without a clock. Identifies frames
+/// by media and media time, which are the same in a replay.
 class MotionTrack {
   public:
-    /// What has moved since the last call, in two frames that make a surface, between which `field`
-    /// (null: nothing is known) is the motion. After another place of the video nothing has.
+    /// The motion since the last call. `pair`: two frames that make a surface; `field`: the motion
+    /// between them, null: not known. No motion after a jump to another place of the video.
     [[nodiscard]] SurfaceMotion go_on_to(const DepthBlend& pair, const MotionField* field,
                                          double dt_s) noexcept {
         const Place last = last_;
@@ -28,7 +28,7 @@ class MotionTrack {
         return motion.crossed ? motion : motion.begun_anew();
     }
 
-    /// There was nothing to touch.
+    /// There was no surface: the next update begins anew.
     void forget() noexcept { last_.known = false; }
 
   private:

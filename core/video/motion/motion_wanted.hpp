@@ -1,4 +1,4 @@
-// What of the time between two frames is to be found out.
+// Which of motion and in-betweens are computed between two frames.
 #pragma once
 
 #include <array>
@@ -10,9 +10,9 @@
 
 namespace dibhr {
 
-/// Whether what moves does so between two frames, too, instead of fading.
+/// Whether moving parts also move between two frames, instead of fading.
 enum class InBetweens : std::uint8_t {
-    automatic,  ///< where it carries what touches it: under a hand that goes along nothing fades
+    automatic,  ///< on with carry: under a hand that is carried along nothing fades
     on,
     off,
 };
@@ -28,8 +28,8 @@ static_assert(has_all_in_order(kInBetweensWords, InBetweens::off));
 }
 
 struct MotionWanted {
-    bool motion{false};       ///< where each pixel goes, by which a proxy is carried
-    bool in_betweens{false};  ///< what moves is on its way between frames; finds the motion, too
+    bool motion{false};       ///< where each pixel moves, by which a proxy is carried
+    bool in_betweens{false};  ///< frames between frames; needs and finds the motion, too
 
     [[nodiscard]] bool any() const noexcept { return motion || in_betweens; }
     bool operator==(const MotionWanted&) const = default;

@@ -1,5 +1,5 @@
-// Large things whose memory is used again once nobody holds them: fresh pages cost more than what
-// is written into them.
+// A pool of large objects, reused once nothing holds them: fresh pages cost more time than writing
+// the data.
 #pragma once
 
 #include <cstddef>
@@ -10,11 +10,11 @@
 
 namespace dibhr {
 
-/// What it gives may outlive it, and be let go of on any thread.
+/// Objects may outlive the pool, and be released on any thread.
 template <typename Thing>
 class Reused {
   public:
-    /// As it was left, or a new one.
+    /// An object with the content that it was released with, or a new one.
     [[nodiscard]] std::shared_ptr<Thing> take() {
         std::unique_ptr<Thing> thing = left_->take();
         if (!thing) thing = std::make_unique<Thing>();

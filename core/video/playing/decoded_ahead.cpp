@@ -13,10 +13,10 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kInARow = 2;  ///< reads after which more are to be expected
+constexpr std::size_t kInARow = 2;  ///< reads in a row: more will follow
 constexpr std::size_t kMostAhead = 4;
-constexpr double kMostPassed_s = 0.5;  ///< at once, so that its heart beats and it can be stopped
-constexpr std::size_t kMostBytes = std::size_t{24} << 20;  ///< one frame is decoded in any case
+constexpr double kMostPassed_s = 0.5;  ///< in one call: the heartbeat goes on, stop works
+constexpr std::size_t kMostBytes = std::size_t{24} << 20;  ///< one frame always fits
 
 std::size_t bytes_of(const RawFrame& frame) {
     return frame.depth.levels.size() * sizeof(float) + frame.colour.rgb.size() +
@@ -129,7 +129,7 @@ bool DecodedAhead::can_be_read() const {
     return !decoded_.empty() && decoded_.front().prepared != Prepared::now;
 }
 
-/// The oldest one that could be; null: there is nothing to do, or it is wanted as it is.
+/// The oldest frame to prepare; null: there is none, or the reader waits and takes it unprepared.
 DecodedAhead::Decoded* DecodedAhead::unprepared() {
     if (!preparation_ || waited_for_) return nullptr;
     const auto found = std::find_if(decoded_.begin(), decoded_.end(), [](const Decoded& decoded) {
@@ -176,7 +176,7 @@ void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
     Decoded decoded = decode(target, from_s);
     lock.lock();
-    if (target_) return;  // it was asked for something else meanwhile
+    if (target_) return;  // a jump was requested meanwhile
     ended_ = !decoded.frame;
     bytes_ += decoded.bytes;
     const bool wanted = decoded.frame && !(decoded.frame->media_s < from_s_);
@@ -185,7 +185,7 @@ void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
     ready_.notify_one();
 }
 
-/// It keeps its place; who wants to read it waits.
+/// The frame keeps its place in the queue; a reader that reaches it waits.
 void DecodedAhead::prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock) {
     waiting.prepared = Prepared::now;
     RawFrame frame = std::move(*waiting.frame);
@@ -198,7 +198,7 @@ void DecodedAhead::prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock)
         broken = std::current_exception();
     }
     lock.lock();
-    if (target_) return;  // it was dropped meanwhile
+    if (target_) return;  // a jump dropped the frame meanwhile
     waiting.frame = std::move(frame);
     waiting.broken = broken;
     waiting.prepared = Prepared::yes;

@@ -1,4 +1,4 @@
-// Decodes on a thread of its own, a few frames ahead of who reads them, and prepares what waits.
+// Decodes on its own thread, a few frames ahead of the reader, and prepares the frames that wait.
 #pragma once
 
 #include <chrono>
@@ -19,44 +19,44 @@
 
 namespace dibhr {
 
-/// Of the thread that decodes and of the one that reads what it decoded; null: nobody listens.
+/// Heartbeats of the decoding thread and of the reading thread; null: nobody watches it.
 struct ReadingHearts {
     Heartbeat* decoding{nullptr};
-    Heartbeat* reading{nullptr};  ///< rests while it waits for the other
+    Heartbeat* reading{nullptr};  ///< rests while it waits for the decoder
 };
 
-/// The same frames, in the same order, as those of the media it takes over, but for those that are
-/// passed over. Nothing is decoded ahead before two frames were read in a row or decode_from() asks
-/// for it, so that a single one costs no more than it did.
+/// Gives the frames of the wrapped media, in the same order, without the skipped ones. It decodes
+/// ahead only after two reads in a row, or after decode_from(): a single read costs no more than
+/// it would without this class.
 class DecodedAhead : public Media {
   public:
-    /// `now` is what decoding is measured by.
+    /// `now` is the clock that measures decoding.
     explicit DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts = {},
                           Now now = std::chrono::steady_clock::now);
     ~DecodedAhead() override;  ///< waits for the frame that is being decoded
     DecodedAhead(const DecodedAhead&) = delete;
     DecodedAhead& operator=(const DecodedAhead&) = delete;
 
-    /// As of the frame last read.
+    /// Of the frame read last.
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override { return next_from(0.0); }
     std::optional<RawFrame> next_from(double earliest_s) override {
         return next_from(earliest_s, 0.0);
     }
-    /// Then those that are less than `apart_s` after it are passed over ahead of time: who wants
-    /// each of those that follow has to seek from then on.
+    /// The decoder then also skips frames less than `apart_s` after a frame given out. A reader
+    /// that wants every following frame has to seek first.
     std::optional<RawFrame> next_from(double earliest_s, double apart_s);
-    /// How long the frame last read took beyond decoding it and those that were passed over before
-    /// it [s]; nothing: it is not known, as after a jump.
+    /// How long the frame read last took, less the decoding of it and of the frames skipped before
+    /// it [s]; nothing: not known, as after a jump.
     [[nodiscard]] std::optional<double> making_s() const { return making_s_; }
     void seek(double media_s) override;
     void seek_near(double media_s) override;
-    /// As seek(), but decoding begins there at once: what follows will be read, in a while.
+    /// As seek(), but decoding begins at once, since the following frames will be read soon.
     void decode_from(double media_s);
 
-    /// What is done to frames that wait to be read, while nothing is to be decoded: called by the
-    /// decoding thread, so that what it uses must outlive this. A frame that is read sooner comes
-    /// without. Nothing: they are left as they are.
+    /// What the decoding thread does to waiting frames while it has nothing to decode. All that the
+    /// function uses must outlive this object. A frame that is read earlier comes unprepared.
+    /// Empty: no preparation.
     using Preparation = std::function<void(RawFrame&)>;
     void prepare_with(Preparation preparation);
 
@@ -69,7 +69,7 @@ class DecodedAhead : public Media {
     };
     enum class Prepared { no, now, yes };
     struct Decoded {
-        std::optional<RawFrame> frame{};  ///< nothing: the end
+        std::optional<RawFrame> frame{};  ///< nothing: the media has ended
         Prepared prepared{Prepared::no};
         std::exception_ptr broken{};
         MediaDescription description{};
@@ -90,29 +90,29 @@ class DecodedAhead : public Media {
     void prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock);
     [[nodiscard]] Decoded decode(const std::optional<Target>& target, double from_s);
 
-    // The decoding thread's.
+    // Used by the decoding thread only.
     std::unique_ptr<Media> media_;
     ReadingHearts hearts_;
     Now now_;
-    double last_s_{0.0};  ///< of the frame decoded last, or where it jumps
+    double last_s_{0.0};  ///< of the frame decoded last, or the target of a jump
     std::int64_t last_index_{0};
 
-    // The reader's.
+    // Used by the reader only.
     MediaDescription description_;
     std::optional<double> making_s_{};
 
-    // Both threads', under the mutex.
+    // Used by both threads, under the mutex.
     std::mutex mutex_{};
     std::condition_variable asked_{}, ready_{};
     std::deque<Decoded> decoded_{};
     std::shared_ptr<const Preparation> preparation_{};
-    std::size_t bytes_{0};            ///< of them
-    std::size_t read_in_a_row_{0};    ///< since the last jump; as if, where more will be
-    double from_s_{0.0};              ///< what is before is passed over
-    double apart_s_{0.0};             ///< as is what is nearer than this to one that is wanted
-    std::optional<Target> target_{};  ///< where to decode next; nothing: what follows
+    std::size_t bytes_{0};            ///< of all in `decoded_`
+    std::size_t read_in_a_row_{0};    ///< since the last jump; decode_from() sets it
+    double from_s_{0.0};              ///< earlier frames are skipped
+    double apart_s_{0.0};             ///< so are frames nearer than this to the last given out
+    std::optional<Target> target_{};  ///< where to decode next; nothing: the following frame
     bool waited_for_{false};
-    bool ended_{false};  ///< nothing follows, or it cannot be read, until it is asked for
+    bool ended_{false};  ///< at the end, or the next frame failed: decode only on request
     bool leaving_{false};
 
     std::thread thread_{};

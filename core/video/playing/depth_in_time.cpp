@@ -1,4 +1,4 @@
-// Depth by its time alone.
+// Reads and loops depth by time, without a clock.
 #include "core/video/playing/depth_in_time.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kShortestLap_s = 1e-4;  ///< a shorter one is taken for a file without time stamps
+constexpr double kShortestLap_s = 1e-4;  ///< shorter loops count as a file without time stamps
 
 }  // namespace
 
@@ -63,7 +63,7 @@ bool DepthInTime::add(std::optional<Frame> frame) {
 bool DepthInTime::start_again(double playback_s) {
     const double lap_s = frames_[0].time_s + last_interval_s_ - offset_s_;
     if (!(lap_s > kShortestLap_s)) return false;
-    // Whole laps that nobody asks for are not decoded.
+    // Whole loops that lie between are not decoded.
     const double laps = std::floor((playback_s - offset_s_) / lap_s);
     offset_s_ += std::fmax(laps, 1.0) * lap_s;
     return add(reader_.at(first_media_s_));

@@ -1,4 +1,4 @@
-// Cleaned depth, colour, maps and motion, put together.
+// Puts cleaned depth, colour, maps and motion together.
 #include "core/video/playing/frame_assembly.hpp"
 
 #include <chrono>

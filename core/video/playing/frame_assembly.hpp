@@ -1,5 +1,5 @@
-// Decoded frames made into those that are felt and drawn: in one place for files, sessions and what
-// is live.
+// Makes the frames that are touched and drawn out of decoded frames: the same code for files,
+// sessions and live sources.
 #pragma once
 
 #include <cstddef>
@@ -18,15 +18,15 @@
 
 namespace dibhr {
 
-/// Cleans frames, lays on them what lies on all of them, and tells how each becomes the next. One
-/// thread at a time but for clean_alone().
+/// Cleans frames, adds the touch maps, and computes the motion from each frame to the next. Used by
+/// one thread at a time; clean_alone() may be called by any thread.
 class FrameAssembly {
   public:
-    /// `now` is what cleaning is measured by. Motion that there is no time for rests for so many
-    /// frames at most.
+    /// `now` is the clock that measures cleaning. Motion for which there is no time is paused for
+    /// at most `longest_rest` frames.
     FrameAssembly(Now now, int longest_rest) : now_(std::move(now)), throttle_(longest_rest) {}
 
-    // Of frames that are made from here on.
+    // Settings of frames that are made from now on.
 
     void set_plan(const CleaningPlan& plan) { plan_ = plan; }
     [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
@@ -36,20 +36,20 @@ class FrameAssembly {
     void set_motion(const MotionWanted& wanted) { wanted_ = wanted; }
     [[nodiscard]] const MotionWanted& motion() const { return wanted_; }
 
-    /// By itself, with its depth moved into `lone`. Any thread.
+    /// Does the cleaning that needs no other frame. Moves the depth into `raw.lone`. Any thread.
     void clean_alone(RawFrame& raw, const CleaningPlan& plan);
-    /// The frame without its depth, whose colour it takes.
+    /// The frame without its depth. Moves the colour out of `raw`.
     [[nodiscard]] Frame without_depth(RawFrame& raw) const;
-    /// The same with the depth of frame `now` of `lone`, which follow each other in time.
+    /// Adds the depth of frame number `now` of the span, whose frames are in order of time.
     [[nodiscard]] Frame finished(const Frame& without_depth, std::span<const LoneDepth* const> lone,
                                  std::size_t now);
-    /// All of a frame whose neighbours in time are not looked at.
+    /// Cleans a frame completely, without its neighbours in time.
     [[nodiscard]] Frame single(RawFrame raw);
 
-    /// Tells `from` how it becomes `next`, as far as that is wanted and there is time for it;
-    /// nothing where that does not follow it.
+    /// Stores in `from` its motion to `next`, as far as it is requested and there is time;
+    /// none when `next` does not follow `from`.
     void connect(Frame& from, const Frame& next, bool follows);
-    /// There was no time for what the last connect() found out.
+    /// There was no time for what the last connect() computed.
     void begin_rest() { throttle_.begin_rest(done_); }
     /// See MotionThrottle.
     void took(double busy_s, double interval_s) { throttle_.took(done_, busy_s, interval_s); }
@@ -58,7 +58,7 @@ class FrameAssembly {
 
   private:
     Now now_;
-    std::mutex alone_{};  ///< the chain's alone() is in use
+    std::mutex alone_{};  ///< guards the chain's cleaning of single frames
     CleaningChain chain_{};
     CleaningPlan plan_{};
     std::shared_ptr<const TouchMaps> maps_{};
@@ -66,7 +66,7 @@ class FrameAssembly {
     FrameMotion motion_{};
     MotionThrottle throttle_;
     MotionWanted wanted_{};
-    MotionWanted done_{};  ///< of it, at the last frame
+    MotionWanted done_{};  ///< what was computed for the last frame
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Keeps what was read, and what it was cleaned with.
+// Keeps decoded frames, and the neighbours that clean them.
 #include "core/video/playing/frame_reader.hpp"
 
 #include <algorithm>
@@ -18,22 +18,22 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostKept = 48;
-constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beyond what a frame is cleaned with
-constexpr double kMostReadBack = 12.0;                     ///< frames made at once to go back
-constexpr double kReach_s = 0.5;                           ///< what is farther away is another time
+constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beside what cleaning needs
+constexpr double kMostReadBack = 12.0;                     ///< frames read at once to step back
+constexpr double kReach_s = 0.5;                           ///< farther frames do not clean this one
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
-/// So many frames in a row fill more than a window: it plays.
+/// After so many frames in a row, more than a window holds, the media counts as playing.
 constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
-constexpr int kInTime = 30;               ///< so many frames in a row: the machine keeps up
-constexpr std::int64_t kMostApart = 3;    // frames: what is farther apart is not followed
-constexpr double kSoon_s = 0.1;           ///< what comes sooner needs no preview
-constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until one was measured
+constexpr int kInTime = 30;               ///< after so many frames in a row the machine keeps up
+constexpr std::int64_t kMostApart = 3;    // frames; no motion is computed over more
+constexpr double kSoon_s = 0.1;           ///< quicker jumps need no preview
+constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until a jump was measured
 
 double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
 
-/// About as many as are kept then, beside the wanted one and the next.
+/// About as many frames as fit into memory beside the wanted one and the next.
 double frames_read_back(const MediaDescription& description) {
     const double depth = 1.0 * description.depth_columns * description.depth_rows;
     const double colour = 1.0 * description.colour_columns * description.colour_rows;
@@ -114,13 +114,13 @@ FrameReader::Kept* FrameReader::read(const Pace& pace) {
     if (at_beginning_) kept->first = true;
     if (follows) kept->previous_s = last->media_s;
     at_beginning_ = false;
-    // What was passed over ahead of time may be missing anywhere from here on.
+    // The decoder may have skipped frames ahead: from here on any frame may be missing.
     const bool gapless = !(pace.apart_s > 0.0) && (!last || last->gapless);
     position_ = {kept->frame.media_s, gapless};
     return kept;
 }
 
-/// For a frame, and for those that were passed over before it.
+/// Updates the mean times with a frame and the frames skipped before it.
 void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s) {
     waited_s = std::max(waited_s - 1e-3 * raw.lone_ms, 0.0);
     waited_s_ += waited_s;
@@ -141,9 +141,9 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     const CleaningSteps& steps = plan().steps;
     const bool needs_colour = steps.sharpen_silhouettes && steps.colour_edges;
     if (needs_colour && !raw.lone && !kept.can_be_cleaned()) assembly_.clean_alone(raw, plan());
-    // It is new, or nobody had wanted it any more.
+    // The frame is new, or its colour was dropped to save memory.
     if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
-    kept.frame.index = raw.index;  // an estimate after some jumps, which frames in a row share
+    kept.frame.index = raw.index;  // after some jumps an estimate, off by the same for all
     raw.colour = {};
     if (!kept.can_be_cleaned()) kept.raw = std::move(raw);
     return &kept;
@@ -153,8 +153,8 @@ std::size_t FrameReader::reach() const {
     return plan().steps.steady ? kReachInTime : 0;
 }
 
-/// Makes room for one more. What the wanted frame and the next one depend on stays. Of what else
-/// was cleaned only the result does, and what is farthest from the wanted frame goes first.
+/// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
+/// other cleaned frames keeps only the result; removes frames farthest from the wanted one first.
 void FrameReader::let_go() {
     const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
     const auto wanted = kept_.lower_bound(wanted_s_);
@@ -176,7 +176,7 @@ void FrameReader::let_go() {
         bytes -= farthest->second.bytes();
         kept_.erase(farthest);
     }
-    // On those before the one before it only others depend.
+    // Of earlier frames than the one before only the raw depth is needed, to clean others.
     for (auto at = kept_.begin(); at != wanted && std::next(at) != wanted; ++at) {
         if (bytes <= kMostBytes) return;
         Kept& kept = at->second;
@@ -202,8 +202,8 @@ bool FrameReader::goes_on_after(double media_s) const {
     return position_ && position_->media_s == media_s;
 }
 
-/// Where all kept frames that follow this one are cleaned, the decoder jumps to the end of their
-/// row while they are shown, early enough for what the next one is cleaned with.
+/// Where all kept frames after this one are cleaned, sends the decoder to the end of their row
+/// while they are shown, early enough for the neighbours that clean the next frame.
 void FrameReader::go_on_from_kept(double media_s) {
     std::vector<const Kept*> row{find(media_s)};
     while (const Kept* next = kept_after(*row.back(), Needs::surface)) row.push_back(next);
@@ -218,7 +218,7 @@ void FrameReader::go_on_from_kept(double media_s) {
     heading_ = {from_s, kept_to_s};
 }
 
-/// Of the frames that follow. Where they break off, of those before: who asks for one is told.
+/// The noise of the following frames, up to a read error, which the read of that frame reports.
 DepthNoise FrameReader::noise_of(Media& media) {
     NoiseMeter meter;
     try {
@@ -232,7 +232,7 @@ DepthNoise FrameReader::noise_of(Media& media) {
     return meter.noise();
 }
 
-/// What the clip's noise asks for is known before its first frame is cleaned.
+/// Measures the noise before the first frame is cleaned, where the options depend on it.
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
@@ -257,7 +257,7 @@ void FrameReader::make_plan() {
     clean_ahead();
 }
 
-/// Unless the machine is too slow for all frames: then who reads cleans, while the next is decoded.
+/// Waiting frames are cleaned by the decoding thread; on a slow machine by the reading one.
 void FrameReader::clean_ahead() {
     if (in_time_ < kInTime && !plan().steps.steady)
         media_.prepare_with(nullptr);
@@ -272,7 +272,7 @@ const std::shared_ptr<const LoneDepth>& FrameReader::lone_of(Kept& kept) {
     return kept.raw.lone;
 }
 
-/// The lone frames around one, in order of time, and which of them it is.
+/// A frame and its neighbours, each cleaned by itself, in order of time.
 FrameReader::Around FrameReader::around(double media_s) {
     Around around;
     const auto is_near = [media_s](const Kept* kept) {
@@ -338,7 +338,7 @@ FrameReader::Kept* FrameReader::next_of(double media_s, Needs needs) {
     return read();
 }
 
-/// Null also where the file breaks off: who asks for that frame itself is told.
+/// Null also at a read error, which is kept until that frame itself is requested.
 FrameReader::Kept* FrameReader::looked_ahead(double media_s) {
     if (broken_ && broken_->after_s == media_s) return nullptr;
     try {
@@ -349,7 +349,7 @@ FrameReader::Kept* FrameReader::looked_ahead(double media_s) {
     }
 }
 
-/// Null also where what is before cannot be read.
+/// Null also where the earlier frames cannot be read.
 FrameReader::Kept* FrameReader::looked_back(double media_s) {
     try {
         return previous_of(media_s, Needs::depth);
@@ -394,7 +394,7 @@ std::optional<Frame> FrameReader::at(double media_s) {
     return frame;
 }
 
-/// What cleans frames with those around them needs them all.
+/// Skips nothing where the filter in time needs every frame.
 const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pace) {
     if (broken_ && broken_->after_s == media_s) {
         const std::exception_ptr why = std::exchange(broken_, {})->why;

@@ -1,4 +1,4 @@
-// Frames of one media, cleaned, in any order.
+// Reads cleaned frames of one media, in any order.
 #pragma once
 
 #include <chrono>
@@ -18,87 +18,87 @@
 
 namespace dibhr {
 
-/// What the last frame cost.
+/// How long the last frame took.
 struct FrameCost {
-    double decode_ms{0.0};                            ///< waited for
-    double clean_ms{0.0};                             ///< on whichever thread
+    double decode_ms{0.0};                            ///< the wait for the decoder
+    double clean_ms{0.0};                             ///< on either thread
     std::chrono::steady_clock::time_point cleaned{};  ///< when it was ready
 };
 
-/// Which of the frames that follow one are wanted, while they play; media time [s].
+/// Which of the following frames are read while they play; media time [s].
 struct Pace {
-    double earliest_s{0.0};  ///< those before are passed over, up to the last
-    double apart_s{0.0};     ///< so much after the one that is given out the next one is wanted
+    double earliest_s{0.0};  ///< frames before it are skipped, but not the last frame
+    double apart_s{0.0};     ///< least time from a frame given out to the next
 };
 
-/// Decodes on a thread of its own, which cleans alone what waits; is called by one thread at a
-/// time. Frames are named by their presentation time in the file; those given out have `time_s` 0.
-/// Everything that decodes may throw InputError.
+/// Decodes on its own thread, which also cleans waiting frames as far as they need no others. Used
+/// by one thread at a time. Frames are identified by their presentation time in the file; frames
+/// given out have `time_s` 0. Every method that decodes may throw InputError.
 class FrameReader {
   public:
-    /// Every frame carries `number`, for who needs to know where it came from. `now` is what
-    /// decoding and cleaning are measured by.
+    /// Every frame carries `number`, which identifies its media. `now` is the clock that measures
+    /// decoding and cleaning.
     explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0,
                          ReadingHearts hearts = {}, Now now = std::chrono::steady_clock::now);
 
     /// The frame shown at `media_s`; the first before the beginning, the last after the end.
     std::optional<Frame> at(double media_s);
-    /// The frame after the one at exactly `media_s`, or what the pace wants instead; nothing at the
-    /// end.
+    /// The frame after the one at exactly `media_s`, or the later one that `pace` selects; nothing
+    /// at the end.
     std::optional<Frame> after(double media_s, const Pace& pace = {});
     /// The frame before the one at exactly `media_s`; nothing at the beginning.
     std::optional<Frame> before(double media_s);
 
-    /// For the eye, while at() would take long: a frame near `media_s` as quickly as one can be
-    /// had, cleaned by itself. Nothing where at() is as quick.
+    /// A frame near `media_s` to be drawn while at() would take long, cleaned without its
+    /// neighbours. Nothing where at() is as quick.
     std::optional<Frame> preview(double media_s);
 
-    /// How long the last frame, the one at exactly `media_s`, is shown: as long as the one before,
-    /// or, where that was passed over, as long as frames are on average [s].
+    /// How long the last frame, the one at exactly `media_s`, is shown: as long as the frame
+    /// before, or, where that was skipped, the mean interval [s].
     [[nodiscard]] double last_interval_s(double media_s);
 
-    /// Tells `from` how it becomes `next`, both given out as they are cleaned now and the one after
-    /// the other: its motion and what is between them, where that is wanted and this machine has
-    /// time for it. Nothing is known of frames that are not next to each other in the file.
+    /// Stores in `from` its motion to `next` and the in-betweens, where requested and this machine
+    /// has time. Both were given out with the present cleaning, one after the other. Frames that
+    /// are not neighbours in the file get no motion.
     void connect(Frame& from, const Frame& next);
-    /// What connect() finds out from here on.
+    /// What connect() computes from now on.
     void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
 
-    /// From here on frames come cleaned so; those given out before are asked for again.
+    /// Frames are cleaned so from now on; frames given out before have to be read again.
     void set_cleaning(const CleaningOptions& options);
 
-    /// From here on frames carry these; null: none.
+    /// Frames carry these maps from now on; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
     [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
-    /// How many frames after() has passed over.
+    /// How many frames after() has skipped.
     [[nodiscard]] std::int64_t passed_over() const { return passed_over_; }
-    /// How long a frame takes that is passed over, as of late [s]: where it is only decoded that,
-    /// else how long one is waited for without what is done to it ahead of time.
+    /// Mean time that a skipped frame takes [s]: its decoding, or, where skipped frames are more
+    /// than decoded, the wait for a frame less its cleaning.
     [[nodiscard]] double decoding_s() const { return decoding_s_; }
 
-    /// How long one that is not passed over takes beyond that, on the thread that decodes, as of
-    /// late [s]; 0: nothing, or it is not known.
+    /// Mean time that a frame given out takes in addition, on the decoding thread [s]; 0: none, or
+    /// not known.
     [[nodiscard]] double making_s() const { return making_s_; }
 
-    /// The sum of all waits, and of what measuring a clip's noise and motion took [s]: the one
-    /// happens once, the other rests where there is no time for it.
+    /// The sum of all waits, and of the time that measuring noise and motion took [s]: noise is
+    /// measured once, motion is paused where there is no time for it.
     [[nodiscard]] double waited_s() const { return waited_s_; }
 
-    /// What is done to them, once a frame has been given out.
+    /// The cleaning in use, once a frame has been given out.
     [[nodiscard]] const CleaningPlan& plan() const { return assembly_.plan(); }
 
   private:
     static constexpr int kLongestRest = 20'000;  ///< frames without motion
-    /// Of a kept frame: to give it out, or to clean others with it.
+    /// What a kept frame is used for: to give it out, or to clean its neighbours with it.
     enum class Needs { surface, depth };
-    /// A decoded frame and its neighbours, as far as they were read one after the other. Cleaned by
-    /// itself and then with those around it when that is asked for; what was made of it last may be
-    /// all that is left.
+    /// A decoded frame, and the times of its neighbours where those were read directly before or
+    /// after it. It is cleaned by itself, then with its neighbours on request. To save memory only
+    /// the result may be kept.
     struct Kept {
-        Frame frame{};   ///< without its depth until that is cleaned
-        RawFrame raw{};  ///< without its colour; its lone_ms until they are told
+        Frame frame{};   ///< without depth until that is cleaned
+        RawFrame raw{};  ///< without colour; lone_ms until cleaned() has counted it
         std::optional<double> previous_s{}, next_s{};
         bool first{false}, last{false};  ///< of the media
 
@@ -111,12 +111,12 @@ class FrameReader {
         }
         [[nodiscard]] std::size_t bytes() const;
     };
-    /// Of the last decoded frame. Gapless: those that follow it come one by one.
+    /// The last decoded frame. Gapless: no frame after it is skipped.
     struct Position {
         double media_s{0.0};
         bool gapless{true};
     };
-    /// Where the next decoded frame is, and after which one those begin that are not kept.
+    /// Where the decoder was sent ahead of time, and the last frame that is kept.
     struct Heading {
         double from_s{0.0}, kept_to_s{0.0};
     };
@@ -125,16 +125,16 @@ class FrameReader {
         std::size_t now{0};
     };
 
-    // Null: it is not kept. What is found stays where it is until the next frame is read.
-    Kept* find(double media_s);        ///< at exactly that time
-    Kept* find_shown(double media_s);  ///< shown then, and can be given out
-    /// Decodes the next frame that the pace wants and keeps it; null at the end.
+    // Null: not kept. The pointer is valid until the next frame is read.
+    Kept* find(double media_s);        ///< the frame at exactly that time
+    Kept* find_shown(double media_s);  ///< the frame shown then, if it can be given out
+    /// Decodes and keeps the next frame that the pace selects; null at the end.
     Kept* read(const Pace& pace = {});
     void tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s);
     Kept* keep(RawFrame raw);
     const std::shared_ptr<const LoneDepth>& lone_of(Kept& kept);
     Kept* kept_after(const Kept& kept, Needs needs);
-    Kept* next_of(double media_s, Needs needs);  ///< of one at exactly that time; null at the end
+    Kept* next_of(double media_s, Needs needs);  ///< after the one at exactly media_s; null: end
     Kept* looked_ahead(double media_s);
     Kept* looked_back(double media_s);
     Kept* previous_of(double media_s, Needs needs);  ///< null at the beginning
@@ -155,28 +155,28 @@ class FrameReader {
 
     Now now_;
     FrameAssembly assembly_;
-    DecodedAhead media_;  // after what its thread uses
+    DecodedAhead media_;  // declared after all that its thread uses
     CleaningOptions options_{};
-    std::optional<DepthNoise> noise_{};  ///< of the clip, once it is needed
-    /// A file that broke off after a frame, which was noticed ahead of time.
+    std::optional<DepthNoise> noise_{};  ///< of the clip, measured when first needed
+    /// A read error after a frame that was read ahead: thrown when that frame is requested.
     struct Broken {
         double after_s{0.0};
         std::exception_ptr why{};
     };
     std::optional<Broken> broken_{};
-    bool planned_{false};                 ///< the assembly has what the options mean for it
+    bool planned_{false};                 ///< the assembly has the plan of the options
     std::map<double, Kept> kept_{};       ///< by presentation time
-    double wanted_s_{0.0};                ///< the frame that is, or was last, given out
+    double wanted_s_{0.0};                ///< the frame to give out now, or the last one
     bool at_beginning_{true};             ///< the next frame is the first one
-    std::optional<Position> position_{};  ///< if the next decoded frame comes after it
-    std::optional<Heading> heading_{};    ///< the decoder's, until it is read
+    std::optional<Position> position_{};  ///< nothing: the decoder is not after a known frame
+    std::optional<Heading> heading_{};    ///< until the decoder is read again
     int in_a_row_{0};                     ///< frames that after() gave out since a jump or a step
     double decoding_s_{0.0};
     double making_s_{0.0};
     double waited_s_{0.0};
-    double jump_s_;  ///< how long the last one took, to a frame that was not kept
+    double jump_s_;  ///< how long the last jump to a frame that was not kept took
     std::int64_t passed_over_{0};
-    int in_time_{0};  ///< frames since one was passed over
+    int in_time_{0};  ///< frames since one was skipped
     FrameCost cost_{};
 };
 

@@ -1,4 +1,4 @@
-// Steers the moment that is shown by when frames were ready.
+// Steers the shown moment by the times at which frames were ready.
 #include "core/video/playing/live_clock.hpp"
 
 #include <algorithm>
@@ -12,16 +12,16 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kJump_s = 0.001;        ///< what begins anew is later than all that was shown
-constexpr double kOtherStamps_s = 1.0;   ///< stamps farther apart are of another time
+constexpr double kJump_s = 0.001;        ///< from all that was shown to a restarted timeline
+constexpr double kOtherStamps_s = 1.0;   ///< stamps farther apart: the source's clock was set
 constexpr std::size_t kRemembered = 64;  ///< frames: two seconds
-constexpr double kLate = 0.05;     ///< the share of frames that may come later than is reckoned
-constexpr double kUnevenly = 1.0;  ///< intervals that are waited for uneven frames, at most
-constexpr double kSlow_s = 0.3, kQuick_s = 2.0;      ///< in which an error is made good
-constexpr double kSlowest = 0.05, kQuickest = 0.02;  ///< by which the speed may differ from 1
+constexpr double kLate = 0.05;     ///< share of the frames that may come too late
+constexpr double kUnevenly = 1.0;  ///< the longest added delay for jitter, in intervals
+constexpr double kSlow_s = 0.3, kQuick_s = 2.0;      ///< time constants of the correction
+constexpr double kSlowest = 0.05, kQuickest = 0.02;  ///< most that the speed differs from 1
 constexpr double kAlike_s = 0.0005;
 
-/// `share` of them are less.
+/// The value below which `share` of them lie.
 double quantile(std::vector<double>& values, double share) {
     const auto at = values.begin() +
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -57,7 +57,7 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
     }
     interval_s_ = moving_mean(interval_s_, std::min(since_s, 2.0 * interval_s_));
     frame.time_s = stamp_s + offset_s_;
-    if (std::exchange(alone_, false)) {  // held until now: also where frames were missing
+    if (std::exchange(alone_, false)) {  // also holds it where frames were missing
         Frame& held = frames.back();
         held.time_s = std::max(held.time_s, frame.time_s - interval_s_);
         clock_ = {now, held.time_s, 1.0};
@@ -65,7 +65,7 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
     steer(frame.time_s, now);
     const double moment_s = clock_.playback_s(now);
     Frame& newest = frames.back();
-    if (moment_s > newest.time_s) {  // too late: held until now, the surface goes on from there
+    if (moment_s > newest.time_s) {  // too late: the surface was held and moves on now
         newest.time_s = moment_s;
         while (frames.size() > 1) frames.pop_front();
         frame.time_s = std::max(frame.time_s, moment_s + 0.5 * interval_s_);
@@ -75,7 +75,7 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
     return false;
 }
 
-/// So that all but a few frames are ready an interval before they are shown whole.
+/// Aims at all but a few frames being ready one interval before they are fully shown.
 void LiveClock::steer(double time_s, Time now) {
     const double moment_s = clock_.playback_s(now);
     ahead_s_.push_back(time_s - seconds_of(now));

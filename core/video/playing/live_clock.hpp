@@ -1,4 +1,4 @@
-// When a live frame is shown: as soon as it can be without the surface standing still.
+// Decides when a live frame is shown: as early as possible without the surface stopping.
 #pragma once
 
 #include <cstddef>
@@ -9,23 +9,23 @@
 
 namespace dibhr {
 
-/// Frames come one interval apart by their stamps, and unevenly by our clock. The surface moves
-/// from one to the next in that interval: so the moment that is shown is an interval behind the
-/// newest frame when that is ready, and as much more as frames come unevenly, up to another
-/// interval. The clock is steered towards that by its speed, never by a step, which also follows a
-/// source whose clock runs at another rate. Plain numbers: belongs to one thread.
+/// Frames are one interval apart by their stamps, but arrive unevenly. The surface moves from one
+/// frame to the next in that interval. So the shown moment is one interval behind the newest frame
+/// when that is ready, plus the jitter, up to another interval. The clock is steered there by its
+/// speed, never by a step; so it also follows a source whose clock runs at another rate.
+/// For one thread.
 class LiveClock {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// The next frame begins anew: after a pause, a lost signal, other stamps.
+    /// The next frame restarts the timeline: after a pause, a lost signal, a jump of the stamps.
     void begin_again() noexcept { begins_ = true; }
-    /// Whether the surface moves on to a frame of that stamp [s] from those that are there.
+    /// Whether the surface moves from the present frames to a frame of that stamp [s].
     [[nodiscard]] bool goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept;
-    /// Puts a frame of that stamp [s], ready now, on the timeline behind `frames`, those on it,
-    /// which may be held longer or let go. True: the timeline begins anew with it, alone.
+    /// Appends a frame of that stamp [s], ready now, to the timeline `frames`, whose frames may be
+    /// held longer or removed. True: the timeline restarted and holds this frame alone.
     bool add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames);
-    /// Stands still at this moment; goes on with begin_again().
+    /// Stops the clock at this moment; begin_again() starts it.
     void stop(Time now) noexcept { clock_ = {now, clock_.playback_s(now), 0.0}; }
 
     [[nodiscard]] const PlaybackClock& clock() const noexcept { return clock_; }
@@ -39,9 +39,9 @@ class LiveClock {
     double offset_s_{0.0};  ///< from a stamp to the timeline
     double last_stamp_s_{0.0};
     double interval_s_{1.0 / 30.0};
-    std::deque<double> ahead_s_{};  ///< of our clock, each frame's time when it was ready
+    std::deque<double> ahead_s_{};  ///< of each frame: its time minus our clock's when it was ready
     bool begins_{true};
-    bool alone_{false};  ///< the clock stands until there is a frame to move towards
+    bool alone_{false};  ///< the clock stands until a second frame arrives
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// From a feed to a window.
+// Turns the pictures of a feed into a window of frames.
 #include "core/video/playing/live_playback.hpp"
 
 #include <algorithm>
@@ -18,17 +18,17 @@ namespace {
 using Time = LivePlayback::Time;
 
 constexpr double kShortestSilence_s = 0.15;
-constexpr double kLongestSilence_s = 0.25;  ///< and at least that of slow cameras:
+constexpr double kLongestSilence_s = 0.25;  ///< but for slow cameras at least so many intervals:
 constexpr double kSlowIntervals = 1.5;
 constexpr double kLostIntervals = 3.0;
 constexpr std::chrono::seconds kMovedLately{1};
-constexpr float kMoved = 0.01F;  ///< of the highest level, and beyond the noise
+constexpr float kMoved = 0.01F;  ///< of the highest level, or more than the noise
 constexpr float kMovedNoise = 5.0F;
-constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many
-constexpr std::size_t kCompared = 7;     ///< every so many pixels
+constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many has moved
+constexpr std::size_t kCompared = 7;     ///< one pixel in so many is compared
 constexpr std::chrono::milliseconds kTellAgain{500};
 constexpr double kMilliseconds = 1000.0;
-constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< none is one of a file's
+constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< higher than any file's
 
 std::chrono::steady_clock::duration duration_of(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -39,7 +39,7 @@ double seconds_between(Time from, Time to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-/// As a file of milliseconds gives it back.
+/// As a file with time stamps in milliseconds returns it.
 double file_s(double time_s) {
     return static_cast<double>(std::llround(kMilliseconds * time_s)) * (1.0 / kMilliseconds);
 }
@@ -109,7 +109,7 @@ void LivePlayback::pause(Time now) {
     if (std::exchange(playing_, false)) clock_.stop(now);
 }
 
-/// What was seen last is cleaned again at once.
+/// Cleans the last frame again at once.
 void LivePlayback::set_cleaning(const CleaningOptions& options, Time now) {
     if (options == options_) return;
     options_ = options;
@@ -156,7 +156,7 @@ bool LivePlayback::take(Time now) {
     return watch_signal(now_()) || changed;
 }
 
-/// One that cannot be had after all, because what sends has changed, is a lost signal.
+/// False also where the pictures have changed their format: the signal is then lost.
 bool LivePlayback::take_frame(Time now) {
     std::optional<RawFrame> raw = media_->next();
     if (!raw || !raw->taken) return false;
@@ -184,7 +184,7 @@ bool LivePlayback::take_frame(Time now) {
     return true;
 }
 
-/// Its noise is known before the first frame is shown, where that is cleaned by it.
+/// True: the cleaning depends on the noise, and more frames must be measured before one is shown.
 bool LivePlayback::measures(const RawFrame& raw) {
     if (noise_) return false;
     meter_.add(raw.depth);
@@ -208,7 +208,7 @@ Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     return frame;
 }
 
-/// How the one before becomes this one, whose cleaning began then.
+/// Computes the motion from the last frame to `next`, whose cleaning started at `begin`.
 void LivePlayback::connect(const Frame& next, Time begin) {
     if (!assembly_.motion().any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
     assembly_.connect(frames_.back(), next, true);
@@ -236,7 +236,7 @@ void LivePlayback::notice_motion(const Frame& frame, Time now) {
     if (!frames_.empty() && differ(*frames_.back().depth, *frame.depth, by)) moved_ = now;
 }
 
-/// When it counts as lost unless something comes.
+/// When the signal counts as lost unless a frame arrives.
 Time LivePlayback::lost_at() const {
     const double interval_s = clock_.interval_s();
     const double longest_s = std::max(kLongestSilence_s, kSlowIntervals * interval_s);
@@ -244,7 +244,7 @@ Time LivePlayback::lost_at() const {
     return feed_->signal().last + duration_of(silence_s);
 }
 
-/// What moved a moment ago is not where it is held any more.
+/// Switches the force off where the surface moved just before: it is no longer where it is held.
 bool LivePlayback::watch_signal(Time now) {
     const bool lost = !frames_.empty() && playing_ && now >= lost_at();
     if (!lost) return false;

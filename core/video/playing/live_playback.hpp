@@ -1,4 +1,4 @@
-// Shows what is live: cleans frames as they come, holds the last surface when none do.
+// Plays a live source: cleans frames as they arrive, holds the last surface when none do.
 #pragma once
 
 #include <chrono>
@@ -20,38 +20,38 @@
 
 namespace dibhr {
 
-/// Belongs to the player's thread. A frame is cleaned by itself: what needs those after it would be
-/// felt too late; how it moves is known when the next one comes. The surface follows the pictures
-/// by their stamps, a frame behind; pictures that cannot be made in time are left out.
+/// Used by the player's thread. A frame is cleaned by itself, since waiting for later frames would
+/// add delay; its motion is computed when the next frame arrives. The surface follows the pictures
+/// by their stamps, one frame behind; pictures for which there is no time are dropped.
 class LivePlayback {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `now` is what cleaning is measured by: it ends later than the time that take() is given.
+    /// `now` is the clock that measures cleaning, which ends after the time that take() gets.
     explicit LivePlayback(Now now = std::chrono::steady_clock::now)
         : now_(std::move(now)), assembly_(now_, kLongestRest) {}
     ~LivePlayback() { close(); }
 
-    /// `news` is called on other threads whenever take() has something to do.
+    /// The function is called on other threads whenever take() has something to do.
     void open(std::unique_ptr<Media> media, std::uint32_t number,
               std::shared_ptr<const TouchMaps> maps, std::function<void()> news);
     void close();
     [[nodiscard]] bool is_open() const { return media_ != nullptr; }
 
-    void play();           ///< on with what comes now
-    void pause(Time now);  ///< the surface stays as it is
+    void play();           ///< continues with the next frame
+    void pause(Time now);  ///< holds the surface
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
-    /// What is to be found out of the time between the frames that come from now on.
+    /// What is computed between the frames that arrive from now on.
     void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
     void set_maps(std::shared_ptr<const TouchMaps> maps);
-    /// From the one that is there on frames carry that number, their presentation times count from
-    /// it, and what was before it is forgotten: it is the first one of a file. Empty: no more.
+    /// Sends frames to the sink from the shown one on, which begins a file: frames carry `number`,
+    /// their times count from it, and earlier depth is forgotten. Empty: stops sending.
     void record(std::uint32_t number, LiveSink sink, Time now);
 
-    /// Takes what has come and lets go what has passed. True when the window changed.
+    /// Takes a frame that arrived, and drops frames that are past. True when the window changed.
     bool take(Time now);
-    /// When that is due without anything having come.
+    /// When take() is due next if no frame arrives.
     [[nodiscard]] Time next_due(Time now) const;
 
     [[nodiscard]] FrameWindow window() const;
@@ -79,28 +79,28 @@ class LivePlayback {
     Now now_;
     std::unique_ptr<Media> media_{};
     std::shared_ptr<LiveFeed> feed_{};
-    std::uint32_t opened_{0};  ///< number it was opened by
+    std::uint32_t opened_{0};  ///< number given to open()
     FrameAssembly assembly_;
     CleaningOptions options_{};
     DepthMemory memory_{};
     NoiseMeter meter_{};
-    std::size_t measured_{0};  ///< frames
+    std::size_t measured_{0};  ///< frames whose noise was measured
     std::optional<DepthNoise> noise_{};
     LiveClock clock_{};
     std::deque<Frame> frames_{};  ///< from the shown one on
-    RawFrame last_{};             ///< the newest as it came, with its colour
+    RawFrame last_{};             ///< the newest frame, not cleaned
     double last_stamp_s_{0.0};
     std::uint64_t taken_{0};  ///< number of the newest pair
     std::uint64_t discontinuity_{0};
     bool playing_{true};
     std::int64_t dropped_{0};
     double behind_s_{0.0};
-    Time moved_{};  ///< when the surface did so last
+    Time moved_{};  ///< when the surface moved last
     bool lost_{false};
-    Time told_{};  ///< when the status was young last, while it is lost
+    Time told_{};  ///< of the last status update while the signal is lost
     bool force_off_{false};
     LiveSink sink_{};
-    std::optional<double> file_begin_s_{};  ///< stamp of the first frame of what is recorded
+    std::optional<double> file_begin_s_{};  ///< stamp of the recording's first frame
     double clean_ms_{0.0};
 };
 

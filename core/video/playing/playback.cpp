@@ -1,5 +1,4 @@
-// What is shown when: the frames around now on the playback timeline, and the clock that moves over
-// them.
+// The playback timeline: reads frames ahead of its clock, and skips those that would be late.
 #include "core/video/playing/playback.hpp"
 
 #include <algorithm>
@@ -14,11 +13,11 @@
 namespace dibhr {
 namespace {
 
-constexpr double kJump_s = 0.001;      ///< a jump begins later: no playback time means two frames
-constexpr double kMostDecoding = 0.8;  ///< of the time from frame to frame
+constexpr double kJump_s = 0.001;      ///< between frames: no two have the same playback time
+constexpr double kMostDecoding = 0.8;  ///< of the interval; above it skipping frames does not help
 constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in the means
-constexpr std::chrono::seconds kToldFor{3};
-constexpr double kMuch = 1.5;  ///< intervals: what is made in less comes too late now and then only
+constexpr std::chrono::seconds kToldFor{3};  ///< so long the status says that the clock waited
+constexpr double kMuch = 1.5;  ///< intervals; frames that take less are late only now and then
 constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
 
 }  // namespace
@@ -36,7 +35,7 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     jump_to(std::move(*first), now);
 }
 
-/// The frames stay, so that the timeline goes on.
+/// Keeps the frames, so that the timeline continues.
 void Playback::close() {
     reader_.reset();
     sought_s_.reset();
@@ -52,7 +51,7 @@ double Playback::moment(Time now) const {
     return frames_.empty() ? playback_s : std::min(playback_s, frames_.back().time_s);
 }
 
-/// Behind all frames that there were: while this one was read they were shown on.
+/// The frame begins after all earlier frames, which were shown while it was read.
 void Playback::jump_to(Frame frame, Time now) {
     frame.time_s =
         frames_.empty() ? 0.0 : std::max(clock_.playback_s(now), frames_.back().time_s) + kJump_s;
@@ -121,9 +120,9 @@ void Playback::step(int frames, Time now) {
 void Playback::set_looping(bool looping) {
     if (looping == looping_) return;
     looping_ = looping;
-    complete_ = false;  // asked again by the next reading
+    complete_ = false;  // the next read decides it again
     if (looping) return;
-    // Frames of the next lap are forgotten, unless the surface is moving towards one already.
+    // Drops frames of the next loop, unless the surface is already moving towards one.
     for (std::size_t k = 2; k < frames_.size(); ++k) {
         if (frames_[k].media_s > frames_[k - 1].media_s) continue;
         frames_.resize(k);
@@ -135,8 +134,8 @@ void Playback::set_part(const std::optional<MediaPart>& part) {
     if (part == part_) return;
     part_ = part;
     beyond_part_ = false;  // also where its end was passed while it was being set
-    complete_ = false;     // asked again by the next reading
-    // Frames that are not of it any more are forgotten, but for one that the surface moves towards.
+    complete_ = false;     // the next read decides it again
+    // Drops the frames read ahead, but for the one that the surface moves towards.
     if (frames_.size() <= 2) return;
     frames_.resize(2);
     offset_s_ = frames_.back().time_s - frames_.back().media_s;
@@ -161,7 +160,7 @@ void Playback::set_motion(const MotionWanted& wanted) {
     if (other_surface && put_between(wanted.in_betweens)) ++discontinuity_;
 }
 
-/// Whether any of the frames that are there got in-betweens, or lost them.
+/// Adds or removes in-betweens of the present frames. Whether any changed.
 bool Playback::put_between(bool wanted) {
     bool changed = false;
     for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
@@ -181,11 +180,11 @@ void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
     for (Frame& frame : frames_) frame.maps = maps;
 }
 
-/// All frames or none: no surface lies between two cleanings.
+/// Cleans all present frames again, or none: no surface blends two cleanings.
 void Playback::clean_again(const CleaningOptions& options) {
     reader_->set_cleaning(options);
     ready_before_s_.reset();
-    if (sought_s_) return;  // the frame that will be there comes cleaned so
+    if (sought_s_) return;  // the target of the seek will be cleaned so
     std::deque<Frame> cleaned;
     try {
         for (const Frame& frame : frames_) {
@@ -203,7 +202,7 @@ void Playback::clean_again(const CleaningOptions& options) {
         throw;
     }
     frames_ = std::move(cleaned);
-    ++discontinuity_;  // the surface is another one at once
+    ++discontinuity_;  // the surface changes at once
 }
 
 bool Playback::advance(Time now) {
@@ -262,12 +261,12 @@ bool Playback::in_part() const {
     return part_ && !beyond_part_;
 }
 
-/// With the media, or with the part that is played.
+/// Whether the loop ends here: at the end of the media, or of the part.
 bool Playback::lap_ends_before(const std::optional<Frame>& next) const {
     return !next || (in_part() && next->media_s > part_->to_s);
 }
 
-/// Beyond the part that is played it is the media's own.
+/// Behind the part it is the media's own begin.
 double Playback::lap_begins_s() const {
     return in_part() ? part_->from_s : first_media_s_;
 }
@@ -277,10 +276,9 @@ double Playback::interval_s() const {
     return rate > 0.0 ? 1.0 / rate : 0.0;
 }
 
-/// How far apart on the playback timeline frames are that come one after the other in time, when
-/// those between them are passed over. It does not depend on how many were of late: one that came
-/// late would make the next one come later still. Nothing where decoding is what takes so long:
-/// frames passed over take as long as others.
+/// The interval on the playback timeline that this machine sustains by skipping frames. It does not
+/// depend on how many were skipped lately: else one late frame would make the next one later.
+/// Nothing where the decoding takes too long: skipped frames have to be decoded, too.
 std::optional<double> Playback::taken_s() const {
     const double decoding_s = clock_.speed * reader_->decoding_s();
     const double making_s = clock_.speed * reader_->making_s();
@@ -294,8 +292,8 @@ std::optional<double> Playback::taken_s() const {
     return std::max(decoding_s + cleaning_s, cleaning_s / (1.0 - part));
 }
 
-/// Whatever comes next, and while frames come too late one that does not; those that follow as far
-/// apart as they take.
+/// The next frame; while frames are late, the first that is in time, and then frames at the
+/// interval that this machine sustains.
 Pace Playback::pace(Time now) const {
     if (!playing_ || starts_) return {};
     const double next_s = frames_.back().media_s + kTimeTolerance_s;
@@ -305,10 +303,10 @@ Pace Playback::pace(Time now) const {
     return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), apart_s};
 }
 
-/// Of the next frame, on the playback timeline. One that would come too late is passed over, with
-/// all up to one that is there a frame before its time, so that the surface moves on to it; from
-/// then on frames are as far apart as they take. Where they are made side by side, the one that is
-/// so far apart is under way already.
+/// Of the next frame to read, on the playback timeline. Late frames are skipped up to one that is
+/// ready an interval early, so that the surface can move to it; from then on frames have the
+/// sustained interval. Where two threads share the work, the frame at that distance is already
+/// being made.
 double Playback::earliest_s(Time now, double takes_s) const {
     const double there_s = clock_.playback_s(now) + takes_s;
     const double newest_s = frames_.back().time_s;
@@ -351,8 +349,8 @@ bool Playback::has_time() const {
 void Playback::make_ready_to_step_back() {
     ready_before_s_ = frames_.front().media_s;
     try {
-        static_cast<void>(reader_->before(*ready_before_s_));  // it is kept
-    } catch (const InputError&) {                              // told to who takes the step
+        static_cast<void>(reader_->before(*ready_before_s_));  // the reader keeps it
+    } catch (const InputError&) {                              // the step itself reports it
     }
 }
 

@@ -1,5 +1,5 @@
-// What is shown when: the frames around now on the playback timeline, and the clock that moves over
-// them.
+// Decides when each frame is shown: the frames around the current time on the playback timeline,
+// and the clock that moves over them.
 #pragma once
 
 #include <chrono>
@@ -13,65 +13,61 @@
 
 namespace dibhr {
 
-/// Belongs to the player's thread; every time comes in as an argument. The timeline only ever
-/// grows: it goes on across loops, where the last frame blends into the first and the discontinuity
-/// rises (not every recording ends as it began), and a jump begins a moment later than all that was
-/// shown.
+/// Used by the player's thread; callers pass the time. Times on the timeline only increase. They
+/// continue across loops, where the last frame blends into the first and the discontinuity count
+/// rises (a recording may end unlike it began). A jump begins just after all that was shown.
 class Playback {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Takes a media from its first frame on, playing. Throws InputError, and then keeps what it
-    /// had.
+    /// Plays a media from its first frame. Throws InputError, and then keeps the media it had.
     void open(std::unique_ptr<FrameReader> reader, Time now);
 
-    /// Nothing is read any more; what is chosen stays chosen.
+    /// Ends reading; settings stay.
     void close();
     void play(Time now);
     void pause(Time now);
     void seek(double media_s, Time now);
     void step(int frames, Time now);
     void set_looping(bool looping);
-    /// Only this part of the media is played: at its end it stops, or begins the part again. From
-    /// beyond it, where a seek or a step may lead, the media is played to its own end.
+    /// Plays only this part of the media: at its end playback stops, or loops the part. From
+    /// behind the part, where a seek or a step may lead, the media plays to its own end.
     void set_part(const std::optional<MediaPart>& part);
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
-    /// What is to be found out of the time between frames: of those read from now on, but
-    /// in-betweens of all at once.
+    /// What is computed between frames read from now on; in-betweens also between present frames.
     void set_motion(const MotionWanted& wanted);
-    /// Lays them on all frames at once; null: none.
+    /// Puts them on all frames at once; null: none.
     void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
-    /// Leaves frames that are past, stops at the end. True when the window changed.
+    /// Drops frames that are past, stops at the end. True when the window changed.
     bool advance(Time now);
     /// Whether a frame ahead is missing.
     [[nodiscard]] bool needs_frame() const;
-    /// Reads the frame that was sought, or one ahead: the next one, or, where that would come too
-    /// late, the first that comes in time. True when the window changed; then `arrived` is told.
+    /// Reads the target of a seek, or one frame ahead: the next one, or, where that would be late,
+    /// the first that is in time. True when the window changed; then call on_frame_read().
     bool read_ahead(Time now);
-    /// When what was read ahead was there. After a jump the clock begins now; where the frames had
-    /// run out the surface goes on from where it was held, to meet the clock.
+    /// A frame was read ahead, and is ready now. After a jump the clock starts now. Where frames
+    /// had run out, the surface moves on from where it was held, towards the clock.
     void arrived(Time now);
-    /// Reading failed: plays what is there and stops.
+    /// Reading failed: plays the present frames and stops.
     void end_here();
-    /// Whether there is time to make ready for another step back: paused after one, and nothing
-    /// else to read.
+    /// Whether another step back can be prepared: paused after one, and nothing else to read.
     [[nodiscard]] bool has_time() const;
-    /// Then a step back has nothing to wait for.
+    /// Reads the frame before, so that a step back need not wait.
     void make_ready_to_step_back();
-    /// When `advance` is due next; never when paused.
+    /// When advance() is due next; never when paused.
     [[nodiscard]] Time next_due() const;
 
     /// To be drawn.
     [[nodiscard]] FrameWindow window() const;
-    /// To be touched: nothing while a sought frame is only previewed.
+    /// To be touched: empty while a seek shows only a preview.
     [[nodiscard]] FrameWindow touchable() const;
-    /// How many frames of the video are shown, of those in a second of it; as of late [1/s].
+    /// Mean number of frames shown of each second of the video [1/s].
     [[nodiscard]] double shown_per_s() const;
-    /// Where it goes, while what is shown is a preview; media time [s].
+    /// The target of a seek while a preview is shown; media time [s].
     [[nodiscard]] std::optional<double> sought_s() const { return sought_s_; }
-    /// Not even so the time is kept.
+    /// Even with skipped frames this machine is too slow: the clock waited for frames lately.
     [[nodiscard]] bool waits() const { return waits_; }
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
@@ -80,7 +76,7 @@ class Playback {
     [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] const MediaDescription& description() const { return reader_->description(); }
     [[nodiscard]] const FrameCost& cost() const { return reader_->cost(); }
-    /// What is done to its depth, in words and step by step.
+    /// The cleaning of the depth, as a sentence and as steps.
     [[nodiscard]] std::string cleaning_in_words() const {
         return in_words(cleaning_, reader_->plan());
     }
@@ -97,12 +93,12 @@ class Playback {
     void clean_again(const CleaningOptions& options);
     bool put_between(bool wanted);
     void anchor(double playback_s, Time now);
-    [[nodiscard]] double moment(Time now) const;  ///< playback time, held at the newest frame
+    [[nodiscard]] double moment(Time now) const;  ///< playback time, at most the newest frame's
     [[nodiscard]] bool in_part() const;
     [[nodiscard]] bool lap_ends_before(const std::optional<Frame>& next) const;
     [[nodiscard]] double lap_begins_s() const;
-    [[nodiscard]] bool at_seam() const;  ///< from the last frame to the first of the next lap
-    [[nodiscard]] bool single() const;   ///< one frame is all there is
+    [[nodiscard]] bool at_seam() const;  ///< between the last frame and the first of the next loop
+    [[nodiscard]] bool single() const;   ///< the media has one frame
 
     std::unique_ptr<FrameReader> reader_{};
     std::deque<Frame> frames_{};  ///< from the shown one on
@@ -111,23 +107,23 @@ class Playback {
     MotionWanted motion_wanted_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
-    double offset_s_{0.0};              ///< from media time to playback time, on this lap
-    std::optional<double> sought_s_{};  ///< media time; what is shown meanwhile is a preview
-    bool starts_{false};                ///< the clock stands until the frame after a jump is there
-    std::optional<Time> waited_{};
-    bool waits_{false};  ///< the clock did, for a frame that was too late
+    double offset_s_{0.0};              ///< from media time to playback time, in this loop
+    std::optional<double> sought_s_{};  ///< media time; meanwhile a preview is shown
+    bool starts_{false};                ///< the clock stands until the second frame after a jump
+    std::optional<Time> waited_{};      ///< when the clock last waited for a late frame
+    bool waits_{false};                 ///< it did so lately
     Time reading_since_{};
-    double waited_before_s_{0.0};  ///< for frames, before this one was read
-    double cleaning_s_{0.0};       ///< how long a frame takes beyond decoding, as of late
-    double passed_over_{0.0};      ///< frames between two that are shown, as of late
+    double waited_before_s_{0.0};  ///< sum of the reader's waits before this frame
+    double cleaning_s_{0.0};       ///< mean time of a frame without decoding
+    double passed_over_{0.0};      ///< mean number of frames skipped between two shown
     double speed_{1.0};
     bool playing_{false};
     bool looping_{true};
     std::optional<MediaPart> part_{};
-    bool beyond_part_{false};  ///< sought or stepped there, since the part was set
+    bool beyond_part_{false};  ///< a seek or step led there since the part was set
     bool complete_{false};     ///< no frame follows the newest
     bool steps_back_{false};
-    std::optional<double> ready_before_s_{};  ///< media time of the frame before which one is ready
+    std::optional<double> ready_before_s_{};  ///< media time; the frame before it is read
 };
 
 }  // namespace dibhr

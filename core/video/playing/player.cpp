@@ -1,4 +1,4 @@
-// The thread that cleans frames and hands them over; decoding has one of its own.
+// The thread that cleans and publishes frames; decoding has its own thread.
 #include "core/video/playing/player.hpp"
 
 #include <malloc.h>
@@ -23,15 +23,14 @@ namespace {
 
 using Time = Playback::Time;
 
-/// What a method asks of the player's thread. Of seeks in a row, of cleanings and of maps, only the
-/// last one counts.
+/// A command to the player's thread. Of seeks, cleanings or maps in a row only the last one counts.
 enum class Kind { step, seek, cleaning, maps };
 struct Command {
     std::function<void(Playback&, Time)> action{};
     Kind kind{Kind::step};
 };
 
-/// What was asked for: the status tells it at once, so that who asks again goes on from there.
+/// Requested changes; the status includes them at once, so that a second step adds to the first.
 struct Asked {
     std::optional<double> media_s{}, speed{};
     std::optional<bool> playing{}, looping{};
@@ -71,21 +70,21 @@ struct Player::Implementation {
     TripleBuffer<FrameWindow> picture{};
     Heartbeat heart{}, decoding{};
 
-    // The player thread's.
+    // Used by the player thread only.
     Playback playback{};
-    LivePlayback live{};  // while it is open nothing else is shown
-    Time handed_over{};   ///< `cleaned` of the last frame whose hand-over was measured
+    LivePlayback live{};  // while it is open, files are not shown
+    Time handed_over{};   ///< `cleaned` of the last frame whose publishing was measured
     std::string failure{};
 
-    // Everybody's, under the mutex.
+    // Used by all threads, under the mutex.
     std::mutex mutex{};
     std::condition_variable asked{};
     std::vector<Command> commands{};
-    Asked asked_for{};  ///< by commands whose outcome is not published yet
+    Asked asked_for{};  ///< by commands that are not published yet
     PlaybackStatus status{};
-    FrameWindow shown{};  ///< as last published, for the time line
+    FrameWindow shown{};  ///< published last, for the time line
     std::optional<double> sought_s{};
-    bool news{false};  ///< of what is live
+    bool news{false};  ///< the live source has news
     bool leaving{false};
 
     std::thread thread{};
@@ -120,7 +119,7 @@ bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
     return !leaving;
 }
 
-/// Performs the commands, or, without any, reads one frame: they wait for one frame at most.
+/// Performs the commands, or without any reads one frame: a command waits for one frame at most.
 void Player::Implementation::work(const std::vector<Command>& taken) {
     bool changed = !live.is_open() && playback.advance(std::chrono::steady_clock::now());
     for (const Command& command : taken) {
@@ -143,15 +142,14 @@ void Player::Implementation::work(const std::vector<Command>& taken) {
     if (changed) publish();
 }
 
-/// What cannot be had any more is told by the signal.
+/// A frame that cannot be read is reported by the live status.
 bool Player::Implementation::take_live(Time now) {
     bool changed = false;
     attempt([&] { changed = live.take(now); });
     return changed;
 }
 
-/// False when a file could not be read: the failure is kept for the status, and what is shown
-/// stays.
+/// False when a file could not be read: keeps the failure for the status, and the shown frames.
 template <typename Action>
 bool Player::Implementation::attempt(Action action) {
     try {
@@ -176,7 +174,7 @@ void Player::Implementation::run() {
     heart.rest();
 }
 
-/// Both readers get the same window; what the old ones held is freed here.
+/// Publishes the same window to both readers; frees what the old windows held.
 void Player::Implementation::publish() {
     const FrameWindow window = live.is_open() ? live.window() : playback.window();
     haptics.publish(live.is_open() ? window : playback.touchable());
@@ -212,7 +210,7 @@ void Player::Implementation::publish() {
         std::chrono::duration<double, std::micro>(published - cost.cleaned).count();
 }
 
-/// Under the mutex.
+/// The caller holds the mutex.
 void Player::Implementation::publish_live() {
     const MediaDescription& media = live.description();
     status.live = live.status(std::chrono::steady_clock::now());
@@ -242,7 +240,7 @@ Player::~Player() {
     }
     implementation_->asked.notify_one();
     implementation_->thread.join();
-    implementation_->live.close();  // whose threads tell of news under the mutex
+    implementation_->live.close();  // its threads lock the mutex until here
 }
 
 void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
@@ -262,7 +260,7 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
         }});
         return;
     }
-    // std::function wants to be copyable, hence shared; the reader moves on when the command runs.
+    // std::function must be copyable, hence shared; the command moves the reader out.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
         std::move(media), number,
         ReadingHearts{&implementation_->decoding, &implementation_->heart}));
@@ -270,7 +268,7 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
     implementation_->ask({[reader, player](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
         player->live.close();
-        // Else what the media before took stays with the program.
+        // Else the memory of the media before stays with the program.
         malloc_trim(0);
     }});
 }
@@ -359,8 +357,8 @@ PlaybackStatus Player::status() const {
     const FrameWindow& shown = implementation_->shown;
     const double moment_s = shown.clock.playback_s(std::chrono::steady_clock::now());
     const DepthBlend pair = shown.at(moment_s);
-    if (pair.from == nullptr) return status;  // nothing to ask anything of
-    // Between two frames the media time moves on, up to the end of the file at the loop's seam.
+    if (pair.from == nullptr) return status;  // no frame yet
+    // Between two frames the media time advances; at the loop's seam up to the end of the file.
     const double lasts_s = pair.to->media_s < pair.from->media_s
                                ? pair.to->time_s - pair.from->time_s
                                : pair.to->media_s - pair.from->media_s;

@@ -1,4 +1,4 @@
-// Plays a colour + depth pair on threads of its own: decodes ahead, cleans, publishes.
+// Plays a colour + depth pair on its own threads: decodes ahead, cleans, publishes.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@
 
 namespace dibhr {
 
-/// What the window shows of playback.
+/// The state of playback that the window shows.
 struct PlaybackStatus {
     bool open{false};
     bool playing{false};
@@ -29,25 +29,24 @@ struct PlaybackStatus {
     double duration_s{0.0};
     std::int64_t frame{0};
     std::int64_t frames{0};
-    double frames_per_s{0.0};  ///< of the video,
-    double shown_per_s{0.0};   ///< and how many of them are shown; fewer: this machine is too slow
-    bool waits{false};         ///< so much so that the video does not keep its time either
+    double frames_per_s{0.0};  ///< of the video
+    double shown_per_s{0.0};   ///< frames shown; fewer: this machine is too slow
+    bool waits{false};         ///< even so the machine is too slow: the clock waits
     double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
-    double handover_us{0.0};           ///< from the last frame being cleaned to its being published
-    std::string cleaning{};            ///< in words: what is done to its depth
-    CleaningSteps steps{};             ///< the same
-    std::optional<LiveStatus> live{};  ///< nothing: it is read from files
-    std::string failure{};  ///< a plain sentence when reading broke off or met less; else empty
+    double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it
+    std::string cleaning{};            ///< the cleaning as a sentence
+    CleaningSteps steps{};             ///< the same as steps
+    std::optional<LiveStatus> live{};  ///< nothing: read from files
+    std::string failure{};  ///< a sentence when a read failed or the file is shorter; else empty
 
     [[nodiscard]] Course course() const {
         return {playing, looping, speed, media_s, 0.0, duration_s, part};
     }
 };
 
-/// Every method may be called from the window thread; none waits for decoding. The two frame
-/// windows are the readers' ends: `haptics()` belongs to the haptic thread, `picture()` to the
-/// window thread.
+/// Every method may be called from the window thread; none waits for decoding. Of the two triple
+/// buffers the haptic thread reads `haptics()`, the window thread `picture()`.
 class Player final : public Transport {
   public:
     Player();
@@ -55,8 +54,7 @@ class Player final : public Transport {
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;
 
-    /// Takes an opened pair over, from its first frame, playing. Its frames carry `number`, and the
-    /// maps that lie on them.
+    /// Plays an opened pair from its first frame. Its frames carry `number` and the touch maps.
     void play_media(std::unique_ptr<Media> media, std::uint32_t number = 0,
                     std::shared_ptr<const TouchMaps> maps = nullptr);
 
@@ -67,22 +65,22 @@ class Player final : public Transport {
     void set_looping(bool looping) override;
     void set_part(const std::optional<MediaPart>& part) override;
     void set_speed(double speed) override;
-    /// What is as it was asked for last changes nothing, so that it may be said once a picture.
+    /// An unchanged value does nothing, so that the window may set it once a picture.
     void set_cleaning(const CleaningOptions& options);
-    /// What is to be found out of the time between frames; likewise.
+    /// What is computed between frames; likewise.
     void set_motion(const MotionWanted& wanted);
-    /// Lays them on the media that was given last; null: none.
+    /// Puts them on the media given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
-    /// Of what is live: from the frame that is shown on they carry that number and go to the sink,
-    /// on the player's thread; empty: no more.
+    /// Of a live source: from the shown frame on, frames carry that number and go to the sink, on
+    /// the player's thread; empty: stops.
     void record_live(std::uint32_t number, LiveSink sink);
 
-    /// As it is shown, with what was asked for since: who asks again goes on from there.
+    /// The shown state, with the changes requested since: a second step starts from the first.
     [[nodiscard]] PlaybackStatus status() const;
-    /// Of the thread that cleans and hands over, for as long as it lives.
+    /// Of the thread that cleans and publishes, until the player ends.
     [[nodiscard]] const Heartbeat& heart() const noexcept;
-    /// Of the one that decodes: silent while it waits for a disk.
+    /// Of the thread that decodes: silent while it waits for a disk.
     [[nodiscard]] const Heartbeat& decoder_heart() const noexcept;
 
     [[nodiscard]] TripleBuffer<FrameWindow>& haptics() noexcept;

@@ -1,4 +1,4 @@
-// Reads a second more where it matters.
+// Reads the second before a frame with holes.
 #include "core/video/playing/remembering_media.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Media whose frames know what their pixels without data were a moment before.
+// Media whose frames carry the last level of each pixel that now has no data.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace dibhr {
 
-/// What a frame holds depends on the file alone, not on the way to it: after a seek to a frame
-/// with holes the frames of the second before are read first, and only then.
+/// The held levels depend on the file alone, not on earlier seeks: for a seek to a frame with holes
+/// the frames of the second before are read first. For other frames nothing more is read.
 class RememberingMedia : public Media {
   public:
     explicit RememberingMedia(std::unique_ptr<Media> media) : media_(std::move(media)) {}
@@ -18,13 +18,13 @@ class RememberingMedia : public Media {
     [[nodiscard]] const MediaDescription& description() const override {
         return media_->description();
     }
-    /// With its held levels.
+    /// The next frame, with its held levels.
     std::optional<RawFrame> next() override;
-    /// Those before it are read, too, where they may have holes.
+    /// Reads the frames before it, too, where frames may have holes.
     std::optional<RawFrame> next_from(double earliest_s) override;
-    /// Nothing is read before the next frame is asked for.
+    /// Reads nothing until the next frame is requested.
     void seek(double media_s) override { wanted_s_ = media_s; }
-    /// That frame holds nothing.
+    /// That frame has no held levels.
     void seek_near(double media_s) override;
 
   private:
@@ -33,8 +33,8 @@ class RememberingMedia : public Media {
 
     std::unique_ptr<Media> media_;
     DepthMemory memory_{};
-    bool always_whole_{false};          ///< as the last frame said
-    std::optional<double> wanted_s_{};  ///< where the next frame is; nothing: it follows
+    bool always_whole_{false};          ///< as of the last frame
+    std::optional<double> wanted_s_{};  ///< target of a seek; nothing: the following frame
 };
 
 }  // namespace dibhr

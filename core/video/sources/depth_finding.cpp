@@ -1,4 +1,4 @@
-// The voices on a source's depth, the strongest first, and what they leave open.
+// Collects all statements on a source's depth, the strongest first, and guesses open facts.
 #include "core/video/sources/depth_finding.hpp"
 
 #include <algorithm>
@@ -34,7 +34,7 @@ DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     return said;
 }
 
-/// Letters and what is between them: "clip_disp.png" holds "disp", "displacement" does not.
+/// Whether the name holds the whole word: "clip_disp.png" holds "disp", "displacement" does not.
 bool has_word(const std::string& name, std::string_view word) {
     const auto is_letter = [&](std::size_t at) {
         return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at])) != 0;
@@ -52,7 +52,7 @@ DepthStatement said_by_name(const fs::path& file) {
     return said;
 }
 
-/// Levels as they are in the file, as far as nobody says else.
+/// Levels unchanged, as far as the request does not state otherwise.
 DepthStatement as_in_file(const DepthRequest& request, int bits) {
     DepthStatement said = request.recorded;
     said.fill_in(request.command_line);
@@ -68,8 +68,7 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
-/// Files of their own, grey, as a relief and over each other, cleaned as they ask for and touched
-/// by a point, as nobody needs to say.
+/// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point.
 DepthStatement plain() {
     return {.packing = DepthPacking::separate,
             .code = DepthCode::grey,
@@ -79,7 +78,7 @@ DepthStatement plain() {
             .finger_mm = 0.0};
 }
 
-/// A range that a unit cannot have, or that numbers cannot count, is told, whoever said it.
+/// Throws InputError for a range that is impossible in its unit, or for 32-bit floats.
 void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) {
     constexpr double kMostSteps = 1e12;  // sums and products of them stay numbers in floats
     const DepthRange& range = meaning.range.value;
@@ -146,7 +145,7 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     hear(voices, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    // Pictures from all over a video take long to decode: only where something is left to guess.
+    // Sampling a video takes long: only where something is left to guess.
     if (!is_all_said(voices)) guess(some_pictures(depth), facts.bits, meaning, voices);
     require_range(meaning, facts.bits, facts.file);
     return {meaning, facts.bits};

@@ -1,4 +1,4 @@
-// Finds out what a source's levels mean: asks everybody who may know; inside the room.
+// Finds out what the levels of a source mean: merges all statements on it; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -11,19 +11,19 @@
 
 namespace dibhr {
 
-/// What is said of depth before anything is opened, the strongest word on each thing: by the
-/// request, by what is kept of the place of the depth, and by the sidecars of it and of the
-/// colour's place, which may be empty. Throws InputError for what cannot be understood.
+/// The statement on depth before a file is opened. For each fact the strongest source counts: the
+/// request, the kept choice for the depth's place, then the sidecars of that place and of the
+/// colour's, which may be empty. Throws InputError for a file that cannot be parsed.
 [[nodiscard]] DepthStatement said_of(const std::filesystem::path& depth,
                                      const std::filesystem::path& colour,
                                      const DepthRequest& request);
 
-/// What is to be known of the depth before its first frame is shown. It is read here and there, and
-/// then from its beginning. Throws InputError for a sidecar that cannot be understood, and for a
-/// range that cannot be one.
+/// The meaning of the levels, found before the first frame is shown. Reads pictures from all over
+/// the depth, then starts it again. Throws InputError for a sidecar that cannot be parsed, and for
+/// an impossible range.
 [[nodiscard]] DepthScale find_scale(const Sources& sources, const DepthRequest& request);
 
-/// As many pictures as tell what a source holds and can be read within a moment.
+/// As many sample pictures of a source as can be decoded within about half a second.
 [[nodiscard]] std::vector<cv::Mat> some_pictures(PictureSource& source);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// One file a media, as a sidecar is written.
+// Keeps one file for each media, in the form of a sidecar.
 #include "core/video/sources/kept_choices.hpp"
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The same however it is named: from another folder, through a link, with a slash at its end.
+/// The same path for each way to name a file: from another folder, through a link, with a slash.
 std::string whole_path(const fs::path& media) {
     if (is_live(media)) return media.string();
     std::error_code failed;
@@ -49,7 +49,7 @@ void write_choice(const fs::path& file, const fs::path& media, const DepthStatem
 }  // namespace
 
 fs::path kept_choice_of(const fs::path& folder, const fs::path& media) {
-    constexpr std::size_t kLongestName = 100;  // and the digits: less than any disk's limit
+    constexpr std::size_t kLongestName = 100;  // with the digits below any file system's limit
     constexpr std::size_t kDigits = 16;
     const std::string path = whole_path(media);
     const std::string digits =

@@ -1,5 +1,5 @@
-// What a person chose of a file's depth, kept for the next time it is opened without writing
-// anything beside it.
+// Keeps what the user chose for the depth of a file until it is opened again, without a file
+// beside it.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +9,18 @@
 
 namespace dibhr {
 
-/// Where in the folder the choice for a file or folder is kept: NAME-DIGITS.toml, whose digits are
-/// of its whole path.
+/// Where in `folder` the choice for a file or folder is kept: NAME-DIGITS.toml; the digits are a
+/// hash of the whole path.
 [[nodiscard]] std::filesystem::path kept_choice_of(const std::filesystem::path& folder,
                                                    const std::filesystem::path& media);
 
-/// Keeps what was chosen for `media`, whole or not at all, and forgets what was kept before; of a
-/// statement that says nothing no file remains. Throws InputError.
+/// Replaces the kept choice for `media`, whole or not at all; an empty statement removes it. Throws
+/// InputError.
 void keep_choice(const std::filesystem::path& folder, const std::filesystem::path& media,
                  const DepthStatement& choice);
 
-/// The request, with what is kept of that media as the panel's word on what the panel does not say.
-/// Throws InputError for what cannot be understood.
+/// The request, whose panel statement is completed by the kept choice for that media. Throws
+/// InputError for a kept file that cannot be parsed.
 [[nodiscard]] DepthRequest with_kept_choice(DepthRequest request,
                                             const std::filesystem::path& media);
 

@@ -1,4 +1,4 @@
-// Looks at names only, but for lists and for cameras' intrinsics.
+// Decides by names only; reads no files but lists and camera intrinsics.
 #include "core/video/sources/layouts.hpp"
 
 #include <algorithm>
@@ -101,7 +101,7 @@ LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     return {};
 }
 
-/// What says depth or colour: the name, or, where that says nothing, its folder's.
+/// The name that states depth or colour: the file's own, else that of its folder.
 fs::path sayer_of(const fs::path& place) {
     const fs::path own = place.has_filename() ? place : place.parent_path();
     return named_depth(own) || named_colour(own) ? own : own.parent_path();
@@ -114,7 +114,7 @@ bool are_swapped(const fs::path& colour, const fs::path& depth) {
            !named_depth(second);
 }
 
-/// None where the folder has a list of pictures.
+/// Empty where the folder has a list of pictures.
 std::vector<fs::path> videos_in(const fs::path& folder) {
     std::vector<fs::path> videos;
     if (is_picture_list(folder / "depth.txt") || is_picture_list(folder / "associations.txt"))
@@ -126,7 +126,7 @@ std::vector<fs::path> videos_in(const fs::path& folder) {
     return videos;
 }
 
-/// The colour video that a depth video belongs to: named colour before others; null when none.
+/// The colour video of a depth video, preferably one named colour; null: none.
 const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>& videos) {
     const std::string subject = subject_of(depth);
     const fs::path* found = nullptr;
@@ -137,7 +137,7 @@ const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>
     return found;
 }
 
-/// In natural order. One of colour and one of depth belong together whatever else their names say.
+/// In natural order. A single video named colour and a single one named depth are always a pair.
 std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
     std::vector<MediaPlaces> pairs;
     std::vector<fs::path> colours;
@@ -174,14 +174,14 @@ std::string others_of(const std::vector<MediaPlaces>& pairs) {
     return said + (unnamed > 0 ? " and " + std::to_string(unnamed) + " more pairs" : "");
 }
 
-/// Whether it holds them and no pictures of its own.
+/// Whether the folder holds these videos and no pictures.
 bool is_of_videos(const fs::path& folder, const std::vector<fs::path>& videos) {
     if (videos.empty()) return false;
     const std::vector<fs::path> entries = entries_of(folder);
     return std::none_of(entries.begin(), entries.end(), is_picture);
 }
 
-/// Pictures of one kind, where they were found.
+/// Pictures of one role, and the place where they were found.
 struct PlacedRow {
     fs::path place{};
     PictureRow pictures{};
@@ -194,7 +194,7 @@ std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& 
         row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said);
 }
 
-/// The pictures of that role, or those whose names say nothing. Throws InputError when there are
+/// The pictures of that role, or those whose names state no role. Throws InputError when there are
 /// none.
 PlacedRow row_of(const fs::path& place, PictureRole role) {
     PictureSet found = pictures_at(place);

@@ -1,4 +1,4 @@
-// Pictures of a feed by their role, and which role they have.
+// Splits the pictures of a feed into colour and depth, and guesses which they are.
 #include "core/video/sources/live_source.hpp"
 
 #include <algorithm>
@@ -24,24 +24,24 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = LiveFeed::Clock;
 
-constexpr std::chrono::seconds kPatience{6};  ///< without a picture, who waits for one is told
-/// Where packets come: for a key frame, which encoders send every 250 frames unless told else.
+constexpr std::chrono::seconds kPatience{6};  ///< without a picture: an error
+/// Where packets arrive: wait for a key frame, which encoders send every 250 frames by default.
 constexpr std::chrono::seconds kPatienceWithKey{12};
 constexpr int kMostSamples = 10;  ///< a third of a second
 constexpr int kLookedAtLive = 4;
 
-/// Where one reader of a feed is.
+/// The position of one reader in a feed.
 struct LiveCursor {
     std::shared_ptr<LiveFeed> feed{};
     std::shared_ptr<const LivePair> pair{};
     double first_s{0.0};     ///< stamp of the first depth picture
     std::int64_t index{-1};  ///< of the pair, counted from the first
 
-    /// Waits for the next one. Throws InputError when none comes.
+    /// Waits for the next pair. Throws InputError when none arrives.
     void advance() {
         if (!goes_on()) throw InputError(why_none());
     }
-    /// Waits for the next one. False: none will come.
+    /// Waits for the next pair. False: none will arrive.
     bool goes_on() {
         const std::uint64_t number = pair ? pair->number : 0;
         const auto begin = Clock::now();
@@ -93,7 +93,7 @@ class LivePictures : public PictureSource {
     }
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
-    /// Depth leads: its next is the next pair; colour is of the pair that is there.
+    /// The depth source advances to the next pair; the colour source gives the present pair.
     std::optional<TimedPicture> next() override {
         if (which_ != Which::colour) cursor_->advance();
         const double time_s = cursor_->pair->depth.stamp_s - cursor_->first_s;
@@ -130,7 +130,7 @@ std::unique_ptr<PictureSource> pictures_of(const std::shared_ptr<LiveCursor>& cu
     return std::make_unique<LivePictures>(cursor, which);
 }
 
-/// Depth pictures that are colours are a code, as somebody says or as they look.
+/// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
                 const DepthStatement& said) {
     Sources sources;
@@ -160,7 +160,7 @@ PictureGuess look_at(const std::shared_ptr<LiveCursor>& cursor) {
     return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLookedAtLive));
 }
 
-/// One connection: halves as somebody says or as they look, else depth alone.
+/// One connection: halves as the statement says or as the pictures look, else depth alone.
 Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& said) {
     const bool says_halves = said.packing && is_of_halves(*said.packing);
     const PictureGuess look = look_at(cursor);

@@ -1,4 +1,4 @@
-// What is live, as sources of pictures like files' ones; inside the room.
+// Gives the pictures of a live source as PictureSources, as files do; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,14 @@
 
 namespace dibhr {
 
-/// Whether any of the two is live.
+/// Whether one of the two is live.
 [[nodiscard]] bool any_live(const std::filesystem::path& colour,
                             const std::filesystem::path& depth);
 
-/// Colour and depth of two connections, in the halves of one's pictures, or depth alone, as
-/// somebody says or as the first pictures look. `feed`: of these places, open already; null: they
-/// are opened. Waits for the first pictures. Throws InputError when none come, when only one of the
-/// two is live, and when there is no depth.
+/// Colour and depth of two connections, or of the halves of one connection's pictures, or depth
+/// alone: as the statement says, else as the first pictures look. `feed`: open already for these
+/// places; null: opens it. Waits for the first pictures. Throws InputError when none arrive, when
+/// only one of the two is live, and when there is no depth.
 [[nodiscard]] Sources find_live_sources(const std::filesystem::path& colour,
                                         const std::filesystem::path& depth,
                                         const DepthStatement& said, std::shared_ptr<LiveFeed> feed);

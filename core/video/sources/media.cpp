@@ -1,4 +1,4 @@
-// Checks, opens and describes what people bring.
+// Opens and describes media.
 #include "core/video/sources/media.hpp"
 
 #include <algorithm>
@@ -32,8 +32,8 @@ constexpr double kPaperRelief = 255.0 / 720.0;  ///< of the width
 constexpr double kPaperWidth_mm = 101.6;
 constexpr std::int64_t kMostCounted = 3000;  ///< frames decoded to describe a video exactly
 
-/// Opens with what was chosen before; where that cannot be understood or does not fit what is there
-/// now, without it, and with a sentence that says so. `open(request, sentence)`.
+/// Calls `open(request, notice)` with the kept choice. Where that fails, because the choice cannot
+/// be parsed or no longer fits, calls it without the choice, and with a notice that says so.
 template <typename Open>
 auto opened(const DepthRequest& request, const Open& open) {
     try {
@@ -61,7 +61,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
     return media;
 }
 
-/// Where names say that the depth of a pair is: what is said of it counts from the opening on.
+/// The place of a pair's depth as names tell it, for statements that the opening itself needs.
 fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
     if (any_live(colour, depth)) return depth.empty() ? colour : depth;
     if (colour.empty()) return depth_place_for(depth);
@@ -71,7 +71,7 @@ fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
     return find_depth_beside(places.colour, ignored).value_or(places.colour);
 }
 
-/// What is given, as it is given, or what is found there.
+/// The sources of a live pair, of depth alone, or of files.
 Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
                    const DepthRequest& request) {
     if (any_live(colour, depth)) return find_live_sources(colour, depth, said, request.live);

@@ -1,5 +1,4 @@
-// Opens what people bring: a colour and a depth video or image, paired by presentation time, after
-// what can be said about a file before any decoder sees it.
+// Opens a colour and a depth video or image, and pairs their frames by presentation time.
 #pragma once
 
 #include <cstddef>
@@ -22,41 +21,40 @@ namespace dibhr {
 class LiveFeed;
 struct TakenPictures;
 
-/// A decoded, not yet cleaned pair. NaN in its depth is no data.
+/// A decoded pair, not yet cleaned. NaN in its depth: no data.
 struct RawFrame {
     DepthImage depth{};
-    std::vector<HeldLevel> held{};  ///< what pixels without data were before; of RememberingMedia
-    /// What was made of both ahead of time, which then are empty; of DecodedAhead.
+    std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by RememberingMedia
+    /// Depth cleaned ahead of time from `depth` and `held`, which then are empty; by DecodedAhead.
     std::shared_ptr<const LoneDepth> lone{};
-    double lone_ms{0.0};  ///< which took so long
+    double lone_ms{0.0};  ///< how long that took
     ColourImage colour{};
-    std::shared_ptr<const TakenPictures> taken{};  ///< what it was made of, if it came live
-    bool colour_of_view{false};  ///< a camera's, and as far as is known of the depth's own view
+    std::shared_ptr<const TakenPictures> taken{};  ///< of a live source: the original pictures
+    bool colour_of_view{false};  ///< a camera's picture, as far as known from the depth's view
     double media_s{0.0};
     std::int64_t index{0};
     bool always_whole{false};  ///< no frame of this media has a pixel without data
-    double passing_s{0.0};     ///< so long one takes, as of late, to pass over; 0: as to read it
+    double passing_s{0.0};     ///< mean time to skip a frame; 0: as long as reading it
 };
 
-/// There is colour, and no depth in it or beside it.
+/// Thrown for colour with no depth in it or beside it.
 class DepthMissing : public InputError {
   public:
     using InputError::InputError;
 };
 
-/// Whose words count on what depth means.
+/// The statements on depth that come with a request to open.
 struct DepthRequest {
-    /// What nobody says is looked up in sidecars and in the files' own metadata, and else found out
-    /// from their content. False: levels are as the file has them, but for what the command line
-    /// says.
+    /// Open facts are read from sidecars and the files' metadata, else guessed from their content.
+    /// False: levels stay as the file has them, except for what the command line states.
     bool find_out{false};
     DepthStatement command_line{};
     DepthStatement panel{};
-    /// The folder of what was chosen on the panel before, a file a media: that is its word, too.
-    /// Empty: none is heard.
+    /// The folder of earlier choices on the panel, a file for each media; they complete `panel`.
+    /// Empty: not used.
     std::filesystem::path kept_in{};
-    DepthStatement recorded{};  ///< a session's, which beats all others
-    /// Of the same live places, open already; null: they are opened.
+    DepthStatement recorded{};  ///< of a session; beats all others
+    /// Open already for the same live places; null: opens them.
     std::shared_ptr<LiveFeed> live{};
     bool paints{true};  ///< depth alone is shown in colours of its own
 };
@@ -75,26 +73,26 @@ struct MediaDescription {
     int depth_columns{0}, depth_rows{0};
     std::string colour_codec{}, depth_codec{};
     int depth_bits{8};        ///< of a level; 32: real numbers
-    int levels_used{0};       ///< how many there are in pictures from all over it (`dibhr info`)
-    double holes_share{0.0};  ///< of their pixels that are no data, in [0, 1] (`dibhr info`)
-    std::optional<DepthNoise> noise{};      ///< by which it was cleaned when it was recorded live
+    int levels_used{0};       ///< different levels in the sample pictures (`dibhr info`)
+    double holes_share{0.0};  ///< share of their pixels without data, in [0, 1] (`dibhr info`)
+    std::optional<DepthNoise> noise{};      ///< used for cleaning when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
-    std::optional<DepthMeaning> meaning{};  ///< nothing: levels are as the file has them
-    DepthStatement panel{};                 ///< what the panel says of it, now or kept
+    std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file
+    DepthStatement panel{};                 ///< chosen on the panel, now or kept
     std::string registered_by{};  ///< the calibration that puts colour over depth; empty: none
     double duration_s{0.0};
-    double frames_per_s{0.0};  ///< average of the real intervals as far as known; 0 for a still
-    std::int64_t frames{0};    ///< an estimate until the end was reached
-    bool frames_exact{false};  ///< the end was reached: frames and duration are those of the file
+    double frames_per_s{0.0};  ///< mean of the intervals known so far; 0 for a still
+    std::int64_t frames{0};    ///< an estimate until the end was read
+    bool frames_exact{false};  ///< the end was read: frames and duration are exact
     bool still{false};
     double colour_frames_per_s{0.0};  ///< of a colour file of its own; 0: a still, or not known
     double colour_duration_s{0.0};    ///< likewise
     bool colour_still{false};
-    bool live{false};  ///< it comes as it happens: no length, no end, and nothing is sought in it
-    /// A sentence once a file turned out to hold less than at its opening: it was cut or
-    /// overwritten meanwhile. What is left goes on.
+    bool live{false};  ///< a live source: no length, no end, no seek
+    /// A sentence once a file holds less than at its opening, because it was cut or overwritten
+    /// meanwhile. The rest plays on.
     std::string trouble{};
-    /// Sentences on what was passed over or chosen at the opening; mostly empty.
+    /// Sentences on what the opening ignored or chose; mostly empty.
     std::string notice{};
 
     [[nodiscard]] std::size_t depth_pixels() const noexcept {
@@ -103,48 +101,45 @@ struct MediaDescription {
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
 
-/// From the farthest to the nearest it is as high as 255/720 of the width, and the width is what a
-/// Falcon's hand reaches, 101.6 mm: as in the paper, whatever the picture's size. A true shape fits
-/// as it is.
+/// The paper's proportions at any picture size: the height from farthest to nearest is 255/720 of
+/// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres.
 [[nodiscard]] Fit fit_of(const MediaDescription& media);
 
-/// Why what moves in it is seen badly or not at all, in one sentence; empty: nothing is against it.
+/// Why its motion is found badly or not at all, as one sentence; empty: no reason.
 [[nodiscard]] std::string motion_trouble(const MediaDescription& media);
 
-/// What is asked for, or where that is automatic what is said of the media.
+/// The requested cleaning, or, where that is automatic, the one that the media states.
 [[nodiscard]] CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked);
 
-/// The radius of the fingertip [mm]: the one asked for, or where that is 0 what is said of the
-/// media.
+/// The radius of the fingertip [mm]: the requested one, or, where that is 0, the one that the media
+/// states.
 [[nodiscard]] double finger_mm_on(const MediaDescription& media, double asked_mm);
 
-/// One opened colour + depth pair. Frames come in order; depth drives, colour is the one shown at
-/// its time.
+/// One opened colour + depth pair. Frames come in order: each depth picture with the colour shown
+/// at its time.
 class Media {
   public:
     virtual ~Media() = default;
     [[nodiscard]] virtual const MediaDescription& description() const = 0;
     /// The next frame, or nothing at the end. Throws InputError when the file breaks off.
     virtual std::optional<RawFrame> next() = 0;
-    /// The next frame at `earliest_s` or later, or the last one; where those before it need not be
-    /// made they are only decoded.
+    /// The next frame at `earliest_s` or later, or the last one. Earlier frames are only decoded
+    /// where that is enough.
     virtual std::optional<RawFrame> next_from(double earliest_s);
     /// The next frame returned is the one shown at `media_s`.
     virtual void seek(double media_s) = 0;
-    /// The next frame returned is one near it, as soon as one can be had; where that is no sooner,
-    /// the one itself.
+    /// The next frame returned is a frame near it that is quick to decode, or that frame itself.
     virtual void seek_near(double media_s) { seek(media_s); }
-    /// Where its frames come from as they happen: next() waits for them, and seek() does nothing.
-    /// Null: it is read from files.
+    /// The feed of a live source: next() waits for its frames, and seek() does nothing. Null: read
+    /// from files.
     [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }
 };
 
-/// Opens a pair, each of them a file, a folder, a list or a pattern of pictures, or live (see
-/// live_name()). An empty colour
-/// path: the depth alone, shown in colours of its own. An empty depth path, or the colour's: the
-/// depth is in the same place, another track of the colour's file where that says so, or else a
-/// file beside it. What was chosen before and does not fit the files any more is passed over, which
-/// the notice says. Throws InputError: what, which file, what to do next.
+/// Opens a pair. Each path is a file, a folder, a list or a pattern of pictures, or live (see
+/// live_name()). Empty `colour`: depth alone, shown in colours of its own. Empty `depth`, or the
+/// same path: the depth is in the same place, as another track of a video, or a file beside it. A
+/// kept choice that no longer fits the files is ignored, and the notice says so. Throws
+/// InputError: what, which file, what to do next.
 [[nodiscard]] std::unique_ptr<Media> open_media(const std::filesystem::path& colour,
                                                 const std::filesystem::path& depth = {},
                                                 const DepthRequest& request = {});
@@ -154,10 +149,9 @@ class Media {
 [[nodiscard]] std::unique_ptr<Media> open_depth(const std::filesystem::path& place,
                                                 const DepthRequest& request = {});
 
-/// Describes what one place of any kind holds, without needing its partner (`dibhr info FILE`):
-/// what is depth fills the depth fields, other files the colour fields, a place of both all of
-/// them. Videos of up to a few thousand frames are read to their end, so that the numbers are
-/// exact.
+/// Describes one place of any kind, without its partner (`dibhr info FILE`): depth fills the depth
+/// fields, other files the colour fields, a place of both all of them. Videos of up to a few
+/// thousand frames are read to their end, so that the numbers are exact.
 [[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place,
                                               const DepthRequest& request = {.find_out = true});
 

@@ -1,4 +1,4 @@
-// Words and endings in names.
+// Compares words and endings of names.
 #include "core/video/sources/media_names.hpp"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ bool is_one_of(std::string_view word, Words words) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Whether one word of a name ends and another begins between the two letters.
+/// Whether a new word begins between the two characters.
 bool is_between_words(char before, char after) {
     const auto is = [](int (*kind)(int), char c) {
         return kind(static_cast<unsigned char>(c)) != 0;
@@ -58,7 +58,7 @@ bool is_between_words(char before, char after) {
            (is(std::islower, before) && is(std::isupper, after));
 }
 
-/// In small letters; runs of digits are words, too.
+/// The words of a name in small letters; a run of digits is a word, too.
 std::vector<std::string> words_of(const std::string& name) {
     std::vector<std::string> words(1);
     for (std::size_t k = 0; k < name.size(); ++k) {
@@ -85,8 +85,8 @@ bool holds(const fs::path& file, Words anywhere, Words whole) {
                        [&](const std::string& word) { return is_one_of(word, whole); });
 }
 
-/// `stem` with the first `word` replaced by `other`, written as large as `word` is; nothing when
-/// the stem does not hold the word.
+/// `stem` with the first `word` replaced by `other`, in the same case; nothing when the stem does
+/// not hold the word.
 std::optional<std::string> renamed(const std::string& stem, std::string_view word,
                                    std::string_view other) {
     const auto at = lower_case(stem).find(word);
@@ -108,8 +108,7 @@ bool named_media(const fs::path& file) {
     return named_picture(file) || named_video(file);
 }
 
-/// The file of that stem in that folder, whatever its extension; the first by name. Nothing when
-/// none.
+/// The first file of that stem in that folder, with any extension. Nothing when there is none.
 std::optional<fs::path> with_any_extension(const fs::path& folder, const std::string& stem) {
     std::set<fs::path> found;
     std::error_code failed;

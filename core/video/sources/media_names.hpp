@@ -1,4 +1,4 @@
-// What the names of files and folders say: a picture, colour or depth, and which belong together.
+// Tells by names of files and folders: picture or video, colour or depth, and which form a pair.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace dibhr {
 
-/// How names of pictures and of videos end: ".png", in small letters.
+/// The endings of names of pictures and of videos, in small letters: ".png".
 [[nodiscard]] std::span<const std::string_view> picture_endings() noexcept;
 [[nodiscard]] std::span<const std::string_view> video_endings() noexcept;
 
@@ -25,17 +25,16 @@ namespace dibhr {
 /// Likewise depth: depth, disparity, displacement, heightmap; disp and height as words of their
 /// own.
 [[nodiscard]] bool named_depth(const std::filesystem::path& file);
-/// Whether the name is one that colour has beside depth, and anything elsewhere: image, img, left
-/// (the view that a disparity is of).
+/// Whether the name means colour only beside depth: image, img, left (the view of a disparity).
 [[nodiscard]] bool may_name_colour(const std::filesystem::path& file);
 
-/// What is left of a name without its ending and the words that say colour or depth, in small
-/// letters: files of the same belong together ("take2_color.mp4" and "Take2-Depth.mkv": "take 2").
+/// The name without its ending and its words for colour or depth, in small letters. Files of the
+/// same subject belong together ("take2_color.mp4" and "Take2-Depth.mkv": "take 2").
 [[nodiscard]] std::string subject_of(const std::filesystem::path& file);
 
-/// The depth file that belongs to a colour file: `*color*` -> `*depth*` (also colour, rgb, ...)
-/// beside it, or else one of depth of the same subject. Nothing when there is none; `looked_for`
-/// then says what was tried, for the message.
+/// The depth file that belongs to a colour file, beside it: `*color*` -> `*depth*` (also colour,
+/// rgb, ...), else a depth file of the same subject. Nothing when there is none; `looked_for` then
+/// lists the names that were tried, for the message.
 [[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
     const std::filesystem::path& colour, std::string& looked_for);
 

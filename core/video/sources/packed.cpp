@@ -1,4 +1,4 @@
-// Halves of pictures, what names say of them, and colours that are a code.
+// Cuts pictures into halves, and decodes depth coded as colours.
 #include "core/video/sources/packed.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ bool is_side_by_side(DepthPacking packing) noexcept {
     return packing == DepthPacking::left_right || packing == DepthPacking::right_left;
 }
 
-/// Where packed pictures are all that a folder holds.
+/// Opens the longest row of pictures in a folder of packed pictures.
 std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureRole role) {
     PictureSet found = look_into(folder);
     const auto longest =
@@ -50,14 +50,14 @@ std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, Dep
     return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
 }
 
-/// The intrinsics of a picture of one size as those of another that shows the same.
+/// Converts intrinsics to another size of the same picture.
 Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
     const double x = static_cast<double>(to.width) / from.width;
     const double y = static_cast<double>(to.height) / from.height;
     return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
 }
 
-/// A half in its own size, with what is known of it.
+/// Stretches a half to its own size, and adds the known facts.
 std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
                                           const PackedForm& form, PictureRole role) {
     const double wide = is_side_by_side(form.packing) ? 2.0 : 0.5;
@@ -78,7 +78,7 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
     return std::make_unique<ChangedPictures>(std::move(half), change, tell);
 }
 
-/// What the code says of the levels that it becomes.
+/// The meaning of levels decoded by this code.
 DepthStatement meaning_of(const HueCode& code) {
     DepthStatement meaning;
     meaning.code = DepthCode::hue;
@@ -90,7 +90,7 @@ DepthStatement meaning_of(const HueCode& code) {
     return meaning;
 }
 
-/// Letters and digits between other characters, as small letters.
+/// The runs of letters and digits, in small letters.
 std::vector<std::string> plain_words_of(const std::string& name) {
     std::vector<std::string> words(1);
     for (const char c : lower_case(name)) {
@@ -216,7 +216,7 @@ std::optional<NamedPacking> packing_by_name(const fs::path& file) {
     const std::vector<std::string> words = plain_words_of(file.stem().string());
     NamedPacking said;
     bool says = false;
-    // From the end: words inside a name may mean anything.
+    // Only words at the end count: others may mean anything.
     for (auto word = words.rbegin(); word != words.rend(); ++word) {
         const PackingWord* const known = packing_word(*word);
         if (known == nullptr && !is_number(*word)) break;

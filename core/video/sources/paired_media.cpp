@@ -18,13 +18,13 @@ namespace dibhr {
 
 namespace {
 
-/// A colour frame up to this part of an interval later than the depth frame still belongs to it:
-/// streams that run together may be a little apart. Less than half, so that halfway the earlier one
-/// is taken.
+/// A colour frame later than the depth frame by at most this part of an interval belongs to it:
+/// streams recorded together may be slightly apart. Below one half, so that of two colour frames
+/// at the same distance the earlier one is taken.
 constexpr double kNotLater = 0.4;
-constexpr double kFarAhead = 2.5;  ///< intervals; what is between is decoded only
+constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
-/// How much later than the depth the colour begins [s]: as both files say, when they overlap.
+/// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
 double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
     const double later_s = colour.start_s - depth.start_s;
     const bool overlap = later_s < depth.duration_s && -later_s < colour.duration_s;
@@ -82,7 +82,7 @@ ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFact
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
-    if (source_->facts().live) {  // it comes with the depth
+    if (source_->facts().live) {  // joined with the depth already
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
@@ -178,7 +178,7 @@ void PairedMedia::take_range() {
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
 }
 
-/// The calibration of a recording is of its own pictures only.
+/// A recording's calibration counts only for colour and depth of that recording.
 void PairedMedia::take_registration(const SourceFacts& colour) {
     const auto& meaning = description_.meaning;
     if (!meaning) return;
@@ -222,7 +222,7 @@ void PairedMedia::take_true_shape() {
     description_.true_fit = Fit{shape_->relief_px(), shape_->grid().pitch_mm};
 }
 
-/// Distances from the camera; elevation is over the farthest one.
+/// Distances from the camera; elevations count from the farthest distance.
 cv::Mat PairedMedia::in_mm(const DepthImage& depth) const {
     cv::Mat depth_mm;
     view_of(depth).convertTo(
@@ -261,7 +261,7 @@ void PairedMedia::tell_trouble(const SourceFacts& facts) {
     if (description_.trouble.empty()) description_.trouble = facts.trouble;
 }
 
-/// A stream may change its size on the way; a surface may not. Levels are never mixed.
+/// Resizes a picture to the first one's size: a surface keeps its size. Levels are never mixed.
 void PairedMedia::keep_size(cv::Mat& picture) const {
     if (picture.size() == size_) return;
     cv::Mat resized;

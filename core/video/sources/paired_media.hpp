@@ -1,4 +1,4 @@
-// A source of depth and one of colour as one media; inside the room.
+// Makes one media of a source of depth and one of colour; inside the room.
 #pragma once
 
 #include <cstdint>
@@ -14,41 +14,41 @@
 
 namespace dibhr {
 
-/// The facts of a source that gives depth, or colour, in the words of a description.
+/// Copies the facts of a source of depth, or of colour, into a description.
 void describe_depth(const SourceFacts& facts, MediaDescription& description);
 void describe_colour(const SourceFacts& facts, MediaDescription& description);
 void describe_time(const SourceFacts& facts, MediaDescription& description);
 
-/// The colour that belongs to each depth frame: the newest one of its time.
+/// Gives the colour of each depth frame: the newest picture at its time.
 class ColourTrack {
   public:
     ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
     void forget() { placed_ = near_ = false; }
-    /// The picture returned next, and no other, is one near the depth's time.
+    /// Only the picture returned next may be any one near the depth's time.
     void forget_near() {
         forget();
         near_ = true;
     }
     const cv::Mat& shown_at(double depth_time_s);
-    /// So long decoding one picture takes, as of late; 0: not known.
+    /// Mean time to decode a picture; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
 
   private:
     std::unique_ptr<PictureSource> source_;
-    double starts_later_s_;  ///< than the depth
-    double interval_s_;      ///< as known at the opening: later it may be known better
+    double starts_later_s_;  ///< start of the colour after that of the depth
+    double interval_s_;      ///< as known at the opening; never updated
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
     bool near_{false};
 };
 
-/// Depth drives.
+/// Reads depth, and for each depth picture the colour of its time.
 class PairedMedia : public Media {
   public:
-    /// `colour` may be null: then frames have none, or `painted` in colours of their depth.
+    /// `colour` may be null: then frames have none, or, if `painted`, colours of their depth.
     PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour,
                 DepthScale scale, bool painted = false);
 
@@ -59,13 +59,13 @@ class PairedMedia : public Media {
     void seek_near(double media_s) override;
     [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
-    /// Reads depth on, at most `most` frames, so that the description becomes exact.
+    /// Reads at most `most` more frames of depth, so that the description becomes exact.
     void count_frames(std::int64_t most);
 
-    /// Adds to the description's notice what that does not say yet.
+    /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
     void comes_from(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
-    /// For the description.
+    /// Stored in the description.
     void panel_said(const DepthStatement& panel) { description_.panel = panel; }
 
   private:
@@ -83,12 +83,12 @@ class PairedMedia : public Media {
     std::optional<ColourTrack> colour_{};
     DepthScale scale_;
     cv::Size size_{};                              ///< of the depth's pictures
-    DepthRange range_mm_{};                        ///< of distances; zeros: they are none
-    std::optional<ColourRegistration> cameras_{};  ///< where the two are calibrated
-    Registration registration_{};                  ///< beyond that
+    DepthRange range_mm_{};                        ///< of distances; zeros: not metric
+    std::optional<ColourRegistration> cameras_{};  ///< where the two cameras are calibrated
+    Registration registration_{};                  ///< applied after that
     std::optional<TrueShape> shape_{};             ///< for `--geometry true`
     bool painted_;
-    bool colour_of_view_{false};  ///< as far as is known
+    bool colour_of_view_{false};  ///< as far as known
     MediaDescription description_{};
     std::shared_ptr<LiveFeed> live_{};
 };

@@ -9,11 +9,10 @@
 
 namespace dibhr {
 
-/// A bump map from an 8- or 16-bit image, normalised so that its lowest level is 0 and its
-/// highest 1.
+/// A bump map from an 8- or 16-bit image, normalised: lowest level 0, highest 1.
 [[nodiscard]] BumpMap read_bump_map(const std::filesystem::path& file);
 
-/// A picture to be looked at, of any form that is read. Throws InputError.
+/// A colour picture of any supported form. Throws InputError.
 [[nodiscard]] ColourImage read_colour_picture(const std::filesystem::path& file);
 
 /// The bytes of an RGB picture's PNG file. Throws InputError for an empty picture.
@@ -22,7 +21,7 @@ namespace dibhr {
 /// Writes an RGB picture as PNG, whole or not at all. Throws InputError.
 void write_png(const ColourImage& picture, const std::filesystem::path& file);
 
-/// The same, but beside a file of that name: with the first free number, "view-2.png". Gives the
+/// The same, but keeps a file of that name: adds the first free number, "view-2.png". Gives the
 /// name.
 std::filesystem::path write_new_png(const ColourImage& picture, const std::filesystem::path& file);
 

@@ -45,13 +45,13 @@ namespace {
 constexpr double kSameTime_s = 0.02;  ///< associate.py's own limit
 constexpr double kLongestRow_s = 1e6;
 
-/// By the words in `name`, which is of the picture or of its folder.
+/// The row for a picture, by the words in `name`, the name of the picture or of its folder.
 PictureRow& row_for(PictureSet& set, const fs::path& name) {
     if (named_depth(name)) return set.depth;
     return named_colour(name) ? set.colour : set.unnamed;
 }
 
-/// Every number once, and with or without a point throughout.
+/// Whether every number occurs once, and all have a decimal point, or none.
 bool has_order(const PictureRow& row, bool decimal) {
     std::set<double> numbers;
     return std::all_of(row.begin(), row.end(), [&](const NumberedPicture& picture) {
@@ -72,8 +72,8 @@ void append_pictures_of(const fs::path& folder, PictureRow& row) {
     }
 }
 
-/// Beside depth, pictures whose names do not say colour are all the same where a word allows it, or
-/// where they are named as depth pictures without the word.
+/// Beside depth, unnamed pictures count as colour where a word allows it, else where their names
+/// are those of depth pictures without the word for depth.
 void adopt_colour(PictureSet& set) {
     if (set.depth.empty() || !set.colour.empty()) return;
     std::set<std::string> subjects;
@@ -89,7 +89,7 @@ void adopt_colour(PictureSet& set) {
     std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), belongs);
 }
 
-/// The folders in `folder` whose names say what they hold; of several the first.
+/// Adds the pictures of subfolders named depth or colour; of several the first.
 void look_into_folders(const std::vector<fs::path>& entries, PictureSet& set) {
     for (const fs::path& entry : entries) {
         if (!is_folder(entry)) continue;

@@ -26,17 +26,17 @@ struct NumberedPicture {
 /// In natural order: 97 before 100.
 using PictureRow = std::vector<NumberedPicture>;
 
-/// What the layout of pictures says of their depth, where that has 16 bits: the conventions of
-/// datasets are for such pictures.
+/// Facts about depth that follow from the layout of the pictures. For depth of 16 bits only: the
+/// datasets' conventions are for such pictures.
 struct LayoutFacts {
     DepthStatement known{};
     std::string known_from{};
-    int columns{0}, rows{0};   ///< of the pictures that the intrinsics are for; 0: of any
-    std::string notice{};      ///< a sentence on what was passed over
-    bool other_camera{false};  ///< of colour, which stands elsewhere, nobody knows where
+    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: any
+    std::string notice{};      ///< a sentence on ignored entries
+    bool other_camera{false};  ///< colour is from another camera at an unknown place
 };
 
-/// Pictures that are kept together, told apart by words in names (media_names.hpp).
+/// Pictures of one place, sorted by the words in their names (media_names.hpp).
 struct PictureSet {
     PictureRow colour{};
     PictureRow depth{};
@@ -44,36 +44,35 @@ struct PictureSet {
     LayoutFacts facts{};
 };
 
-/// Whether there is such a file and its name is that of a picture; not where it begins with a
-/// point.
+/// Whether the file exists and is named as a picture; false for hidden files.
 [[nodiscard]] bool is_picture(const std::filesystem::path& file);
 
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
 
-/// By number, where every picture has another one.
+/// Sorts by number, where every picture has a different one.
 void sort_by_number(PictureRow& row);
 
-/// The pictures of a folder, or, where it has none, of those in folders in it whose names say what
-/// they hold. Throws InputError when it cannot be read.
+/// The pictures of a folder; where it has none, those of its subfolders named colour or depth.
+/// Throws InputError when it cannot be read.
 [[nodiscard]] PictureSet look_into(const std::filesystem::path& folder);
 
-/// The colour row as it goes with a depth row where both have times: with each depth picture the
-/// nearest of colour when it is within 0.02 s, as TUM's associate.py has it, else the newest before
-/// it. Where the rows have no times, or times of two clocks, it is the colour row itself.
+/// The colour row joined with a depth row by time: for each depth picture the nearest colour within
+/// 0.02 s, as TUM's associate.py does, else the newest before it. Where the rows have no times, or
+/// times of two clocks, the colour row itself.
 [[nodiscard]] PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth);
 
-/// When each picture of a row is shown, by the clock that it shares with the other row [s]: decimal
-/// numbers are seconds; pictures of both rows of the same number go together, one after the other
-/// at so many a second; where numbers lack or repeat, the first goes with the first.
+/// When each picture of a row is shown, by the clock shared with the other row [s]. Decimal numbers
+/// are seconds. Other numbers are put in order at `frames_per_s`, and the same number in both rows
+/// is the same time. Where numbers are missing or repeated, position in the row counts.
 [[nodiscard]] std::vector<double> times_s(const PictureRow& row, const PictureRow& other,
                                           double frames_per_s);
 
-/// A row of pictures as a video. One that cannot be read on the way is told, and the one before it
-/// stays.
+/// A row of pictures as a video. Where a picture cannot be read, the facts report it, and the one
+/// before it is shown.
 class PictureSequence : public IndexedPictures {
   public:
-    /// `times`: one a picture, rising. Throws InputError when the first cannot be read, or when
-    /// they go over more than a million seconds.
+    /// `times`: one for each picture, increasing. Throws InputError when the first picture cannot
+    /// be read, or when the times span more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
                     PictureRole role, const LayoutFacts& said = {});
 

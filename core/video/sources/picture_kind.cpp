@@ -1,5 +1,5 @@
-// Measures of pictures, and the bounds that tell depth from all else. The bounds were set between
-// real recordings and what is no depth: photographs, also in grey, drawings, text, test pictures.
+// Computes statistics of pictures, and compares them with bounds. The bounds lie between real depth
+// recordings and other pictures: photographs, also grey ones, drawings, text, test pictures.
 #include "core/video/sources/picture_kind.hpp"
 
 #include <algorithm>
@@ -19,18 +19,18 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kLongSide = 320;  ///< of pictures as they are looked at
+constexpr int kLongSide = 320;  ///< of the reduced pictures [px]
 constexpr std::size_t kMostLooked = 24;
 
-// Of single pixels, levels of 255.
-constexpr int kDark = 40;       ///< the highest channel below
-constexpr int kGrey = 16;       ///< channels that differ by less
-constexpr int kPure = 170;      ///< by more
-constexpr float kFlat = 0.15F;  ///< rises a pixel
+// Bounds for single pixels, in levels of 255.
+constexpr int kDark = 40;       ///< the highest channel is below
+constexpr int kGrey = 16;       ///< channels differ by less
+constexpr int kPure = 170;      ///< channels differ by at least
+constexpr float kFlat = 0.15F;  ///< levels a pixel
 constexpr float kSlope = 4.0F;
 constexpr float kEdge = 8.0F;
 
-constexpr double kMostlyPure = 0.5;  ///< share of a picture whose hues may say something
+constexpr double kMostlyPure = 0.5;  ///< share from which on hues are analysed
 
 cv::Mat reduced(const cv::Mat& picture, int long_side, int how) {
     const double scale = static_cast<double>(long_side) / std::max(picture.cols, picture.rows);
@@ -46,7 +46,7 @@ double share(int count, double of) {
     return of > 0.0 ? count / of : 0.0;
 }
 
-/// Percentiles 2 to 98 of the levels in the mask.
+/// The range between percentiles 2 and 98 of the levels in the mask.
 double range_of(const cv::Mat& levels, const cv::Mat& mask) {
     std::array<int, 256> counts{};
     int total = 0;
@@ -66,7 +66,7 @@ double range_of(const cv::Mat& levels, const cv::Mat& mask) {
     return total == 0 ? 0.0 : percentile(0.98) - percentile(0.02);
 }
 
-/// Levels of 8 bits where the mask is not 0.
+/// Statistics of 8-bit levels where the mask is not 0.
 SurfaceLook surface_look(const cv::Mat& levels, const cv::Mat& mask) {
     SurfaceLook look;
     look.covered = share(cv::countNonZero(mask), static_cast<double>(mask.total()));
@@ -99,7 +99,7 @@ SurfaceLook brightness_look(const cv::Mat& small) {
     return surface_look(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
 }
 
-/// Hues are never mixed.
+/// Resizes by the nearest pixel: hues are never mixed.
 SurfaceLook hue_look(const cv::Mat& picture) {
     const cv::Mat hues = hues_of(reduced(picture, kLongSide, cv::INTER_NEAREST), HueCode{});
     const cv::Mat mask = hues == hues;  // not NaN
@@ -109,7 +109,7 @@ SurfaceLook hue_look(const cv::Mat& picture) {
     return surface_look(levels, mask);
 }
 
-/// The mean of several pictures' numbers, one after the other.
+/// Adds the weighted statistics of one picture to a mean.
 void add(SurfaceLook& sum, const SurfaceLook& one, double weight) {
     sum.covered += weight * one.covered;
     sum.range += weight * one.range;
@@ -127,9 +127,9 @@ void add(PictureLook& sum, const PictureLook& one, double weight) {
     add(sum.hue, one.hue, weight);
 }
 
-// What a look says.
+// Comparison with the bounds.
 
-/// What a surface has at least, and at most.
+/// Least slopes and edges, and most texture, of depth.
 struct SurfaceBounds {
     double slopes;
     double edges;
@@ -143,7 +143,7 @@ constexpr SurfaceBounds kGreyDepth{0.18, 0.008, 0.003};
 constexpr SurfaceBounds kHueDepth{0.35, 0.003, 0.006};
 constexpr SurfaceBounds kGreyHalf{0.18, 0.008, 0.008};
 
-/// Neither bare nor rough.
+/// Whether it has enough relief and is smooth.
 bool is_surface(const SurfaceLook& look, const SurfaceBounds& bounds) {
     constexpr double kLeastRange = 40.0;
     constexpr double kMostEdges = 0.2;
@@ -165,7 +165,7 @@ bool looks_ramp_depth(const PictureLook& look) {
 
 // Halves.
 
-/// Where brightness, or another channel, changes, in coarse squares.
+/// How much the channels change at each place, at low resolution.
 cv::Mat edges_of(const cv::Mat& half) {
     const cv::Mat small = reduced(half, kLongSide / 2, cv::INTER_AREA);
     cv::Mat strongest(small.size(), CV_32F, cv::Scalar(0.0));
@@ -184,7 +184,7 @@ cv::Mat edges_of(const cv::Mat& half) {
     return strongest;
 }
 
-/// Of two pictures of the same size, -1 to 1; 0 for a bare one.
+/// Of two pictures of the same size, -1 to 1; 0 for a uniform one.
 double correlation(const cv::Mat& a, const cv::Mat& b) {
     cv::Mat result;
     cv::matchTemplate(a, b, result, cv::TM_CCOEFF_NORMED);
@@ -199,7 +199,7 @@ cv::Mat soft(const cv::Mat& half) {
     return grey;
 }
 
-/// The picture moved to the right and down, what leaves it coming in on the other side.
+/// The picture moved to the right and down, with wrap-around.
 cv::Mat rolled(const cv::Mat& picture, double right, double down) {
     const int x = static_cast<int>(picture.cols * right);
     const int y = static_cast<int>(picture.rows * down);
@@ -208,7 +208,7 @@ cv::Mat rolled(const cv::Mat& picture, double right, double down) {
     return twice(cv::Rect(x, y, picture.cols, picture.rows)).clone();
 }
 
-/// The highest correlation that says nothing.
+/// The highest correlation of pictures that do not belong together: one moved or mirrored.
 double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
     cv::Mat mirrored;
     cv::flip(b, mirrored, 1);
@@ -220,7 +220,7 @@ double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
     return highest;
 }
 
-/// The mean of the part of each picture that would be depth; without a packing of the whole.
+/// Mean statistics of each picture's depth half; without a packing, of whole pictures.
 PictureLook mean_look(std::span<const cv::Mat> pictures, std::optional<DepthPacking> packing = {}) {
     PictureLook mean;
     for (const cv::Mat& picture : pictures) {
@@ -232,7 +232,7 @@ PictureLook mean_look(std::span<const cv::Mat> pictures, std::optional<DepthPack
     return mean;
 }
 
-/// How much the halves are of the same things.
+/// Measures how much the halves show the same scene.
 void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
     const double weight = 1.0 / static_cast<double>(pictures.size());
     for (const cv::Mat& picture : pictures) {
@@ -247,7 +247,7 @@ void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
     }
 }
 
-/// Whether one half looks like depth, then of which code, and the other like a photograph.
+/// Whether one half looks like depth, whose code it stores, and the other like a photograph.
 bool could_be_packed(PictureGuess& halves) {
     constexpr double kRougher = 2.5;
     const PictureLook& colour = halves.colour_half;
@@ -269,9 +269,9 @@ bool belong_together(const PictureGuess& halves) {
            (halves.code == DepthCode::hue || halves.brightness_alike <= kMostAlike);
 }
 
-/// The packing whose halves agree most; a photograph where none could be.
+/// The packing whose halves agree most; photographs where no packing is possible.
 PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
-    // Each beside the one that has the halves the other way round.
+    // Each packing stands beside the one with exchanged halves: index ^ 1.
     static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
                                           DepthPacking::top_bottom, DepthPacking::bottom_top};
     std::array<PictureLook, kPackings.size()> looks;
@@ -334,7 +334,7 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     if (guess.kind == PictureKind::packed) return guess;
     if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
     if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
-    // Blue hues are on it.
+    // Last, because blue hues are on the ramp, too.
     if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
     return guess;
 }

@@ -1,5 +1,5 @@
-// What pictures look like: photographs, or depth in one of the forms that it comes in; inside the
-// room. Guessed from their content alone, where neither metadata nor names say it.
+// Guesses from pictures alone whether they are photographs or depth, and in which form; inside the
+// room. For files whose metadata and names do not say it.
 #pragma once
 
 #include <opencv2/core/mat.hpp>
@@ -10,35 +10,35 @@
 namespace dibhr {
 
 enum class PictureKind {
-    photo,       ///< also drawings, text, screenshots, stereo pairs: all that is not clearly depth
-    grey_depth,  ///< grey, smooth, with silhouettes: may still be a soft black-and-white photograph
+    photo,       ///< all that is not clearly depth: also drawings, text, screenshots, stereo pairs
+    grey_depth,  ///< grey, smooth, with silhouettes; may still be a soft grey photograph
     hue_depth,   ///< smooth in hue, of pure colours, the rest black
     ramp_depth,  ///< white - cyan - blue - black
     packed       ///< colour and depth in halves
 };
 
-/// How one picture looks as a surface of levels from 0 to 255.
+/// Statistics of one picture as a surface of levels from 0 to 255.
 struct SurfaceLook {
     double covered{0.0};  ///< share of the pixels that have a level
     double range{0.0};    ///< between the percentiles 2 and 98
-    double texture{0.0};  ///< mean distance of a level from the median around it, in ranges; away
-                          ///< from edges
-    double slopes{0.0};   ///< share of the pixels with a level where it rises a little
+    double texture{0.0};  ///< mean distance of a level from the median around it, as a part of
+                          ///< `range`; without edges
+    double slopes{0.0};   ///< share of the pixels with a level where the surface rises slowly
     double edges{0.0};    ///< share where it jumps
 };
 
-/// How one picture looks. Shares are of the pixels that are not dark.
+/// Statistics of one picture. Shares are of the pixels that are not dark.
 struct PictureLook {
     double lit{0.0};       ///< share of all pixels that are not dark
     double coloured{0.0};  ///< not grey
-    double pure{0.0};      ///< of nearly pure hues
-    double ramp{0.0};      ///< on the ramp, of those with a colour
+    double pure{0.0};      ///< share with nearly pure hues
+    double ramp{0.0};      ///< share on the colour ramp, of the coloured pixels
     SurfaceLook brightness{};
-    SurfaceLook hue{};  ///< where at least half is pure
+    SurfaceLook hue{};  ///< only where at least half is pure
 };
 
-/// What pictures are, and the numbers that say so: means over the pictures. `packing`, `code` and
-/// the halves' numbers are of `packed` only.
+/// The kind of pictures, and the statistics that decided it: means over the pictures. `packing`,
+/// `code` and the halves' statistics are for `packed` only.
 struct PictureGuess {
     PictureKind kind{PictureKind::photo};
     DepthPacking packing{DepthPacking::separate};
@@ -48,13 +48,13 @@ struct PictureGuess {
     PictureLook depth_half{};
     double brightness_alike{0.0};  ///< correlation of the halves, 0 to 1
     double edges_agree{0.0};       ///< correlation of the halves' edges, -1 to 1
-    double edges_by_chance{0.0};   ///< the same with one half moved or mirrored: the highest
+    double edges_by_chance{0.0};   ///< the highest with one half moved or mirrored
 };
 
 [[nodiscard]] PictureLook look_of(const cv::Mat& picture);
 
-/// `pictures`: 8-bit BGR, sampled across one file; up to 24 are looked at, reduced to 320 pixels.
-/// In doubt they are photographs; so are none.
+/// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
+/// or without pictures, the answer is photographs.
 [[nodiscard]] PictureGuess guess_kind(std::span<const cv::Mat> pictures);
 
 }  // namespace dibhr

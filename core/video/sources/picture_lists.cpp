@@ -1,4 +1,4 @@
-// Reads lists line by line; whatever a line holds, it is a picture at a time or passed over.
+// Parses lists line by line, and ignores lines that do not name a time and a picture.
 #include "core/video/sources/picture_lists.hpp"
 
 #include <algorithm>
@@ -25,18 +25,18 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kListBegin_bytes = 1 << 16;  ///< for a first line after comments
+constexpr std::size_t kListBegin_bytes = 1 << 16;  ///< searched for a first line after comments
 constexpr std::size_t kLongestList_bytes = 256 << 20;
 constexpr double kLargestNumber = 1e20;  ///< more than nanoseconds since 1970
 
-/// A picture's name at a time, as a line has it.
+/// A time and a picture's name, of a line.
 struct Entry {
     double time{0.0};
     bool decimal{false};  ///< written with a point
     std::string_view name{};
 };
 
-/// One, or two that belong together; none when the line holds no picture.
+/// One entry, or two that belong together; none when the line names no picture.
 using Line = std::vector<Entry>;
 
 // As associate.py: commas and tabs are spaces.
@@ -105,7 +105,7 @@ void for_each_line(std::string_view text, Take take) {
     }
 }
 
-/// What the words of a name, or else of the folders in it, say.
+/// The role by the words of a name, else of the folders in it.
 enum class Kind { colour, depth, unnamed };
 Kind kind_of(const fs::path& name) {
     for (fs::path part = name; !part.empty() && part != part.parent_path();
@@ -116,7 +116,7 @@ Kind kind_of(const fs::path& name) {
     return Kind::unnamed;
 }
 
-/// What was passed over, to be told.
+/// Counts of ignored entries, for the notice.
 struct PassedOver {
     std::size_t lines{0};
     std::size_t missing{0};
@@ -136,7 +136,7 @@ std::string sentence(const fs::path& list, const PassedOver& passed) {
     return said.empty() ? said : shown(list) + ": dibhr ignores " + said;
 }
 
-/// In order of time, each time once.
+/// Sorts by time, and keeps each time once.
 void put_in_order(PictureRow& row, PassedOver& passed) {
     const auto by_time = [](const NumberedPicture& a, const NumberedPicture& b) {
         return *a.number < *b.number;

@@ -1,5 +1,5 @@
-// Lists of pictures and their times, as TUM's RGB-D benchmark has them: rgb.txt, depth.txt and what
-// its associate.py makes of them; inside the room.
+// Reads lists of pictures and their times, as in TUM's RGB-D benchmark: rgb.txt, depth.txt and the
+// output of its associate.py; inside the room.
 #pragma once
 
 #include <filesystem>
@@ -13,14 +13,14 @@ namespace dibhr {
 /// PICTURE seconds PICTURE`.
 [[nodiscard]] bool is_picture_list(const std::filesystem::path& file);
 
-/// The pictures of a list, told apart by the words in the name of the list, or else in their own,
-/// by time: seconds where one has a point, else the numbers of frames. Names are relative to the
-/// list's folder. Lines that name no picture at a time, missing pictures and repeated times are
-/// passed over and told. What is known is TUM's: 0.2 mm a level, 0 no data, and the intrinsics of
-/// its cameras where a folder's name says which. Throws InputError when no picture is left.
+/// The pictures of a list in order of time. The words in the list's name, else in the pictures'
+/// names, decide colour or depth. Times are seconds where one has a point, else frame numbers.
+/// Names are relative to the list's folder. Ignores lines without time and picture, missing
+/// pictures and repeated times, and says so in a notice. Depth facts are TUM's: 0.2 mm a level, 0
+/// no data, and intrinsics of the camera in a folder's name. Throws InputError for no picture.
 [[nodiscard]] PictureSet read_picture_list(const std::filesystem::path& list);
 
-/// Those of the lists in a folder, the associated ones first; nothing when it has none.
+/// The pictures of the lists in a folder, preferably of an associated list; nothing without a list.
 [[nodiscard]] std::optional<PictureSet> read_lists_in(const std::filesystem::path& folder);
 
 }  // namespace dibhr

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The letters as they are, before and after a number.
+/// The fixed text before and after a number.
 struct NumberPattern {
     std::string before{};
     std::string after{};
@@ -51,10 +51,10 @@ std::optional<double> number_of(const std::string& name, const NumberPattern& pa
     return number_of_text(digits);
 }
 
-/// Stars stand for any letters: what is between them follows in this order.
+/// Whether the name matches: a star stands for any text, all other characters for themselves.
 bool fits_stars(std::string_view name, std::string_view pattern) {
     std::size_t at = 0;
-    std::size_t star = std::string_view::npos;  // the last one, and what it stands for ends here
+    std::size_t star = std::string_view::npos;  // the last star; its text ends at `end`
     std::size_t end = 0;
     std::size_t k = 0;
     while (k < name.size()) {

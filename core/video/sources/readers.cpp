@@ -1,4 +1,4 @@
-// The list of readers, and what is done with it.
+// The list of readers, and the search in it.
 #include "core/video/sources/readers.hpp"
 
 #include <algorithm>
@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// As most videos begin (MP4 and QuickTime, Matroska, AVI, NUT): they need no picture codecs to be
-/// loaded. Other videos are found by what the codecs say.
+/// Whether a file begins as most videos do (MP4 and QuickTime, Matroska, AVI, NUT). These need no
+/// picture codecs to be loaded; other videos are files that the picture codecs do not know.
 bool is_video_container(const fs::path& /*file*/, std::string_view head) {
     constexpr std::array<std::string_view, 9> kBrands{"isom", "iso2", "iso4", "iso5", "iso6",
                                                       "mp41", "mp42", "M4V ", "qt  "};
@@ -62,12 +62,11 @@ Sources both_if(const fs::path& place) {
             open_picture_source(place, PictureRole::colour)};
 }
 
-/// The two of a video's tracks that belong together, where its own words say it: one has depth in
-/// its title, or is coded without colours beside one that has them; of several such the one of the
-/// most bits.
+/// The colour and depth track of a video. Depth is a track with "depth" in its title, else a grey
+/// track beside one in colour; of several the one with the most bits.
 Sources both_tracks(const fs::path& file) {
     const std::vector<VideoTrack> tracks = video_tracks(file);
-    constexpr int kTitled = 100;  // says more than any number of bits
+    constexpr int kTitled = 100;  // more than any number of bits
     const auto likelihood_of_depth = [](const VideoTrack& track) {
         if (lower_case(track.title).find("depth") != std::string::npos) return kTitled;
         return track.grey ? track.bits : 0;
@@ -90,7 +89,7 @@ Sources both_tracks(const fs::path& file) {
     return both;
 }
 
-/// The first that takes a place reads it; the last one takes whatever is left.
+/// The first reader that accepts a place reads it; the last one accepts everything.
 constexpr std::array kReaders{
     Reader{"bag of ROS 2", PictureForm::bag, is_ros_bag, nullptr, open_ros_topic,
            both_if<bag_has_colour>},
@@ -112,7 +111,7 @@ constexpr std::array kReaders{
     Reader{"video by libav", PictureForm::video,
            [](const fs::path&, std::string_view) { return true; }, nullptr, open_file<VideoFile>,
            both_tracks}};
-constexpr std::size_t kOfManyFiles = 2;  ///< readers, the first ones; all others are of one file
+constexpr std::size_t kOfManyFiles = 2;  ///< the first readers; all others are for single files
 
 }  // namespace
 
@@ -135,7 +134,7 @@ std::unique_ptr<PictureSource> open_picture_source(const fs::path& place, Pictur
     return std::make_unique<StillFile>(place, reader.read(place, role));
 }
 
-/// OpenCV's codecs need not be asked: what no other one takes is theirs.
+/// A file that no other reader accepts goes to OpenCV's codecs without a check.
 StillPicture read_still(const fs::path& file, PictureRole role) {
     set_up_libraries();
     require_readable(file);

@@ -1,5 +1,5 @@
-// The forms of pictures that are read: one list, in the order in which a place is asked whether it
-// is theirs; inside the room.
+// The readers of all forms of pictures, in one ordered list: the first one that accepts a place
+// reads it; inside the room.
 #pragma once
 
 #include <cstddef>
@@ -16,34 +16,34 @@ namespace dibhr {
 
 struct Sources;
 
-/// What makes a difference to where colour and depth are looked for.
+/// Decides where colour and depth are searched.
 enum class PictureForm { bag, row, video, arrays, still };
 
-/// Who reads one form.
+/// The functions that read one form.
 struct Reader {
-    std::string_view name;  ///< of the form, for people
+    std::string_view name;  ///< of the form, for messages
     PictureForm form;
-    /// Whether a place is of that form: by `head`, how a file begins, which is empty for a folder;
-    /// where that says too little, by its name or what it holds.
+    /// Whether a place is of that form: by `head`, the first bytes of a file (empty for a folder);
+    /// where these are not enough, by name or content.
     bool (*is_own)(const std::filesystem::path& place, std::string_view head);
-    /// Its first picture; null: it has no single ones.
+    /// Reads the first picture; null: the form has no still pictures.
     StillPicture (*read)(const std::filesystem::path& file, PictureRole role);
-    /// Its pictures of that role; null: the one of read().
+    /// Opens the pictures of that role; null: use read().
     std::unique_ptr<PictureSource> (*open)(const std::filesystem::path& place, PictureRole role);
-    /// Colour and depth of one place; without depth where it does not hold both. Null: it never
-    /// does.
+    /// Opens colour and depth of one place; without depth where it does not hold both. Null: the
+    /// form never holds both.
     Sources (*open_both)(const std::filesystem::path& place);
 };
 
-/// The first one that says that the place is its own. Throws InputError for what none could read.
+/// The first reader that accepts the place. Throws InputError for a file that none can read.
 [[nodiscard]] const Reader& reader_of(const std::filesystem::path& place);
 
-/// A still image or a video, told apart by content, or a folder of pictures. Throws InputError.
+/// Opens a still image, a video or a folder of pictures, by content. Throws InputError.
 [[nodiscard]] std::unique_ptr<PictureSource> open_picture_source(const std::filesystem::path& place,
                                                                  PictureRole role);
 
-/// Depth keeps its levels and channels, colour becomes 8-bit BGR; of an array the first picture.
-/// Throws InputError.
+/// Reads a still image, or the first picture of an array. Depth keeps its levels and channels,
+/// colour becomes 8-bit BGR. Throws InputError.
 [[nodiscard]] StillPicture read_still(const std::filesystem::path& file, PictureRole role);
 
 /// A still image as a source of one picture.

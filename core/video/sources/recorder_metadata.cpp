@@ -1,4 +1,4 @@
-// Depthkit's and Record3D's words.
+// Parses the metadata of Depthkit and Record3D.
 #include "core/video/sources/recorder_metadata.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ std::string_view trimmed(std::string_view text, std::string_view what) {
     return text.substr(first, text.find_last_not_of(what) - first + 1);
 }
 
-/// "key: 3" as a member of the object, unless it has that member.
+/// Adds "key: 3" as a member, unless the object has that key.
 void add_member(Json& object, std::string_view member) {
     const auto colon = member.find(':');
     if (colon == std::string_view::npos) return;
@@ -42,8 +42,7 @@ void add_member(Json& object, std::string_view member) {
     if (number && !object.contains(key)) object[key] = *number;
 }
 
-/// The numbers, and those in braces, of a Unity asset, each key once: as Depthkit's JSON of one
-/// camera has them.
+/// The numbers of a Unity asset, also those in braces, as in Depthkit's JSON of one camera.
 Json asset_of(const std::string& text) {
     Json asset = Json::object();
     std::istringstream lines(text);
@@ -77,7 +76,7 @@ struct Pair {
     double x{0.0}, y{0.0};
 };
 
-/// Of an object of x and y, from those two members of it.
+/// Two members of an object as a pair.
 std::optional<Pair> pair_in(const Json& object, const char* key, const char* x = "x",
                             const char* y = "y") {
     const auto found = object.find(key);
@@ -95,7 +94,7 @@ std::optional<DepthRange> range_of(std::optional<double> near, std::optional<dou
 
 // Depthkit.
 
-/// The part of the depth camera's picture that the video shows [its pixels].
+/// The part of the depth camera's picture that the video shows [pixels of the camera].
 struct Crop {
     Pair corner{};
     Pair size{};
@@ -118,7 +117,7 @@ std::optional<Crop> crop_of(const Json& camera) {
     return has_pixels(crop) ? std::optional(crop) : std::nullopt;
 }
 
-/// The lower half of such a picture shows the crop with square pixels.
+/// Whether the lower half of such a picture shows the crop with square pixels.
 bool has_proportions(cv::Size picture, const Crop& crop) {
     constexpr double kAlike = 0.02;
     const double shown = 2.0 * picture.width / std::max(picture.height, 1);
@@ -137,7 +136,7 @@ void tell_camera(const Json& camera, const Crop& crop, PackedForm& form) {
                             static_cast<int>(std::lround(crop.size.y))};
 }
 
-/// Of metadata of one camera: its members stand alone (version 0.1) or in `perspectives`.
+/// The form by metadata of one camera, whose members are at top level (0.1) or in `perspectives`.
 std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, bool of_that_name) {
     const auto perspectives = metadata.find("perspectives");
     const bool nested = perspectives != metadata.end() && perspectives->is_array();
@@ -156,7 +155,7 @@ std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, 
 
 // Record3D.
 
-/// Column after column, or row after row: the skew and the last row are 0.
+/// Accepts column-major and row-major matrices: skew and last row are 0.
 std::optional<Intrinsics> matrix_of(const Json& metadata) {
     const auto found = metadata.find("intrinsicMatrix");
     if (found == metadata.end() || !found->is_array() || found->size() != 9) return std::nullopt;
@@ -169,7 +168,7 @@ std::optional<Intrinsics> matrix_of(const Json& metadata) {
     return is_camera(camera) ? std::optional(camera) : std::nullopt;
 }
 
-/// Whether the camera looks through about the middle of half of the picture.
+/// Whether the camera's centre is near the middle of a half of the picture.
 bool looks_through(const Intrinsics& camera, cv::Size picture) {
     const double x = 2.0 * camera.cx / std::max(picture.width / 2, 1);
     const double y = 2.0 * camera.cy / std::max(picture.height, 1);
@@ -211,7 +210,7 @@ std::optional<PackedForm> form_inside(const fs::path& video, cv::Size picture) {
 constexpr std::array<std::string_view, 4> kMetadataEndings{".metadata.asset", "_meta.txt",
                                                            "metadata.json", "metadata.txt"};
 
-/// The name before what makes it metadata: "take" of "take_meta.txt"; nothing when it is none.
+/// The video's name in the name of a metadata file: "take" of "take_meta.txt"; else nothing.
 std::optional<std::string> described_by(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
     for (const std::string_view ending : kMetadataEndings) {
@@ -226,7 +225,7 @@ struct MetadataFile {
     bool of_that_name{false};
 };
 
-/// The one of the video's name, or else the only one.
+/// The metadata file with the video's name, else the only one.
 std::optional<MetadataFile> metadata_beside(const fs::path& video) {
     const std::string stem = lower_case(video.stem().string());
     std::vector<fs::path> found;

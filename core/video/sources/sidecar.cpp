@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::size_t kMostNoData = 64;
 
-/// The finite numbers between `separator`s; nothing where one is none.
+/// The finite numbers between `separator`s; nothing where one is invalid.
 std::optional<std::vector<double>> numbers_in(const std::string& text, char separator) {
     std::vector<double> numbers;
     if (text.empty()) return numbers;
@@ -75,7 +75,7 @@ std::optional<Registration> registration_of(const std::vector<double>& numbers) 
     return fits ? std::optional(registration) : std::nullopt;
 }
 
-/// The finite number, those of an array, or of a text as the command line has it.
+/// The finite numbers of a number, an array, or a text in the command line's syntax.
 std::optional<std::vector<double>> numbers_of(const toml::node& node, char separator) {
     if (const auto text = node.value_exact<std::string>()) return numbers_in(*text, separator);
     std::vector<double> numbers;
@@ -97,7 +97,7 @@ std::optional<Intrinsics> intrinsics_of(const toml::node& node) {
     return numbers ? intrinsics_of(*numbers) : std::nullopt;
 }
 
-/// The name of a way to clean, or those of single steps.
+/// The name of a preset, or a list of steps.
 std::optional<CleaningChoice> cleaning_of(const toml::node& node) {
     CleaningChoice choice;
     if (const auto word = node.value<std::string_view>()) {
@@ -141,7 +141,7 @@ std::string plain_name(std::string_view key) {
     return name.starts_with(kPrefix) ? name.substr(kPrefix.size()) : name;
 }
 
-/// Takes one fact; what it lacks as words, or nothing.
+/// Stores one fact. Returns what is wrong with it; empty: nothing.
 std::string take(const std::string& name, const toml::node& node, DepthStatement& said) {
     const auto keep = [](auto& fact, auto value, const char* lacking) -> std::string {
         if (!value) return lacking;

@@ -1,4 +1,4 @@
-// A sidecar: what depth means, written down beside the file it is said of.
+// Reads and writes sidecars: files beside a media file that state what its depth means.
 #pragma once
 
 #include <filesystem>
@@ -12,24 +12,23 @@ namespace dibhr {
 /// Where the sidecar of a file or folder is written: NAME.toml beside it.
 [[nodiscard]] std::filesystem::path sidecar_of(const std::filesystem::path& media);
 
-/// The `[depth]` table of the sidecar beside `media`, which is called NAME.toml or
-/// NAME.EXTENSION.toml; nothing where there is none. Throws InputError for one that cannot be
-/// understood: which file, which line.
+/// The `[depth]` table of the sidecar of `media`, NAME.toml or NAME.EXTENSION.toml; nothing where
+/// there is none. Throws InputError for one that cannot be parsed: which file, which line.
 [[nodiscard]] std::optional<DepthStatement> read_sidecar(const std::filesystem::path& media);
 
 /// The `[depth]` table of a file, likewise; nothing where there is none.
 [[nodiscard]] std::optional<DepthStatement> read_statement(const std::filesystem::path& file);
 
-/// Writes the sidecar of `media`, whole or not at all; what else a sidecar that is there holds is
-/// kept. Throws InputError.
+/// Writes the `[depth]` table of the sidecar of `media`, whole or not at all; keeps its other
+/// tables. Throws InputError.
 void write_sidecar(const std::filesystem::path& media, const DepthStatement& statement);
 
-/// The table as TOML, a fact a line, and back; numbers as short as they come back the same. Throws
-/// InputError that begins with `name` for what cannot be understood.
+/// The statement as TOML, one fact a line, and back; numbers are as short as reads back the same.
+/// Throws InputError that begins with `name` for a text that cannot be parsed.
 [[nodiscard]] std::string toml_of(const DepthStatement& statement);
 [[nodiscard]] DepthStatement statement_in(const std::string& toml, const std::string& name);
 
-// The same facts as the command line writes them. Each gives nothing for a text that is none.
+// The same facts in the syntax of the command line. Each returns nothing for an invalid text.
 
 /// "0,65535": finite numbers between commas; empty: none.
 [[nodiscard]] std::optional<std::vector<double>> levels_in(const std::string& text);

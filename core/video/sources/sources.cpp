@@ -1,4 +1,4 @@
-// Chooses what to read: tracks, halves, pictures, arrays, and which file belongs to which.
+// Chooses tracks, halves, pictures or arrays to read, and which files belong together.
 #include "core/video/sources/sources.hpp"
 
 #include <memory>
@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLookedAt = 6;  ///< pictures that tell of what kind they are
+constexpr int kLookedAt = 6;  ///< pictures used to guess their kind
 
-/// A place as it was named, and who reads it.
+/// A place and its reader.
 struct Place {
     explicit Place(const fs::path& named) : path(named), reader(reader_of(named)) {}
 
@@ -46,22 +46,22 @@ cv::Size picture_size(const fs::path& place) {
     return {source->facts().columns, source->facts().rows};
 }
 
-/// A place as it looks; of a video that track.
+/// Opens a place as colour pictures; of a video that track.
 std::unique_ptr<PictureSource> open_look(const fs::path& place, int track = 0) {
     if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
     return open_picture_source(place, PictureRole::colour);
 }
 
-/// Pictures of a place as they look; none of what does not look like anything (real numbers).
+/// Sample pictures of a place as colour; none of depth in real numbers, which has no colours.
 std::vector<cv::Mat> looks_of(const fs::path& place, int most, int track = 0) {
     try {
         return open_look(place, track)->samples(most);
     } catch (const InputError&) {
-        return {};  // it is depth of a form that has no colours
+        return {};  // depth in a form without colours
     }
 }
 
-/// What somebody says of halves, or a recorder's metadata, or the name; nothing when none does.
+/// The packing in halves by the statement, a recorder's metadata or the name; else nothing.
 std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& said) {
     std::optional<PackedForm> form;
     if (said.packing && !is_of_halves(*said.packing)) return form;
@@ -78,7 +78,7 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     return form;
 }
 
-/// As its pictures look, in halves; nothing when they do not.
+/// The halves, where the pictures look packed; else nothing.
 std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess& look) {
     if (look.kind != PictureKind::packed) return std::nullopt;
     PackedForm form{.packing = look.packing, .known_from = "its pictures"};
@@ -89,14 +89,14 @@ std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess&
     return sources;
 }
 
-/// Whether it is worth while to look at more pictures.
+/// Whether the first picture has colours, so that more pictures are worth sampling.
 bool begins_in_colours(const fs::path& place, int track) {
     constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
     const std::vector<cv::Mat> first = looks_of(place, 1, track);
     return !first.empty() && look_of(first.front()).coloured > kMostColoured;
 }
 
-/// A source of colours is decoded where they are a code, as somebody says or as they look.
+/// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& said) {
     const int track = sources.depth_track;
     const bool may_be_coded = said.code != DepthCode::hue && sources.depth->facts().channels != 1 &&
@@ -116,7 +116,7 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& said)
     return sources;
 }
 
-/// The colour and the depth of one place; nothing when it does not hold both.
+/// Colour and depth of one place; no depth when it does not hold both.
 Sources both_in(const Place& place, const DepthStatement& said) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
@@ -129,7 +129,7 @@ Sources depth_in(const Place& place, const DepthStatement& said) {
     return decoded(place, {open_picture_source(place.path, PictureRole::depth), nullptr}, said);
 }
 
-/// Whether a single place is depth as its name, its levels or its look say. The last is a guess.
+/// Whether a single place is depth: by its name, its levels or its appearance, which is a guess.
 bool is_depth(const Place& place, const PictureGuess& look) {
     if (named_depth(place.path) || place.is(PictureForm::bag)) return true;
     if (place.is(PictureForm::row)) {
@@ -156,19 +156,18 @@ bool is_row(const fs::path& place) {
     return names_pictures(place) && !is_ros_bag(place, head_of(place));
 }
 
-/// Colour pictures of a folder, a list or a pattern, or a file of colour, and the place of the
-/// depth that belongs to them.
+/// Opens colour and depth of two places, each a file, a folder, a list or a pattern.
 Sources of_two_places(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
     if (is_row(colour) && is_row(depth)) return rows_of_two(colour, depth);
-    // First, so that a colour file that cannot be read is not blamed on the depth.
+    // First, so that an error of the colour file is not reported as one of the depth.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     Sources sources = depth_in(Place(depth), said);
     sources.colour = std::move(colour_source);
     return sources;
 }
 
-/// Colour and depth of one place as its tracks, its names or its metadata say, or as somebody says;
-/// nothing where they do not.
+/// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth
+/// where these give none.
 Sources both_as_said(const Place& place, const DepthStatement& said) {
     if (!said.packing || !is_of_halves(*said.packing)) {
         if (Sources both = both_in(place, said); both.depth) return both;
@@ -178,7 +177,7 @@ Sources both_as_said(const Place& place, const DepthStatement& said) {
     return form ? open_packed(place.path, *form) : Sources{};
 }
 
-/// What a place holds where nothing says it: halves, depth alone, or colour alone.
+/// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
 Sources as_it_looks(const Place& place, const DepthStatement& said) {
     PictureGuess look;
     if (!place.is(PictureForm::bag)) look = guess_kind(looks_of(place.path, kLookedAt));
@@ -189,7 +188,7 @@ Sources as_it_looks(const Place& place, const DepthStatement& said) {
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 
-/// Given as both: a place of both, or else one whose pictures are colour and depth at once.
+/// The same place was given twice: it holds both, else its pictures are colour and depth at once.
 Sources of_the_same_place(const fs::path& place, const DepthStatement& said) {
     if (Sources both = both_as_said(Place(place), said); both.depth) return both;
     const PictureGuess look = guess_kind(looks_of(place, kLookedAt));
@@ -197,7 +196,7 @@ Sources of_the_same_place(const fs::path& place, const DepthStatement& said) {
     return of_two_places(place, place, said);
 }
 
-/// Both in one place, the depth beside it, or depth alone.
+/// One place was given: it holds both, or depth is beside it, or it is depth alone.
 Sources of_one_place(const Place& place, const DepthStatement& said) {
     if (Sources both = both_as_said(place, said); both.depth) return both;
     std::string looked_for;

@@ -52,8 +52,7 @@ std::string recording_name(const fs::path& depth) {
     return name.empty() ? stem : name;
 }
 
-/// Of path/cup_depth.mp4: path/cup_depth with that ending, where that is there, else path/cup with
-/// it.
+/// Of path/cup_depth.mp4: path/cup_depth with that ending if it exists, else path/cup with it.
 fs::path beside(const fs::path& depth, const std::string& ending) {
     const fs::path place = depth.has_filename() ? depth : depth.parent_path();
     const fs::path name = is_folder(place) ? place.filename() : place.stem();

@@ -1,4 +1,4 @@
-// What the parts of a dilation share: the ball, images with room around them, and lists.
+// Shared by the parts of the dilation: the ball, images with padding, and lists.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace dibhr::fingertip {
 
-/// So far a piece reaches beyond its rim, lest rounding open a gap between two of them.
+/// Each piece reaches this far beyond its rim, so that rounding leaves no gap between two pieces.
 inline constexpr float kOverlap_px = 1e-3F;
 inline constexpr float kNothing = -std::numeric_limits<float>::infinity();
 inline constexpr float kSteepest = 1e18F;  ///< its square is far from a float's highest
 
-/// The whole number not below, and not above; for what an int holds.
+/// The nearest whole number not below, and not above; only for values that an int holds.
 inline int up(float x) {
     const int cut = static_cast<int>(x);
     return cut + (static_cast<float>(cut) < x ? 1 : 0);
@@ -27,7 +27,7 @@ inline int down(float x) {
     return cut - (static_cast<float>(cut) > x ? 1 : 0);
 }
 
-/// Into [-limit, limit], NaN too.
+/// Clamped to [-limit, limit]; NaN becomes -limit.
 inline float held(float x, float limit) {
     const float low = x > -limit ? x : -limit;
     return low < limit ? low : limit;
@@ -43,18 +43,18 @@ struct Ball {
           levels_per_px(static_cast<float>(highest_level / finger.relief_px)) {}
 
     double radius_px{0.0};
-    float radius{0.0F};         ///< the same
-    float radius_levels{0.0F};  ///< the same [levels]
+    float radius{0.0F};         ///< the same as float [px]
+    float radius_levels{0.0F};  ///< the radius [levels]
     float px_per_level{0.0F};
     float levels_per_px{0.0F};
 
-    /// Of the ball over a distance from its axis [px]; 0 beyond.
+    /// The ball's height over its centre, at a distance from its axis [px]; 0 beyond the radius.
     [[nodiscard]] double height_px(double away_px) const {
         return std::sqrt(std::max(0.0, radius_px * radius_px - away_px * away_px));
     }
 };
 
-/// An image with room on all sides. What is in the room is not kept.
+/// An image with padding on all sides. Values written into the padding are not kept.
 class RoomyImage {
   public:
     void fit(int columns, int rows, int room, float in_room) {
@@ -84,8 +84,8 @@ class RoomyImage {
     std::vector<float> levels_{};
 };
 
-/// Puts the numbers of the flags that are 1, of `count` that are 1 or 0, into `numbers`, which is
-/// as long as the flags; their count.
+/// Writes the indices of the flags that are 1 into `numbers` (as long as `flags`) and returns how
+/// many there are. The `count` flags are 1 or 0.
 [[nodiscard]] inline std::size_t number_flagged(const int* flags, std::size_t count, int* numbers) {
     std::size_t flagged = 0;
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +95,7 @@ class RoomyImage {
     return flagged;
 }
 
-/// Pixels that are worked out together; of the last ones too many, which are not kept.
+/// Pixels that are computed together; the surplus ones at the end are not kept.
 inline constexpr int kAtOnce = 8;
 
 }  // namespace dibhr::fingertip

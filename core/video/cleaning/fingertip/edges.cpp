@@ -10,10 +10,10 @@ namespace dibhr::fingertip {
 
 namespace {
 
-constexpr int kWide = 10;  ///< lines more than one
+constexpr int kWide = 10;  ///< an EDGE over more lines than this is narrowed
 
-/// The ball touches an EDGE over the lines from where its centre is over the TRIANGLE before to
-/// where it is over the one after: where the EDGE is convex, and a line is there.
+/// Flags EDGEs that the ball touches: convex ones, with a line between the ball's centres over the
+/// TRIANGLEs before and after, that reach up to `ground`.
 DIBHR_VECTOR_CLONES void flag_touched(const float* __restrict before, const float* __restrict after,
                                       const float* __restrict begins, const float* __restrict ends,
                                       const float* __restrict ground, std::size_t count,
@@ -37,7 +37,7 @@ struct Leaning {
     int last_line;
 };
 
-/// How the EDGEs of these numbers lie and lean, and the lines between the TRIANGLEs beside them.
+/// Levels and slopes of the EDGEs of these numbers, and the lines between the TRIANGLEs beside.
 DIBHR_VECTOR_CLONES void lean(const Leaning& all, const int* __restrict number, std::size_t count,
                               float* __restrict begin, float* __restrict rise,
                               float* __restrict sine, float* __restrict cosine,
@@ -58,7 +58,7 @@ DIBHR_VECTOR_CLONES void lean(const Leaning& all, const int* __restrict number, 
     }
 }
 
-/// An EDGE across from each one, nearer to its other neighbours than the ball is wide.
+/// EDGEs parallel to each one, at a distance of at most the ball's radius.
 struct Across {
     const float* begins;
     const float* ends;
@@ -69,7 +69,7 @@ struct Across {
     Neighbour neighbour;
 };
 
-/// How many lines there are at most to the side of the other EDGE, if the ball is not to enter it.
+/// Most lines on the side of the parallel EDGE over which the ball does not enter that EDGE.
 [[gnu::always_inline]] inline int most_lines(const Across& of, int i, float cosine) {
     const float rise_begin = of.other_begins[i] - of.begins[i];
     const float rise_end = of.other_ends[i] - of.ends[i];
@@ -78,7 +78,7 @@ struct Across {
     return down(lean * of.lines_per_px + kOverlap_px);
 }
 
-/// The lines that the ball touches to that side, counted away from each EDGE.
+/// Limits the last line on that side, counted away from each EDGE.
 DIBHR_VECTOR_CLONES void narrow_side(const Across& across, const int* __restrict number,
                                      const float* __restrict cosine, std::size_t count,
                                      int* __restrict last) {
@@ -98,7 +98,7 @@ struct LineTable {
     float radius_levels;
 };
 
-/// Where the ball touches EDGEs over lines: of each line's pixels one has that on the EDGE.
+/// Of each line the pixel for which the ball touches the EDGE itself, and the ball's level there.
 DIBHR_VECTOR_CLONES std::size_t touch(const LineTable& table, const TouchedEdges& edges,
                                       float* __restrict levels, int* __restrict to) {
     const LineTable lines = table;
@@ -212,8 +212,8 @@ void EdgePass::find(const float* before, const float* after, const float* begins
          edges_.sine.data(), edges_.cosine.data(), edges_.first.data(), edges_.last.data());
 }
 
-/// What is over many lines is worth another look; the first line is counted away from the EDGE
-/// meanwhile, as the last one is.
+/// EDGEs over many lines are narrowed by neighbours. Meanwhile the first line is counted away from
+/// the EDGE, as the last one is.
 void EdgePass::narrow_wide(const float* begins) {
     wide_.count = 0;
     for (std::size_t k = 0; k < edges_.count; ++k) {

@@ -8,13 +8,13 @@
 
 namespace dibhr::fingertip {
 
-/// EDGEs of one direction: where they lead, and what is across them.
+/// EDGEs of one direction, and where their neighbours are.
 struct EdgeFamily {
     double length_px;           ///< of an EDGE
-    std::ptrdiff_t to_end;      ///< from an EDGE's begin, in the image with room around it
+    std::ptrdiff_t to_end;      ///< from an EDGE's begin, in the padded image
     std::ptrdiff_t aside;       ///< from an EDGE to the next one straight across it
-    double aside_px;            ///< as far is that
-    double line_px;             ///< from one line of pixels along such EDGEs to the next
+    double aside_px;            ///< length of that step
+    double line_px;             ///< between two lines of pixels along such EDGEs
     double line_shift;          ///< of a line's pixels along the EDGE, in EDGE lengths
     std::ptrdiff_t along_line;  ///< to a line's next pixel
     std::ptrdiff_t to_line;     ///< to the next line
@@ -28,17 +28,17 @@ struct EdgeFamily {
 /// The pixels around an EDGE lie on lines parallel to it, numbered from the one that it is on. Over
 /// each line the ball touches the EDGE's line in one point.
 struct Lines {
-    int last{0};                  ///< that the ball reaches
+    int last{0};                  ///< last line that the ball reaches
     std::vector<float> shifts{};  ///< of a line's pixels along the EDGE, in EDGE lengths
     std::vector<float> reach{};   ///< of the ball over a line, in EDGE lengths
     std::vector<float> height{};  ///< of the ball over a line [levels]
-    std::vector<int> steps{};     ///< to a line, in the image with room around it
+    std::vector<int> steps{};     ///< to a line, in the padded image
 
     void lay(const Ball& ball, const EdgeFamily& family);
 };
 
-/// Of those EDGEs of a row that the ball may touch: which they are, how they lie, how they lean (as
-/// sine and cosine), and the lines over which the ball touches them.
+/// The EDGEs of a row that the ball may touch: their numbers, levels, slopes (as sine and cosine),
+/// and the lines over which the ball touches them.
 struct TouchedEdges {
     std::vector<int> number{};
     std::vector<float> begin{}, rise{};  ///< [levels]
@@ -54,9 +54,9 @@ class EdgePass {
   public:
     void prepare(const Ball& ball, const EdgeFamily& family, int most);
 
-    /// Those of a row. `before` and `after`: how far the ball's centre is from where it touches the
-    /// TRIANGLEs to both sides [lines]. `begins`: the first EDGE's begin in the image with room
-    /// around it, `origin`: the same pixel of what is raised.
+    /// By the EDGEs of a row. `before`, `after`: how far the ball's centre is from where it touches
+    /// the TRIANGLEs on the two sides [lines]. `begins`: the first EDGE's begin in the padded
+    /// image; `origin`: the same pixel of the raised image.
     void raise(const float* before, const float* after, const float* begins, const float* ground,
                std::size_t count, float* origin);
 

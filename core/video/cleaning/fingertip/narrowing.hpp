@@ -1,4 +1,4 @@
-// What a ball may touch is less if it is not to enter the surface some pixels away.
+// Narrows what a ball may touch: it must not enter the surface some pixels away.
 #pragma once
 
 #include <array>
@@ -8,16 +8,16 @@
 
 namespace dibhr::fingertip {
 
-/// Pixels away, up to the ball's radius; the nearest are looked at anyway.
+/// Distances of checked neighbours [px], up to the ball's radius; the nearest is checked elsewhere.
 inline constexpr std::array kDistances{2, 4, 8, 16, 32};
 
-/// A point of the surface at one distance from one that a ball touches.
+/// A point of the surface at one distance from the point that a ball touches.
 ///
-/// In the plane of both, the ball's centre leans x towards the other one, and is sqrt(reach^2 -
-/// x^2) above: it enters the other one, `rise` above the one touched, where
+/// In the plane of both, the ball's centre leans x towards the neighbour and is sqrt(reach^2 - x^2)
+/// above: it enters the neighbour, `rise` above the touched point, where
 ///     x distance + sqrt(reach^2 - x^2) rise > (distance^2 + rise^2) / 2,
-/// which is where x is above the lower root, as long as the rise is not more than leaves the ball
-/// upright beside it. A higher one is taken for one as high, which the ball enters too.
+/// which is where x is above the lower root, as long as the ball has room upright beside the rise.
+/// A higher neighbour counts as one of that rise, which the ball enters, too.
 struct Neighbour {
     Neighbour(double distance, const Ball& ball)
         : distance_px(static_cast<float>(distance)), radius2(ball.radius * ball.radius) {}
@@ -25,13 +25,13 @@ struct Neighbour {
     float distance_px;
     float radius2;
 
-    /// How far the ball's centre may lean towards it at most [px], if the ball has its radius in
-    /// the plane of both, and where what is touched leans across it by the angle of this cosine.
+    /// How far the ball's centre may lean towards the neighbour at most [px], if the ball has its
+    /// full radius in the plane of both. `cosine`: of the touched EDGE's slope across the plane.
     [[nodiscard, gnu::always_inline]] float most_lean(float rise_px, float cosine) const {
         return most_lean_of(rise_px, cosine, radius2);
     }
 
-    /// The same for a reach between the radius and a lesser one.
+    /// Likewise, if the ball's reach in that plane is between a least one and its radius.
     [[nodiscard, gnu::always_inline]] float most_lean_of_less(float rise_px,
                                                               float least_reach2) const {
         return most_lean_of(rise_px, 1.0F, rise_px > 0.0F ? least_reach2 : radius2);

@@ -12,14 +12,14 @@ namespace {
 
 constexpr int kSquare_px = 4;
 constexpr double kLeast_px = 6.0;  ///< wider than a square's diagonal
-constexpr double kMost_px = 40.0;  ///< where a wide ball does not get, a narrower may not
+constexpr double kMost_px = 40.0;  ///< wider balls use this bound, too: they get no deeper
 
 DIBHR_VECTOR_CLONES void raise_to(const float* __restrict a, const float* __restrict b,
                                   std::size_t count, float* __restrict of) {
     for (std::size_t i = 0; i < count; ++i) of[i] = a[i] > b[i] ? a[i] : b[i];
 }
 
-/// Raises all to the others less their fall, or lowers all to the others and their fall.
+/// Raises all to the others minus the fall, or lowers all to the others plus the fall.
 DIBHR_VECTOR_CLONES void raise_all(const float* __restrict others, float fall, std::size_t count,
                                    float* __restrict all) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,7 +44,7 @@ float fall_levels(const Ball& ball, double x_px, double y_px) {
 
 }  // namespace
 
-/// Where the ball touches, a narrower one inside it touches too.
+/// Computed for a narrower ball inside the ball: where the ball touches, the narrower one does.
 void Squares::find(const RoomyImage& image, int columns, int rows, const Ball& ball) {
     wide_enough_ = ball.radius_px >= kLeast_px;
     ground_.assign(static_cast<std::size_t>(columns), kNothing);
@@ -87,7 +87,7 @@ void Squares::find_highest(const RoomyImage& image, int columns, int rows) {
     std::fill(ground_.begin(), ground_.end(), kNothing);
 }
 
-/// On the highest pixel of another square, wherever in the two the pixel and the ball's axis are.
+/// The ball is no lower than on another square's highest pixel, wherever it is in the two squares.
 void Squares::rest(const Ball& narrow) {
     const auto count = static_cast<std::size_t>(columns_);
     for (int y = 0; y < rows_; ++y) std::fill_n(resting_.data() + at(0, y), columns_, kNothing);
@@ -103,7 +103,7 @@ void Squares::rest(const Ball& narrow) {
     }
 }
 
-/// Nowhere does the ball get lower than where it rests in a square that it reaches.
+/// The ball touches nothing below the resting levels of the squares that it reaches.
 void Squares::sink(const Ball& narrow, float slack) {
     const auto count = static_cast<std::size_t>(columns_);
     for (int dy = 1 - margin_; dy < margin_; ++dy) {

@@ -1,4 +1,4 @@
-// How deep a ball can get at all, found out for squares of pixels.
+// A bound of how deep a ball can get, by squares of pixels.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,12 @@
 
 namespace dibhr::fingertip {
 
-/// A lower bound of where the ball rests gives one of what it touches.
+/// From a lower bound of where the ball rests follows one of the levels that it touches.
 class Squares {
   public:
     void find(const RoomyImage& image, int columns, int rows, const Ball& ball);
 
-    /// Of every pixel of a row: nothing below is touched.
+    /// For every pixel of a row: the ball touches nothing below this level.
     [[nodiscard]] const float* ground(int row);
 
   private:

@@ -13,12 +13,12 @@ namespace dibhr::fingertip {
 
 namespace {
 
-/// A TRIANGLE's corners, as a Facet's of this sign.
+/// Levels of a TRIANGLE's corners, in the order of a Facet.
 struct Corners {
     float corner, beside, below;
 };
 
-/// Where it is when it is moved.
+/// A moved TRIANGLE: its offset, the pixel that it is over, and its level there.
 struct Moved {
     float x, y;
     int to;
@@ -50,8 +50,7 @@ template <int kSign>
     return {x, y, to_y * move.pitch + to_x, share_x + share_y <= 1.0F ? level : kNothing};
 }
 
-/// The TRIANGLEs near the origins of the cells and those at the far corners, of cells between two
-/// rows of the image.
+/// Moves both TRIANGLEs of the cells between two rows: near the origin, and at the far corner.
 DIBHR_VECTOR_CLONES void move_both(const float* __restrict above, const float* __restrict below,
                                    const Move& how, std::size_t count, float* __restrict near_x,
                                    float* __restrict near_y, float* __restrict near_both,
@@ -76,8 +75,8 @@ DIBHR_VECTOR_CLONES void move_both(const float* __restrict above, const float* _
     }
 }
 
-/// Into the first, what a cell's two have together: on a smooth surface one is over a pixel. 1 in
-/// `both` where each is over another one.
+/// Merges a cell's two candidates into the first list, as on a smooth surface they are over one
+/// pixel. `both` is 1 where they are over two different pixels.
 DIBHR_VECTOR_CLONES void merge(float* __restrict levels, int* __restrict to,
                                const float* __restrict other_levels, const int* __restrict other_to,
                                std::size_t count, std::uint8_t* __restrict both) {

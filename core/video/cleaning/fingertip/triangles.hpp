@@ -9,37 +9,37 @@
 
 namespace dibhr::fingertip {
 
-/// How far the ball's centre is from where it touches one TRIANGLE, seen from above [px]; and along
-/// both axes together.
+/// Offset of the ball's centre from where it touches a TRIANGLE, seen from above [px]; `both`: the
+/// sum along both axes.
 struct Offsets {
     std::vector<float> x{}, y{}, both{};
 
     void assign(std::size_t count, float x_of_all, float y_of_all);
 };
 
-/// A row of cells. Of each array entry k belongs to cell k - 1 where it says `shifted`, else to
-/// cell k; the others stand for what is beyond the border: vertical walls.
+/// A row of cells. Entry k of an array belongs to cell k - 1 if the array is `shifted`, else to
+/// cell k. Entries without a cell are vertical walls beyond the border.
 struct CellRow {
     Offsets near{};
     Offsets far{};  ///< shifted
 
-    /// Beyond the first row (side -1) or the last one (side 1).
+    /// A row of walls beyond the first row (side -1) or the last one (side 1).
     void make_wall(int columns, float radius, float side);
-    /// To be filled.
+    /// Resizes the arrays; Triangles::move fills them.
     void make_room(int columns, float radius);
 };
 
 class Triangles {
   public:
     void prepare(const Ball& ball, int columns, int pitch);
-    /// Of the cells between two rows of the image.
+    /// Moves the TRIANGLEs of the cells between two rows of the image.
     void move(const float* above, const float* below, CellRow& cells);
-    /// `origin`: the pixel of the first cell's origin.
+    /// Raises pixels. `origin`: the pixel of the first cell's origin.
     void raise(float* origin) const;
 
   private:
-    /// At most one for every TRIANGLE: the levels (kNothing: none), and from the TRIANGLE's cell to
-    /// the pixel.
+    /// At most one for every TRIANGLE: its level (kNothing: none), and the offset from the cell to
+    /// its pixel.
     struct Candidates {
         std::vector<float> levels{};
         std::vector<int> to{};
@@ -49,7 +49,7 @@ class Triangles {
     int columns_{0};
     int pitch_{0};
     Candidates one_{}, other_{};
-    std::vector<std::uint8_t> both_{};  ///< 1 where the other is too; a multiple of 8
+    std::vector<std::uint8_t> both_{};  ///< 1 where `other_` counts, too; size: a multiple of 8
 };
 
 }  // namespace dibhr::fingertip

@@ -10,9 +10,9 @@ namespace dibhr::fingertip {
 
 namespace {
 
-constexpr int kWide = 60;  ///< pixels, but for the sides, that a VERTEX may raise
+constexpr int kWide = 60;  ///< a VERTEX whose box has this area, without its sides, is narrowed
 
-/// VERTICES that are convex in three directions. What is straight in one is left to the EDGEs.
+/// Flags VERTICES that are convex in three directions. Those straight in one are left to the EDGEs.
 DIBHR_VECTOR_CLONES void flag_convex(const float* __restrict row, const float* __restrict ground,
                                      int pitch, std::size_t count, int* __restrict flags) {
     const float* const above = row - pitch;
@@ -39,8 +39,8 @@ struct Lean {
     return {slope * cosine, cosine};
 }
 
-/// How far to the left (or above) an EDGE before a VERTEX leaves the ball's centre to the VERTEX;
-/// `reach` of the ball is least at the ends of what the other direction leaves to it.
+/// How far to the left (or above) the ball's centre may be so that it touches the VERTEX and not
+/// the EDGE before it. The ball's reach is `least` where it leans most in the other direction.
 [[gnu::always_inline]] inline float least_of(float sine, float reach, float least) {
     return -sine * (sine > 0.0F ? reach : least);
 }
@@ -48,7 +48,7 @@ struct Lean {
     return -sine * (sine < 0.0F ? reach : least);
 }
 
-/// The boxes between the EDGEs in rows and columns.
+/// The boxes of pixels between the EDGEs in rows and columns.
 DIBHR_VECTOR_CLONES void box_in(const float* __restrict row, int pitch, const Ball& ball,
                                 const int* __restrict number, std::size_t count,
                                 float* __restrict level, float* __restrict left_sine,
@@ -82,14 +82,14 @@ DIBHR_VECTOR_CLONES void box_in(const float* __restrict row, int pitch, const Ba
 
 struct Opposite {
     const float* row;
-    const float* before;  ///< as far to the left as the other to the right, or above and below
+    const float* before;  ///< neighbours to the left, `after` as far to the right; or up and down
     const float* after;
     float px_per_level;
     Neighbour neighbour;
 };
 
-/// The boxes' sides to the left and right, or at the top and the bottom, if the ball is not to
-/// enter the neighbours there; `low` and `high`, the other two, bound its reach.
+/// Narrows the boxes to the left and right, or at the top and bottom, so that the ball does not
+/// enter the neighbours there. `low` and `high`, the other two sides, bound its reach.
 DIBHR_VECTOR_CLONES void narrow_sides(const Opposite& opposite, const int* __restrict number,
                                       const int* __restrict low, const int* __restrict high,
                                       std::size_t count, int* __restrict first,
@@ -120,7 +120,7 @@ struct CapTable {
     int reach;
 };
 
-/// Of rows of boxes: the first fall of the ball over them, the first pixel, and how many there are.
+/// For each row of each box: index of its first fall, its first pixel, and how many pixels it has.
 DIBHR_VECTOR_CLONES std::size_t lay_rows(const CapTable& table, const TouchedVertices& vertices,
                                          float* __restrict levels, int* __restrict falls,
                                          int* __restrict to, int* __restrict counts) {
@@ -155,7 +155,7 @@ DIBHR_VECTOR_CLONES std::size_t lay_rows(const CapTable& table, const TouchedVer
     return count;
 }
 
-/// The pixels of each row, and maybe some more that the VERTEX may raise too.
+/// Raises the pixels of each row, by kAtOnce: the surplus ones may be raised by the VERTEX, too.
 DIBHR_VECTOR_CLONES void raise_chunks(const float* __restrict cap_middle,
                                       const float* __restrict levels, const int* __restrict falls,
                                       const int* __restrict to, const int* __restrict counts,
@@ -235,7 +235,7 @@ void VertexPass::find(const float* row, const float* ground) {
     narrow_wide(row);
 }
 
-/// What may raise many pixels is worth another look.
+/// VERTICES with a large box are narrowed by neighbours.
 void VertexPass::narrow_wide(const float* row) {
     TouchedVertices& all = vertices_;
     wide_.count = 0;

@@ -11,18 +11,18 @@ namespace dibhr::fingertip {
 /// The upper half of the ball, at whole pixels from its axis.
 struct Cap {
     int reach{0};                 ///< rows and columns to each side
-    int pitch{0};                 ///< some more to the right, over which there is no ball
-    std::vector<float> falls{};   ///< from its top [levels]
+    int pitch{0};                 ///< columns, with some to the right without the ball
+    std::vector<float> falls{};   ///< depth below the top [levels]
     std::vector<float> widths{};  ///< to each side, of every row [px]
     std::vector<int> rows{};      ///< from the middle to a row, in `falls`
-    std::vector<int> steps{};     ///< and in the image with room around it
+    std::vector<int> steps{};     ///< the same in the padded image
 
     void shape(const Ball& ball, int image_pitch);
 };
 
-/// Of those VERTICES of a row that the ball may touch: which they are, and the pixels in a box
-/// around them that they may raise, without those that are rather the EDGEs' in their row, by the
-/// sines by which these lean.
+/// The VERTICES of a row that the ball may touch: their numbers and levels, the box of pixels that
+/// they may raise, and the sines of the slopes of the EDGEs to the left and right. Pixels that
+/// those EDGEs raise are left out.
 struct TouchedVertices {
     std::vector<int> number{};
     std::vector<float> level{};
@@ -38,8 +38,8 @@ class VertexPass {
   public:
     void prepare(const Ball& ball, int columns, int pitch);
 
-    /// Those of a row, from the first one in the image with room around it; `origin`: the same
-    /// pixel of what is raised.
+    /// By the VERTICES of a row. `row`: the first one in the padded image; `origin`: the same pixel
+    /// of the raised image.
     void raise(const float* row, const float* ground, float* origin);
 
   private:
@@ -53,8 +53,8 @@ class VertexPass {
     Cap cap_{};
     std::vector<int> flags_{};
     TouchedVertices vertices_{};
-    TouchedVertices wide_{};       ///< what is said to be so, and
-    std::vector<int> wide_at_{};   ///< where it is among all
+    TouchedVertices wide_{};       ///< those with a large box, and
+    std::vector<int> wide_at_{};   ///< their places in `vertices_`
     std::vector<float> levels_{};  ///< of rows of boxes
     std::vector<int> falls_{}, to_{}, counts_{};
 };

@@ -1,5 +1,5 @@
-// A noisy camera's film, cleaned as the program does it by default, beside the truth: the short
-// form of tests/bench/truth.
+// A noisy camera's film, cleaned with the program's defaults, against the truth: the short form of
+// tests/bench/truth.
 #include <cmath>
 #include <cstddef>
 #include <memory>
@@ -27,7 +27,7 @@ double hand_begins(int frame) {
     return 30.0 + 4.0 * frame;
 }
 
-/// A hand that goes 4 px a frame over a wall, and a chest below it that breathes.
+/// A hand that moves 4 px a frame over a wall, and a chest below it that breathes.
 double elevation_px(int frame, int i, int j) {
     const double begins = hand_begins(frame);
     if (i >= begins && i < begins + 45.0 && j >= 10 && j < 70) return kHand_px + 0.1 * j;
@@ -42,7 +42,7 @@ Shaken seen_by_a_sensor() {
             [](double) { return kLevelsOfPx * kNoise_px; }, 160, 120, 65535.0};
 }
 
-/// As a sensor's whole levels.
+/// Rounded to whole levels, as from a sensor.
 std::vector<DepthImage> recorded(const Shaken& scene) {
     std::vector<DepthImage> frames = scene.frames(kFrames);
     for (DepthImage& frame : frames)
@@ -60,14 +60,14 @@ std::vector<DepthImage> cleaned_by_default(const std::vector<DepthImage>& frames
     return cleaned;
 }
 
-/// Where the row rises onto the hand.
+/// The column at which the row rises onto the hand.
 int step_in_row(const DepthImage& image, int row) {
     for (int i = 0; i < image.columns; ++i)
         if (image.at(i, row) > 0.5 * (kWall_px + kHand_px) * kLevelsOfPx) return i;
     return -1;
 }
 
-/// Of the top of the chest.
+/// The level of the top of the chest.
 double mean_px(const DepthImage& image) {
     double sum = 0.0;
     int count = 0;
@@ -76,7 +76,7 @@ double mean_px(const DepthImage& image) {
     return sum / count / kLevelsOfPx;
 }
 
-/// Mean of the absolute errors: of squares a single pixel beside its outline would be all.
+/// Mean of the absolute errors: in a mean of squares one pixel beside its outline would dominate.
 double error_px(const DepthImage& image, const DepthImage& truth) {
     double sum = 0.0;
     for (std::size_t n = 0; n < truth.levels.size(); ++n)
@@ -103,7 +103,7 @@ TEST_CASE("a noisy film is nearer to the truth when it is cleaned by default, sh
         for (int row = 15; row < 65; row += 5)
             CHECK(std::abs(step_in_row(cleaned[n], row) - step_in_row(truth, row)) <= 1);
         const bool sees_both_sides = k >= kReach && k + kReach < kFrames;
-        // It breathes 0.2 a frame.
+        // The chest breathes 0.2 levels a frame.
         if (sees_both_sides) CHECK(std::fabs(mean_px(cleaned[n]) - mean_px(truth)) < 0.1);
     }
     CAPTURE(seen_px, cleaned_px);

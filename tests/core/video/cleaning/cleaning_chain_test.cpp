@@ -29,7 +29,7 @@ DepthImage chain_input(int columns, int rows, const std::function<double(int, in
     return image;
 }
 
-/// Level 0 where there is no data.
+/// The image with level 0 where it has no data.
 DepthImage with_back_wall(DepthImage image) {
     for (float& level : image.levels)
         if (std::isnan(level)) level = 0.0F;
@@ -47,7 +47,7 @@ double largest_difference(const DepthImage& a, const DepthImage& b) {
     return largest;
 }
 
-/// Root mean square of how far the slopes along rows and columns are from the plane's.
+/// Root mean square of the differences of slopes along rows and columns from the plane's slope.
 double slope_error(const DepthImage& image, double along_row, double along_column) {
     double sum = 0.0;
     int count = 0;
@@ -61,7 +61,7 @@ double slope_error(const DepthImage& image, double along_row, double along_colum
     return std::sqrt(sum / count);
 }
 
-/// Everything real depth has: slopes, cliffs, noise, spikes, small and large holes.
+/// An image with everything that real depth has: slopes, cliffs, noise, spikes, holes of all sizes.
 DepthImage hostile(unsigned seed, double highest_level = 255.0) {
     std::mt19937 random(seed);
     const double scale = highest_level / 255.0;
@@ -148,7 +148,7 @@ TEST_CASE("images of any size are smoothed by a smoother that has seen others as
 TEST_CASE("smoothing adds at most half a level to what filling and spike removal gave",
           "[cleaning]") {
     const DepthImage image = hostile(GENERATE(range(30U, 35U)));
-    // Filled levels lie between whole ones: half a level from there is as exact as a float is.
+    // Filled levels lie between whole ones, so half a level from them has the rounding of floats.
     CHECK(largest_difference(cleaned(image, {.remove_spikes = true, .fill_holes = true}),
                              cleaned(image, kGentleSteps)) < 0.50001);
 }

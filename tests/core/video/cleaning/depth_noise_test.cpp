@@ -1,4 +1,4 @@
-// The noise of a clip is found out, however the clip moves.
+// The noise of a clip is measured, whatever moves in the clip.
 #include "core/video/cleaning/depth_noise.hpp"
 
 #include <cmath>

@@ -53,7 +53,7 @@ DepthImage comb(int pitch, int direction, double height, double lower) {
     });
 }
 
-/// Everywhere a cliff, a needle or a pit of some height.
+/// A cliff, a needle or a pit of some height at every pixel.
 DepthImage scattered(unsigned seed, unsigned one_of) {
     std::mt19937 random(seed);
     DepthImage image = stepped(32, 26);
@@ -126,7 +126,7 @@ class Rest {
         return z_at(a.x, a.y) + slope * held + cap(std::hypot(held - foot, beside));
     }
 
-    /// Of those the ball may reach: corner, and 1 or -1 for the side.
+    /// The TRIANGLEs that the ball may reach: corner, and 1 or -1 for the side.
     template <typename Visit>
     void each_facet(int x, int y, Visit&& visit) const {
         const int reach = static_cast<int>(radius_) + 2;
@@ -142,8 +142,8 @@ class Rest {
     double radius_;
 };
 
-/// Largest difference to the exact rest [px], over each `step`th pixel of a row: of three rows in
-/// turn other ones.
+/// Largest difference from the exact resting level [px], over each `step`th pixel of a row, with
+/// another first pixel in the next row.
 double worst_error(const DepthImage& image, const Fingertip& finger, int step = 3) {
     const DepthImage result = FingertipDilation().dilated(image, finger);
     const Rest rest(image, finger);
@@ -183,7 +183,7 @@ double least_lead(const DepthImage& a, const DepthImage& b) {
     return least;
 }
 
-/// From the ball's centre to where it is said to touch; `proxy` is at a pixel of the dilated image.
+/// Distance from the ball's centre to contact_point; `proxy` is at a pixel of the dilated image.
 double distance_to_contact(const DepthImage& image, const DepthImage& felt, double radius_px, int i,
                            int j) {
     const DepthSurface original(image, image, 0.0, {kRelief_px, 0.0});

@@ -1,4 +1,4 @@
-// A whole scene that flickers is brought onto one scale; all else stays as it is.
+// A whole scene that flickers is brought onto one scale; everything else does not change.
 #include "core/video/cleaning/frame_scale.hpp"
 
 #include <algorithm>
@@ -30,13 +30,13 @@ std::vector<const LoneDepth*> span_of(const std::vector<LoneDepth>& frames) {
     return all;
 }
 
-/// A wall and a man's size of something before it.
+/// A wall and an object of a man's size before it.
 double room(int /*frame*/, int i, int j) {
     const bool before = std::hypot(i - 80, j - 70) < 45.0;
     return before ? 170.0 - 0.2 * std::hypot(i - 80, j - 70) : 60.0 + 0.2 * i + 0.1 * j;
 }
 
-/// Which scale each frame has: as an estimator's, 1.5 % of gain and of shift.
+/// The scale of each frame, as from an estimator: 1.5 % of gain and of shift.
 std::vector<LevelMap> scales_of(std::size_t count, double deviation = 0.015) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal;
@@ -56,7 +56,7 @@ std::vector<DepthImage> in_scales(std::vector<DepthImage> frames,
     return frames;
 }
 
-/// What the mean of the scales around frame `now` makes of a level.
+/// A level in the mean of the scales around frame `now`.
 double common(const std::vector<LevelMap>& scales, std::size_t now, double level) {
     double sum = 0.0;
     for (std::size_t k = now - kReachInTime; k <= now + kReachInTime; ++k) sum += scales[k](level);
@@ -72,7 +72,7 @@ std::vector<LevelMap> maps_of(const std::vector<LoneDepth>& frames, std::size_t 
     return FrameScale().maps(span_of(frames), now);
 }
 
-/// Whether nothing is done to any frame of that clip.
+/// Whether no frame of that clip is changed.
 bool stays(const std::vector<DepthImage>& frames) {
     const std::vector<LoneDepth> all = lone(frames);
     for (std::size_t now = 0; now < all.size(); ++now)
@@ -119,7 +119,7 @@ TEST_CASE("noise, however coarse, is no flicker of the scale", "[scale]") {
 }
 
 TEST_CASE("what moves in a part of the picture is no flicker of the scale", "[scale]") {
-    // A hand towards the camera and back, of half the picture, by jerks.
+    // A hand as large as half the picture moves towards the camera and back, in jerks.
     const Scene hand = [](int frame, int i, int j) {
         return i < 80 ? 120.0 + 0.3 * j + 12.0 * (frame % 3) : 60.0 + 0.1 * j;
     };

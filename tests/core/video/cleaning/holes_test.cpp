@@ -1,4 +1,4 @@
-// No data is no surface: what stands in holes, for how long, and where nothing was ever seen.
+// Holes: which levels fill them, for how long, and which areas were never seen.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -50,7 +50,7 @@ double box(int i, int j) {
     return i >= 50 && i < 100 && j >= 30 && j < 90 ? 2400.0 : plane(i, j);
 }
 
-/// Two boxes before nothing.
+/// Two boxes with no data behind them.
 double far_and_near_box(int i, int j) {
     if (i >= 20 && i < 60 && j >= 30 && j < 90) return 1200.0;
     return i >= 100 && i < 140 && j >= 30 && j < 90 ? 2500.0 : static_cast<double>(kNone);
@@ -81,7 +81,7 @@ struct Recording {
     }
 };
 
-/// As the reader does.
+/// Cleans frames with a memory of depth, as the reader does.
 std::vector<DepthImage> cleaned(const std::vector<DepthImage>& frames) {
     DepthMemory memory;
     CleaningChain chain;
@@ -236,7 +236,7 @@ TEST_CASE("without filling, no data is unseen and the farthest", "[holes]") {
 }
 
 TEST_CASE("a pixel that loses its data keeps its last level for a second", "[holes]") {
-    // A step in the middle of the hole, which no rim tells of.
+    // A step in the middle of the hole, of which no rim gives evidence.
     const auto scene = [](int i, int j) { return i < 80 ? plane(i, j) : plane(i, j) + 40.0; };
     const auto lost = [](int i, int j) { return in_rectangle(i, j, 70, 50, 20, 20); };
     std::vector<DepthImage> frames{image_with(scene)};

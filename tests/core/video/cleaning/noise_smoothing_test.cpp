@@ -1,4 +1,4 @@
-// Noise goes, shapes stay.
+// Noise is removed, shapes stay.
 #include "core/video/cleaning/noise_smoothing.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ DepthImage smoothed(DepthImage image, double noise) {
     return image;
 }
 
-/// As the chain does.
+/// Filters in time and smooths, as the chain does.
 DepthImage steadied_and_smoothed(const Shaken& scene, double noise) {
     std::vector<LoneDepth> frames;
     for (DepthImage& frame : scene.frames(21)) frames.push_back({std::move(frame), {}, {}});

@@ -44,7 +44,7 @@ struct Object {
     [[nodiscard]] double truth(double x, double y) const {
         return inside(x, y) > 0.0 ? near(x, y) : far(x, y);
     }
-    /// Its outline is a ramp.
+    /// The same with a ramp as outline.
     [[nodiscard]] DepthImage seen(double ramp_px, double noise_levels = 0.0) const {
         return with_noise(
             [&](double x, double y) {
@@ -270,7 +270,7 @@ TEST_CASE("a picture of any size is sharpened, and stays within its levels", "[s
 TEST_CASE(
     "a face that falls towards an outline, or rises, goes on to the last level and no further",
     "[silhouettes]") {
-    // The other face is 60 levels away; between them is a ramp of 12 pixels.
+    // The other face is 60 levels away, over a ramp of 12 pixels.
     const bool falls = GENERATE(true, false);
     DepthImage image = image_of(640, 16, 255.0, [](int i, int) {
         return i < 320 ? 1.0 + 0.6 * (320 - i) : std::min(1.0 + 5.0 * (i - 320), 61.0);

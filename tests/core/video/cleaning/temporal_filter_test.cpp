@@ -1,4 +1,4 @@
-// What stands still is steadied; what moves is neither late nor smeared.
+// Still surfaces are steadied; moving ones are neither delayed nor smeared.
 #include "core/video/cleaning/temporal_filter.hpp"
 
 #include <algorithm>

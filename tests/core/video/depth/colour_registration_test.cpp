@@ -1,4 +1,4 @@
-// Two cameras side by side look at a board before a wall, through lenses as devices have them.
+// Two cameras side by side see a board before a wall, through lenses as in real devices.
 #include "core/video/depth/colour_registration.hpp"
 
 #include <cmath>
@@ -118,8 +118,8 @@ const cv::Mat& depth_seen() {
     return depth_mm;
 }
 
-/// How the colours of a picture over the depth fit what the depth camera looks at: at each third
-/// pixel of each third row.
+/// How well the colours of a picture over the depth fit the scene that the depth camera sees: at
+/// each third pixel of each third row.
 struct Fitness {
     int compared{0};
     double most_off{0.0};  ///< of a level, where both cameras look at one thing, off its border

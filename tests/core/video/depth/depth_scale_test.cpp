@@ -1,4 +1,4 @@
-// How high a level stands, by the rule of its unit.
+// The elevation of a level, by the rule of its unit.
 #include "core/video/depth/depth_scale.hpp"
 
 #include <bit>

@@ -1,4 +1,4 @@
-// What a pinhole camera sees of known shapes, seen straight on and touched.
+// Known shapes seen by a pinhole camera, in orthographic view and touched.
 #include "core/video/depth/true_shape.hpp"
 
 #include <algorithm>
@@ -40,7 +40,7 @@ DepthImage straight(const std::vector<float>& distances_mm) {
     return true_shape().seen_straight_on(picture_of(distances_mm), {}).depth;
 }
 
-/// As cleaning leaves it: what is not seen lies on the ground.
+/// As cleaning leaves it: pixels that are not seen are on the ground.
 DepthImage touchable(DepthImage image) {
     for (float& level : image.levels) level = std::isnan(level) ? 0.0F : level;
     return image;
@@ -328,7 +328,7 @@ TEST_CASE("with samples of the clip the grid spans what they show", "[true_shape
     CHECK_THAT(grid.top_mm, WithinAbs(-175.0, 15.0));
     CHECK_THAT(lowest_mm, WithinAbs(125.0, 15.0));
     CHECK_THAT(grid.pitch_mm, WithinAbs(500.0 / kSeenBy.fx, 1e-9));
-    // What is beside it is left out, and what is in it is as it was.
+    // Points beside it are left out, and those in it do not change.
     TrueShape all = true_shape();
     TrueShape shape(size, kSeenBy, range_mm, grid);
     const cv::Mat depth = picture_of(seen_sphere({250.0, -50.0, 1000.0}));

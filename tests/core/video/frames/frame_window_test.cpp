@@ -12,7 +12,7 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-/// Frames at 1.0, 1.1, 1.4 and 1.5 s, as many as asked for.
+/// The first `count` of frames at 1.0, 1.1, 1.4 and 1.5 s.
 FrameWindow window_of(std::size_t count) {
     FrameWindow window;
     const double times[] = {1.0, 1.1, 1.4, 1.5};

@@ -1,4 +1,4 @@
-// What is felt and seen between two frames, against scenes that are known at every time.
+// Surfaces felt and seen between two frames, against scenes that are known at every time.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -44,7 +44,7 @@ struct Pair {
         FrameMotion().connect(from, to, kInBetweens);
     }
     [[nodiscard]] DepthBlend at(double blend) const { return {&from, &to, blend}; }
-    /// The same frames without what was found between them.
+    /// The same frames without in-betweens, so that they fade.
     [[nodiscard]] Pair faded() const {
         Pair pair = *this;
         pair.from.motion = nullptr;
@@ -53,7 +53,7 @@ struct Pair {
     }
 };
 
-/// A film that lies in memory.
+/// A film in memory.
 class Film : public Media {
   public:
     explicit Film(std::vector<Frame> frames) : frames_(std::move(frames)) {
@@ -101,7 +101,7 @@ std::unique_ptr<Media> waving_hand() {
     return std::make_unique<Film>(frames);
 }
 
-/// Mean absolute errors where another thing is within what moved in this time.
+/// Mean absolute errors near outlines: where another object is within the way moved in this time.
 struct OutlineError {
     double elevation_px{0.0};
     double brightness{0.0};
@@ -331,14 +331,14 @@ MovingScene fast_hand() {
     return hand_at(300.0);
 }
 
-/// Its frames as they are, made once for all cases.
+/// The scene's frames without in-betweens, made once for all cases.
 const std::vector<Frame>& faded_film() {
     static const std::vector<Frame> frames =
         test::film(fast_hand(), 4, kFramesPerSecond, {.brightness = 1.0}, false);
     return frames;
 }
 
-/// And connected.
+/// The same frames connected.
 const std::vector<Frame>& moved_film() {
     static const std::vector<Frame> connected = [] {
         std::vector<Frame> frames = faded_film();
@@ -350,7 +350,7 @@ const std::vector<Frame>& moved_film() {
     return connected;
 }
 
-/// A finger that goes anywhere on frames that play once, from millisecond to millisecond.
+/// A finger that moves over frames that play once, millisecond by millisecond.
 class WildFinger {
   public:
     explicit WildFinger(test::Dice& dice) : dice_(dice) {
@@ -428,7 +428,7 @@ struct Cost {
     double moves{0.0};  ///< primitives visited
 };
 
-/// Of so many updates with a surface of its own each.
+/// The cost of `count` updates, each with its own surface.
 Cost cost_of_updates(const std::vector<Frame>& frames, int count) {
     TouchRenderer renderer;
     TouchParameters parameters;
@@ -477,8 +477,8 @@ TEST_CASE("an update over in-betweens takes less than three times as long",
 
 namespace {
 
-/// How far a finger that goes along with the hand, and presses on its palm with much friction, is
-/// from the point that it touched first, at the end [px].
+/// A finger moves with the hand and presses on its palm with much friction: its distance at the end
+/// from the point that it touched first [px].
 double astray_px(const std::vector<Frame>& frames, bool carry) {
     constexpr double kPressed_px = 20.0;
     const MovingScene scene = fast_hand();

@@ -1,4 +1,4 @@
-// Where pixels go from a frame to the next, against scenes whose motion is known.
+// Motion of pixels from a frame to the next, against scenes whose motion is known.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -25,8 +25,8 @@ MovingScene scene_of(Shape shape, Goes goes, double speed_px_per_s) {
     return MovingScene({shape, goes, speed_px_per_s, 320, 240});
 }
 
-/// Of what lies well within one thing and stays in the picture: errors [px], in order, and their
-/// mean along the true way.
+/// For pixels well within one object that stay in the picture: errors [px], in rising order, and
+/// their mean along the true way.
 struct Errors {
     std::vector<double> px{};
     double along_px{0.0};
@@ -172,7 +172,7 @@ TEST_CASE(
     MotionLayers wanted;
     wanted.resize(cells.columns, cells.rows);
     wanted.fill(1.0F);
-    // Something near to the left, a wall to the right; where they meet cells have both.
+    // A near surface to the left, a wall to the right; the cells between have both.
     for (int j = 0; j < cells.rows; ++j)
         for (int i = 0; i < cells.columns; ++i) {
             const bool both = i == 9 + j / 5;
@@ -181,7 +181,7 @@ TEST_CASE(
             cells.lowest.of[1].row(j)[i] = both ? 20.0F : -MotionCells::kNoPart;
             cells.highest.of[1].row(j)[i] = both ? 20.0F : MotionCells::kNoPart;
             if (both) cells.split.push_back(static_cast<std::uint32_t>(cells.between.index(i, j)));
-            // Here and there nothing is known.
+            // Some parts have no known way.
             if (dice.uniform(0.0, 1.0) < 0.15) wanted.of[0].row(j)[i] = 0.0F;
         }
     const auto even = [](float x, float y, bool near) {
