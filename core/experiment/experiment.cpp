@@ -30,18 +30,18 @@ double time_of(const PathRun& path, std::size_t k) noexcept {
     return path.times_s.empty() ? seconds_of(k) : path.times_s[k];
 }
 
-/// One path ready to be run, and what is the same for every algorithm.
+/// One path prepared for all algorithms: its surfaces and its friction.
 class Course {
   public:
     Course(const PathRun& path, const DepthClip& clip) : path_(path), friction_{path.mu, path.mu} {
-        // Beforehand: finding the moment's frames is the tick's work and not the algorithm's.
+        // Made before the runs: finding a moment's frames is the tick's work, not the algorithm's.
         surfaces_.reserve(path.goals.size());
         for (std::size_t k = 0; k < path.goals.size(); ++k) {
             surfaces_.push_back(clip.at(time_of(path, k)));
         }
     }
 
-    /// A pass without a clock in it: an update's share [us].
+    /// A pass timed as a whole: an update's share [us].
     double whole_us(ProxyAlgorithm& algorithm) const {
         algorithm.reset();
         const auto begin = Clock::now();
@@ -52,7 +52,7 @@ class Course {
         return us_between(begin, Clock::now()) / share;
     }
 
-    /// A pass that keeps every update.
+    /// A pass that stores the result and the time of every update.
     AlgorithmRun recorded(Algorithm which, ProxyAlgorithm& algorithm) const {
         AlgorithmRun run;
         run.algorithm = which;

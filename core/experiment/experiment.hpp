@@ -1,5 +1,5 @@
-// The paper's evaluation: the same goals through several proxy algorithms, side by side, and what
-// came out.
+// The paper's evaluation: the same goals through several proxy algorithms, side by side, and their
+// results.
 #pragma once
 
 #include <chrono>
@@ -23,7 +23,7 @@ namespace dibhr {
 inline constexpr int kPaperColumns = 720;
 inline constexpr int kPaperRows = 486;
 
-/// What the paper does not print: of the goals below the surface, and of the contact.
+/// Not printed in the paper: depth of the goals below the surface, friction of the contact.
 inline constexpr double kExperimentDepth_px = 20.0;
 inline constexpr double kExperimentFriction = 0.4;
 
@@ -43,7 +43,7 @@ struct ExactError {
     double mean_rad{0.0};
 };
 
-/// What came out of one algorithm's way along one path.
+/// The results of one algorithm on one path.
 struct RunFigures {
     Algorithm algorithm{Algorithm::dibhr};
     std::uint64_t bounds_met{0};  ///< updates that ended before the proxy had caught up
@@ -54,7 +54,7 @@ struct RunFigures {
     std::optional<ExactError> error{};  ///< where there is an exact answer
 };
 
-/// That way; one entry an update in each vector.
+/// The whole run; one entry an update in each vector.
 struct AlgorithmRun : RunFigures {
     std::vector<Vec3> proxies{};  ///< grid space
     std::vector<double> update_us{};
@@ -87,7 +87,7 @@ struct SweepPoint {
     RunFigures run{};
 };
 
-/// Told the share done, 0 to 1, now and then.
+/// Called with the share done, 0 to 1, from time to time.
 using Progress = std::function<void(double)>;
 
 /// The flat image of the paper's linear and circle: 720 x 486.
@@ -97,8 +97,8 @@ using Progress = std::function<void(double)>;
 [[nodiscard]] PathRun linear_path(double mu, double depth_px, int updates = kExperimentUpdates);
 [[nodiscard]] PathRun circle_path(double mu, double depth_px, int updates = kExperimentUpdates);
 
-/// Names, goals and times of `path` are given: works out its depth below the surface of `clip`,
-/// where its motion reverses, and nothing else.
+/// Computes the depth of `path` below the surface of `clip` and where its motion reverses. Its
+/// name, goals and times must be set.
 void survey_path(PathRun& path, const DepthClip& clip);
 
 /// How carefully updates are timed. Careful: a pass before that warms the caches, and a few passes
@@ -116,7 +116,7 @@ void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algori
 /// What reading the clock itself costs [us]: the median of many.
 [[nodiscard]] double clock_cost_us();
 
-/// What is swept. The paper states neither; these ranges hold what a hand and a device do.
+/// The ranges of the sweep, which the paper does not state: as hands and devices have them.
 struct SweepRange {
     std::vector<double> mus{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0};
     std::vector<double> depths_px{2.0, 5.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0};
@@ -128,8 +128,8 @@ struct SweepRange {
                                                 std::span<const Algorithm> algorithms,
                                                 const Progress& progress = {});
 
-/// Where an algorithm's force is not rougher than DIBHR's: what the sweep is to show never happens.
-/// Compares the variation while sliding; empty when no point is of DIBHR.
+/// Where an algorithm's force is not rougher than DIBHR's, which should never happen. Compares the
+/// variation while sliding; empty when no point is of DIBHR.
 [[nodiscard]] std::vector<SweepPoint> not_rougher_than_dibhr(std::span<const SweepPoint> points);
 
 /// The proxies of goals below the plane z = `elevation_px`: the first straight above its goal, then

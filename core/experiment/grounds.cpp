@@ -21,9 +21,9 @@ constexpr double kHighest16Bit = 65535.0;
 constexpr float kFlat8Bit = 100.0F;
 constexpr int kFlat16Bit = 25700;  // 100 of 255
 constexpr double kFlat_px = 100.0;
-constexpr unsigned kSeed = 5;  // of bits that are the standard's: the same image everywhere
+constexpr unsigned kSeed = 5;  // for std::mt19937's standardized bits: the same image everywhere
 
-/// Between two rows of VERTEXes: along one all algorithms have it easier than a hand makes it.
+/// Between two rows of VERTEXes: along a row all algorithms need less time than on a hand's path.
 constexpr double kOffRow_px = 0.37;
 
 using GoalAt = Vec3 (*)(const PathPlace&, int) noexcept;
@@ -32,7 +32,7 @@ DepthImage flat_image(int columns, int rows) {
     return image_of(columns, rows, kHighest8Bit, [](int, int) { return kFlat8Bit; });
 }
 
-/// Two images alike, each in its own place, a video frame apart.
+/// Two equal images, each in its own memory, a video frame apart.
 DepthClip still(DepthImage image, const SurfaceShape& shape = {},
                 std::shared_ptr<const BumpMap> bump = nullptr) {
     constexpr double kFrame_s = 1.0 / 30.0;

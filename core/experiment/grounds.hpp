@@ -1,5 +1,5 @@
-// What algorithms are timed on: surfaces from bit-flat to a moving person, goals that a hand draws
-// over them, and jumps that no hand makes.
+// Grounds: the test surfaces on which algorithms are timed, from bit-flat to a moving person, with
+// paths like a hand's and with jumps of the goal.
 #pragma once
 
 #include <span>
@@ -19,8 +19,8 @@ struct Jump {
     Vec3 to{0.0};
 };
 
-/// One surface, still or moving, with what is done on it. A still one is two images alike, so that
-/// an elevation costs what it costs while a video plays.
+/// One surface, still or moving, with its paths and jumps. A still one is two equal images, so that
+/// an elevation costs as much as while a video plays.
 struct Ground {
     std::string name{};
     DepthClip clip;
@@ -43,7 +43,7 @@ using MakeGround = Ground (*)();
 /// A video; its image must hold the paper's paths.
 [[nodiscard]] Ground video_ground(const std::string& name, DepthClip clip);
 
-/// Back and forth over the paper's image in no direction of the grid, `step_px` an update.
+/// Back and forth over the paper's image not along a direction of the grid, `step_px` an update.
 [[nodiscard]] PathRun slanted_path(const DepthClip& plane, double step_px);
 
 }  // namespace dibhr

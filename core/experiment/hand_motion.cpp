@@ -1,4 +1,4 @@
-// From a motion to goals, and a hand that nobody moved: arcs of ellipses in minimum-jerk time.
+// Turns a motion into goals, and models a hand: arcs of ellipses in minimum-jerk time.
 #include "core/experiment/hand_motion.hpp"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ constexpr int kMoments = 10;
 constexpr double kThreshold = 0.25;
 constexpr double kInside = 0.9;
 
-/// Marks, row-major, what is in front at one moment.
+/// The mask of the foreground at one moment, row-major.
 std::vector<char> foreground_of(const DepthSurface& surface) {
     std::vector<double> elevations;
     for (int j = 0; j < surface.rows(); ++j) {
@@ -84,7 +84,7 @@ double minimum_jerk(double u) {
     return u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
 }
 
-/// The generator's bits are the standard's; its distributions differ from library to library.
+/// The generator's bits are standardized; std's distributions differ between libraries.
 class Dice {
   public:
     explicit Dice(std::uint64_t seed) : bits_(seed) {}
@@ -230,7 +230,7 @@ void fit_into(HandMotion& motion, const ImageArea& area) {
         high = {std::max(high.x, place.x), std::max(high.y, place.y)};
     }
     const Vec2 half = 0.5 * (high - low);
-    // Round-off of a place that stays is no motion: it is not to be magnified.
+    // The round-off of a resting hand is no motion, and must not be magnified.
     const double furthest = std::max(std::max(std::abs(low.x), std::abs(low.y)),
                                      std::max(std::abs(high.x), std::abs(high.y)));
     const double least = kRoundOff * furthest;

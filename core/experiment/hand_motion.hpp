@@ -1,5 +1,5 @@
-// A hand that explores: where it is over the image and how deep it presses, and the goals that
-// makes over a moving surface.
+// The motion of a hand that explores: its places over the image, how deep it presses, and its goals
+// over a moving surface.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kFullPressure_px = 25.0;
 constexpr double kLongestPause_s = 0.5;
-constexpr double kOneTime_s = 1e-9;     // no trace tells times apart that are nearer
+constexpr double kOneTime_s = 1e-9;     // times that are nearer count as equal
 constexpr double kFarthestPlace = 1e9;  // of any unit: beyond all traces, and no sum overflows
 
 double penetration_of(const TraceSample& sample) {
@@ -154,7 +154,7 @@ SmoothCurve::SmoothCurve(std::vector<double> times, std::vector<double> values)
         const double after = times_[k + 1] - times_[k];
         const double slope_before = (values_[k] - values_[k - 1]) / before;
         const double slope_after = (values_[k + 1] - values_[k]) / after;
-        if (slope_before * slope_after <= 0.0) continue;  // a peak stays one
+        if (slope_before * slope_after <= 0.0) continue;  // a peak keeps slope 0
         const double near = 2.0 * after + before;
         const double far = after + 2.0 * before;
         slopes_[k] = (near + far) / (near / slope_before + far / slope_after);

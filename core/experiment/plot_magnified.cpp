@@ -34,7 +34,7 @@ Box box_of_image(const Axes& axes, const PathRun& path) {
     return {first.x, first.y, last.x, last.y};
 }
 
-/// The cells' edges, the diagonals as the surface has them, and the vertices PGA lives on.
+/// The cells' edges, the diagonals as the surface has them, and the vertices PGA moves on.
 void draw_cells(Canvas& canvas, const Axes& axes, const MagnifiedPlace& place, bool over_picture) {
     const Stroke edge =
         over_picture ? Stroke{kPaper, 0.5, Dash::solid} : Stroke{kGridInk, 1.0, Dash::solid};
@@ -55,7 +55,7 @@ UpdateSpan updates_around(const MagnifiedPlace& place, const PathRun& path) {
             std::min(path.goals.size(), place.update + kAround + 1)};
 }
 
-/// Seen from above.
+/// The points as seen from above.
 std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points, UpdateSpan updates) {
     std::vector<Vec2> way;
     for (std::size_t k = updates.first; k < updates.end; ++k) {
@@ -140,7 +140,7 @@ Box overview_area(const PathRun& path) {
             kRoom.top + scale * path.rows};
 }
 
-/// An exploration: of it only the first algorithm's way can be made out as a whole.
+/// A long exploration: its overview shows only the first algorithm's path.
 bool is_long(const PathRun& path) {
     return path.exact_proxies.empty();
 }

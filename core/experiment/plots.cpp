@@ -25,7 +25,7 @@ void write(const Canvas& plot, const PlotFiles& files, const std::string& name) 
     }
 }
 
-/// Wide enough for the ways to bend.
+/// Wide enough to show that the paths bend.
 MagnifiedPlace explained_place(const PathRun& circle) {
     constexpr double kSide_px = 44.0;
     MagnifiedPlace place = typical_place(circle);
@@ -37,12 +37,12 @@ constexpr std::size_t kMostColumns = 8;
 constexpr Box kPanels{110.0, 130.0, 1560.0, 820.0};
 constexpr double kPanelGap_px = 16.0;
 
-/// What a row of panels shows of each point.
+/// The quantity that a row of panels shows of each point.
 struct Quantity {
     const char* label{""};
     double (*of)(const SweepPoint&){nullptr};
     ValueSpan span{};
-    double least{0.0};   ///< drawn for less, as 0 has no logarithm
+    double least{0.0};   ///< drawn for less: 0 has no logarithm
     bool papers{false};  ///< the paper prints numbers for it
 };
 
@@ -128,7 +128,7 @@ void draw_algorithm(Canvas& canvas, const Axes& axes, const std::vector<Vec2>& s
     }
 }
 
-/// Drawn from the back: the first one listed, DIBHR, comes on top.
+/// The algorithms in drawing order: DIBHR is drawn last, on top.
 std::vector<Algorithm> from_the_back(const std::vector<SweepPoint>& points) {
     std::set<Algorithm> all;
     for (const SweepPoint& point : points) all.insert(point.run.algorithm);

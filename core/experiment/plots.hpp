@@ -55,8 +55,8 @@ struct MagnifiedPlace {
     std::size_t update{0};  ///< whose springs are drawn
 };
 
-/// Among the updates that the other plots show: where the algorithms differ as much as they do in
-/// half of the updates in contact; it holds the goal and the proxies of that update.
+/// The place of a typical one of the updates shown: the distance between the algorithms is the
+/// median of the updates in contact. Its goal and proxies lie inside.
 [[nodiscard]] MagnifiedPlace typical_place(const PathRun& path);
 
 /// Updates from one marker to the next, so that a slow hand's markers do not cover each other.

@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t kNameWidth = 16;
 constexpr std::size_t kPaperWidth = 15;
 
-/// Short for the large, telling for the small: 0, 3.1e-14, 0.0123, 12.3.
+/// With few digits, also for small numbers: 0, 3.1e-14, 0.0123, 12.3.
 std::string short_number(double value) {
     return short_text(value, std::abs(value) < 1e-3 ? 2 : 3);
 }
@@ -36,7 +36,7 @@ std::string mean_and_sd(double mean_deg, double sd_deg) {
     return degrees_text(mean_deg) + " (" + degrees_text(sd_deg) + ")";
 }
 
-/// At least one.
+/// The blanks that fill up to `width`; at least one.
 std::string blanks_beside(const std::string& text, std::size_t width) {
     return std::string(text.size() < width ? width - text.size() : 1, ' ');
 }

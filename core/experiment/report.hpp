@@ -1,4 +1,4 @@
-// The report: aligned tables of plain text for people, JSON with names that stay for scripts.
+// The report: aligned tables of plain text for people, JSON with stable names for scripts.
 #pragma once
 
 #include <optional>

@@ -30,7 +30,7 @@ void add_primitive(PrimitiveShares& sum, std::uint8_t primitive, double held_s) 
     if (kind == PrimitiveKind::vertex) sum.vertex += held_s;
 }
 
-constexpr double kLongestWindow_s = 3.0 * kSpeedWindow_s;  // longer: something is missing
+constexpr double kLongestWindow_s = 3.0 * kSpeedWindow_s;  // longer: ticks are missing
 
 }  // namespace
 
@@ -78,8 +78,8 @@ void ContactEpisodes::begin(const TickRecord& tick) {
     open_->episode.media = tick.frames.source.media;
 }
 
-/// A force that begins from zero again follows a jump of the video or of what is felt, over which
-/// no path leads.
+/// A force that begins from zero again follows a jump of the video or of the surface, which is no
+/// path.
 void ContactEpisodes::go_on(const TickRecord& tick, double pitch_mm) {
     if (tick.from_zero) return;
     open_->episode.path_mm += pitch_mm * glm::length(tick.proxy - open_->last_proxy_px);
@@ -102,7 +102,7 @@ void ContactEpisodes::end() {
 
 std::optional<Speeds> SpeedWindow::add(const TickRecord& tick, double pitch_mm) {
     const Place now{tick.t_s, tick.goal, tick.proxy};
-    // What comes after a jump is compared with nothing before it.
+    // No speed is measured across a jump.
     if (!tick.surface || tick.lets_go || tick.from_zero) places_.clear();
     if (!tick.surface || !is_finite(now.goal_px) || !is_finite(now.proxy_px)) return std::nullopt;
     places_.push_back(now);

@@ -16,12 +16,12 @@ namespace dibhr {
 /// an edge, not one that came back.
 inline constexpr double kJoinedGap_s = 0.020;
 
-/// Whether the tick touched a surface at a place that can be told.
+/// Whether the tick touched a surface at a known place.
 [[nodiscard]] inline bool touches(const TickRecord& tick) noexcept {
     return tick.contact && tick.surface && is_finite(tick.proxy);
 }
 
-/// What was felt on average and at most.
+/// Mean and peak of a force in contact.
 struct ForceSummary {
     double mean_newton{0.0};  ///< over time
     double peak_newton{0.0};
@@ -35,7 +35,7 @@ struct PrimitiveShares {
 /// One contact.
 struct Episode {
     double begin_s{0.0};    ///< on the ticks' clock, of the first tick in contact
-    double end_s{0.0};      ///< when the last one gave way to the next tick
+    double end_s{0.0};      ///< when the tick after the last one began
     double contact_s{0.0};  ///< without the gaps inside
     double video_begin_s{0.0}, video_end_s{0.0};  ///< presentation times of what was touched
     std::uint32_t media{0};                       ///< as in FrameSource
@@ -51,17 +51,17 @@ struct Episode {
     }
 };
 
-/// Their numbers from 0, the longest time in contact first.
+/// Indices of the episodes, the longest time in contact first.
 [[nodiscard]] std::vector<std::size_t> longest_first(const std::vector<Episode>& episodes);
 
-/// An episode going on; what will be means are sums over time.
+/// An unfinished episode: its means are still sums over time.
 struct OpenEpisode {
     Episode episode{};
     std::int64_t last_tick{0};
     Vec3 last_proxy_px{0.0};
 };
 
-/// An episode also ends where the hand lets go or another video comes.
+/// Splits ticks into episodes. One also ends where the hand lets go or the video changes.
 class ContactEpisodes {
   public:
     /// A tick that stands for `held_s`, in order of time. `pitch_mm`: size of a pixel.
@@ -79,8 +79,7 @@ class ContactEpisodes {
     std::optional<OpenEpisode> open_{};
 };
 
-/// Between two readings 1 ms apart a device's steps are larger than the way: over this time they
-/// are not.
+/// Speeds are measured over this time: within 1 ms a device's position steps exceed the motion.
 inline constexpr double kSpeedWindow_s = 0.020;
 
 struct Speeds {

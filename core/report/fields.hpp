@@ -1,5 +1,4 @@
-// What a report says of one thing: each value is described once, for JSON, CSV and the page's
-// table.
+// The fields of a report: each value is described once, for JSON, CSV and the page's table.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@
 
 namespace dibhr {
 
-/// A value's names for scripts; empty: it is not there.
+/// A value's names in JSON and CSV; empty: it is left out there.
 struct FieldName {
     FieldName(const char* in_both) : FieldName(std::string(in_both)) {}
     FieldName(const std::string& in_both) : json("/" + in_both), csv(in_both) {}
@@ -31,15 +30,14 @@ struct Fields {
     /// On the page, as HTML.
     void show(const std::string& head, const std::string& html);
 
-    // For both: a text or a whole number; a number with so many digits after the point; one with so
-    // many digits that count.
+    // For scripts and page: a text or a whole number; a number with `digits` after the point; one
+    // with `digits` significant digits.
     void plain(const FieldName& name, const Json& value, const char* head);
     void fixed(const FieldName& name, double value, int digits, const char* head);
     void brief(const FieldName& name, double value, int digits, const char* head);
 };
 
-/// A table of what `describe` says of each item, with the columns of all of them; nothing without
-/// an item.
+/// A table with a row of fields from `describe` for each item; empty without items.
 template <typename Items, typename Describe>
 [[nodiscard]] std::string table_of(const Items& items, const Describe& describe) {
     Cells heads;
@@ -52,9 +50,9 @@ template <typename Items, typename Describe>
     return rows.empty() ? std::string() : table_of(heads, rows);
 }
 
-/// Where there is nothing.
+/// A cell without a value.
 inline constexpr const char* kNoCell = "&ndash;";
-/// With so many digits that count; nothing of what is not finite.
+/// With `digits` significant digits; kNoCell for a value that is not finite.
 [[nodiscard]] std::string number_cell(double value, int digits = 3);
 /// Plain text that breaks where it must.
 [[nodiscard]] std::string text_cell(const std::string& text);

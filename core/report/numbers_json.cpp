@@ -1,4 +1,4 @@
-// The report's numbers, value by value, and all of them for scripts: JSON with names that stay,
+// The report's numbers, value by value, and all of them for scripts: JSON with stable names,
 // units in them.
 #include "core/report/session_report.hpp"
 
@@ -16,7 +16,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kReportVersion = 1;  // changes when a name changes its meaning or goes
+constexpr int kReportVersion = 1;  // changes when a name is removed or changes its meaning
 
 Json values_json(const Distribution& values) {
     constexpr int kBars = 50;
@@ -96,7 +96,7 @@ std::string head_of(std::string_view label, std::string_view unit = {}) {
     return unit.empty() ? head : head + " [" + std::string(unit) + "]";
 }
 
-/// A file's name; the whole path where a pointer rests on it.
+/// A file's name, with the whole path as a tooltip.
 std::string file_cell(const SessionMedia& media) {
     if (media.file.empty()) return "none";
     return "<span title=\"" + html_text(media.file.string()) + "\">" +

@@ -1,4 +1,4 @@
-// What the pages of reports are made of: style, sections, tables and pictures.
+// The parts of reports' pages: style, sections, tables and pictures.
 #pragma once
 
 #include <span>
@@ -23,11 +23,11 @@ struct Figure {
 /// "heat-map.svg"
 [[nodiscard]] std::string picture_file(const std::string& name, PlotFormat format);
 
-/// All that a report of these pictures may have in its folder, in every format; `others`: the rest.
+/// The names of all files of a report: these pictures in every format, and `others`.
 [[nodiscard]] std::vector<std::string> report_files(std::vector<std::string> others,
                                                     const std::vector<std::string>& pictures);
 
-/// A report's figures in the making.
+/// Adds figures to a report.
 struct FigureMaker {
     OutputFolder& files;
     std::span<const PlotFormat> formats;
@@ -40,7 +40,7 @@ struct FigureMaker {
 
 /// A page up to its header. `title` and `program` (which made it) are plain text.
 [[nodiscard]] std::string page_head(const std::string& title, const std::string& program);
-/// From the end of its main part on; `beside` ends the sentence on what is beside the page.
+/// The end of a page, after its main part; `beside` ends its sentence on files beside it.
 [[nodiscard]] std::string page_foot(const std::string& program, const std::string& beside);
 
 /// A word or a method, and what it means.

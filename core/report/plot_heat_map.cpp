@@ -32,7 +32,7 @@ constexpr double kBarRoom_px = 190.0;
 constexpr double kDecades = 2.0;  // what is shown below the longest time
 constexpr int kFine = 2;          // the canvas draws at twice its size
 
-/// From which time a pixel on is coloured, and from which it is the darkest [s].
+/// The contact time from which a pixel is coloured, and that of the darkest colour [s].
 struct HeatScale {
     double least_s{0.0};
     double most_s{1.0};
@@ -51,7 +51,7 @@ HeatScale scale_of(const PixelValues& map) {
     return {most_s * std::pow(10.0, -kDecades), most_s};
 }
 
-/// Light and without colour, so that only the heat has one.
+/// A light grey, so that only the heat has a colour.
 std::uint8_t ground_grey(const ColourImage& picture, double x_share, double y_share) {
     constexpr double kDarkest = 70.0;
     constexpr double kContrast = 0.62;
@@ -66,7 +66,7 @@ std::uint8_t ground_grey(const ColourImage& picture, double x_share, double y_sh
     return static_cast<std::uint8_t>(std::lround(kDarkest + kContrast * luma));
 }
 
-/// The value between the four pixels around a place.
+/// Interpolates between the four pixels around a place.
 double value_at(const PixelValues& map, double x_share, double y_share) {
     const double x = std::clamp(x_share * map.columns - 0.5, 0.0, map.columns - 1.0);
     const double y = std::clamp(y_share * map.rows - 0.5, 0.0, map.rows - 1.0);
@@ -126,7 +126,7 @@ void draw_colour_bar(Canvas& canvas, Box box, HeatScale scale) {
 /// A bar of a round length, in millimetres and pixels.
 void draw_length_bar(Canvas& canvas, Vec2 left, const HeatMapGround& ground, double px_per_pixel) {
     constexpr double kAbout_px = 110.0;
-    if (!(ground.pitch_mm > 0.0)) return;  // a file may say anything
+    if (!(ground.pitch_mm > 0.0)) return;  // the file may be damaged
     const double px_per_mm = px_per_pixel / ground.pitch_mm;
     const std::vector<double> lengths = round_ticks({0.0, kAbout_px / px_per_mm}, 2);
     const double length_mm = lengths.back();
@@ -142,7 +142,7 @@ void draw_length_bar(Canvas& canvas, Vec2 left, const HeatMapGround& ground, dou
                 {kQuietInk, kNumberCap_px});
 }
 
-/// The numbers of the longest episodes where they were, as far as there is room.
+/// Draws the numbers of the longest episodes at their centres, where there is room.
 void number_episodes(Canvas& canvas, Box box, const HeatMapGround& ground,
                      const std::vector<Episode>& episodes, std::uint32_t media) {
     constexpr std::size_t kMostNumbers = 12;

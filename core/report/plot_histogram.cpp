@@ -95,8 +95,8 @@ double log_edge(int number) {
     return kFactors[number - 3 * static_cast<int>(decade)] * std::pow(10.0, decade);
 }
 
-/// Edges around the values, which are positive, and a bar more on either side: even one value is
-/// seen to have a place.
+/// Edges around the values, which are positive, and one more bar on either side, so that even a
+/// single value has a visible place.
 std::vector<double> log_edges(double least, double most) {
     int first = 3 * static_cast<int>(std::floor(std::log10(least)));
     while (log_edge(first + 1) <= least) ++first;

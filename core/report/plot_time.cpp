@@ -49,7 +49,7 @@ double highest_of(const TimeLine& line, ValueRange TimePiece::*range) {
 
 /// The pieces' ranges as one line, which ends where there is nothing.
 std::vector<Vec2> line_of(const TimeLine& line, ValueRange TimePiece::*range) {
-    constexpr double kLongestHole_s = 0.010;  // a loop that stumbled, not a gap
+    constexpr double kLongestHole_s = 0.010;  // a late tick, not a gap
     std::vector<Vec2> points;
     double last_s = 0.0;
     for (std::size_t k = 0; k < line.pieces().size(); ++k) {

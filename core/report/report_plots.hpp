@@ -13,7 +13,7 @@
 
 namespace dibhr {
 
-/// What a heat map lies on.
+/// The background of a heat map.
 struct HeatMapGround {
     ColourImage picture{};  ///< of any size; empty: plain ground
     int columns{0};         ///< of the depth image
@@ -29,7 +29,7 @@ struct HeatMapGround {
 /// the order survives colour blindness and a black-and-white print.
 [[nodiscard]] Ink heat_ink(double share);
 
-/// 1, 2 and 5 times powers of ten inside the span, both ends positive, ascending: for few decades.
+/// Ticks for few decades: 1, 2 and 5 times powers of ten in a positive span, ascending.
 [[nodiscard]] std::vector<double> close_ticks(ValueSpan span);
 
 /// Contact time per pixel, spread by the Gaussian, over the picture, with scales in seconds and
@@ -39,15 +39,15 @@ struct HeatMapGround {
                                    const std::vector<Episode>& episodes, std::uint32_t media,
                                    const std::string& subtitle);
 
-/// What the plots over time and the histograms say beside the numbers.
+/// Text and marks of the plots over time and the histograms.
 struct PlotWords {
     std::string subtitle{};
     double begin_s{0.0};  ///< the first tick, on the marks' clock
     std::vector<SessionMark> marks{};
 };
 
-/// In so long a session a touch is narrower than a line: its plots show the range of the values,
-/// pale, and their mean over pieces of a few seconds.
+/// Whether the session is so long that a touch is narrower than a line. Its plots then show the
+/// range of the values, pale, and their mean over pieces of a few seconds.
 [[nodiscard]] bool shows_means(const TimeLine& line);
 
 /// Spring force and force sent, with the times in contact, the video's time and the marks.

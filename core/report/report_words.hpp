@@ -1,4 +1,4 @@
-// The report's sentences: the summary, what to mind, and what each number means.
+// The report's sentences: the summary, the remarks, and what each number means.
 #pragma once
 
 #include <cstdint>
@@ -27,15 +27,15 @@ namespace dibhr {
 /// "12.4 %" of a share of 0.124.
 [[nodiscard]] std::string percent_text(double share);
 
-/// The device that was asked for, and for how much of the time with a surface the mouse stood in:
-/// "Novint Falcon 1234; the mouse replaced it for 37.2 % of the ticks". At least 0.1 % if any.
+/// The requested device, and for how much of the time with a surface the mouse replaced it: "Novint
+/// Falcon 1234; the mouse replaced it for 37.2 % of the ticks". At least 0.1 % if any.
 [[nodiscard]] std::string device_text(const std::string& device, const HandTicks& hand);
 
 /// Of a session's ticks.
 [[nodiscard]] HandTicks hand_of(const TickCounts& ticks);
 
-/// Of a session: without what is said of devices that nobody touched with, where the mouse stood in
-/// for all of it. `kinds`: of devices, as the names of their facts begin: "falcon".
+/// The facts of a session; without those of devices where the mouse replaced them in all ticks.
+/// `kinds`: names of the kinds of devices, with which the keys of their facts begin: "falcon".
 [[nodiscard]] SessionFacts facts_of_hand(SessionFacts facts, const HandTicks& hand,
                                          const std::vector<std::string>& kinds);
 

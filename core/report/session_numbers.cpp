@@ -1,4 +1,4 @@
-// What a session's ticks come to, in one pass.
+// Computes the statistics of a session's ticks, in one pass.
 #include "core/report/session_numbers.hpp"
 
 #include <algorithm>
@@ -93,7 +93,7 @@ class Counter {
     double pitch_mm_{Coupling{}.pixel_pitch_mm};
 };
 
-/// How long the tick stands for; garbage in a file counts nothing.
+/// The time that a tick counts for; an invalid time in a file counts 0.
 double held(double seconds) {
     return seconds > 0.0 ? std::min(seconds, kLongestTick_s) : 0.0;
 }
@@ -103,7 +103,7 @@ constexpr double kShortestPiece_s = 0.001;
 
 constexpr double kMostBins = 200000.0;
 
-/// The narrowest of 1, 2 or 5 times a power of ten bins of which `most` reach to `bins`.
+/// Bins of a bar: the fewest, 1, 2 or 5 times a power of ten, so that `most` bars cover `bins`.
 std::size_t round_bins(double bins, int most) {
     for (std::size_t power = 1;; power *= 10) {
         for (const std::size_t factor : {1U, 2U, 5U}) {

@@ -1,4 +1,4 @@
-// What a session's ticks come to: contact, forces, speeds, places and what went wrong, in one pass.
+// Statistics of a session's ticks: contact, forces, speeds, places and failures, in one pass.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace dibhr {
 
-/// Lowest and highest of the values so far, NaN before the first, and what their mean is made of.
+/// Lowest and highest of the values so far, NaN before the first, and the sums for their mean.
 struct ValueRange {
     double low{std::numeric_limits<double>::quiet_NaN()};
     double high{std::numeric_limits<double>::quiet_NaN()};
@@ -40,7 +40,7 @@ struct ValueRange {
 struct TimePiece {
     ValueRange sent_newton{}, spring_newton{};
     ValueRange goal_mm_per_s{}, proxy_mm_per_s{};  ///< in contact
-    // Presentation time of what was there to touch; NaN for nothing.
+    // Presentation time of the frame to touch; NaN: none.
     double video_first_s{std::numeric_limits<double>::quiet_NaN()};
     double video_last_s{std::numeric_limits<double>::quiet_NaN()};
 
@@ -86,7 +86,7 @@ class Distribution {
     /// `resolution`: width of a narrow bin, in the quantity's unit.
     explicit Distribution(double resolution) : resolution_(resolution) {}
 
-    /// What is not finite or below 0 is left out.
+    /// Ignores a value that is not finite or below 0.
     void add(double value, double seconds);
 
     [[nodiscard]] double total_s() const noexcept { return total_s_; }
@@ -145,8 +145,8 @@ class TouchedPlaces {
     double total_s_{0.0};
 };
 
-/// A tick stands for the time until the next one, and for no more than this: a program that was
-/// stopped did not touch (as SafetyLimits::max_tick_s, after which there is no force).
+/// A tick counts for the time until the next one, at most for this: a program that was stopped did
+/// not touch (as SafetyLimits::max_tick_s, after which there is no force).
 inline constexpr double kLongestTick_s = 0.020;
 
 inline constexpr std::size_t kSafetyCuts = static_cast<std::size_t>(kLastSafetyCut) + 1;
@@ -157,7 +157,7 @@ struct TickCounts {
     std::int64_t in_contact{0};
     std::int64_t without_surface{0};
     std::int64_t device_not_ready{0};
-    std::int64_t stand_in{0};  ///< the mouse's, for a device that was not ready
+    std::int64_t stand_in{0};  ///< of the mouse, while the device was not ready
     std::int64_t late{0};
     std::int64_t goal_refused{0};
     std::int64_t catching_up{0};  ///< ended before the proxy had caught up with its goal
@@ -187,7 +187,7 @@ struct SessionNumbers {
     }
 };
 
-/// Reads every tick once and keeps none; `progress` hears the share done from time to time. Throws
+/// Reads every tick once and keeps none; `progress` is called with the share done. Throws
 /// InputError for a damaged file.
 [[nodiscard]] SessionNumbers numbers_of(const Session& session,
                                         const std::function<void(double)>& progress = {});

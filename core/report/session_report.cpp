@@ -32,7 +32,7 @@ std::vector<std::string> all_names() {
     return report_files({"report.html", "report.json"}, pictures);
 }
 
-/// A report in the making: what it says, its pictures, and what was asked for.
+/// A report that is being made: its data, its pictures and the request.
 struct Making {
     SessionReport& report;
     FigureMaker figures;
@@ -47,7 +47,7 @@ int pixels_of(const std::string& fact) {
     return whole ? std::stoi(fact) : 0;
 }
 
-// 64 MB for a map whose size only the session tells.
+// 64 MB, for a map whose size only the session gives.
 constexpr std::int64_t kMostMapPixels = std::int64_t{16} << 20;
 
 /// The size of the depth image: as its file has it, or as the session says and large enough.

@@ -15,12 +15,12 @@
 
 namespace dibhr {
 
-/// What a video looked like at a moment, as far as its files are still there.
+/// A video's picture at a moment, if its files still exist.
 struct RecordedPicture {
     ColourImage colour{};     ///< empty: not known
     int columns{0}, rows{0};  ///< of the depth image; 0: not known
     std::string remark{};     ///< why there is none, in a plain sentence
-    std::string warning{};    ///< what speaks against the one there is, likewise
+    std::string warning{};    ///< why the picture may be wrong, likewise
 };
 
 /// The picture shown at `media_s` of what ticks touched.
@@ -37,7 +37,7 @@ struct HeatMapFacts {
     double sigma_px{0.0};
 };
 
-/// All that the page and the JSON say.
+/// The data of the page and the JSON.
 struct SessionReport {
     const Session& session;
     SessionNumbers numbers{};
@@ -45,12 +45,12 @@ struct SessionReport {
     std::vector<Figure> figures{};
     std::string program{};                    ///< that made the report, with its version
     std::vector<std::string> remarks{};       ///< on the pictures, in plain sentences
-    std::vector<std::string> device_kinds{};  ///< as the names of devices' facts begin
+    std::vector<std::string> device_kinds{};  ///< as in ReportRequest
 };
 
 struct Fields;
-// What the page and the JSON say of one thing: the contact number `k`, from 0; a mark; a version of
-// the parameters.
+// Fields for the page and the JSON: of the contact with index `k`, a mark, a version of the
+// parameters.
 [[nodiscard]] Fields episode_fields(const SessionReport& report, std::size_t k);
 [[nodiscard]] Fields mark_fields(const SessionReport& report, const SessionMark& mark);
 [[nodiscard]] Fields parameters_fields(const SessionReport& report, SessionParameters parameters);
@@ -59,9 +59,9 @@ struct ReportRequest {
     std::filesystem::path folder{};
     std::string program{};
     RecordedPictures pictures{};
-    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+    std::function<void(double)> progress{};  ///< called with the share done; may be empty
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
-    std::vector<std::string> device_kinds{};  ///< as the names of devices' facts begin
+    std::vector<std::string> device_kinds{};  ///< "falcon", as in the fact "falcon-serial"
 };
 
 /// Reads the session once and writes `report.html`, `report.json` and the pictures into the folder,

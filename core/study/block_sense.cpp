@@ -1,4 +1,4 @@
-// Looks a block over.
+// The checks of one block.
 #include "core/study/block_sense.hpp"
 
 #include <algorithm>
@@ -15,14 +15,13 @@ std::string form_called(TrialForm form) {
     return std::string("the form ") + name_of(form);
 }
 
-/// The numbers of a condition that a varied parameter is laid over.
+/// The numbers of a condition that a varied parameter replaces.
 std::vector<std::string> overlaid_by(const std::string& parameter) {
     if (parameter == "friction") return {"friction", "static-friction", "dynamic-friction"};
     return {parameter};
 }
 
-/// A number that the condition has of its own, and that the block varies around another value, is
-/// never felt.
+/// Refuses a condition's own number of the varied parameter, which would never be rendered.
 void require_no_other_value(const PageTable& table, const Condition& condition,
                             const TouchValues& base, const Variation& vary) {
     const auto& numbers = condition.values.numbers;
@@ -38,7 +37,7 @@ void require_no_other_value(const PageTable& table, const Condition& condition,
     }
 }
 
-/// Every value that an interval can have, as it will be felt.
+/// Checks every value that an interval of the block can have.
 void require_felt_values(PageTable& table, const Protocol& protocol, const Block& block,
                          const StudyChecks& checks) {
     const Variation& vary = block.variation;
@@ -80,7 +79,7 @@ void require_telling_levels(const PageTable& table, const Block& block) {
     }
 }
 
-/// That somebody asks for feedback, not that practice gives it.
+/// Refuses explicit feedback where no answer is right; the default of practice may stay.
 void require_judged(const PageTable& table, const Block& block) {
     const bool judged = block.form == TrialForm::three_interval ||
                         (block.variation.any() && block.form != TrialForm::adjust);

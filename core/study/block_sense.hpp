@@ -1,5 +1,5 @@
-// What of a study's page makes sense beyond what each key may be: a block as a whole, and what only
-// other rooms know. Every function throws InputError with the line, and what is allowed.
+// Validates a study's page beyond the range of each key: blocks as a whole, and values that other
+// rooms check. Every function throws InputError with the line and the allowed values.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace dibhr {
 
-/// In a block, in all of its trials.
+/// The trials of a block.
 inline constexpr int kMostTrials = 10000;
 
-/// What a check of StudyChecks has against a thing is told at the key.
+/// Runs a check of StudyChecks, and throws its error with the line of `key`.
 template <typename Check, typename Thing>
 void require(const Check& check, const Thing& thing, const PageTable& table,
              const std::string& key) {
@@ -25,20 +25,20 @@ void require(const Check& check, const Thing& thing, const PageTable& table,
     }
 }
 
-/// Values that can be felt. What is against them is told at the number that it begins with, or at
-/// `key` where the table does not have that; `of` says of what.
+/// Checks values. An error is thrown with the line of the number that it begins with, or of `key`
+/// where the table lacks that number; `of` names the values.
 void require_values(const StudyChecks& checks, const TouchValues& values, const PageTable& table,
                     const std::string& key, const std::string& of);
 
 /// A block has no keys that only other forms have.
 void require_keys_of_form(const PageTable& table, TrialForm form);
 
-/// A block of which every part is read can be run.
+/// Checks that a completely read block is consistent, so that it can run.
 void require_sense(const PageTable& table, const Block& block);
 
-/// And is worth running: what is varied can be felt at all of its values and is nothing that a
-/// condition has otherwise, and what is asked can be told. The blocks of `protocol` came before.
-/// `base`: what all conditions have.
+/// Checks that a consistent block gives useful answers: all values are allowed, no condition sets
+/// the varied parameter, and a question has a right answer where one is needed. `protocol` has the
+/// blocks before it. `base`: the values of all conditions.
 void require_worth(PageTable& table, const Protocol& protocol, const TouchValues& base,
                    const Block& block, const StudyChecks& checks);
 

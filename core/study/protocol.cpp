@@ -1,4 +1,4 @@
-// What follows from a protocol.
+// Functions on the data of a protocol.
 #include "core/study/protocol.hpp"
 
 #include <algorithm>

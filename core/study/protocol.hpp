@@ -17,8 +17,8 @@
 
 namespace dibhr {
 
-/// What a surface is felt with: values by the names of the command line, later ones laid over
-/// earlier ones.
+/// Touch parameters of an interval by the names of the command line. Later values replace earlier
+/// ones.
 struct TouchValues {
     /// "friction" (both coefficients), "finger" (mm) and the names of touch_numbers().
     std::map<std::string, double> numbers{};
@@ -30,11 +30,11 @@ struct TouchValues {
     bool operator==(const TouchValues&) const = default;
 };
 
-/// "material bark, friction 0.4"; of none: "as the program has it".
+/// "material bark, friction 0.4"; without values "the program's defaults".
 [[nodiscard]] std::string in_words(const TouchValues& values);
 
-/// `over` laid over `under`. One coefficient of friction by itself beats "friction" of the same
-/// table; "friction" laid over takes both away that were below.
+/// `under`, with the values of `over` in place of its own. In one table a single coefficient has
+/// priority over "friction"; "friction" of `over` removes both coefficients of `under`.
 [[nodiscard]] TouchValues laid_over(const TouchValues& under, const TouchValues& over);
 
 /// Text, a picture, or both; empty: nothing is shown.
@@ -45,21 +45,21 @@ struct StudyPage {
     [[nodiscard]] bool empty() const noexcept { return text.empty() && picture.empty(); }
 };
 
-/// Files of a name; the built-in sample has none and the name "sample".
+/// Files and their name. The built-in sample has no files and the name "sample".
 struct StudyMedia {
     std::string name{};
     std::filesystem::path colour{};  ///< absolute, as `depth`
     std::filesystem::path depth{};   ///< empty: found beside the colour
 };
 
-/// The media that is always there, and is taken where none is named.
+/// The media that always exists, and is used where none is named.
 inline constexpr const char* kSampleMedia = "sample";
 
-/// What is compared: base values with those of the condition laid over.
+/// A condition: the base values, with its own in their place.
 struct Condition {
     std::string name{};  ///< of crossed factors "dibhr+smooth"
     TouchValues values{};
-    std::map<std::string, std::string> levels{};  ///< its level in each factor, if it is of such
+    std::map<std::string, std::string> levels{};  ///< its level in each factor, if crossed
 };
 
 enum class TrialForm : std::uint8_t { explore, two_interval, three_interval, adjust, rating };
@@ -78,8 +78,8 @@ inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
      {TrialOrder::latin, "latin", "Latin square"},
      {TrialOrder::listed, "listed", "As listed"}}};
 
-/// What a person sees while feeling. `relief`: it, and the point of it that is under the hand.
-/// `touch`: with goal, proxy and normal, as in the viewer, which tells friction and stiffness.
+/// What is drawn during an interval. `relief`: the relief, and the point under the hand. `touch`:
+/// also goal, proxy and normal, as in the viewer, which shows friction and stiffness.
 enum class StudyView : std::uint8_t { relief, blank, touch };
 inline constexpr std::array<Word<StudyView>, 3> kStudyViews{
     {{StudyView::relief, "relief", "The relief"},
@@ -101,7 +101,7 @@ struct Variation {
     std::vector<double> levels{};              ///< constant stimuli: differences from it
     std::optional<StaircaseRule> staircase{};  ///< adaptive, its levels are differences from it
     int tracks{1};                             ///< interleaved runs of the rule, for each item
-    /// Method of adjustment: the parameter's own value, in which it starts and is turned.
+    /// Method of adjustment: the range in which the parameter starts and is changed.
     double lowest{0.0}, highest{0.0};
 
     [[nodiscard]] bool any() const noexcept { return !parameter.empty(); }
@@ -128,8 +128,8 @@ struct StudyItem {
 /// Trials of one form.
 struct Block {
     std::string name{};
-    bool practice{false};  ///< its answers count for nothing
-    bool feedback{false};  ///< right or wrong is said after each answer; in practice by default
+    bool practice{false};  ///< its answers are not counted
+    bool feedback{false};  ///< shows right or wrong after each answer; default in practice
     TrialForm form{TrialForm::explore};
     /// `explore` and `rating`: one condition each. The others: pairs.
     std::vector<StudyItem> items{};
@@ -140,13 +140,13 @@ struct Block {
     StudyPage instructions{};
     StudyView view{StudyView::relief};
     bool again{false};       ///< at the question, an interval may be felt once more
-    double interval_s{0.0};  ///< so long an interval lasts at most; 0: until the person goes on
-    double answer_s{0.0};    ///< so long one may think; after that no answer is noted; 0: any time
+    double interval_s{0.0};  ///< longest interval; 0: until the person goes on
+    double answer_s{0.0};    ///< longest time to answer, after which none is recorded; 0: any
     int break_after{0};      ///< trials between pauses; 0: none within the block
 
     /// Intervals of a trial: 1, 2 or 3; of `adjust` 2, the second is the one that is turned.
     [[nodiscard]] int intervals() const noexcept;
-    /// The trials of it; with staircases the most that they can take.
+    /// Its number of trials; with staircases the largest possible.
     [[nodiscard]] int most_trials() const noexcept;
 };
 
@@ -169,24 +169,24 @@ struct Protocol {
     [[nodiscard]] const Condition* condition_named(const std::string& name) const noexcept;
 };
 
-/// A condition's values where a parameter has this value: what such an interval is felt with.
+/// The values of an interval: the condition's, with the varied parameter at `value`.
 [[nodiscard]] TouchValues felt_values(const Condition& condition, const Variation& vary,
                                       double value);
 
-/// What only rooms know that make surfaces and open files. Each throws Error with what is wrong
-/// (a number's own name first), which is told with its line; empty: that is not looked after.
+/// Checks by other rooms, which make surfaces and open files. Each throws Error with what is wrong
+/// (a number's name first); the reader adds the line. Empty: not checked.
 struct StudyChecks {
-    /// All that can be felt: each condition, and each value that a block gives it.
+    /// Called with each condition, and with each value that a block gives it.
     std::function<void(const TouchValues&)> values{};
     std::function<void(const StudyMedia&)> media{};
     std::function<void(const std::filesystem::path&)> picture{};  ///< of a StudyPage
     std::function<void(const std::filesystem::path&)> bump{};
 };
 
-/// What a protocol may name that this room does not know; given, so that it needs no other room.
+/// The names that a protocol may use, from other rooms: passed in, so that none is included.
 struct StudyNames {
-    /// Nothing: the page was run before, as a study file holds it. Any name will do, and nothing is
-    /// refused that only spoils a study to come: what was answered stays readable.
+    /// Nothing: the page is from a study file. Any name is then accepted, and checks that only
+    /// protect a future study are skipped, so that recorded answers stay readable.
     std::optional<std::vector<std::string>> materials{};
     std::vector<std::string> cleanings{"auto", "raw", "gentle", "sensor"};
     double thickest_finger_mm{25.0};
@@ -197,7 +197,7 @@ struct StudyNames {
 /// "FILE:LINE: what is wrong, and what is allowed".
 [[nodiscard]] Protocol read_protocol(const std::filesystem::path& file, const StudyNames& names);
 
-/// The same of a text, which `file` is the name and the place of.
+/// The same for a text; `file` gives its name and folder.
 [[nodiscard]] Protocol protocol_of(const std::string& text, const std::filesystem::path& file,
                                    const StudyNames& names);
 

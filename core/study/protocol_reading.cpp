@@ -377,8 +377,8 @@ class ProtocolReading {
         vary.staircase = rule;
     }
 
-    /// No level is 0, where nothing can be told: a track that came there would stay, or be led by
-    /// answers that are neither right nor wrong. A lowest one of 0 is as none.
+    /// No level may be 0, where no answer is right or wrong: a track would stay there, or follow
+    /// meaningless answers. A lowest level of 0 counts as not given.
     void read_lowest(PageTable& table, const std::optional<double>& step,
                      StaircaseRule& rule) const {
         const double smallest = step ? *step : 0.01 * rule.start;
@@ -422,7 +422,7 @@ class ProtocolReading {
         scale->done();
     }
 
-    /// As a study file holds it: StudyNames::materials.
+    /// Whether the page is from a study file: StudyNames::materials.
     bool is_run_already() const noexcept { return !names_.materials; }
 
     PageTable& page_;

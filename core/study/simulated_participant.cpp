@@ -29,7 +29,7 @@ int another(int than, int count, Random& draws) {
     return (than + 1 + any_of(count - 1, draws)) % count;
 }
 
-/// The target with the share of the level; below zero the other one.
+/// The target, with the level's probability; below zero the other interval.
 int chosen_by_level(const SimulatedParticipant& who, const Trial& trial, Random& draws) {
     const int count = static_cast<int>(trial.intervals.size());
     const double level = *trial.level;
@@ -41,8 +41,8 @@ int chosen_by_level(const SimulatedParticipant& who, const Trial& trial, Random&
 
 int chosen_by_preference(const SimulatedParticipant& who, const Trial& trial, Random& draws) {
     const int count = static_cast<int>(trial.intervals.size());
-    // So often noticed, and else guessed, that what is chosen comes to `share`; below chance the
-    // other one is liked.
+    // The probability of noticing, with guesses otherwise, at which choices come to `share`; below
+    // chance the other one is preferred.
     const double noticing = (who.share - 1.0 / count) / (1.0 - 1.0 / count);
     const bool attends =
         !draws.chance(who.lapse) && (who.share >= 1.0 || draws.chance(std::abs(noticing)));
@@ -86,7 +86,7 @@ double adjusted(const SimulatedParticipant& who, const StudyRun& run, Random& dr
                       vary.highest);
 }
 
-/// One of a kind of people, always the same one under the same number.
+/// One person of this kind. The same number gives the same person.
 SimulatedParticipant person_of(SimulatedParticipant who, const StudyRun& run) {
     if (!(who.spread > 0.0)) return who;
     constexpr std::uint64_t kPerson = 0x706572736f6eU;

@@ -1,5 +1,5 @@
-// Participants whose answers are known beforehand: for trying a protocol, and for knowing what an
-// analysis finds.
+// Simulated participants, whose answers follow known rules: to try a protocol, and to test an
+// analysis.
 #pragma once
 
 #include <cstdint>
@@ -12,19 +12,19 @@
 
 namespace dibhr {
 
-/// How answers come about. A guess rate is not among it: that follows from the form.
+/// The rules of the answers. The guess rate is not among them: it follows from the form.
 struct SimulatedParticipant {
-    bool guesses{true};  ///< feels nothing
-    /// Of the absolute level: logistic, half of what is not guessed at `threshold`.
+    bool guesses{true};  ///< answers by chance alone
+    /// A logistic function of the absolute level; `threshold`: half of what is not guessed.
     double threshold{0.1};
     double slope{10.0};       ///< of F at the threshold, per unit of the level
     double lapse{0.0};        ///< share of answers by chance, whatever is felt
-    double false_alarm{0.0};  ///< says yes where there is nothing, of yes/no
+    double false_alarm{0.0};  ///< share of yes at level 0, of yes/no
     /// Chosen where two conditions are compared, and rated best; empty: none.
     std::string prefers{};
     double share{1.0};  ///< of the comparisons in which that one is chosen, or found to be the odd
                         ///< one, in [1/3, 1]; lapses go on top
-    /// So much higher it is rated than the others; nothing: a quarter of the scale.
+    /// How much higher it is rated than the others; nothing: a quarter of the scale.
     std::optional<double> difference{};
     double bias{0.0};   ///< of an adjustment: point of subjective equality minus reference
     double noise{0.0};  ///< standard deviation of adjustments and ratings, in their units

@@ -70,7 +70,7 @@ constexpr const char* kExplainEarly =
     throw InputError(one_line(file.string() + ": " + what));
 }
 
-/// SQLite's words about the file of that name, and what to do.
+/// Turns SQLite's error into an InputError with the file and the next step.
 Database::Refusal refusal_of(const fs::path& file) {
     return [file](const DatabaseError& error) {
         const std::string words = error.what();
@@ -131,7 +131,7 @@ double number_fact(const Database& database, const std::string& key) {
     return number_of_text(fact(database, key)).value_or(0.0);
 }
 
-/// What is checked when a study is begun is checked when it is read: the file may be anybody's.
+/// Repeats the checks of a new study: the file may be damaged or made by hand.
 StudyIdentity identity_in(const Database& database, const fs::path& file) {
     const double number = number_fact(database, "number");
     if (!(number >= 1.0 && number <= kMostNumber))
@@ -214,7 +214,7 @@ void require_kind(const Database& database, const fs::path& file) {
                          std::to_string(kStudySchemaVersion) + "): use the program that made it");
 }
 
-/// To be read: what is checked when a study is begun is checked here, too.
+/// Opens a study file for reading, and checks it like a new one.
 Database opened_study(const fs::path& file) {
     Database database(file, refusal_of(file));
     database.distrust(kLongestSession_bytes);
@@ -230,7 +230,7 @@ std::string bytes_of(const fs::path& file) {
     return bytes.str();
 }
 
-/// Whose a session is and of which trial: the facts that a recording of a person's own has, too.
+/// Writes participant and trial into a session, as the facts of an ordinary recording.
 void sign_session(Database database, const StudyIdentity& identity, int trial,
                   const fs::path& study) {
     const std::string title =
@@ -279,7 +279,7 @@ std::vector<std::string> others_of_number(const fs::path& folder, const StudyIde
             number = other.identity.number;
             same_study = other.identity.protocol_sha256 == identity.protocol_sha256;
         } catch (const InputError&) {
-            // Another program runs it, or it is no study: its label is all that is known.
+            // Another program has it open, or it is no study: only its label is known.
         }
         if (same_study && number == identity.number) labels.push_back(label);
     }
@@ -295,8 +295,8 @@ struct StudyFile::Implementation {
 
     explicit Implementation(const fs::path& path) : file(path), database(path, refusal_of(path)) {}
 
-    /// Held from here until the program ends, however it does. A pilot can be run again: only a
-    /// person's answers wait for the disk.
+    /// Locks the file until the process ends. A pilot can be run again, so only a person's answers
+    /// wait for the disk.
     void hold(bool pilot) {
         database.execute(std::string("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; "
                                      "PRAGMA synchronous = ") +

@@ -14,7 +14,7 @@
 
 namespace dibhr {
 
-/// "dhst": the file says itself what it is (`PRAGMA application_id`).
+/// "dhst": marks the file as a study (`PRAGMA application_id`).
 inline constexpr int kStudyApplicationId = 0x64687374;
 /// Counts changes of the tables (`PRAGMA user_version`).
 inline constexpr int kStudySchemaVersion = 2;
@@ -46,13 +46,13 @@ void require_label(const std::string& label);
 [[nodiscard]] std::filesystem::path study_file_of(const std::filesystem::path& folder,
                                                   const std::string& label);
 
-/// Labels of other study files in that folder whose order the same number chooses. A file that
-/// another program has open has the number of its label.
+/// Labels of other study files in that folder whose order the same number chooses. For a file that
+/// another program has open, the number in its label counts.
 [[nodiscard]] std::vector<std::string> others_of_number(const std::filesystem::path& folder,
                                                         const StudyIdentity& identity);
 
-/// A study that is being run: by one program at a time, which holds the file until it ends, however
-/// it ends. Every call throws InputError: what, which file, what to do next.
+/// The file of a running study. One program at a time holds its lock, until that process ends.
+/// Every call throws InputError: what, which file, what to do next.
 class StudyFile {
   public:
     /// Makes the file, or goes on with one of the same participant, number, protocol text and
@@ -63,17 +63,17 @@ class StudyFile {
     StudyFile& operator=(const StudyFile&) = delete;
 
     [[nodiscard]] const std::filesystem::path& file() const noexcept;
-    /// As it stands in the file: the one it was begun with.
+    /// The identity in the file, with which the study began.
     [[nodiscard]] const StudyIdentity& identity() const noexcept;
-    /// Those that were there when it was opened, in order.
+    /// The trials in the file when it was opened, in order.
     [[nodiscard]] const std::vector<AnsweredTrial>& answered() const noexcept;
     /// A trial's answer and its session (empty: none was recorded), whole or not at all, on the
     /// disk when it returns. The session's file is then removed.
     void add(const AnsweredTrial& answered, const std::filesystem::path& session = {});
     /// The last trial was answered.
     void finish();
-    /// Where the running trial's session is recorded: a name beside the file, free now: what a
-    /// program that was killed left there is removed.
+    /// Where the running trial's session is recorded: a path beside the file. Removes what a killed
+    /// program left there.
     [[nodiscard]] std::filesystem::path fresh_session() const;
 
   private:

@@ -1,5 +1,5 @@
-// A participant's way through a study: what is shown next, and what follows from an answer. Without
-// clock, window or file, so that a window, a pilot and a resumed study run the same.
+// The steps of a study: what is shown next, and what follows from an answer. No clock, window or
+// file, so that a window, a pilot and a resumed study run alike.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 
 namespace dibhr {
 
-/// What is to be seen and done now.
+/// The current step: what is shown and expected.
 enum class StudyStep : std::uint8_t {
     instructions,        ///< the study's page; go_on()
     block_instructions,  ///< a block's page; go_on()
     interval,            ///< something is felt; go_on()
-    adjust,              ///< felt and turned until equal; answer() with a number
-    question,            ///< answer(); with Block::again also feel_again()
+    adjust,              ///< felt and changed until equal; accept() with a number
+    question,            ///< accept(); with Block::again also feel_again()
     feedback,            ///< whether it was right; go_on()
     pause,               ///< a break; go_on()
     thanks,              ///< the end page; go_on()
@@ -38,8 +38,7 @@ class StudyRun {
     [[nodiscard]] StudyStep step() const noexcept { return step_; }
     /// What instructions, block_instructions and thanks show.
     [[nodiscard]] const StudyPage& page() const noexcept;
-    /// The running trial's block; of pages and breaks the one that comes next. Valid until
-    /// `thanks`.
+    /// The running trial's block; on pages and breaks the next trial's. Valid until `thanks`.
     [[nodiscard]] const Block& block() const noexcept;
     /// Of interval, adjust, question and feedback.
     [[nodiscard]] const Trial& trial() const noexcept { return trial_; }
@@ -58,15 +57,15 @@ class StudyRun {
     void feel_again(int interval);
     /// At an adjustment: feels the reference (0) or what is turned (1).
     void compare(int interval);
-    /// What that answer makes of the running trial, to be stored before accept(); does not change
-    /// anything. Must be at a question or an adjustment, and the answer one that it takes.
+    /// The running trial with that answer, and whether it is right: to be stored before accept().
+    /// Changes nothing. takes() must be true for the answer.
     [[nodiscard]] AnsweredTrial judged(const StudyAnswer& answer, double utc_s) const;
     /// Goes on from a judged answer once it is safely stored.
     void accept(const AnsweredTrial& answered);
-    /// Whether the trial's question takes that answer once it is put: a choice there is, a rating
-    /// in its range, a value in the range of the adjustment, or (with a time limit) none.
+    /// Whether the trial's question takes that answer once it is asked: an existing choice, a
+    /// rating in its range, a value in the range of the adjustment, or (with a time limit) none.
     [[nodiscard]] bool would_take(const StudyAnswer& answer) const noexcept;
-    /// The same, and it is put now.
+    /// The same, and the question is asked now.
     [[nodiscard]] bool takes(const StudyAnswer& answer) const noexcept;
 
   private:

@@ -1,5 +1,5 @@
-// A page of TOML that a person wrote, taken key by key: whatever does not fit is refused with its
-// line and with what is allowed.
+// Reads a page of TOML that a person wrote, key by key. Errors name the line and the allowed
+// values.
 #pragma once
 
 #include <toml++/toml.h>
@@ -21,8 +21,8 @@ namespace dibhr {
 /// The page as a table. Throws InputError.
 [[nodiscard]] toml::table page_of(const std::string& text, const std::filesystem::path& file);
 
-/// One table of it. Every question names a key, which then is known; done() refuses the others.
-/// All of them throw InputError.
+/// One table of the page. Reading a key marks it as known; done() refuses all others. All functions
+/// throw InputError.
 class PageTable {
   public:
     /// `called`: "a block", for messages.
@@ -32,7 +32,7 @@ class PageTable {
     [[nodiscard]] const toml::node* node(const std::string& key);
     [[nodiscard]] std::optional<std::string> text(const std::string& key);
     [[nodiscard]] std::string needed_text(const std::string& key);
-    /// Of one line and without control characters, as it is shown on a button or in a table.
+    /// A text of one line without control characters, to be shown on a button or in a table.
     [[nodiscard]] std::optional<std::string> name(const std::string& key);
     [[nodiscard]] std::string needed_name(const std::string& key);
     [[nodiscard]] std::optional<double> number(const std::string& key, double lowest,
@@ -42,10 +42,10 @@ class PageTable {
                                                      double highest);
     [[nodiscard]] std::optional<int> whole(const std::string& key, int lowest, int highest);
     [[nodiscard]] bool yes(const std::string& key, bool otherwise);
-    /// One of the words: its place among them.
+    /// The index of the value in `words`.
     [[nodiscard]] std::optional<std::size_t> word(const std::string& key,
                                                   const std::vector<std::string>& words);
-    /// Names, none of them twice; as numbers().
+    /// A list without duplicates, of names; numbers(): of numbers.
     [[nodiscard]] std::vector<std::string> texts(const std::string& key);
     [[nodiscard]] std::vector<double> numbers(const std::string& key, double lowest,
                                               double highest);
@@ -55,9 +55,9 @@ class PageTable {
 
     [[nodiscard]] const toml::table& raw() const noexcept { return table_; }
     [[nodiscard]] const std::filesystem::path& file() const noexcept { return file_; }
-    /// Keys that nobody asked for are refused, with the nearest one that is known.
+    /// Refuses keys that were not read, and names the nearest known one.
     void done() const;
-    /// With this key's line, or the table's where it is not there.
+    /// Throws with this key's line, or the table's where the key is missing.
     [[noreturn]] void refuse(const std::string& key, const std::string& what) const;
 
   private:

@@ -48,8 +48,8 @@ struct StudyAnswer {
     /// From when the question was on the screen, or an adjustment was first felt, until the key or
     /// button went down.
     double reaction_s{0.0};
-    /// So many keys and buttons that answer were pressed before that, and dropped; nothing: nobody
-    /// counted them.
+    /// The number of answers that were pressed before that, and ignored; nothing: they were not
+    /// counted.
     std::optional<int> early{};
 
     bool operator==(const StudyAnswer&) const = default;
@@ -67,11 +67,11 @@ struct AnsweredTrial {
 };
 
 /// Whether that answer is right. Forced choice: the target was chosen (of a level below 0: the
-/// other interval). `explore` with a varied parameter: the first answer ("yes"). A time that is
-/// over is wrong where something is right.
+/// other interval). `explore` with a varied parameter: the first answer ("yes"). No answer in time
+/// is wrong where another one is right.
 [[nodiscard]] std::optional<bool> is_right(const Trial& trial, const StudyAnswer& answer);
 
-/// The conditions' names of the interval that was chosen; empty: none was, or it is a number.
+/// The condition's name of the chosen interval; empty: none was chosen, or it is a number.
 [[nodiscard]] std::string chosen_condition(const AnsweredTrial& answered);
 
 }  // namespace dibhr

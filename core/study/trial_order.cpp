@@ -1,5 +1,5 @@
-// Which trial comes next, a pure function of protocol, participant and answers; and what an answer
-// makes of it.
+// Which trial comes next, a pure function of protocol, participant and answers; and whether an
+// answer is right.
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
@@ -13,10 +13,10 @@ namespace dibhr {
 
 namespace {
 
-/// What chance decides, each by draws of its own.
+/// What is drawn at random, each from its own random numbers.
 enum class Draw : std::uint64_t { order, target, odd_ones, track, start };
 
-/// The n-th time of one thing of a participant's block.
+/// Random numbers for use number `time` of one `thing` in a participant's block.
 Random draws_of(const Protocol& protocol, int number, int block, Draw what, int thing = 0,
                 int time = 0) {
     const auto plain = [](int one) { return static_cast<std::uint64_t>(one); };
@@ -32,8 +32,8 @@ int levels_of(const Block& block) {
     return std::max(1, static_cast<int>(block.variation.levels.size()));
 }
 
-/// One of `kinds` for the n-th time of a thing, each equally often in every `chunk` of them, in an
-/// order of their own. Which kinds a chunk that is cut short has more of differs by `turn`.
+/// One of `kinds` for use number `n`. Every `chunk` has each kind equally often, in random order;
+/// if `chunk` is no multiple of `kinds`, `turn` selects the kinds that come once more.
 int balanced_kind(int kinds, int n, int chunk, int turn, Random draws) {
     std::vector<int> all(static_cast<std::size_t>(chunk));
     for (int k = 0; k < chunk; ++k) all[static_cast<std::size_t>(k)] = (k + turn) % kinds;
@@ -41,7 +41,7 @@ int balanced_kind(int kinds, int n, int chunk, int turn, Random draws) {
     return all[static_cast<std::size_t>(n % chunk)];
 }
 
-/// What is to be done in a trial: of constant stimuli a cell of the order.
+/// The plan of a trial; with constant stimuli a cell of the order.
 struct Task {
     int item{0};
     int repetition{0};  ///< how often that task came before
@@ -63,14 +63,14 @@ Task constant_task(const Protocol& protocol, int block_number, int number, int p
     return task;
 }
 
-/// Steps up and down leave dust (0.1 + 0.2 is not 0.3): the same level is the same number.
+/// Removes rounding errors of steps (0.1 + 0.2 is not 0.3): equal levels are equal numbers.
 double without_dust(const StaircaseRule& rule, double level) {
     constexpr int kDigits = 12;
     const double clean = number_of_text(short_text(level, kDigits)).value_or(level);
     return std::clamp(clean, rule.low, rule.high);
 }
 
-/// The track that is behind the others, one of them by chance; nothing: all have ended.
+/// A trial of a track with the fewest trials, drawn at random; nothing: all have ended.
 std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, int number,
                                   std::span<const AnsweredTrial> in_block) {
     const Block& block = block_at(protocol, block_number);
@@ -97,7 +97,7 @@ std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, in
                            ? 0U
                            : draws.below(static_cast<std::uint32_t>(behind.size()));
     const int cell = behind[drawn];
-    constexpr int kChunk = 12;  // a multiple of two and of three intervals, long enough to surprise
+    constexpr int kChunk = 12;  // a multiple of two and of three intervals, too long to predict
     return Task{.item = cell / tracks,
                 .repetition = static_cast<int>(fewest),
                 .track = cell % tracks,
@@ -142,7 +142,7 @@ void fill_intervals(const Protocol& protocol, int number, const Task& task, Tria
     const bool turned = trial.form == TrialForm::adjust;
     trial.target = turned ? 1 : kind(block.intervals(), Draw::target);
     trial.intervals[static_cast<std::size_t>(trial.target)] = compared;
-    // Of two surfaces that differ otherwise than in a level either may be the odd one.
+    // Where the surfaces differ without a level, either may be the odd one.
     const bool either = trial.form == TrialForm::three_interval && !task.level;
     if (either && kind(2, Draw::odd_ones) == 1)
         for (StudyInterval& one : trial.intervals) one = one == plain ? compared : plain;

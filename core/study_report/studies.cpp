@@ -1,4 +1,4 @@
-// Reads participants' files, and trusts none of them.
+// Reads and validates participants' files.
 #include "core/study_report/studies.hpp"
 
 #include <algorithm>
@@ -16,8 +16,8 @@ namespace dibhr {
 
 namespace {
 
-/// A file that somebody made by hand is told, not read out of bounds. (Whether the order is the
-/// protocol's does not matter here.)
+/// Refuses trials that do not fit the protocol, which would be read out of bounds. (Their order is
+/// not checked.)
 void require_trials_of(const Protocol& protocol, const StudyRecord& record) {
     const auto fits = [&protocol](const AnsweredTrial& one) {
         const Trial& trial = one.trial;
@@ -46,7 +46,7 @@ void require_trials_of(const Protocol& protocol, const StudyRecord& record) {
     }
 }
 
-/// A text or a picture is told from a study that is damaged.
+/// Distinguishes another kind of file from a damaged study.
 void require_study_file(const std::filesystem::path& file) {
     const bool holds_something = std::ifstream(file).get() != std::ifstream::traits_type::eof();
     if (holds_something && !is_database(file))  // else read_study says what is wrong
@@ -55,7 +55,7 @@ void require_study_file(const std::filesystem::path& file) {
                          "(*.dibhr-study), or a folder of them");
 }
 
-/// Says which files are of which protocol; of many of one a few.
+/// The error names the files of each protocol, a few of many.
 void require_one_protocol(const std::vector<StudyRecord>& records) {
     constexpr std::size_t kMostNamed = 4;
     struct Group {

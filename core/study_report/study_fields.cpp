@@ -1,4 +1,4 @@
-// Describes findings, people, trials and intervals.
+// Makes fields of findings, participants, trials and intervals.
 #include "core/study_report/study_fields.hpp"
 
 #include <cmath>
@@ -23,7 +23,7 @@ Json interval_json(double value, const Interval& interval) {
             {"confidence", kConfidence}};
 }
 
-/// On one line.
+/// Text as HTML that is not broken into lines.
 std::string unbroken(const std::string& text) {
     std::string html = html_text(text);
     for (std::size_t at = 0; (at = html.find(' ', at)) != std::string::npos;)
@@ -56,7 +56,7 @@ std::string p_cell(double p) {
     return unbroken(p_text(p));
 }
 
-/// The condition, or of free exploration the answer.
+/// The chosen condition; in free exploration the chosen answer.
 std::string chosen_text(const Block& block, const AnsweredTrial& one) {
     if (block.form == TrialForm::explore && one.answer.choice >= 0)
         return block.question.answers[static_cast<std::size_t>(one.answer.choice)];
@@ -69,7 +69,7 @@ Json or_null(const std::optional<Value>& value) {
     return value ? Json(*value) : Json();
 }
 
-/// What counts from 1 for people; negative: there is none.
+/// An index as a number from 1; null where it is negative.
 Json number_from_one(int index) {
     return index < 0 ? Json() : Json(index + 1);
 }

@@ -1,4 +1,4 @@
-// What a study's report says, value by value: for its JSON, its CSV and its page.
+// The values of a study's report as fields: for its JSON, its CSV and its page.
 #pragma once
 
 #include <optional>

@@ -14,10 +14,10 @@ namespace dibhr {
 
 namespace {
 
-/// One participant's, in a block.
+/// The answers of one participant in a block.
 using Answers = std::vector<const AnsweredTrial*>;
 
-/// Those that `is_one` picks, counted as hits where `is_hit`.
+/// Counts the answers that `is_one` selects; hits are those that `is_hit` selects.
 template <typename IsOne, typename IsHit>
 Count count_of(const Answers& own, const IsOne& is_one, const IsHit& is_hit) {
     Count count;
@@ -78,18 +78,18 @@ struct OfItem {
     }
 };
 
-/// Of them those in which there was nothing to notice.
+/// Picks one item's trials without a difference (level 0).
 auto of_nothing(std::size_t item) {
     return
         [item](const AnsweredTrial& one) { return OfItem{item}(one) && *one.trial.level == 0.0; };
 }
 
-/// Of them those with a choice.
+/// Picks one item's trials with a choice.
 auto with_choice(std::size_t item) {
     return [item](const AnsweredTrial& one) { return OfItem{item}(one) && one.answer.choice >= 0; };
 }
 
-/// Share right of who notices nothing, of two or three intervals.
+/// Share of right answers by guessing, with two or three intervals.
 double chance_of(TrialForm form) {
     return form == TrialForm::two_interval ? 0.5 : 1.0 / 3.0;
 }
@@ -131,13 +131,13 @@ ShareFinding share_finding(std::string name, std::vector<Count> counts,
     found.interval = exact_interval(found.all);
     found.across = mean_of(shares);
     const bool alike = shares.size() > 1 && std::isinf(found.across.interval.low);
-    // Of people who do not differ at all, trials are all that varies.
+    // Where all shares are equal, only the variation of trials gives an interval.
     found.across.interval = alike ? found.interval : clamped(found.across.interval, 0.0, 1.0);
     return found;
 }
 
-/// By ranks only where each of them has enough participants: tests that are read side by side are
-/// of one kind.
+/// By ranks only where each share has enough participants: all tests of a block are of one kind, so
+/// that they can be compared.
 void test_together(std::vector<ShareFinding>& shares) {
     const bool by_ranks = std::all_of(shares.begin(), shares.end(), [](const ShareFinding& share) {
         return !share.chance || with_trials(share.by_participant) >= kFewestForRanks;
@@ -158,7 +158,7 @@ std::string condition_name(const Protocol& protocol, std::size_t condition) {
     return protocol.conditions[condition].name;
 }
 
-/// Which of two was chosen, and which of three was odd: of nothing that varies.
+/// Shares where no parameter varies: which of two was chosen, and whether the odd one was found.
 void add_plain_choices(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     const Protocol& protocol = answers.study.protocol;
@@ -221,8 +221,7 @@ void add_levels(const BlockAnswers& answers, BlockFindings& found) {
     }
 }
 
-/// What a participant guesses right: given by the form, or of yes and no by the trials in which
-/// there was nothing.
+/// A participant's guess rate: given by the form; of yes and no measured in the trials at level 0.
 double guess_rate(const Block& block, const Answers& own, std::size_t item) {
     if (block.form != TrialForm::explore) return chance_of(block.form);
     const Count caught = count_of(own, of_nothing(item), says_first);
@@ -230,14 +229,14 @@ double guess_rate(const Block& block, const Answers& own, std::size_t item) {
     return caught.trials > 0 ? std::min(caught.share(), kMostGuessed) : 0.0;
 }
 
-/// A difference that can be found. Of yes and no less of it than in the reference is none: "no" is
+/// Whether the trial has a difference to find. Of yes and no, a level below 0 has none: "no" is
 /// right there.
 bool has_difference(const Block& block, const AnsweredTrial& one) {
     const double level = *one.trial.level;
     return block.form == TrialForm::explore ? level > 0.0 : level != 0.0;
 }
 
-/// Right (or yes) at each size of the difference. A time that was over is a trial without a hit.
+/// Right (or yes) at each size of the difference. No answer in time is a miss.
 LevelCounts counts_by_size(const Block& block, const Answers& own, std::size_t item) {
     LevelCounts counts;
     for (const AnsweredTrial* const one : own) {
@@ -248,7 +247,7 @@ LevelCounts counts_by_size(const Block& block, const Answers& own, std::size_t i
     return counts;
 }
 
-/// Over a participant's tracks, of the last six reversals of each.
+/// Mean over a participant's tracks, of the last six reversals of each.
 double mean_of_reversals(const Block& block, const Answers& own, std::size_t item) {
     constexpr int kReversals = 6;
     std::vector<double> means;
@@ -283,7 +282,7 @@ PsychometricFit fit_of(const LevelCounts& counts, const FitSettings& settings,
     return fitted_roughly(counts, settings);
 }
 
-/// What all fits say together.
+/// Combines all fits.
 void summarize(ThresholdFinding& finding) {
     if (!finding.all.empty()) finding.lowest = finding.all.front().x;
     for (const LevelCount& level : finding.all) {
@@ -337,7 +336,7 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
     return finding;
 }
 
-/// Trials that go into no threshold, and guess rates that nobody measured, by name.
+/// Adds remarks on trials that are in no threshold, and on a guess rate that was not measured.
 void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     const bool yes_no = block.form == TrialForm::explore;
@@ -363,8 +362,8 @@ void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
             "people who say yes without a difference, the threshold then comes out too low.");
 }
 
-/// Each participant counts as one, however few the answers; who reads it must know. Staircases end
-/// as they go.
+/// Adds a remark where participants gave different numbers of answers, because each still counts as
+/// one. The trials of staircases always differ.
 void remark_on_answers(const BlockAnswers& answers, BlockFindings& found) {
     if (answers.rule().variation.staircase) return;
     std::size_t most = 0;
@@ -421,7 +420,7 @@ void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
     }
 }
 
-/// Conditions against each other by their values, each participant against itself.
+/// Compares the conditions by their values, within each participant.
 void compare_conditions(BlockFindings& found) {
     const std::vector<ValueFinding>& values = found.values;
     if (values.size() < 2) return;
@@ -462,12 +461,12 @@ void add_ratings(const BlockAnswers& answers, BlockFindings& found) {
     compare_conditions(found);
 }
 
-/// How often each answer was given to each condition, and the conditions by their first answer.
+/// How often each condition got each answer; compares conditions by their first answer.
 void add_answers(const BlockAnswers& answers, BlockFindings& found) {
     const Block& block = answers.rule();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         const std::string of = item_name(answers.study.protocol, block, item);
-        // Of two answers the second one is what is left.
+        // With two answers, the share of the second follows from the first.
         const std::size_t count = block.question.answers.size();
         for (std::size_t answer = 0; answer < (count == 2 ? 1 : count); ++answer) {
             found.shares.push_back(share_finding(
@@ -486,7 +485,7 @@ void add_answers(const BlockAnswers& answers, BlockFindings& found) {
     found.compared = "share of " + in_quotes(block.question.answers.front());
     for (PairTest& pair : found.pairs)
         pair.difference.interval = clamped(pair.difference.interval, -1.0, 1.0);
-    found.values.clear();  // the shares say them
+    found.values.clear();  // the shares show them
 }
 
 Estimate median_reaction(const BlockAnswers& answers) {

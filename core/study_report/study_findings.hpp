@@ -1,4 +1,4 @@
-// What the answers of a study say: shares, thresholds, adjustments and ratings of its participants,
+// Statistics of a study's answers: shares, thresholds, adjustments and ratings of its participants,
 // with intervals and tests.
 #pragma once
 
@@ -19,18 +19,18 @@ namespace dibhr {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-/// How often something was answered where it could have been.
+/// How often an answer was given, of the trials in which it was possible.
 struct ShareFinding {
     std::string name{};  ///< "dibhr rather than pga", "right: friction 0.3 + 0.1", "yes: smooth"
     std::vector<Count> by_participant{};  ///< as Study::participants; no trials: had none
     Count all{};
     Interval interval{};                   ///< exact, of all trials together
     Estimate across{};                     ///< mean of the participants' shares
-    std::optional<double> chance{};        ///< who notices nothing; nothing: there is no such share
+    std::optional<double> chance{};        ///< share by guessing; nothing: not defined
     std::optional<TestResult> test{};      ///< against chance
     double adjusted_p{1.0};                ///< of the tests of one block (Holm)
     std::optional<Sensitivity> d_prime{};  ///< of all trials together
-    std::optional<double> level{};         ///< a constant one; nothing: none, or of a staircase
+    std::optional<double> level{};         ///< a constant level; nothing: none, or a staircase
 };
 
 /// One participant's psychometric function.
@@ -41,10 +41,10 @@ struct ParticipantThreshold {
     /// Mean level of the last reversals over the tracks; NaN: of no staircase.
     double reversal_mean{kNotKnown};
 
-    /// Whether the data say anything about where it is.
+    /// Whether the answers bound the threshold on both sides.
     [[nodiscard]] bool bounded() const noexcept;
-    /// Infinite where it is not bounded and its most likely value lies below or above all levels
-    /// that were tested: that value then says nothing but the side.
+    /// The threshold. Infinite where it is not bounded and its most likely value lies below or
+    /// above all tested levels: then only the side is known.
     [[nodiscard]] double threshold_or_side() const noexcept;
 };
 
@@ -58,10 +58,10 @@ struct ThresholdFinding {
         settings{};  ///< the participants' guess rates, where not the same, are in their fits
     std::vector<ParticipantThreshold> fits{};
     LevelCounts all{};  ///< of all participants
-    /// Mean of the participants' thresholds; NaN where one of them is not bounded. Those that are
-    /// bounded are no random selection, and a mean of them alone is not that of people.
+    /// Mean of the participants' thresholds; NaN where one of them is not bounded. Bounded ones are
+    /// no random selection, so a mean of them alone would be biased.
     Estimate across{};
-    /// Of all fits, those outside the levels as below or above them: infinite where it lies there.
+    /// Of all fits; one outside the levels counts as below or above them: may be infinite.
     Estimate median{};
     int below{0}, above{0};            ///< of the fits, outside the levels
     int unbounded{0};                  ///< of the fits, inside the levels or outside
@@ -79,7 +79,7 @@ struct ValueFinding {
     std::optional<TestResult> test{};  ///< of an adjustment: against the reference
 };
 
-/// Two conditions of a block against each other.
+/// The comparison of two conditions of a block.
 struct PairTest {
     std::string first{}, second{};
     Estimate difference{};  ///< mean of first - second over the participants that have both
@@ -87,16 +87,16 @@ struct PairTest {
     double adjusted_p{1.0};  ///< among the pairs of the block (Holm)
 };
 
-/// All that one block's answers say; practice has none.
+/// The findings of one block; practice has none.
 struct BlockFindings {
     std::size_t block{0};  ///< in Protocol::blocks
     int trials{0};
-    int unanswered{0};   ///< their time was over
-    int not_counted{0};  ///< nothing in them is right or wrong, they are in no share or threshold
+    int unanswered{0};   ///< trials without an answer in time
+    int not_counted{0};  ///< trials without a right answer: in no share or threshold
     std::vector<ShareFinding> shares{};
     std::vector<ThresholdFinding> thresholds{};
     std::vector<ValueFinding> values{};
-    std::string compared{};               ///< what pairs are compared in; empty: the values
+    std::string compared{};               ///< the quantity compared in `pairs`; empty: the values
     std::optional<TestResult> overall{};  ///< of three conditions or more that have values
     std::vector<PairTest> pairs{};
     Estimate reaction_s{};               ///< median over participants of their medians
@@ -106,7 +106,7 @@ struct BlockFindings {
 struct AnalysisSettings {
     Curve curve{Curve::logistic};
     int bootstraps{399};                     ///< 0: thresholds without intervals
-    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+    std::function<void(double)> progress{};  ///< called with the share done; may be empty
 };
 
 /// The same files give the same numbers.
@@ -114,7 +114,7 @@ struct AnalysisSettings {
                                                      const AnalysisSettings& settings);
 
 /// Against chance: by signed ranks of the participants' shares, or by the binomial distribution of
-/// all their trials, which says something of these people only.
+/// all their trials, which is valid for these people only.
 [[nodiscard]] TestResult chance_test(const std::vector<Count>& by_participant, double chance,
                                      bool by_ranks);
 

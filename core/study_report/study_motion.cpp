@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A tick stands for no more than this: a program that was stopped did not touch.
+/// A tick counts for at most this time: a program that was stopped did not touch.
 constexpr double kLongestUpdate_s = 0.020;
 
 /// Sums over one interval's ticks.
@@ -70,7 +70,7 @@ class IntervalSums {
 /// A piece of the session, from a mark to the next one of any kind.
 struct Piece {
     double from_s{0.0};
-    std::optional<std::size_t> interval{};  ///< nothing: a rest, a question
+    std::optional<std::size_t> interval{};  ///< nothing: a pause, a question
 };
 
 std::optional<std::size_t> interval_marked(const std::string& tag, std::size_t intervals) {
@@ -88,7 +88,7 @@ std::vector<Piece> pieces_of(const Session& session, std::size_t intervals) {
     return pieces;
 }
 
-/// A folder for one session at a time, gone with it.
+/// A temporary folder for one session at a time; the destructor removes it.
 class ScratchFolder {
   public:
     ScratchFolder() {
@@ -149,7 +149,7 @@ std::vector<IntervalMotion> motion_in(const Session& session, std::size_t interv
         while (next_piece < pieces.size() && pieces[next_piece].from_s <= tick.t_s + kSameMoment_s)
             ++next_piece;
         const bool counts = next_piece > 0 && pieces[next_piece - 1].interval;
-        if (!counts) continue;  // before the first mark, or at rest
+        if (!counts) continue;  // before the first mark, or in a pause
         const double held_s = more ? next.t_s - tick.t_s : tick.dt_s;
         sums[next_piece - 1].add(tick, std::clamp(held_s, 0.0, kLongestUpdate_s), pitch_mm);
     }

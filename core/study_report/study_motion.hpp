@@ -1,5 +1,5 @@
-// What hands did and felt in a study's trials, from their sessions: forces, speeds, and how the
-// force turned.
+// Motion and forces in a study's trials, from their sessions: forces, speeds, and how the force
+// turned.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ struct IntervalMotion {
     double sent_newton{0.0}, sent_peak_newton{0.0};
     double spring_newton{0.0}, spring_peak_newton{0.0};
     double path_mm{0.0};  ///< of the proxy
-    /// How its direction turned from update to update, as `dibhr experiment` has it; of a person no
-    /// reversals are told apart.
+    /// How the force's direction turned from update to update, as in `dibhr experiment`, but
+    /// without separating reversals.
     VariationStatistics turning{};
 
     [[nodiscard]] double contact_share() const noexcept {
@@ -46,12 +46,12 @@ struct IntervalMotion {
 /// Both together: sums, and means weighted by time and by updates.
 [[nodiscard]] IntervalMotion joined(const IntervalMotion& a, const IntervalMotion& b) noexcept;
 
-/// Where it was felt.
+/// The motion of one interval, and its place in the study.
 struct IntervalRow {
     std::size_t participant{0};  ///< in Study::participants
     int trial{0};
     int interval{0};
-    std::string condition{};  ///< with the varied parameter's part in it: motion_condition()
+    std::string condition{};  ///< with the varied parameter: motion_condition()
     bool practice{false};
     IntervalMotion motion{};
     std::optional<double> value{};  ///< of the varied parameter; nothing: none varies

@@ -1,4 +1,4 @@
-// The report's numbers for scripts: JSON with names that stay, units in them.
+// The report's numbers for scripts: JSON with stable names, units in them.
 #include <string>
 #include <vector>
 
@@ -12,9 +12,9 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kStudyReportVersion = 1;  // changes when a name changes its meaning or goes
+constexpr int kStudyReportVersion = 1;  // changes when a name is removed or changes its meaning
 
-/// What is said of one thing.
+/// The fields of one thing.
 constexpr auto kObject = [](const auto& one) { return fields_of(one).json; };
 
 Json threshold_json(const Study& study, const ThresholdFinding& finding) {

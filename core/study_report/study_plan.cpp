@@ -19,11 +19,11 @@ namespace dibhr {
 
 namespace {
 
-/// One alone, and as many as signed ranks take.
+/// One participant, then as many as signed ranks need, and more.
 constexpr std::array<int, 11> kCounts{1, kFewestForRanks, 8, 10, 12, 16, 20, 24, 32, 40, 48};
 constexpr double kGoodPrecision = 0.1;
 
-/// The protocol with one block alone, which counts, so often repeated.
+/// The protocol with this block only, at so many repetitions.
 Protocol with_one_block(Protocol protocol, std::size_t block, int repetitions) {
     Block kept = protocol.blocks[block];
     (kept.variation.staircase ? kept.variation.tracks : kept.repetitions) = repetitions;
@@ -33,8 +33,8 @@ Protocol with_one_block(Protocol protocol, std::size_t block, int repetitions) {
     return protocol;
 }
 
-/// Lets people take part until there are `count`. Another protocol seed gives other orders and
-/// other people.
+/// Simulates participants until there are `count`. `number` gives the protocol another seed, and so
+/// other orders and other people.
 void fill_up(Study& study, const PlanSettings& settings, int number, int count) {
     Protocol protocol = study.protocol;
     protocol.seed = draws_for(settings.seed, {static_cast<std::uint64_t>(number)}).bits();
@@ -54,13 +54,13 @@ bool is_of_effect(const std::string& name, const Condition& condition) {
     return name.starts_with(with) || name.ends_with(" " + condition.name);
 }
 
-/// What a report says of it: of people the median, of one alone the threshold if it is bounded.
+/// The estimate as reported: the median of several participants; of one its bounded threshold.
 double estimate_of(const ThresholdFinding& threshold) {
     const bool alone = threshold.fits.size() == 1;
     return alone ? threshold.across.value : threshold.median.value;
 }
 
-/// By the finding's name; those that the effect has no part in are left out.
+/// Outcomes by the finding's name, without findings that the effect does not concern.
 std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSettings& settings) {
     const BlockFindings found = findings_of(study, {.bootstraps = 0}).front();
     const Block& block = study.protocol.blocks.front();
@@ -77,7 +77,7 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
         outcomes["threshold of " + threshold.name].threshold = estimate_of(threshold);
     for (const ValueFinding& value : found.values)
         if (value.test) outcomes[value.name].found = value.test->p < kSignificance;
-    // Pairs are tested only by enough participants; with fewer the finding is there, but not made.
+    // Pairs are tested only with enough participants; with fewer the effect counts as not found.
     const std::size_t items = block.items.size();
     const bool paired =
         block.form == TrialForm::rating || (block.form == TrialForm::explore && !leveled);
@@ -147,13 +147,13 @@ std::vector<PlanLine> lines_of(const Protocol& whole, std::size_t block_number, 
         if (count > settings.most_participants) break;
         Gathered gathered;
         for (int number = 0; number < settings.studies; ++number) {
-            // Whoever took part in the smaller study does in the larger one.
+            // The larger study contains all participants of the smaller one.
             Study& study = studies[static_cast<std::size_t>(number)];
             fill_up(study, settings, number, count);
             for (const auto& [name, outcome] : outcomes_of(study, settings))
                 gathered[name].push_back(outcome);
         }
-        // Nothing that the effect has a part in; of one alone there may be no test yet.
+        // The effect concerns no finding. (One participant alone may have no test yet.)
         if (gathered.empty() && count >= kFewestForRanks) break;
         bool all_enough = !gathered.empty();
         for (const auto& [name, outcomes] : gathered) {

@@ -14,20 +14,20 @@ namespace dibhr {
 
 struct PlanSettings {
     SimulatedParticipant effect{};  ///< what is to be found; `spread`: how people differ in it
-    double power{0.8};              ///< so often it is to be found
+    double power{0.8};              ///< share of studies that must find it
     int studies{400};               ///< simulated for each line; 2 at least
     int most_participants{48};
     std::uint64_t seed{1};
-    std::function<void(double)> progress{};  ///< hears the share done; may be empty
+    std::function<void(double)> progress{};  ///< called with the share done; may be empty
 };
 
-/// What so many participants give.
+/// The result of one number of participants.
 struct PlannedStudies {
     int participants{0};
     /// Share of the studies whose test finds the effect (p < 0.05, Holm's correction included).
     double power{0.0};
-    /// How far at most 95 % of the estimates lie from the truth, as a share of it: of a threshold,
-    /// which no test finds. Infinite: more than 5 % of the studies do not bound it. NaN: there is a
+    /// Of a threshold, which has no test: 95 % of the estimates lie at most so far from the truth,
+    /// as a share of it. Infinite: more than 5 % of the studies do not bound it. NaN: there is a
     /// test.
     double precision{0.0};
     double unbounded{0.0};  ///< share of the studies that give the threshold no bound
@@ -43,8 +43,8 @@ struct PlanLine {
     int trials{0};          ///< of one participant in the block, on average
     bool as_on_the_page{false};
     std::vector<PlannedStudies> studies{};  ///< by rising number of participants
-    /// The fewest of these participants with that power, so that it is said of people in general;
-    /// of a threshold with a precision of 10 %; 0: none.
+    /// The fewest participants with that power in a test that is valid for people in general; of a
+    /// threshold with a precision of 10 %; 0: none.
     int enough{0};
 };
 

@@ -51,8 +51,8 @@ ValueSpan span_of(const RowsPlot& plot) {
     return span_of(std::move(values));
 }
 
-/// Answers at levels so near to each other that a person would not tell them apart, together: a
-/// staircase in factors visits dozens.
+/// Merges levels that lie too close for markers of their own: a staircase in factors has dozens of
+/// levels.
 LevelCounts grouped(const LevelCounts& counts) {
     constexpr std::size_t kMostGroups = 14;
     LevelCounts sorted = counts;
@@ -61,7 +61,7 @@ LevelCounts grouped(const LevelCounts& counts) {
         std::size_t nearest = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k + 1 < sorted.size(); ++k) {
-            // Few answers go to a neighbour first.
+            // Levels with few answers are merged first.
             const int trials = sorted[k].count.trials + sorted[k + 1].count.trials;
             const double cost = (sorted[k + 1].x - sorted[k].x) * trials;
             if (cost < least) {
@@ -112,7 +112,7 @@ std::vector<std::string> in_two_lines(const std::string& text, double widest_px,
     return {text.substr(0, end), shortened(text.substr(end + 1), widest_px, style)};
 }
 
-/// A title as long as a question may be, on what the picture has room for.
+/// Draws a title, cut to the picture's width: a question may be long.
 void draw_fitting_title(Canvas& canvas, const std::string& title, const std::string& subtitle) {
     const double widest_px = kColumns - 2.0 * kLeft_px;
     const TextStyle bold{kTextInk, kTitleCap_px, Align::left, true};
@@ -156,7 +156,7 @@ Canvas plot_rows(const RowsPlot& plot) {
         canvas.clip_to({area.left - 6.0, area.top, area.right + 6.0, area.bottom});
         for (std::size_t k = 0; k < row.each.size(); ++k) {
             if (!std::isfinite(row.each[k])) continue;
-            // Aside from each other, in an order that looks like none.
+            // Spreads the markers vertically, without a visible pattern.
             const double aside = static_cast<double>(k * 5 % 7) * 3.0 - 9.0;
             canvas.disc({axes.at(row.each[k], 0.0).x, y_px + aside}, 3.5, faint(found_ink(), 0.35));
         }
@@ -203,7 +203,7 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
                       kTextInk, kPaper);
     }
     const PsychometricFunction& first = finding.fits.front().fit.function;
-    // Of few people only the mean has an interval, of all others the median says more.
+    // Of few people only the mean has an interval; else the median is drawn.
     const bool has_median =
         std::isfinite(finding.median.value) && finding.fits.size() >= kFewestForRanks;
     const Estimate& of_people = has_median ? finding.median : finding.across;

@@ -14,7 +14,7 @@ namespace dibhr {
 struct PlotRow {
     std::string name{};
     double value{0.0};
-    Interval interval{};         ///< an infinite end runs out of the plot; two: none is drawn
+    Interval interval{};         ///< an infinite end leaves the plot; two: none is drawn
     std::vector<double> each{};  ///< NaN: none
 };
 

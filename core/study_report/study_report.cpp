@@ -16,7 +16,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kMostBlocks = 50;  // whose pictures of an earlier report are taken away
+constexpr std::size_t kMostBlocks = 50;  // whose pictures of an earlier report are removed
 constexpr std::size_t kMostItems = 12;   // of a block that have pictures of their own
 
 std::string block_picture(std::size_t block, const std::string& what) {

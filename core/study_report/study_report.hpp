@@ -13,7 +13,7 @@
 
 namespace dibhr {
 
-/// All that the page and the JSON say.
+/// The data of the page and the JSON.
 struct StudyReport {
     Study study{};
     AnalysisSettings analysis{};
@@ -39,7 +39,7 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
 /// A row is a trial, practice too: `participant,number,pilot,trial,block,position,practice,form,
 /// reference,comparison,repetition,target,track,parameter,level,choice,chosen,answer,right,
 /// reaction_s,utc_s,early`. Trials and positions count from 1, as intervals do in `target` and
-/// `choice`; what there is not is empty. `chosen`: the condition that was chosen, or the answer's
+/// `choice`; a missing value is empty. `chosen`: the condition that was chosen, or the answer's
 /// name; `answer`: a rating, or the value an adjustment ended with; `early`: see StudyAnswer. Empty
 /// without a trial.
 [[nodiscard]] std::string trials_csv(const Study& study);

@@ -1,4 +1,4 @@
-// The sentences.
+// The sentences of a study's report.
 #include "core/study_report/study_words.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace dibhr {
 
 namespace {
 
-/// A threshold or an end of its interval: where it lies beside the levels, that is all it says.
+/// A threshold or an end of its interval; outside the levels only the side is given.
 std::string threshold_text(const ThresholdFinding& finding, double value) {
     if (std::isnan(value)) return "not known";
     if (std::isfinite(value)) return short_text(value, 3);
@@ -40,7 +40,7 @@ std::string corrected(double p, double adjusted_p) {
                : std::string();
 }
 
-/// Of whom a finding speaks.
+/// The participants for whom a finding is valid.
 std::string people(int count) {
     return count == 1 ? "this one participant" : "these " + std::to_string(count) + " participants";
 }
@@ -63,7 +63,7 @@ std::string share_sentence(const ShareFinding& share) {
                (who == 1 ? " notices" : " together notice") +
                " a difference. So few participants cannot tell whether other people do.";
     }
-    // What would still be compatible with the answers, of people where the test speaks of them.
+    // The shares that the answers do not exclude; of people in general where the test allows it.
     const Interval& agrees = of_people ? share.across.interval : share.interval;
     const std::string range = percent_text(agrees.low) + " to " + percent_text(agrees.high);
     if (!agrees.holds(*share.chance))
@@ -73,7 +73,7 @@ std::string share_sentence(const ShareFinding& share) {
            range + " would agree with these answers.";
 }
 
-/// Who lies beside the levels, or anywhere, as far as the answers tell.
+/// How many thresholds lie outside the levels, or are not bounded.
 std::string unbounded_text(const ThresholdFinding& finding) {
     std::string text;
     const std::string levels = " the levels that were tested (" + levels_text(finding) + ")";

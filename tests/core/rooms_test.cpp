@@ -127,7 +127,7 @@ const std::vector<Room> kRooms{
     {"app/", {"app/", "core/"}},
 };
 
-/// What any other folder of device/ may include beside itself: each is a device's.
+/// Any other folder of device/ is that of a device, and may include itself and these.
 const std::vector<std::string> kOfDevice{"device/hand/",           "device/force_device.hpp",
                                          "device/grip_device.hpp", "core/files/",
                                          "core/haptics/",          "core/loop/",
@@ -179,7 +179,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
                        [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-/// The first of kRooms that holds the file, or a device's folder.
+/// The first of kRooms that holds the file, or the room of its device; nothing: no room.
 std::optional<Room> room_of(const std::string& file) {
     const auto room = std::find_if(kRooms.begin(), kRooms.end(), [&](const Room& candidate) {
         return file.starts_with(candidate.folder);

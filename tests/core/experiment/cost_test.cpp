@@ -133,7 +133,7 @@ double run_plain(const Course& course) {
             sum += walk.follow(course.surfaces[k], course.goals[k]).x;
         }
     });
-    REQUIRE(sum > 0.0);  // what nobody reads is not computed
+    REQUIRE(sum > 0.0);  // the sum must be used, or the compiler removes the work
     return seconds;
 }
 
@@ -142,7 +142,7 @@ struct Costs {
     double of_plain_walk{0.0};  ///< PGA : plain walk
 };
 
-/// Of the best rounds of some, run by turns.
+/// The best of several rounds, in which the algorithms alternate.
 template <Leaving kLeaving>
 Costs costs_of(const Course& course) {
     constexpr int kRounds = 5;

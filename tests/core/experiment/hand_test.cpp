@@ -31,7 +31,7 @@ std::vector<TraceSample> traced(const std::string& text) {
     return read_trace(file);
 }
 
-/// What read_trace says about a text; empty when it takes it.
+/// The error of read_trace for a text; empty: none.
 std::string refusal(const std::string& text) {
     try {
         static_cast<void>(traced(text));

@@ -20,7 +20,7 @@ std::vector<PathRun> short_runs() {
     return paths;
 }
 
-/// Every bracket closed, every quote a pair: what a reader of JSON needs at the least.
+/// Every bracket closed, every quote a pair: the minimum that a reader of JSON needs.
 bool is_balanced(const std::string& json) {
     std::string open;
     bool in_text = false;

@@ -1,4 +1,4 @@
-// Contact episodes and speeds: what belongs to one touch, and what it comes to.
+// Contact episodes and speeds: which ticks belong to one touch, and its statistics.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -62,7 +62,7 @@ TEST_CASE("gaps shorter than 20 ms are joined, and count for the length but not 
     REQUIRE(episodes.size() == 1);
     CHECK_THAT(episodes[0].length_s(), WithinAbs(0.2 + kTick_s * static_cast<double>(gap), 1e-12));
     CHECK_THAT(episodes[0].contact_s, WithinAbs(0.2, 1e-12));
-    CHECK_THAT(episodes[0].path_mm, WithinAbs(0.0, 1e-12));  // nobody saw the way across the gap
+    CHECK_THAT(episodes[0].path_mm, WithinAbs(0.0, 1e-12));  // the path across the gap is not known
 }
 
 TEST_CASE("ticks missing in the file are a gap, a long tick is none", "[report]") {
@@ -154,7 +154,7 @@ TEST_CASE("whatever the contacts, episodes are apart and their contact times sum
 }
 
 TEST_CASE("a steady move has its speed, whatever the device's steps", "[report]") {
-    const double step_px = GENERATE(0.0, 2.0);  // a device that is no finer
+    const double step_px = GENERATE(0.0, 2.0);  // 2 px: a device with coarse steps
     CAPTURE(step_px);
     SpeedWindow window;
     for (int k = 0; k < 400; ++k) {

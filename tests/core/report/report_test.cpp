@@ -58,7 +58,7 @@ void report(const fs::path& session, const fs::path& folder) {
                                             .device_kinds = {"falcon", "other"}});
 }
 
-/// The words a report is refused with.
+/// The error of a report that cannot be made.
 std::string refusal(const fs::path& session, const fs::path& folder) {
     try {
         report(session, folder);

@@ -15,7 +15,7 @@ using namespace dibhr;
 
 using Counts = std::map<std::pair<int, int>, int>;
 
-/// All of them the same number, and so many of them.
+/// Whether there are so many counts, all equal.
 bool is_even(const Counts& counts, std::size_t size) {
     std::set<int> different;
     for (const auto& [key, count] : counts) different.insert(count);
@@ -161,7 +161,7 @@ TEST_CASE("the levels of a staircase are whole steps to the last bit, and none o
                "\"\nquestion = \"Q\"\nvary = \"friction\"\nreference = 0.3\n"
                "[block.staircase]\nstart = 0.4\nhighest = 1\nstep = 0.1\ndown-after = 1\n"
                "trials = 60\n"));
-    // Ten times all is found, and ten times nothing is.
+    // Ten right answers, then ten wrong ones.
     const auto all = test::all_trials(study, 1, [](const Trial& trial) {
         const bool finds = trial.number / 10 % 2 == 0;
         const int hit = std::max(0, trial.target);

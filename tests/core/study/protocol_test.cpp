@@ -1,4 +1,4 @@
-// What a protocol may say, and what is said of one that may not.
+// Valid protocols, and the errors of invalid ones.
 #include <filesystem>
 #include <fstream>
 #include <string>

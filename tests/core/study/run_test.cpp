@@ -1,4 +1,4 @@
-// A participant's way through a study, step by step.
+// The steps of a study.
 #include <cmath>
 #include <cstddef>
 #include <map>

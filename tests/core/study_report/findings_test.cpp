@@ -1,4 +1,4 @@
-// What a report finds of people whose answers are known beforehand.
+// What a report finds of simulated people, whose answers follow known rules.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -54,7 +54,7 @@ struct Found {
     Interval interval{};
 };
 
-/// A form of trial with something about it that is known, and how the report says it.
+/// A form of trial with a known true value, and how to get that value from a report.
 struct KnownForm {
     std::string name{};
     std::string block{};
@@ -64,7 +64,7 @@ struct KnownForm {
     double truth{0.0};
     double scale{1.0};  ///< which 5 % are taken of
     std::function<Found(const BlockFindings&)> found{};
-    bool exact_interval{false};  ///< of counts: covers more often than it says
+    bool exact_interval{false};  ///< of counts: covers more than its confidence
 };
 
 SimulatedParticipant noticing(double threshold) {
@@ -329,7 +329,7 @@ TEST_CASE("files of another protocol, of the same participant, or with made-up t
     const auto text_file = folder / "notes.txt";
     write_text(text_file, "P1 was tired");
     CHECK(contains(refusal({first, text_file}), "is no study file"));
-    // Of a protocol with other blocks: told as such, though its trials would fit none here.
+    // Files of a protocol with other blocks: the error must be about the protocol.
     const auto other =
         made("5", "P5", page_of_conditions(2, "[[block]]\nform = \"rating\"\nquestion = \"?\"\n"));
     CHECK(contains(refusal({first, other}), "another protocol"));
@@ -351,7 +351,7 @@ TEST_CASE("a wary participant's d' tells what is felt from what is said", "[stud
             {.guesses = false, .threshold = 0.1, .slope = 40.0, .false_alarm = false_alarm}, 1, 3);
         return findings_in(made, 19).shares.at(1).d_prime->d_prime;
     };
-    CHECK(d_prime(0.0) > 4.0);  // never says yes for nothing
+    CHECK(d_prime(0.0) > 4.0);  // never answers yes at level 0
     CHECK(d_prime(0.5) < d_prime(0.0) - 1.0);
 }
 
@@ -368,7 +368,7 @@ TEST_CASE("a threshold that nobody has is not made up", "[study report]") {
 namespace {
 
 void require_all_in_the_median(int all) {
-    // At the lowest level: those without a bound are those who seem to feel it better.
+    // At the lowest level: people without a bound are those with better answers.
     const std::string levels = "form = \"two-interval\"\n" + kVaried +
                                "levels = [-0.2, -0.1, 0.1, 0.2]\nrepetitions = 20\n";
     std::vector<double> medians;
@@ -477,7 +477,7 @@ TEST_CASE("trials that are in no threshold are counted and named", "[study repor
                                       "\nrepetitions = 10\n"),
                           noticing(0.1), 1, 1);
     };
-    // No page may ask for it any more, but files of earlier ones hold it.
+    // Pages may no longer contain it, but older study files do.
     const std::string form = GENERATE("two-interval", "three-interval");
     Study of_nothing = study(form, "[0.05, 0.1, 0.2]");
     of_nothing.protocol.blocks[0].variation.levels[0] = 0.0;
