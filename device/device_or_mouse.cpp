@@ -1,4 +1,4 @@
-// Force devices that the mouse stands in for while none is ready.
+// Force devices, with the mouse as fallback while none of them is ready.
 #include "device/device_or_mouse.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ HandReading DeviceOrMouse::unread() const noexcept {
 }
 
 HandReading DeviceOrMouse::read(const HandContext& context) noexcept {
-    // Each is read in every tick, so that it is up to date when its turn comes.
+    // Each device is read in every tick, so that its pose is new when it takes over.
     for (std::size_t k = 0; k < devices_.size(); ++k) {
         if (devices_[k]) readings_[k] = devices_[k]->read(context);
     }
@@ -41,7 +41,7 @@ bool DeviceOrMouse::in_hand(std::size_t which) const noexcept {
     return which != kMouse && devices_[which - 1] && devices_[which - 1]->in_hand();
 }
 
-/// Whoever touches goes on while it can.
+/// The device that touches keeps touching while it can.
 std::size_t DeviceOrMouse::next_hand() const noexcept {
     if (in_hand(touching_)) return touching_;
     std::size_t which = 1;

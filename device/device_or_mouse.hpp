@@ -1,4 +1,4 @@
-// Force devices that the mouse stands in for while none is ready.
+// Force devices, with the mouse as fallback while none of them is ready.
 #pragma once
 
 #include <cstddef>
@@ -10,17 +10,17 @@
 
 namespace dibhr {
 
-/// A device touches from when it is ready until it is lost, and then another one that is ready; the
-/// mouse while none is. All others rest without force. When the hand changes, the proxy lets go and
-/// the force begins from zero (HandReading::taken_over).
+/// One device at a time touches: from when it is ready until it is lost. Then another device that
+/// is ready takes over, else the mouse. All others get no force. At each change the proxy is
+/// released from the surface and the force begins from zero (HandReading::taken_over).
 class DeviceOrMouse : public Device {
   public:
     using Devices = std::vector<std::unique_ptr<ForceDevice>>;
 
-    /// In the order of force_device_kinds(), null where none is looked for; at least one is.
+    /// In the order of force_device_kinds(); null: not searched for. At least one is not null.
     explicit DeviceOrMouse(Devices devices);
 
-    /// Of the first device that is looked for.
+    /// Of the first device that is not null.
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
     [[nodiscard]] HandReading unread() const noexcept override;
     HandReading read(const HandContext& context) noexcept override;
@@ -30,7 +30,7 @@ class DeviceOrMouse : public Device {
     [[nodiscard]] MouseHand& mouse() noexcept { return mouse_; }
 
   private:
-    static constexpr std::size_t kMouse = 0;  // HandReading::which; a device's is its place, from 1
+    static constexpr std::size_t kMouse = 0;  // HandReading::which; devices count from 1
 
     [[nodiscard]] HandReading of_mouse(HandReading reading) const noexcept;
     [[nodiscard]] bool in_hand(std::size_t which) const noexcept;
@@ -38,7 +38,7 @@ class DeviceOrMouse : public Device {
 
     Devices devices_;
     MouseHand mouse_{};
-    std::vector<HandReading> readings_;  // of this tick, one a device
+    std::vector<HandReading> readings_;  // of this tick, one per device
     std::size_t touching_{kMouse};
 };
 

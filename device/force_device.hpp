@@ -1,4 +1,4 @@
-// What every force device gives as data, so that the program knows none of them by name.
+// The interface of every force device, as data: the program outside device/ names no device.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,12 @@ namespace dibhr {
 class CheckGuide;
 struct CheckResult;
 
-/// Names and what they are, as a session and its reports keep them: "serial", "SIM00001".
+/// Names and values that a session and its reports keep: "serial", "SIM00001".
 using DeviceFacts = std::vector<std::pair<std::string, std::string>>;
 
-/// A line of the panel.
+/// A line of the Device panel.
 struct DeviceLine {
-    const char* label{""};  ///< "Replies"; empty: a remark
+    const char* label{""};  ///< "Replies"; empty: `text` is a remark
     std::string text{};
     const char* help{""};
 };
@@ -40,137 +40,138 @@ struct DeviceLamp {
     const char* text;  ///< "red: to be homed"
 };
 
-/// What a person waits for.
+/// Progress of a step that the user waits for.
 struct DeviceProgress {
     double part;       ///< 0 .. 1
     std::string text;  ///< "40 %, try 2"
 };
 
-/// An axis that is homed by pulling the grip all the way out and pushing it in.
+/// An axis that the user homes by pulling the grip all the way out and pushing it in.
 struct HomedAxis {
     const char* name;
     bool homed;
     int counts;  ///< of its encoder
 };
 
-/// The firmware that a device takes from a person.
+/// The firmware that the user gives to a device.
 struct DeviceFirmware {
     std::string name{};     ///< of the file that is loaded when it is needed; empty: none
     std::string trouble{};  ///< why the kept file cannot be used
-    bool wanted{false};     ///< it is the next step
+    bool wanted{false};     ///< the user has to give it now
 };
 
-/// How far a device has come, and what people are told of it.
+/// The stage of a device, and what the panel shows of it.
 struct DeviceState : DeviceStatus {
-    int stage{0};              ///< another number at each of its stages; 0: the first one
-    bool absent{true};         ///< none is there
-    bool needs_person{false};  ///< it waits for something that a person has to do
-    bool may_be_ready{false};  ///< before the next picture
+    int stage{0};              ///< a number per stage; 0: the first one
+    bool absent{true};         ///< no such device is attached
+    bool needs_person{false};  ///< the device waits for an action of the user
+    bool may_be_ready{false};  ///< the device may become ready before the next picture
     bool ready{false};         ///< poses and forces
-    std::string id{};          ///< that tells it from others of its kind; empty: not known
-    std::string full_name{};   ///< in a session that it touched; empty: its specification's
-    DeviceFacts facts{};       ///< known only once it has been found
+    std::string id{};          ///< serial or ID; empty: not known
+    std::string full_name{};   ///< for the session; empty: the specification's name
+    DeviceFacts facts{};       ///< valid only once the device has been found
 
     // On the panel, in this order:
     DeviceLine who{};                          ///< "Falcon", and its serial
-    std::optional<DeviceFirmware> firmware{};  ///< nothing: it takes none
+    std::optional<DeviceFirmware> firmware{};  ///< nothing: the device takes none
     std::optional<DeviceProgress> progress{};
-    std::vector<HomedAxis> homing{};           ///< empty: none needs to be homed
+    std::vector<HomedAxis> homing{};           ///< empty: no axis needs to be homed
     std::optional<DeviceLamp> lamp{};          ///< without a force
     std::optional<DeviceLamp> pushing_lamp{};  ///< while a force is sent
     std::vector<DeviceLine> lines{};
 
-    /// Of the poses in the ticks in which this hand touched, since the start; nothing: not counted.
+    /// Pose ages of all ticks in which this device touched, since the start; nothing: not counted.
     std::optional<PoseAges> ages{};
 };
 
-/// Looks for its device from construction on, and again whenever it is lost, on a thread of its
-/// own.
+/// Searches for its device from construction on, and again whenever the device is lost, on a
+/// thread of its own.
 class ForceDevice : public Device {
   public:
-    /// The haptic thread's, of the last read(): this hand touches, though it may be clutched, or
-    /// its pose too old.
+    /// For the haptic thread, as of the last read(): this device can touch, even if it is clutched
+    /// now or its pose is too old.
     [[nodiscard]] virtual bool in_hand() const noexcept = 0;
 
-    // The window thread's; `settings` are of its own kind:
+    // For the window thread; `settings` are of the device's own kind:
 
     [[nodiscard]] virtual DeviceState state() = 0;
-    /// Whether publish() has something new.
+    /// Whether the settings differ from the published ones.
     [[nodiscard]] virtual bool is_retuned(const DeviceSettings& settings,
                                           const HandTuning& hand) const = 0;
-    /// To the next tick; to be called after the haptic loop was told to ramp.
+    /// Publishes the settings to the next tick. Call it after the haptic loop was set to ramp.
     virtual void publish(const DeviceSettings& settings, const HandTuning& hand) = 0;
-    /// Keeps what a person gives for it, and uses it at the next need. Its name; empty: it takes
-    /// none. Throws InputError.
+    /// Keeps a copy of the file, and loads it when the device next needs firmware. Returns the name
+    /// of the firmware; empty: the device takes none. Throws InputError.
     virtual std::string use_firmware(const std::filesystem::path& /*file*/) { return {}; }
 };
 
-/// What a person gave for one start.
+/// What the command line gives for one start of the program.
 struct DeviceGiven {
-    std::string which{};           ///< of several: a serial, an id; empty: as the settings have it
-    std::filesystem::path file{};  ///< --firmware; empty: the kept one
+    std::string which{};           ///< of several: a serial, an ID; empty: as in the settings
+    std::filesystem::path file{};  ///< --firmware; empty: the kept file
 };
 
-/// What became of looking for devices of one kind.
+/// Result of a survey of the devices of one kind.
 struct DevicesFound {
     bool usable{false};     ///< one can be used
-    std::string refusal{};  ///< why none of those that are there can be; empty: none is there
+    std::string refusal{};  ///< why no attached device can be used; empty: none is attached
 };
 
-/// What the record of a check begins with.
+/// Where the record of a check is written, and what its head contains.
 struct CheckPaper {
     std::filesystem::path record{};  ///< empty: KIND-check-NAME-DATE.json in the current folder
-    DeviceFacts facts{};             ///< what else belongs into it, such as the program's version
+    DeviceFacts facts{};             ///< more entries, such as the program's version
 };
 
-/// Takes a line for people, without its end.
+/// Prints a line for the user; the line has no newline at its end.
 using TellLine = std::function<void(const std::string&)>;
 
-/// Of a kind whose settings are `Settings`.
+/// ForceDeviceKind::make_settings of a kind with these `Settings`.
 template <typename Settings>
 [[nodiscard]] std::unique_ptr<DeviceSettings> make_settings() {
     return std::make_unique<Settings>();
 }
 
-/// One kind of force device. All functions but make() throw DeviceError where they cannot look.
+/// One kind of force device. All functions but make() throw DeviceError where they cannot search.
 struct ForceDeviceKind {
-    /// On the command line; of its table in the settings, its facts and the records of its check.
+    /// On the command line, in the settings file, in facts and in records of a check: "falcon".
     const char* name;
     const char* title;      ///< "Novint Falcon"
     const char* called;     ///< behind "the": "Falcon"
     const char* article;    ///< "a Falcon"
-    const char* which;      ///< what tells several apart, on the command line: "SERIAL"
-    const char* known{""};  ///< how well it is known how it moves, behind a sentence; empty: well
-    const char* no_pose;    ///< what to do when it touches and has no pose
-    /// Its check counts on settings that protect a hand: only what a person has agreed to holds.
+    const char* which;      ///< placeholder of the ID on the command line: "SERIAL"
+    const char* known{""};  ///< appended to a sentence where its dynamics are assumed; else empty
+    const char* no_pose;    ///< shown while the device touches and has no pose: what to do
+    /// Its check relies on settings that protect a hand: only consented values are used in it.
     bool check_needs_consent{false};
 
     std::unique_ptr<DeviceSettings> (*make_settings)();
     std::unique_ptr<ForceDevice> (*make)(const DeviceSettings& settings, const DeviceGiven& given);
-    /// Keeps the firmware that a person gives for it. Its name. Throws InputError. Null: it takes
-    /// none.
+    /// Keeps a copy of a firmware file and returns its name. Throws InputError. Null: this kind
+    /// takes no firmware.
     std::string (*keep_firmware)(const std::filesystem::path& file) = nullptr;
-    /// What a service keeps of the device with that id for all programs: for a second or two. Null:
-    /// nothing.
+    /// Settings of the device `id` that its service keeps for all programs. Takes a second or two.
+    /// Null: there are none.
     std::vector<DeviceLine> (*ask_kept)(const DeviceSettings& settings,
                                         const std::string& id) = nullptr;
 
-    // Of those that are there now:
+    // About the devices that are attached now:
 
-    /// Why the one that is meant cannot be had; empty: it can, though it may want something of its
-    /// person.
+    /// Why the requested device cannot be opened; empty: it can, though the user may have to do
+    /// something before it is ready.
     std::string (*why_none)(const DeviceSettings& settings, const DeviceGiven& given);
     /// One is attached, whether or not it can be used.
     bool (*attached)(const DeviceSettings& settings);
-    /// Tells of all of them, and what each lacks.
+    /// Prints all of them, and what each lacks.
     DevicesFound (*survey)(const DeviceSettings& settings, const TellLine& tell);
-    /// Tells a person who is about to touch what there is, and changes nothing of it. True: one can
-    /// be used, or may be.
+    /// Prints which devices are attached, without changing their state. True: one can be used, or
+    /// may be usable.
     bool (*glance)(const DeviceSettings& settings, const TellLine& tell);
-    /// Leads a person through what is to be measured. Throws InputError, too. Null: nothing is.
+    /// Guides the user through the measurements of a check. Throws InputError, too. Null: this kind
+    /// has no check.
     CheckResult (*check)(const DeviceSettings& settings, const CheckPaper& paper,
                          const TellLine& tell, CheckGuide& guide) = nullptr;
-    /// Stands in for one until `orders` end. Null: nothing can.
+    /// Simulates a device, commanded line by line, until the stream ends. Null: no simulation.
     void (*simulate)(const DeviceSettings& settings, std::istream& orders,
                      const TellLine& tell) = nullptr;
 };

@@ -11,17 +11,17 @@
 
 namespace dibhr {
 
-/// In the order in which `auto` prefers them. HandReading::which is a kind's place, from 1: a new
-/// one comes last.
+/// In the order in which `auto` prefers them. HandReading::which is the index of a kind, from 1: a
+/// new kind is added at the end.
 [[nodiscard]] std::span<const ForceDeviceKind* const> force_device_kinds() noexcept;
 
-/// Their names, in that order.
+/// The names of the kinds, in that order.
 [[nodiscard]] std::vector<std::string> force_device_names();
 
 /// The settings of all kinds, in that order. A copy has values of its own.
 class AllDeviceSettings {
   public:
-    /// The usual ones.
+    /// The defaults.
     AllDeviceSettings();
     AllDeviceSettings(const AllDeviceSettings& other);
     AllDeviceSettings& operator=(const AllDeviceSettings& other);

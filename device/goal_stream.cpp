@@ -1,4 +1,4 @@
-// A stream of goals from a CSV file, one row an update, repeated: scripted runs and `dibhr touch`.
+// A stream of goals from a CSV file, one row per update, repeated: scripted runs, `dibhr touch`.
 #include "device/goal_stream.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A stream of goals from a CSV file, one row an update, repeated: scripted runs and `dibhr touch`.
+// A stream of goals from a CSV file, one row per update, repeated: scripted runs, `dibhr touch`.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct TimedGoal {
 
 /// Reads GOALS.csv: header `t,x,y,z` (columns in any order, more are ignored), seconds and
 /// grid-space pixels. Throws InputError naming file, line and column for a missing column, a value
-/// that is no finite number, times that fall, or a file without rows.
+/// that is no finite number, a time before the one above it, or a file without rows.
 [[nodiscard]] std::vector<TimedGoal> read_goals(const std::filesystem::path& file);
 
 class GoalStream final : public Device {

@@ -1,5 +1,5 @@
-// What every device with a grip does alike, whatever its wire: its tuning goes from the window to
-// the tick, and a pose becomes a reading.
+// The common part of all devices with a grip: the window thread publishes the tuning to the tick,
+// and the tick makes a reading from a pose and the buttons.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@
 
 namespace dibhr {
 
-/// tuning_of(Settings, HandTuning) gives a Tuning, handed whole to the next tick. It has a
-/// `workspace`, `clutch_buttons`, `force_off_buttons` and `centred` (with_hand_tuning()); with
-/// another felt() the same pose feels otherwise.
+/// tuning_of(Settings, HandTuning) makes a Tuning, which the next tick takes as a whole. A Tuning
+/// has `workspace`, `clutch_buttons`, `force_off_buttons` and `centred` (with_hand_tuning()), and
+/// felt(): its values that change the goal or the force of a pose.
 template <typename Settings, typename Tuning>
 class GripDevice : public ForceDevice {
   public:
@@ -24,10 +24,10 @@ class GripDevice : public ForceDevice {
         return specification_;
     }
 
-    /// The haptic thread's, of the last read(): linked, and in an epoch.
+    /// For the haptic thread, as of the last read(): linked and ready, a Falcon also homed.
     [[nodiscard]] bool in_hand() const noexcept final { return epoch_ != kNoEpoch; }
 
-    // The window thread's end:
+    // For the window thread:
 
     [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
     [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
@@ -42,9 +42,9 @@ class GripDevice : public ForceDevice {
   protected:
     explicit GripDevice(DeviceSpecification given) : specification_(std::move(given)) {}
 
-    // The haptic thread's, in this order in each tick:
+    // For the haptic thread, called in this order in each tick:
 
-    /// The newest tuning, for the whole tick.
+    /// Takes the newest tuning, which is constant during the tick.
     void take_tuning() noexcept {
         feels_other_ = false;
         if (!tuning_.fresh()) return;
@@ -54,7 +54,8 @@ class GripDevice : public ForceDevice {
         tuned_ = newest;
     }
 
-    /// Of the tick's pose. True: a new one, which starts afresh: the position may have jumped.
+    /// Takes the epoch of the newest pose. A new epoch drops the state of the last one, because the
+    /// position may have jumped; returns whether the epoch is new.
     bool take_epoch(Epoch newest) noexcept {
         if (newest == epoch_) return false;
         epoch_ = newest;
@@ -63,9 +64,9 @@ class GripDevice : public ForceDevice {
         return true;
     }
 
-    /// With `buttons` down and the grip at `grip_mm` (device frame); nothing: no pose that counts.
-    /// Before the first pose the goal waits above the middle, higher than everything; later it
-    /// stays where it was. `limits`: of the hand, whatever the scale.
+    /// The reading of a grip at `grip_mm` (device frame; nothing: no valid pose) with these buttons
+    /// pressed. Before the first pose the goal is above the middle of the image, higher than the
+    /// relief; without a pose it stays. `limits`: of the device, in hand millimetres.
     [[nodiscard]] HandReading reading_at(std::optional<Vec3> grip_mm, std::uint8_t buttons,
                                          const DeviceLimits& limits,
                                          const HandContext& context) noexcept {
@@ -96,9 +97,9 @@ class GripDevice : public ForceDevice {
     Tuning published_{};
     TripleBuffer<Tuning> tuning_{};
 
-    // The haptic thread's.
+    // Used by the haptic thread only.
     Tuning tuned_{};
-    bool feels_other_{false};  // with it than with the one of the tick before
+    bool feels_other_{false};  // the last take_tuning() changed felt()
     Epoch epoch_{kNoEpoch};
     Workspace workspace_{};
     std::optional<Vec3> goal_in_grid_{};

@@ -23,12 +23,12 @@ HandDevice mouse_hand() {
     return hand;
 }
 
-/// What follows `start` in the name; empty: nothing does.
+/// The part of `name` behind `start`; empty: there is none.
 std::string after(std::string_view start, std::string_view name) {
     return name.starts_with(start) ? std::string(name.substr(start.size())) : std::string{};
 }
 
-/// A kind, and which one of it is meant; no kind: all of them.
+/// The kind that a name asks for, and which device of it; no kind: all of them.
 struct Named {
     const ForceDeviceKind* kind{nullptr};
     std::string which{};
@@ -42,7 +42,7 @@ Named named(const std::string& name) {
     return {};
 }
 
-/// Those that are meant, and the mouse.
+/// The requested devices, with the mouse as fallback.
 HandDevice device_hand(const DeviceChoice& choice, const Named& meant) {
     HandDevice hand;
     DeviceOrMouse::Devices devices;

@@ -12,10 +12,10 @@ namespace dibhr {
 namespace {
 
 constexpr double kLongestTick_s = 0.1;    // a longer one (a debugger) is cut to this
-constexpr double kMostWheel_px = 200.0;   // deeper than any force limit lets it matter
-constexpr double kReached_px = 5.0;       // as near to the cursor as pressing asks for
-constexpr double kBeyondFrame_px = 40.0;  // a pressed hand may lean against the border so far
-constexpr int kLookAhead = 8;             // places looked at between a hovering hand and the cursor
+constexpr double kMostWheel_px = 200.0;   // any deeper, the force is at its limit anyway
+constexpr double kReached_px = 5.0;       // pressing begins at this distance to the cursor
+constexpr double kBeyondFrame_px = 40.0;  // how far a pressing hand may leave the image
+constexpr int kLookAhead = 8;             // places checked between a hovering hand and the cursor
 
 bool sensible(const MouseTarget& target) noexcept {
     return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
@@ -61,7 +61,7 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     HandReading reading;
     reading.goal_in_grid = position_in_grid_;
     reading.buttons = wanted_.pressed ? 1 : 0;
-    // A cursor may leave by a way that no proxy can follow, from under a chin say.
+    // The cursor may leave the surface on a path that no proxy can follow, as from under a chin.
     reading.lifted =
         !pressing_ && position_in_grid_.z >
                           context.surface.elevation_at(position_in_grid_.x, position_in_grid_.y);
@@ -102,9 +102,9 @@ Vec3 MouseHand::anchor_in_grid(const DepthSurface& surface) const noexcept {
     return {cursor, highest + options_.hover_px};
 }
 
-// m a = h (anchor - x) - b v + f, by one step of backward Euler in h and b: it damps whatever the
-// tick's length. The rendered force is the last tick's, so the loop it closes stays stable while K
-// dt < 4 m / dt + 2 b + h dt (Jury's criterion): 2 N/mm in ticks of 20 ms leave a factor of two.
+// m a = h (anchor - x) - b v + f, by one step of backward Euler in h and b: damped for any length
+// of the tick. The rendered force f is that of the last tick, so this loop is stable only while
+// K dt < 4 m / dt + 2 b + h dt (Jury's criterion): 2 N/mm in ticks of 20 ms leave a factor of two.
 void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     if (!(dt_s > 0.0) || !(pixel_pitch_mm > 0.0)) return;
     const double px_per_m = 1000.0 / pixel_pitch_mm;
@@ -112,7 +112,7 @@ void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     const double stiffness = 1000.0 * options_.hand_stiffness_newton_per_mm;
     const double damping = 2.0 * options_.damping_ratio * std::sqrt(stiffness * mass);
 
-    // Only a pressing hand is held back: released, it comes off whatever it touched.
+    // Only a pressing hand feels the force: with the button up, it leaves the surface freely.
     const Vec3 felt_newton = pressing_ ? force_newton_ : Vec3{0.0};
     const Vec3 push = stiffness * (anchor - position_in_grid_) + felt_newton * px_per_m;
     velocity_px_per_s_ = (mass * velocity_px_per_s_ + dt_s * push) /
@@ -123,8 +123,8 @@ void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     position_in_grid_ += dt_s * velocity_px_per_s_;
 }
 
-// Waits beside a place that is too high to pass over yet; the spring is lifting the hand meanwhile.
-// The place is remembered, because the few places looked at ahead may all miss it.
+// Holds the hand beside a place that is still too high to pass over, while the spring lifts it. The
+// elevation of that place is kept, because the few places checked ahead may all miss it.
 void MouseHand::keep_clear_of_cliffs(const DepthSurface& surface, Vec3 before) noexcept {
     const double clearance = options_.hover_px / 3.0;
     const double here = surface.elevation_at(before.x, before.y);

@@ -16,38 +16,38 @@ struct MouseTarget {
     double wheel_px{0.0};  ///< depth added by the wheel while pressed [px], >= 0
 };
 
-/// The hand's feel. Its spring and the rendered one share the way: pressing against a surface as
-/// stiff as the hand, the goal stays at half the depth that is pressed for.
+/// How the virtual hand moves. Its spring and the rendered spring act in series: on a surface as
+/// stiff as the hand, the goal stays at half the depth of the hand's anchor.
 struct MouseHandOptions {
     double hover_px{6.0};         ///< height above the surface while the button is up
-    double press_px_per_s{60.0};  ///< how fast a held button deepens
-    double deepest_px{40.0};      ///< where it stops; the wheel adds to it
+    double press_px_per_s{60.0};  ///< how fast the anchor sinks while the button is held
+    double deepest_px{40.0};      ///< its greatest depth; the wheel adds to it
     double mass_kg{0.2};          ///< with the stiffness: 1/w = 20 ms, the cursor leads by 40 ms
     double hand_stiffness_newton_per_mm{0.5};
     double damping_ratio{1.0};  ///< 1: critical
-    /// However far the cursor jumps; the safety stage takes 10 m/s for a jump of the goal.
+    /// Below the 10 m/s at which the safety stage takes a motion for a jump of the goal.
     double max_speed_mm_per_s{3000.0};
 };
 
 /// Follows the cursor over the surface. Stable for ticks up to 20 ms against 2 N/mm,
 /// and up to 10 ms against 10 N/mm.
 ///
-/// Hovering, the hand rises before it moves on, so that it does not bump into cliffs. Pressing
-/// begins when the hand has come to the cursor; from then on its depth is measured from the surface
-/// under the hand itself, so that a drag across a cliff does not dig into it.
+/// A hovering hand first rises, then moves on, so that it does not run into a cliff. Pressing
+/// begins when the hand has reached the cursor. From then on the depth is measured from the surface
+/// under the hand itself, so that a drag across a cliff does not press into the cliff.
 class MouseHand final : public Device {
   public:
     explicit MouseHand(MouseHandOptions options = {});
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
         return specification_;
     }
-    /// Before the cursor has pointed anywhere the hand waits above the middle, higher than
-    /// everything.
+    /// Until the cursor has been over the relief, the hand waits above the middle of the image,
+    /// higher than the relief.
     HandReading read(const HandContext& context) noexcept override;
     /// A force that is not finite counts as none.
     void send(Vec3 force_newton) noexcept override;
 
-    /// The window thread's end.
+    /// Written by the window thread.
     [[nodiscard]] TripleBuffer<MouseTarget>& target() noexcept { return target_; }
 
   private:
@@ -62,13 +62,13 @@ class MouseHand final : public Device {
     MouseHandOptions options_{};
     TripleBuffer<MouseTarget> target_{};
 
-    // All of the haptic thread.
-    MouseTarget wanted_{};  // the newest one that makes sense
+    // Used by the haptic thread only.
+    MouseTarget wanted_{};  // the newest one with finite values
     Vec3 position_in_grid_{0.0};
     Vec3 velocity_px_per_s_{0.0};
     Vec3 force_newton_{0.0};
-    double depth_px_{0.0};  // pressed for, below the surface; -hover_px while the button is up
-    // Elevation of where the hovering hand wanted to go last.
+    double depth_px_{0.0};  // of the anchor, below the surface; -hover_px while the button is up
+    // Elevation of the last place that the hovering hand was to pass over.
     double obstacle_px_{-std::numeric_limits<double>::infinity()};
     bool pressing_{false};
     bool placed_{false};

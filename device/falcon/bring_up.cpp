@@ -35,7 +35,7 @@ constexpr int kHellos = 64;                  // libnifalcon up to 100, others 64
 constexpr milliseconds kHelloLimit{100};     // for each try
 constexpr milliseconds kAutobaudLimit{200};  // one byte at 7 us a bit, and the latency timer
 constexpr milliseconds kEchoLimit{250};      // without a single byte of echo
-constexpr milliseconds kListen{50};          // as long as a wish to stop may wait
+constexpr milliseconds kListen{50};          // one read: the longest delay of a stop request
 
 milliseconds left_until(Clock::time_point end) {
     return std::chrono::ceil<milliseconds>(end - Clock::now());
@@ -46,13 +46,13 @@ void unless_it_fails(const Action& act) noexcept {
     try {
         act();
     } catch (const std::exception& failure) {
-        // Nobody is left to tell: the caller knows already, or is leaving.
+        // The caller knows of the loss already, or is ending.
         return;
     }
 }
 
-/// The first tries at the speed that is known to work; then the other one that is; the last two,
-/// when nothing else helped, at speeds nobody has tried.
+/// Six tries at the chosen speed, two at the other speed that is reported to work, and the last two
+/// at speeds that nobody has tried.
 FtdiRequest baud_of_try(int number, bool slower) {
     if (number <= 6) return slower ? kBaud140351 : kBaud142857;
     if (number <= 8) return slower ? kBaud142857 : kBaud140351;
@@ -93,7 +93,7 @@ class Try {
         return done;
     }
 
-    /// Step 1. The rise of DTR puts the DSP's supervisor to work.
+    /// Step 1. The rising edge of DTR starts the supervisor of the DSP.
     void prepare() {
         port_.purge();
         for (const FtdiRequest& request :
@@ -103,8 +103,8 @@ class Try {
         }
     }
 
-    /// Waits until `wanted` came, whatever else stands before it in the stream: some hosts see a 00
-    /// before the hello, a 13 before the A.
+    /// Waits until `wanted` was received. Other bytes may come first: some hosts see a 00 before
+    /// the hello, a 13 before the A.
     bool hears(Bytes wanted, milliseconds limit) {
         const auto end = Clock::now() + limit;
         while (!stopped()) {
@@ -147,7 +147,7 @@ class Try {
         return true;
     }
 
-    /// Step 5, one chunk: with its echo it fills one IN packet, so the chip sends it at once.
+    /// Step 5, one chunk. Its echo fills one IN packet, so the chip sends it at once.
     bool echoed(std::size_t at) {
         const Bytes chunk = image_.subspan(at, std::min(kMostDataBytes, image_.size() - at));
         port_.write(chunk);
@@ -255,7 +255,7 @@ bool upload(FtdiPort& port, Bytes image, const UploadOptions& options,
         if (end == End::answers) return true;
         if (end == End::stopped) return false;
         silent += end == End::silent ? 1 : 0;
-        // Sixty-four hellos were tries enough.
+        // Without a hello there is no second try: one try has sent 64 of them.
         if (end != End::no_hello && silent < kMostSilent && number < kTries) continue;
         throw UploadError("the firmware did not get into " + full_name_of(port.falcon()) + " (" +
                           (number == 1 ? "first try" : std::to_string(number) + " tries") +

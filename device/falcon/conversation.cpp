@@ -1,4 +1,4 @@
-// One Falcon that answers: homing, poses out, forces in.
+// The exchange with one Falcon: homing, poses, forces.
 #include "device/falcon/conversation.hpp"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Conversation::Conversation(const UsbContext& usb, FtdiPort& port, Exchange& exch
 }
 
 Conversation::~Conversation() {
-    exchange_.replies.publish(TimedReply{});  // nobody acts on an old pose
+    exchange_.replies.publish(TimedReply{});  // so that no tick uses an old pose
     const LinkCounts counts = link_.counts();
     memory_.counts.resent += counts.resent;
     memory_.counts.line_errors += counts.line_errors;

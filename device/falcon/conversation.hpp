@@ -1,4 +1,4 @@
-// One Falcon that answers, from the first command to the last: homing, poses out, forces in.
+// The exchange with one Falcon, from the first command to the last: homing, poses, forces.
 #pragma once
 
 #include <cstdint>
@@ -15,28 +15,28 @@
 
 namespace dibhr::falcon {
 
-/// What outlives a link.
+/// State of the driver that is kept from one link to the next.
 struct Memory {
     HomingWatch homing{};
     ButtonDebounce buttons{};
     DelayWatch delay{};
     std::uint64_t replies{0};
-    LinkCounts counts{};  ///< of the links that are gone
+    LinkCounts counts{};  ///< sum over the earlier links
 };
 
-/// On the USB thread. A force reaches the motors only while all axes are homed, for a pose of this
-/// epoch, and for 20 ms, when zero follows; everything else is sent as zero, at least every 12 ms.
-/// The guardian hears of every pass, which is as often.
+/// Runs on the USB thread. A force is sent only while all axes are homed and only for a pose of
+/// this epoch; after 20 ms zero replaces it. Otherwise zero is sent, at least every 12 ms. Every
+/// pass of the loop is a beat for the guardian.
 class Conversation {
   public:
-    /// The port's Falcon must answer. Throws UsbError.
+    /// The Falcon at `port` must answer. Throws UsbError.
     Conversation(const UsbContext& usb, FtdiPort& port, Exchange& exchange, StatusBoard& board,
                  Memory& memory, Guardian& guardian);
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
 
-    /// Until asked to stop, or until the link is lost: then why.
+    /// Returns after a stop request, or when the link is lost: then the reason.
     [[nodiscard]] std::optional<UsbError> run(const std::stop_token& stop);
 
   private:
@@ -44,7 +44,7 @@ class Conversation {
 
     [[nodiscard]] Time next_look() const noexcept;
     void take(const Reply& reply, Time now);
-    /// While no haptic loop ticks, the chip need not send an empty packet every millisecond.
+    /// Raises the chip's latency while no haptic loop runs: fewer empty packets.
     void pace_chip(Time now);
     void speak(Time now);
     [[nodiscard]] Command command(Time now);
@@ -60,14 +60,14 @@ class Conversation {
     Link link_;
 
     Time spoke_{};
-    Time force_ends_{Time::max()};  // when the force on the wire is too old; never: there is none
+    Time force_ends_{Time::max()};  // when the sent force becomes too old; max: no force was sent
     int zeros_owed_{0};
     bool was_ready_{false};
     bool was_idle_{false};
     int axes_{0};
-    std::uint64_t rate_from_{0};  // Memory::replies at the beginning of this second
+    std::uint64_t rate_from_{0};  // Memory::replies when this measurement of the rate began
     Time rate_since_{};
-    Time loop_heard_{};  // its last command
+    Time loop_heard_{};  // when the haptic loop's last command was taken
     bool loop_paused_{false};
 };
 

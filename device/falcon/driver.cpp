@@ -1,4 +1,4 @@
-// The USB thread's life.
+// The USB thread.
 #include "device/falcon/driver.hpp"
 
 #include <libusb.h>
@@ -20,8 +20,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLookAgainAfter{500};
-constexpr milliseconds kLoadAgainAfter{2000};  // time to read what went wrong
-constexpr milliseconds kAskAgainAfter{2000};   // leaves the port to a program that loads firmware
+constexpr milliseconds kLoadAgainAfter{2000};  // so that the user can read the failure
+constexpr milliseconds kAskAgainAfter{2000};   // so that another program can load firmware
 
 }  // namespace
 
@@ -53,7 +53,7 @@ FirmwareImage Driver::firmware() {
 }
 
 void Driver::live(const std::stop_token& stop) {
-    // What was refused stands in the Loop panel, for the haptic thread asks for the same.
+    // A refusal is shown in the Loop panel, because the haptic thread requests the same.
     (void)become_realtime("dibhr falcon");
     std::optional<UsbContext> usb;
     while (!stop.stop_requested()) {
@@ -73,7 +73,7 @@ void Driver::live(const std::stop_token& stop) {
 
 void Driver::wait_to_look_again(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
-    // Once: where no Falcon is attached, nobody takes it for a long time.
+    // The flag ends only one wait: without a Falcon, firmware() would not reset it for long.
     if (news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; })) new_firmware_ = false;
 }
 
@@ -95,7 +95,7 @@ void Driver::use(const UsbContext& usb, const AttachedFalcon& falcon, const std:
     try {
         port.emplace(usb, falcon);
     } catch (const UsbError& refusal) {
-        // It went while it was looked at, or is just going: the next look finds that there is none.
+        // The Falcon was unplugged just now: the next search finds none.
         const bool going = refusal.code() == LIBUSB_ERROR_IO && !trouble_.empty();
         if (!refusal.gone() && !going) board_.enter(Stage::cannot_open, refusal.what(), true);
         return;
@@ -138,7 +138,7 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
 }
 
 void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
-    // Until after the last packet.
+    // Guarded until the last packet is sent.
     const Guarded guarded(guardian_, port.descriptor(usb), farewell());
     board_.draft().unguarded = guardian_.fault();
     std::optional<UsbError> loss;

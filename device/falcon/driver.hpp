@@ -1,5 +1,5 @@
-// The USB thread's life: looks for the Falcon, opens it, brings it up, talks to it, loses it, looks
-// again.
+// The USB thread: finds the Falcon, opens it, loads its firmware, exchanges packets with it until
+// it is lost, and searches again.
 #pragma once
 
 #include <chrono>
@@ -18,7 +18,7 @@
 
 namespace dibhr::falcon {
 
-/// With a guardian of its own from construction on.
+/// Has a guardian process from construction on.
 class Driver {
   public:
     /// `exchange` must outlive it.
@@ -28,7 +28,7 @@ class Driver {
     Driver& operator=(const Driver&) = delete;
 
     [[nodiscard]] Status status() const { return board_.read(); }
-    /// Used at the next need of one, which comes at once when one was wanting.
+    /// Uses `image` when a Falcon next needs firmware; at once when the driver waits for it.
     void use_firmware(FirmwareImage image);
 
   private:
@@ -45,11 +45,11 @@ class Driver {
     Exchange& exchange_;
     StatusBoard board_{};
 
-    // The USB thread's.
+    // Used by the USB thread only.
     Guardian guardian_{"Falcon"};
     Memory memory_{};
-    std::string trouble_{};              // what went wrong last, until a Falcon answers again
-    std::chrono::milliseconds pause_{};  // before the next look
+    std::string trouble_{};              // the last failure, until a Falcon answers again
+    std::chrono::milliseconds pause_{};  // before the next search
 
     std::mutex mutex_{};
     std::condition_variable_any news_{};

@@ -1,5 +1,5 @@
-// What passes between the haptic thread and the USB thread: the newest reply one way, the newest
-// command the other, and a wake.
+// Buffers between the haptic thread and the USB thread: the newest reply, the newest command, and a
+// wake.
 #pragma once
 
 #include <chrono>
@@ -13,17 +13,17 @@
 namespace dibhr::falcon {
 
 struct TimedReply {
-    Reply reply{};  ///< its buttons are debounced
+    Reply reply{};  ///< with debounced buttons
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};
-    std::uint64_t number{0};  ///< 1 .., since the start
+    std::uint64_t number{0};  ///< counts from 1 since the start
     int exchange_ms{1};       ///< DelayWatch::within_ms()
 };
 
 struct TimedCommand {
     Counts motor{};
     std::chrono::steady_clock::time_point at{};
-    Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
+    Epoch epoch{kNoEpoch};  ///< epoch of the pose that the command was computed for
 };
 
 struct Exchange {

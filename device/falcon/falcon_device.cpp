@@ -16,8 +16,7 @@ constexpr double kMaxForce_newton = 8.0;
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr DeviceDynamics kDynamics{
     .mass_kg = 0.1, .friction_newton_s_per_m = 0.5, .resolution_mm = 0.06, .delay_s = 0.002};
-/// From reading a pose until its force acts, where exchanges take so long: one and a half of them
-/// and half a tick of ours [s].
+/// Delay from reading a pose until its force acts [s]: one and a half exchanges and half a tick.
 constexpr double delay_s_of(int exchange_ms) noexcept {
     return 1e-3 * (1.5 * exchange_ms + 0.5);
 }

@@ -1,4 +1,4 @@
-// A user's firmware file: its structure, its name, and where it is kept.
+// A firmware file of the user: its structure, its name, and where a copy is kept.
 #include "device/falcon/firmware_image.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-/// Ours: the known images are below 9 KiB, below 64 KiB as C source.
+/// Our limit: the known images are below 9 KiB, below 64 KiB as C source.
 constexpr std::size_t kMostBytes = std::size_t{256} * 1024;
 
 constexpr std::uint32_t kKey = 0x08AA;
@@ -66,7 +66,7 @@ constexpr std::array<KnownImage, 4> kKnownImages{{
      {{{3448, 0x3F8002}, {183, 0x3F8D7A}, {266, 0x0002A6}, {2, 0x3F8000}, {31, 0x3F8E31}}}},
 }};
 
-/// What people take for the firmware by mistake: how it begins, and what it is.
+/// Files that users take for the firmware by mistake: their first bytes, and what they are.
 constexpr std::array<std::array<std::string_view, 2>, 8> kForeignStarts{{
     {"\x89PNG", "it is a PNG picture"},
     {"\xFF\xD8\xFF", "it is a JPEG picture"},
@@ -78,7 +78,7 @@ constexpr std::array<std::array<std::string_view, 2>, 8> kForeignStarts{{
     {"<", "it is a web page instead of the file that the page shows"},
 }};
 
-/// None: nobody has seen it.
+/// Null: not a known image.
 const KnownImage* known_image(std::string_view sha256) {
     const auto found = std::find_if(
         kKnownImages.begin(), kKnownImages.end(),
@@ -144,7 +144,7 @@ class Words {
     std::size_t at_{0};
 };
 
-/// Walks the blocks to the end, noting each; the fault, empty for none.
+/// Reads all blocks into `blocks`; returns the fault, empty for none.
 std::string fault_of_blocks(Words& words, std::uint32_t entry, std::vector<Block>& blocks) {
     bool entered = false;
     for (int number = 1;; ++number) {
@@ -214,8 +214,8 @@ std::vector<std::uint8_t> bytes_of_file(const fs::path& file) {
     return bytes;
 }
 
-/// The numbers of the first array in C source, as in the header FalconFirmwareBinaryNvent.h that an
-/// installed libnifalcon has in place of the image; empty when there is none.
+/// The bytes of the first array in C source, as in FalconFirmwareBinaryNvent.h, which an installed
+/// libnifalcon has in place of the image; empty when there is none.
 std::vector<std::uint8_t> bytes_of_c_array(std::string_view source) {
     constexpr std::string_view kSpace = " \t\r\n";
     std::size_t at = source.find('=');
@@ -240,7 +240,7 @@ std::vector<std::uint8_t> bytes_of_c_array(std::string_view source) {
     }
 }
 
-/// As fault_of_firmware(); notes the blocks.
+/// As fault_of_firmware(); adds the blocks to `blocks`.
 std::string fault_of(Bytes bytes, std::vector<Block>& blocks) {
     if (bytes.empty()) return "it is empty";
     if (bytes.size() > kMostBytes) return too_large(bytes.size());

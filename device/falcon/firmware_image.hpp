@@ -14,7 +14,7 @@ namespace dibhr::falcon {
 /// block"); empty when they are one.
 [[nodiscard]] std::string fault_of_firmware(std::span<const std::uint8_t> bytes);
 
-/// What an image with this SHA-256 (64 hexadecimal digits) is called: "nvent_firmware.bin (Novint
+/// Name of the image with this SHA-256 (64 hexadecimal digits): "nvent_firmware.bin (Novint
 /// nVent)", or "an image this program has not seen before".
 [[nodiscard]] std::string name_of_firmware(std::string_view sha256);
 
@@ -26,9 +26,9 @@ struct FirmwareImage {
     [[nodiscard]] bool empty() const noexcept { return bytes.empty(); }
 };
 
-/// The image itself, or the header FalconFirmwareBinaryNvent.h, whose bytes are taken. Throws
-/// InputError when the file cannot be read, is no firmware, or has the blocks of a known image with
-/// other content, with the reason and where people get one.
+/// Reads an image, or the bytes in the header FalconFirmwareBinaryNvent.h. Throws InputError when
+/// the file cannot be read, is no firmware, or has the blocks of a known image with other content;
+/// its text has the reason and where to get a firmware file.
 [[nodiscard]] FirmwareImage read_firmware(const std::filesystem::path& file);
 
 /// $XDG_DATA_HOME/dibhr/falcon-firmware.bin, or ~/.local/share/dibhr/falcon-firmware.bin: where an
@@ -38,10 +38,10 @@ struct FirmwareImage {
 /// Checks `file` as read_firmware() and keeps a copy. Throws InputError.
 FirmwareImage keep_firmware(const std::filesystem::path& file);
 
-/// The kept one; empty when none is kept. Throws InputError when the kept file is damaged.
+/// The kept image; empty when none is kept. Throws InputError when the kept file is damaged.
 [[nodiscard]] FirmwareImage kept_firmware();
 
-/// Which file is wanted and where people get it: "take nvent_firmware.bin from ...", without a full
+/// Which file is needed and where to get it: "take nvent_firmware.bin from ...", without a full
 /// stop.
 [[nodiscard]] std::string where_firmware_comes_from();
 

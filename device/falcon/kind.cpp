@@ -21,14 +21,14 @@ const FalconSettings& own(const DeviceSettings& settings) {
     return static_cast<const FalconSettings&>(settings);
 }
 
-/// Firmware for a Falcon that has none.
+/// The firmware to load into a Falcon that has none.
 struct FirmwareAtHand {
     FirmwareImage image{};
     std::string trouble{};  ///< why the kept file cannot be used
 };
 
-/// `given`, checked and kept for the next time, or the kept one. Throws InputError when `given` is
-/// no firmware.
+/// `given`, checked and kept for later starts; if empty, the kept image. Throws InputError when
+/// `given` is no firmware.
 FirmwareAtHand firmware_at_hand(const std::filesystem::path& given = {}) {
     if (!given.empty()) return {keep_firmware(given), {}};
     try {
@@ -50,7 +50,7 @@ std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceGi
                                           std::move(firmware.trouble));
 }
 
-/// What it needs after that, firmware or homing, is guided in the window.
+/// Firmware and homing are not checked here: the window guides the user through them.
 std::string why_none_to_open(const DeviceSettings& settings, const DeviceGiven& given) {
     const std::string serial = connection_of(settings, given).serial;
     const std::vector<AttachedFalcon> attached = attached_falcons();
@@ -78,7 +78,7 @@ std::string state_of(const SurveyedFalcon& falcon, const FirmwareAtHand& firmwar
            (wants_file ? "; then: dibhr devices --firmware FILE" : "");
 }
 
-/// Where the USB cannot be looked at, the mouse can still be used.
+/// A failure to list the USB devices is only printed, because the mouse can still be used.
 DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
     try {
         if (attached_falcons().empty()) {
@@ -100,7 +100,7 @@ DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
     }
     const bool usable = std::any_of(falcons.begin(), falcons.end(),
                                     [](const SurveyedFalcon& one) { return one.usable(); });
-    // One that was unplugged in the meantime is none.
+    // A Falcon that was unplugged meanwhile is not in the list.
     if (usable || falcons.empty()) return {.usable = usable};
     const std::string more = falcons.size() > 1 ? "; the others are listed above" : "";
     return {.refusal = name_of(falcons.front().attached) + " is " +

@@ -25,7 +25,7 @@ constexpr double kDiagonal = 0.707106781186547524400844362104849;
 constexpr std::array<Leg, 3> kLegs{Leg{-kFar, kNear}, Leg{kNear, -kFar},
                                    Leg{-kDiagonal, -kDiagonal}};
 
-/// The grip as a leg sees it [m]: u along the leg's direction, v across, w out of the base.
+/// The grip in the frame of a leg [m]: u along the leg's direction, v across, w out of the base.
 struct InLeg {
     double u{0.0};
     double v{0.0};
@@ -48,13 +48,13 @@ bool has_limbs(const Geometry& geometry) noexcept {
     return geometry.thigh_m > 0.0 && geometry.shin_m > 0.0;
 }
 
-/// The shin, as long as it looks in the plane of the leg, and how that changes with v.
+/// The shin projected into the plane of the leg: its length, and the derivative by v.
 struct Shin {
     double length_m{0.0};
     double change{0.0};  ///< d length / d v
 };
 
-/// Nothing when the grip is further across than the shin is long.
+/// Nothing when |v| exceeds the length of the shin.
 std::optional<Shin> shin_at(double v, const Geometry& geometry) noexcept {
     const double square = geometry.shin_m * geometry.shin_m - v * v;
     if (!(square > 0.0)) return std::nullopt;
@@ -103,7 +103,7 @@ bool singular(const Jacobian& rows) noexcept {
     return !(std::abs(volume_of(rows)) > kLeastVolume * size);
 }
 
-/// Solves rows * x = right; nothing when the rows are as good as in one plane.
+/// Solves rows * x = right; nothing when the rows are nearly in one plane.
 std::optional<Vec3> solved(const Jacobian& rows, Vec3 right) noexcept {
     if (singular(rows)) return std::nullopt;
     const Vec3 x =
@@ -116,14 +116,14 @@ std::optional<Vec3> solved(const Jacobian& rows, Vec3 right) noexcept {
 
 using Elbows = std::array<Elbow, 3>;
 
-/// How far a grip at some place is from fitting the shins between it and the elbows.
+/// Errors of the shin lengths for a grip at some place and given elbows.
 struct Misfit {
-    Vec3 missing_m{0.0};    ///< by which each shin is too long for where the grip is
-    Jacobian directions{};  ///< of the shins: how the distances grow with the grip's position
-    bool beyond{false};     ///< on the far side of the singular poses, where no hand can bring it
+    Vec3 missing_m{0.0};    ///< length of each shin minus the distance of elbow and grip
+    Jacobian directions{};  ///< gradients of the distances by the grip's position
+    bool beyond{false};     ///< beyond the singular poses, where no hand can move the grip
 };
 
-/// Nothing where no shin reaches.
+/// Nothing where a shin cannot reach.
 std::optional<Misfit> misfit_at(Vec3 position, const Elbows& elbows,
                                 const Geometry& geometry) noexcept {
     Misfit misfit;
@@ -149,8 +149,8 @@ bool outer_elbows(Vec3 position, const Elbows& elbows, const Geometry& geometry)
     return true;
 }
 
-/// Newton's method on the lengths of the shins, which unlike the angles exist also where no pose
-/// is. Steps are halved rather than leading out of reach or across the singular poses.
+/// Newton's method on the lengths of the shins. Unlike the angles, they are defined also where no
+/// pose is. A step that leaves the reach or crosses the singular poses is halved.
 std::optional<Vec3> grip_between(const Elbows& elbows, Vec3 position, bool beyond,
                                  const Geometry& geometry) noexcept {
     constexpr int kMostSteps = 60;
@@ -227,8 +227,8 @@ std::optional<Jacobian> jacobian_at(Vec3 position_m, const Geometry& geometry) n
 }
 
 std::optional<Vec3> position_with(Vec3 angles_rad, Vec3 near_m, const Geometry& geometry) noexcept {
-    // Tried when `near_m` leads nowhere. The first finds the whole usable volume, the others half
-    // of what it misses at the workspace's edge.
+    // Tried when `near_m` finds no pose. The first height finds the whole usable volume; the others
+    // find half of the poses that it misses at the workspace's edge.
     constexpr std::array<double, 3> kStartHeights_m{0.115, 0.09, 0.15};
 
     if (!is_finite(angles_rad) || !has_limbs(geometry)) return std::nullopt;

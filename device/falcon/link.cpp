@@ -1,4 +1,4 @@
-// The run-time exchange with one Falcon.
+// The run-time link to one Falcon.
 #include "device/falcon/link.hpp"
 
 #include <libusb.h>
@@ -59,7 +59,7 @@ struct Link::Transfers {
     Packet out_bytes{};
     bool in_busy{false};
     bool out_busy{false};
-    Link* owner;  // none once the link has ended, though the kernel may still have a transfer
+    Link* owner;  // null once the link has ended, while the kernel may still use a transfer
 
     Transfers(libusb_device_handle* handle, Link* link) : owner(link) {
         if (!in || !out) throw std::bad_alloc();
@@ -81,7 +81,7 @@ struct Link::Transfers {
     int submit_in() { return submit(in.get(), in_busy); }
     int submit_out() { return submit(out.get(), out_busy); }
 
-    // An exception must not pass through libusb, so both take memory from nowhere.
+    // An exception must not pass through libusb, so these two callbacks allocate nothing.
     static void LIBUSB_CALL in_done(libusb_transfer* transfer) {
         auto& self = *static_cast<Transfers*>(transfer->user_data);
         self.in_busy = false;
@@ -169,7 +169,7 @@ void Link::wait(Time until) {
 }
 
 UsbError Link::silence(Time now) const {
-    // Of a command sent again just now nobody can tell.
+    // Only if the pending command is old: one that was sent again just now proves nothing.
     if (transfers_->out_busy && now - sent_ > kGiveUpAfter / 2) {
         return {LIBUSB_ERROR_TIMEOUT,
                 "the USB took no command for " + full_name_of(falcon_) +
@@ -216,7 +216,7 @@ void Link::take(std::span<std::uint8_t> packet) {
     auto bytes = payload.bytes;
     counts_.line_errors += payload.faulty_packets;
     if (payload.line_errors != 0) stream_.clear();  // its other half is lost
-    // A byte that was misread may still look like a number.
+    // A misread byte may still look like a valid one.
     if ((payload.line_errors & (kParityError | kFramingError)) != 0) bytes = {};
     while (const auto reply = stream_.add(bytes)) {
         replies_.push_back(*reply);

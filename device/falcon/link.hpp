@@ -1,5 +1,5 @@
-// The run-time exchange with one Falcon: a read always pending, one command in flight, the next
-// only after a whole reply (README.md: IN packets, Reply rate).
+// The run-time link to one Falcon: one read is always pending, one command is in flight, and the
+// next one is sent only after a whole reply (README.md: IN packets, Reply rate).
 #pragma once
 
 #include <poll.h>
@@ -24,8 +24,8 @@ struct LinkCounts {
     std::uint64_t bytes_discarded{0};
 };
 
-/// Used by one thread, which waits in wait() alone. The port must be at run-time speed, and is not
-/// to be used otherwise while the link lives.
+/// Used by one thread, which blocks only in wait(). The port must be at run-time speed, and must
+/// not be used by others during the lifetime of the link.
 class Link {
   public:
     using Clock = std::chrono::steady_clock;
@@ -33,22 +33,22 @@ class Link {
 
     /// `wake` ends wait(). Throws UsbError.
     Link(const UsbContext& usb, FtdiPort& port, const Wake& wake);
-    ~Link();  ///< takes both transfers back
+    ~Link();  ///< cancels both transfers
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
 
-    /// Sleeps until the USB has something, until the wake, or until `until`.
+    /// Sleeps until a USB event, a signal of the wake, or `until`.
     void wait(Time until);
 
-    /// Those that the last wait() brought.
+    /// The replies received in the last wait().
     [[nodiscard]] std::span<const Reply> replies() const noexcept { return replies_; }
 
-    /// The last command has gone out and has its reply.
+    /// The last command was sent and has its reply.
     [[nodiscard]] bool idle() const noexcept;
-    /// A command may go: the link is idle, or the last one has been without a reply for 8 ms.
+    /// A command may be sent: the link is idle, or the last command has had no reply for 8 ms.
     [[nodiscard]] bool takes_command(Time now) const noexcept;
-    /// When a link that is not idle is to be looked at again: to send the command again, or to find
-    /// that the Falcon is lost.
+    /// When a link that is not idle has to be checked: to send the command again, or to report that
+    /// the Falcon is lost.
     [[nodiscard]] Time patience_ends() const noexcept;
     /// Only when takes_command().
     void send(const Packet& packet, Time now);
@@ -63,7 +63,7 @@ class Link {
     void look_up_descriptors();
     void lose(int code);
     void note_loss(int code) noexcept { lost_code_ = lost_code_ == 0 ? code : lost_code_; }
-    /// Why nothing came for a second.
+    /// The error after a second without a reply.
     [[nodiscard]] UsbError silence(Time now) const;
     void take(std::span<std::uint8_t> packet);
 
@@ -71,7 +71,7 @@ class Link {
     const AttachedFalcon& falcon_;
     const Wake& wake_;
     std::unique_ptr<Transfers> transfers_;
-    std::vector<pollfd> descriptors_{};  // the wake's, then libusb's
+    std::vector<pollfd> descriptors_{};  // that of the wake, then those of libusb
     std::atomic<bool> descriptors_changed_{true};
 
     ReplyStream stream_{};
@@ -79,7 +79,7 @@ class Link {
     LinkCounts counts_{};
     bool awaits_reply_{false};
     Time sent_{};
-    Time heard_{};      // the last whole reply, or the beginning
+    Time heard_{};      // time of the last whole reply, or of construction
     int lost_code_{0};  // of a transfer that failed in this wait; LIBUSB_ERROR_...
     std::optional<UsbError> loss_{};
 };

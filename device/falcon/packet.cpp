@@ -88,8 +88,8 @@ std::optional<Reply> ReplyStream::add(std::span<const std::uint8_t>& bytes) noex
     return std::nullopt;
 }
 
-// What is kept could still become a reply. Two replies cannot overlap (a '<' stands first or, at
-// most, second to last), so that no whole reply is ever dropped.
+// The bytes kept can still become a reply. Two replies cannot overlap (a '<' is the first or, at
+// most, the second to last byte), so no whole reply is ever dropped.
 void ReplyStream::drop_to_next_start() noexcept {
     std::size_t dropped = 1;
     const auto remainder_fits = [&] {

@@ -25,7 +25,7 @@ enum class Button : std::uint8_t { plus = 1, forward = 2, centre = 4, minus = 8 
 struct Command {
     Counts motor{};  ///< -4095 .. 4095; positive pulls the thigh down
     Led led{Led::off};
-    bool homing{false};  ///< the firmware watches for the axes' references
+    bool homing{false};  ///< the firmware detects the references of the axes
 
     bool operator==(const Command&) const = default;
 };
@@ -39,25 +39,25 @@ struct Reply {
 /// Reply::homed when all three are.
 inline constexpr std::uint8_t kAllAxes = 7;
 
-/// No force; asks to hold the homing, as every packet does.
+/// A command without force. Its homing bit is set, as in every packet.
 [[nodiscard]] constexpr Command no_force(Led led) noexcept {
     return {.motor = {}, .led = led, .homing = true};
 }
 
 [[nodiscard]] Packet encode(const Command& command) noexcept;
 
-/// Nothing when it is no reply: frame bytes, and the letters of the numbers.
+/// Nothing when the packet is no reply: wrong frame bytes, or letters that code no number.
 [[nodiscard]] std::optional<Reply> decode(const Packet& packet) noexcept;
 
-/// Finds the replies in a stream of bytes that may be cut, joined or garbled anywhere.
+/// Finds the replies in a stream of bytes that may be split, joined or damaged anywhere.
 class ReplyStream {
   public:
-    /// Takes bytes until the next whole reply, which it gives back; what follows that reply stays
-    /// in `bytes`, to be added next.
+    /// Consumes bytes up to the end of the next whole reply, and returns it. The bytes after that
+    /// reply stay in `bytes`, to be added next.
     [[nodiscard]] std::optional<Reply> add(std::span<const std::uint8_t>& bytes) noexcept;
-    /// Forgets a half reply.
+    /// Drops an incomplete reply.
     void clear() noexcept { size_ = 0; }
-    /// Bytes that belonged to no reply, ever.
+    /// Number of bytes that belonged to no reply.
     [[nodiscard]] std::uint64_t discarded() const noexcept { return discarded_; }
 
   private:

@@ -1,4 +1,4 @@
-// What the replies tell over time: homing.
+// Follows homing over the replies.
 #include "device/falcon/reply_watch.hpp"
 
 #include <bit>
@@ -9,7 +9,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's tremble
+constexpr int kMotion_counts = 25;  // 0.9 degrees of thigh: more than an encoder's noise
 constexpr std::chrono::seconds kPatience{20};  // README.md, Homing and lamp
 
 }  // namespace

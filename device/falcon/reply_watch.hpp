@@ -1,5 +1,5 @@
-// What the replies tell over time of homing: when poses may be trusted, when a person needs a hint
-// (README.md: Homing and lamp).
+// Follows homing over the replies: when poses are valid, and when the user needs a hint (README.md:
+// Homing and lamp).
 #pragma once
 
 #include <chrono>
@@ -14,23 +14,23 @@ namespace dibhr::falcon {
 /// How many of the bits of Reply::homed are on.
 [[nodiscard]] int homed_axes(std::uint8_t homed) noexcept;
 
-/// What a person does now, when that many axes are homed.
+/// What the user has to do now, with so many axes homed.
 [[nodiscard]] std::string how_to_home(int axes);
 
-/// By more than an encoder's or a hanging grip's tremble.
+/// By more than the noise of an encoder or the tremble of a hanging grip.
 [[nodiscard]] bool moved_between(const Counts& a, const Counts& b) noexcept;
 
 class HomingWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// A new link: nothing is known.
+    /// Resets for a new link.
     void begin(Time now) noexcept;
     void add(const Reply& reply, Time at) noexcept;
 
-    /// From the second reply in a row with all bits on: the counters jump as the last one comes.
+    /// From the second reply in a row with all bits on: the counters jump with the last bit.
     [[nodiscard]] bool ready() const noexcept { return full_replies_ >= 2; }
-    /// Another one after each homing and each link; kNoEpoch while not ready.
+    /// A new epoch after each homing and each new link; kNoEpoch while not ready.
     [[nodiscard]] Epoch epoch() const noexcept { return ready() ? epoch_ : kNoEpoch; }
     /// Neither a motion nor a homed axis for 20 s.
     [[nodiscard]] bool idle(Time now) const noexcept;

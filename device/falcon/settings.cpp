@@ -1,4 +1,4 @@
-// The table of what is kept about the Falcon, and what the device makes of it.
+// The table of a Falcon's settings, and the tuning and limits that follow from it.
 #include "device/falcon/settings.hpp"
 
 #include "device/falcon/falcon_device.hpp"
@@ -14,10 +14,10 @@ constexpr const char* kConnection = "Connection";
 
 }  // namespace
 
-// The constants of the mechanism: libnifalcon's set, see README.md; the helps give Martin &
-// Hillier's where it differs. The ranges keep a mechanism that can be built. Its measures turn a
-// force into torques and counts into millimetres: with others a newton is another one, and so is
-// the stiffness.
+// The constants of the mechanism are libnifalcon's, see README.md; the help texts give Martin &
+// Hillier's where they differ. The ranges allow only mechanisms that can be built. The constants
+// convert force to torques and counts to millimetres: they change what a newton and a stiffness
+// really are.
 std::vector<DeviceRow> FalconSettings::rows() {
     constexpr double kMillimetres = 1000.0;  // in a metre
     constexpr const char* kAside =
@@ -51,7 +51,7 @@ std::vector<DeviceRow> FalconSettings::rows() {
          "How hard the boundary of the usable volume is; 0: none",
          &workspace.boundary_newton_per_mm, 0.0, 0.5, "%.2f N/mm", 1.0,
          Protection{Less::lower, "Falcon's boundary [N/mm]"}},
-        // No source is above 10000, so a higher scale is a mistake in the making.
+        // No source is above 10000, so a higher scale is a mistake.
         {"counts-per-newton-metre", kCalibration, "Torque scale",
          "Motor counts per newton metre at the thigh. Nobody has measured it: 10000 is "
          "libnifalcon's, 6616 Martin & Hillier's, about 3600 fits Novint's driver. Weigh the force "

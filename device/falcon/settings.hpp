@@ -1,5 +1,4 @@
-// What is kept about the Falcon: the constants that sources disagree on, its workspace, its
-// buttons.
+// The settings of a Falcon: the constants on which sources disagree, workspace, buttons.
 #pragma once
 
 #include <memory>
@@ -21,7 +20,7 @@ inline constexpr GripButtons kGrip{
 struct FalconSettings final : DeviceSettings {
     FalconSettings() : DeviceSettings(kGrip) {}
 
-    ConnectionOptions connection{};  ///< used from the next start of the program
+    ConnectionOptions connection{};  ///< takes effect at the next start of the program
     Geometry geometry{};
     Motors motors{};
 
@@ -33,7 +32,7 @@ struct FalconSettings final : DeviceSettings {
     [[nodiscard]] DeviceLimits limits() const override;
 };
 
-/// The numbers and the buttons as the device takes them.
+/// The tuning from these settings and `hand`.
 [[nodiscard]] Tuning tuning_of(const FalconSettings& settings, const HandTuning& hand) noexcept;
 
 }  // namespace dibhr::falcon

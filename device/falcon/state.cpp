@@ -1,4 +1,4 @@
-// What people are told of a Falcon, as data.
+// The state of a Falcon as data for the panel, the session and its reports.
 #include <array>
 #include <cstddef>
 #include <string>

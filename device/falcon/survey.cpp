@@ -1,4 +1,4 @@
-// `dibhr devices`: how far every attached Falcon goes, and what is missing.
+// `dibhr devices`: the stage of every attached Falcon, and what is missing.
 #include "device/falcon/survey.hpp"
 
 #include <chrono>
@@ -14,12 +14,12 @@ namespace dibhr::falcon {
 
 namespace {
 
-// Homed bits are told only when homing is asked for; the first replies may be older than that.
+// Replies hold the homed bits only while the homing bit is set; the first replies may be older.
 constexpr std::chrono::milliseconds kLookFor{500};
 constexpr std::chrono::milliseconds kBetweenQuestions{5};
 constexpr std::chrono::milliseconds kAnswerLimit{30};
 
-/// The first reply that tells of all axes, or the last one of half a second.
+/// The first reply with all axes homed, or the last reply of half a second.
 std::optional<Reply> homing_reply(FtdiPort& port) {
     const auto end = std::chrono::steady_clock::now() + kLookFor;
     std::optional<Reply> last;

@@ -1,4 +1,4 @@
-// The Falcons on the USB, libusb's context and handles with owners, its errors in plain sentences.
+// The Falcons on the USB, owners of libusb's context and handles, its errors as plain sentences.
 #include "device/falcon/usb.hpp"
 
 #include <libusb.h>
@@ -54,8 +54,8 @@ std::optional<libusb_device_descriptor> falcon_descriptor(libusb_device* device)
     return descriptor;
 }
 
-/// Linux reads the serial when the device is plugged in and tells it to everyone, also to people
-/// who may not open the device.
+/// Linux reads the serial when the device is plugged in. Every user may read it from there, also
+/// without the permission to open the device.
 std::string serial_from_system(libusb_device* device) {
     std::array<std::uint8_t, kMostPorts> ports{};
     const int depth = libusb_get_port_numbers(device, ports.data(), kMostPorts);
@@ -77,7 +77,7 @@ std::string serial_from_device(libusb_device* device, std::uint8_t string_index)
     return serial;
 }
 
-/// How libusb's timeouts are given; its zero would mean for ever.
+/// A timeout for libusb, at least 1: zero would mean no timeout.
 unsigned milliseconds_of(std::chrono::milliseconds limit) {
     return static_cast<unsigned>(std::max<std::chrono::milliseconds::rep>(limit.count(), 1));
 }
@@ -97,7 +97,7 @@ bool rule_is_in_place() {
                        [](const char* folder) { return is_file(fs::path(folder) / kRule); });
 }
 
-/// Of the installed program, or of the sources it was built from.
+/// The rule of the installed program, or of the sources it was built from.
 fs::path rule_that_came_along() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
@@ -106,7 +106,7 @@ fs::path rule_that_came_along() {
     return fs::path(DIBHR_SOURCE_ASSETS) / kRule;
 }
 
-/// The commands that install the udev rule; or, when it is in place, how to come under it.
+/// How to install the udev rule; where it is installed, how the user gets the permission it gives.
 std::string how_to_get_permission() {
     if (rule_is_in_place()) {
         return "log in at this machine itself, or join the group plugdev (sudo usermod -aG plugdev "
@@ -119,7 +119,7 @@ std::string how_to_get_permission() {
 constexpr const char* kUnplugged =
     " was unplugged or lost its USB power: the mouse touches meanwhile; plug it in again";
 
-/// What stands after the Falcon's name.
+/// The sentence for an error, without the Falcon's name before it.
 struct Meaning {
     int code;
     const char* sentence;
@@ -254,7 +254,7 @@ FtdiPort::FtdiPort(const UsbContext& usb, const AttachedFalcon& which)
         break;
     }
     if (code != 0) throw usb_error(code, falcon_);
-    // Only Linux has drivers to detach; elsewhere the claim says what is wrong.
+    // Only Linux has drivers to detach; elsewhere the claim below fails with the reason.
     (void)libusb_set_auto_detach_kernel_driver(handle(), 1);
     code = libusb_claim_interface(handle(), kInterface);
     if (code != 0) throw usb_error(code, falcon_);
@@ -294,7 +294,7 @@ void FtdiPort::write(std::span<const std::uint8_t> bytes, std::chrono::milliseco
 }
 
 Payload FtdiPort::read(std::chrono::milliseconds limit) {
-    // Exactly one packet: less could overflow, more would wait for one that is not full.
+    // Exactly one packet: less could overflow, more would wait for further packets.
     packet_.resize(kUsbPacketBytes);
     int got = 0;
     const int code =
@@ -312,7 +312,7 @@ void FtdiPort::clear_stall() noexcept {
 int FtdiPort::descriptor(const UsbContext& usb) const noexcept {
     int found = -1;
     const libusb_pollfd** list = libusb_get_pollfds(usb.get());
-    // Those of libusb's own are waited for with POLLIN.
+    // libusb's own descriptors are polled with POLLIN only.
     for (const auto* const* item = list; item != nullptr && *item != nullptr; ++item) {
         if (((*item)->events & POLLOUT) != 0) found = (*item)->fd;
     }

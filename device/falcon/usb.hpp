@@ -1,5 +1,5 @@
-// The Falcons on the USB and the FT232R in each: its requests and packets (README.md: USB identity,
-// FTDI requests, IN packets), libusb's handles with owners, its errors in plain sentences.
+// The Falcons on the USB and the FT232R in each: requests and packets (README.md: USB identity,
+// FTDI requests, IN packets), owners of libusb's handles, its errors as sentences for the user.
 #pragma once
 
 #include <chrono>
@@ -63,8 +63,8 @@ inline constexpr FtdiRequest kNoEventCharacter{6, 0};
 /// How long the chip keeps a packet that is not full [ms].
 inline constexpr FtdiRequest kLatencyUploading{9, 16};
 inline constexpr FtdiRequest kLatencyRunTime{9, 1};
-// Nobody waits for a pose: a sixth of the empty packets, and a reply still before it is asked for
-// again.
+// While nobody needs a pose: a sixth of the empty packets. A reply still comes before the command
+// is sent again.
 inline constexpr FtdiRequest kLatencyWhilePaused{9, 6};
 
 /// Requests with an answer: modem and line status, 2 bytes; the latency timer [ms], 1 byte.
@@ -76,18 +76,18 @@ inline constexpr std::uint8_t kOverrun = 0x02;      // bytes were lost
 inline constexpr std::uint8_t kParityError = 0x04;  // a byte is not what was sent
 inline constexpr std::uint8_t kFramingError = 0x08;
 
-/// What an IN transfer brought.
+/// The data of an IN transfer.
 struct Payload {
     std::span<const std::uint8_t> bytes{};
     std::uint8_t line_errors{0};      ///< the error bits of all its packets
-    std::uint32_t faulty_packets{0};  ///< how many had one
+    std::uint32_t faulty_packets{0};  ///< number of packets with an error bit
 };
 
 /// Takes the two status bytes off every 64-byte packet of a transfer, in place. A packet without
 /// data is normal: the latency timer ran out.
 [[nodiscard]] Payload payload_of(std::span<std::uint8_t> transfer) noexcept;
 
-/// As it can be named without opening it.
+/// An attached Falcon, identified without opening it.
 struct AttachedFalcon {
     int bus{0};
     int address{0};
@@ -96,10 +96,10 @@ struct AttachedFalcon {
     bool operator==(const AttachedFalcon&) const = default;
 };
 
-/// "the Falcon SIM00001", or where it is plugged in when its serial is not known.
+/// "the Falcon SIM00001"; when the serial is not known, with its USB bus and address.
 [[nodiscard]] std::string full_name_of(const AttachedFalcon& falcon);
 
-/// The one with this serial; when it is empty, the first.
+/// The Falcon with this serial; when `serial` is empty, the first one.
 [[nodiscard]] std::optional<AttachedFalcon> choose(std::span<const AttachedFalcon> attached,
                                                    const std::string& serial);
 
@@ -110,7 +110,7 @@ struct AttachedFalcon {
 /// "A1, B2, one without a readable serial".
 [[nodiscard]] std::string serials_of(std::span<const AttachedFalcon> attached);
 
-/// What libusb answered, and a sentence about it.
+/// A libusb error with a sentence for the user.
 class UsbError : public DeviceError {
   public:
     UsbError(int code, const std::string& sentence) : DeviceError(sentence), code_(code) {}
@@ -123,12 +123,12 @@ class UsbError : public DeviceError {
     int code_;
 };
 
-/// Of a LIBUSB_ERROR_... that came while using `falcon`: what it means, and what to do next.
+/// The error for a LIBUSB_ERROR_... that came while using `falcon`: its meaning and what to do.
 [[nodiscard]] UsbError usb_error(int code, const AttachedFalcon& falcon);
 
 class UsbContext {
   public:
-    /// Throws UsbError when the USB cannot be looked at.
+    /// Throws UsbError when libusb cannot be initialised.
     UsbContext();
     [[nodiscard]] libusb_context* get() const noexcept { return context_.get(); }
 
@@ -139,15 +139,15 @@ class UsbContext {
     std::unique_ptr<libusb_context, Close> context_{};
 };
 
-/// Every 0403:cb48, in the order of serials; opens none whose serial the system knows. Throws
-/// UsbError.
+/// Every 0403:cb48, in the order of serials. Opens only those whose serial the system does not
+/// know. Throws UsbError.
 [[nodiscard]] std::vector<AttachedFalcon> attached_falcons(const UsbContext& usb);
 
-/// The device's string of this number; empty when it cannot be read.
+/// The string descriptor with this index; empty when it cannot be read.
 [[nodiscard]] std::string text_at(libusb_device_handle* handle, std::uint8_t index);
 
-/// A Falcon's serial port, opened and claimed; whatever kernel driver held it has let go and gets
-/// it back. Used by one thread. Every call throws UsbError when the USB fails.
+/// A Falcon's serial port, opened and claimed. A kernel driver is detached meanwhile, and attached
+/// again at the end. Used by one thread. Every call throws UsbError when the USB fails.
 class FtdiPort {
   public:
     FtdiPort(const UsbContext& usb, const AttachedFalcon& which);
@@ -156,22 +156,23 @@ class FtdiPort {
     FtdiPort& operator=(const FtdiPort&) = delete;
 
     void request(const FtdiRequest& request);
-    /// A request with an answer, whose bytes it fills.
+    /// A request with an answer, read into `answer`.
     void ask(std::uint8_t request, std::span<std::uint8_t> answer);
-    /// Both queues of the chip.
+    /// Empties both queues of the chip.
     void purge();
-    /// All of `bytes`; waits at most `limit`.
+    /// Writes all of `bytes`; waits at most `limit`.
     void write(std::span<const std::uint8_t> bytes,
                std::chrono::milliseconds limit = std::chrono::seconds(1));
-    /// What one IN packet brings within `limit`, at least 1 ms; no bytes when none came. Valid
-    /// until the next read.
+    /// Reads one IN packet within `limit`, at least 1 ms; no bytes when none came. Valid until the
+    /// next read.
     [[nodiscard]] Payload read(std::chrono::milliseconds limit);
-    /// After a stall: both endpoints take transfers again. Reports nothing.
+    /// After a stall: lets both endpoints transfer again. Ignores errors.
     void clear_stall() noexcept;
 
     [[nodiscard]] libusb_device_handle* handle() const noexcept { return handle_.get(); }
     [[nodiscard]] const AttachedFalcon& falcon() const noexcept { return falcon_; }
-    /// Of the open file of usbfs below; -1 where there is none. The only port opened with `usb`.
+    /// Descriptor of the usbfs file that libusb has opened; -1: none. Only one port may be open
+    /// with `usb`.
     [[nodiscard]] int descriptor(const UsbContext& usb) const noexcept;
 
   private:

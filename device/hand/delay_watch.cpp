@@ -1,4 +1,4 @@
-// How long a device takes to answer.
+// Mean delay of a device's answers.
 #include "device/hand/delay_watch.hpp"
 
 #include <algorithm>
@@ -10,10 +10,10 @@ namespace {
 
 // ../inverse3/README.md, Safety numbers.
 constexpr double kMeanOver_s = 0.25;
-constexpr double kLongest_s = 0.02;     // one that takes longer counts as this,
-constexpr double kMostPassed_s = 0.01;  // and no more than one after so long: a stall is no delay
-constexpr double kFirst_s = 1e9;        // the first one counts for all before it
-constexpr double kBackAt = 0.8;         // of fewer milliseconds, for so long: no change to and fro
+constexpr double kLongest_s = 0.02;     // a longer delay counts as this
+constexpr double kMostPassed_s = 0.01;  // most time that one delay stands for: a stall is no delay
+constexpr double kFirst_s = 1e9;        // the first delay sets the mean
+constexpr double kBackAt = 0.8;         // hysteresis: the limit falls once the mean is below this
 constexpr std::chrono::milliseconds kBackAfter{1000};
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How long a device takes to answer: a force that comes late drives the hand that it is to hold.
+// Mean delay of a device's answers: a late force drives the hand instead of holding it.
 #pragma once
 
 #include <chrono>
@@ -6,17 +6,17 @@
 
 namespace dibhr {
 
-/// From one exchange with the device to the next.
+/// Updated after each exchange with the device.
 class DelayWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// An exchange from its message to its answer.
+    /// One exchange: when the message was sent, and when its answer came.
     void add(Time sent, Time answered) noexcept;
-    /// A mean over a quarter of a second [ms].
+    /// Mean over a quarter of a second [ms].
     [[nodiscard]] double mean_ms() const noexcept { return 1e3 * mean_s_; }
-    /// The whole milliseconds, 1 or more, that the mean is within: more at once, fewer after a
-    /// second.
+    /// The mean, rounded up to whole milliseconds, at least 1. Rises at once, falls only after the
+    /// mean has been lower for a second.
     [[nodiscard]] int within_ms() const noexcept { return within_ms_; }
 
   private:

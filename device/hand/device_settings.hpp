@@ -1,5 +1,5 @@
-// What people choose about a force device, a row a value: name, range, meaning, and where it is
-// held. The settings file and the panel are made of the rows.
+// The settings of a force device, one row per value: name, range, meaning, and a pointer to it. The
+// settings file and the Device panel are made from the rows.
 #pragma once
 
 #include <array>
@@ -19,13 +19,13 @@
 
 namespace dibhr {
 
-/// A value of an enumeration of one byte, which is the place of its word, too.
+/// A value of an enumeration of one byte; the value is also the index of its name and label.
 struct DeviceWord {
     std::uint8_t* value;
     std::vector<const char*> names{};   ///< in the settings file
     std::vector<const char*> labels{};  ///< on the panel
 
-    /// The value outlives it. Its table of words has_all_in_order().
+    /// `held` must outlive this object. Its table of names must pass has_all_in_order().
     template <HasWords Enum>
     explicit DeviceWord(Enum& held) : value(reinterpret_cast<std::uint8_t*>(&held)) {
         static_assert(sizeof(Enum) == 1);
@@ -40,13 +40,13 @@ struct DeviceWord {
 struct DeviceRow {
     std::string_view name;   ///< in the settings file: "thigh"
     std::string_view topic;  ///< a heading of the panel
-    const char* label;       ///< on the panel; of a text: what the empty field says
+    const char* label;       ///< on the panel; of a text: the placeholder of the empty field
     const char* help;        ///< meaning, and where the default comes from
     std::variant<bool*, int*, double*, std::string*, ButtonAction*, DeviceWord> value;
     double lowest{0.0};      ///< of a number, as stored; every value of the range is safe
     double highest{0.0};     ///< likewise; of a text: the most bytes that can be typed
     const char* format{""};  ///< printf format of a number on the panel, with the unit
-    double shown{1.0};       ///< panel units in a stored one: 1000 for metres shown as millimetres
+    double shown{1.0};       ///< panel units per stored unit: 1000 for metres shown as millimetres
     std::optional<Protection> protection{};
 };
 
@@ -54,11 +54,11 @@ struct DeviceRow {
 struct DeviceTopic {
     const char* name;
     const char* remark{""};    ///< above the rows
-    const char* fit_help{""};  ///< of the button that fits the image; empty: the hand is not placed
-    bool connection{false};    ///< its rows are used from the next start of the program
+    const char* fit_help{""};  ///< help of the button that fits the image; empty: no such button
+    bool connection{false};    ///< its rows take effect at the next start of the program
 };
 
-/// Of one kind of device; what a new object holds are the defaults.
+/// The settings of one kind of device; a new object holds the defaults.
 struct DeviceSettings {
     explicit DeviceSettings(const GripButtons& grip = {}, const WorkspaceOptions& usual = {})
         : buttons(standard_actions(grip)), workspace(usual) {}
@@ -74,17 +74,17 @@ struct DeviceSettings {
     [[nodiscard]] virtual std::vector<DeviceRow> rows() = 0;
     /// In the order of the panel.
     [[nodiscard]] virtual std::vector<DeviceTopic> topics() const = 0;
-    /// Image millimetres a hand millimetre.
+    /// Image millimetres per hand millimetre.
     [[nodiscard]] double scale() const noexcept { return workspace.scale; }
-    /// Chooses the scale at which the hand reaches the whole image.
+    /// Sets the scale at which the hand reaches the whole image.
     virtual void fit(const ImageFrame& image) noexcept {
         workspace.scale = fitting_scale(image, workspace);
     }
-    /// What the hand can stand at the scale that is chosen, whether or not a device is there.
+    /// Limits of the device at this scale, whether or not a device is attached.
     [[nodiscard]] virtual DeviceLimits limits() const = 0;
 
   protected:
-    /// The rows of the grip's buttons, behind the others.
+    /// Appends the rows of the device's buttons.
     void add_buttons(std::vector<DeviceRow>& rows, const GripButtons& grip,
                      std::string_view topic) {
         for (std::size_t k = 0; k < buttons.size(); ++k) {
@@ -99,7 +99,7 @@ struct DeviceSettings {
     }
 };
 
-/// WorkspaceOptions::scale.
+/// The row of WorkspaceOptions::scale.
 [[nodiscard]] inline DeviceRow scale_row(std::string_view topic, double& scale) {
     return {.name = "scale",
             .topic = topic,
@@ -113,21 +113,20 @@ struct DeviceSettings {
             .format = "x %.2f"};
 }
 
-/// A coordinate of WorkspaceOptions::offset_mm: "offset-x", "Offset right".
+/// The row of one coordinate of WorkspaceOptions::offset_mm: "offset-x", "Offset right".
 [[nodiscard]] inline DeviceRow offset_row(std::string_view name, const char* label,
                                           std::string_view topic, double& offset_mm,
                                           const char* help) {
     return {name, topic, label, help, &offset_mm, -200.0, 200.0, "%.1f mm"};
 }
 
-/// What a device is tuned by, beside its own settings.
+/// What tunes every device, in addition to the settings of its kind.
 struct HandTuning {
     double max_force_newton;
-    std::uint32_t centred;  ///< a new value forgets the clutch's shift
+    std::uint32_t centred;  ///< a new value resets the clutch's shift
 };
 
-/// `tuning` with the workspace, the bits of the buttons that have a job in each tick, and the
-/// centring.
+/// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centred` set.
 template <typename Tuning>
 [[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const DeviceSettings& settings,
                                       const HandTuning& hand) noexcept {

@@ -1,4 +1,4 @@
-// What the buttons of a device's grip can do, whichever device it is.
+// The actions that the buttons of any force device can have.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace dibhr {
 
-/// Which values of a setting protect a hand less than the usual one: a person has to agree to them.
+/// Which values of a setting protect the hand less than the default: they need consent.
 enum class Less : std::uint8_t { higher, lower, other };
 struct Protection {
     Less less;
-    const char* what;  ///< for people: "Falcon's gear"
+    const char* what;  ///< name shown to the user: "Falcon's gear"
 };
 
-/// What a button of the grip can do.
+/// Action of a device's button.
 enum class ButtonAction {
     none,
     clutch,
@@ -31,7 +31,7 @@ enum class ButtonAction {
     take_screenshot
 };
 
-/// One button of the grip; without a name there is none.
+/// One button of a device; empty `setting`: the device does not have this button.
 struct GripButton {
     std::string_view setting{};  ///< in the settings file
     const char* label{""};       ///< in the panel
@@ -39,7 +39,7 @@ struct GripButton {
     std::optional<Protection> protection{};
 };
 
-/// Of every button what it does, bit 0 first.
+/// The action of every button, bit 0 first.
 using ButtonActions = std::array<ButtonAction, kGripButtonCount>;
 using GripButtons = std::array<GripButton, kGripButtonCount>;
 
@@ -49,7 +49,7 @@ using GripButtons = std::array<GripButton, kGripButtonCount>;
     return actions;
 }
 
-/// Bits of the buttons that have this job.
+/// Bits of the buttons that have this action.
 [[nodiscard]] constexpr std::uint8_t buttons_for(ButtonAction action,
                                                  const ButtonActions& actions) noexcept {
     std::uint8_t bits = 0;

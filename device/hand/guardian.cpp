@@ -1,5 +1,5 @@
-// The guardian's process, and the program's words to it. That process is forked from a program with
-// many threads: no lock, no memory, nothing but async-signal-safe calls.
+// The guardian process, and the program's requests to it. The process is forked from a program with
+// many threads: it takes no lock, allocates nothing, and makes only async-signal-safe calls.
 #include "device/hand/guardian.hpp"
 
 #include <fcntl.h>
@@ -44,10 +44,10 @@ constexpr milliseconds kLooksEvery{10};
 constexpr milliseconds kSendsEvery{5};
 constexpr int kLastPackets = 5;
 constexpr unsigned kPacketLimit_ms = 10;
-constexpr milliseconds kLingers{1000};  // for what a stream has still to hand over
+constexpr milliseconds kLingers{1000};  // for bytes that the stream has not delivered yet
 constexpr int kDismissLimit_ms = 100;
 
-// Words to the guardian; the second one it says back.
+// Requests to the guardian; it sends kDismiss back as its answer.
 constexpr char kWatch = 'w';
 constexpr char kDismiss = 'd';
 constexpr char kAlarm = 'a';
@@ -57,7 +57,7 @@ struct Message {
     Farewell farewell{};
 };
 
-/// A message as the sockets take it, with room for one descriptor.
+/// A message in the form of sendmsg() and recvmsg(), with room for one descriptor.
 struct Envelope {
     explicit Envelope(Message& message) noexcept : part{&message, sizeof message} {
         head.msg_iov = &part;
@@ -89,8 +89,8 @@ struct Envelope {
     msghdr head{};
 };
 
-// A signal handler has nobody to ask where the guardians are: variables of the whole program. The
-// sockets are the program's ends; 0: none.
+// Variables of the whole program, because a signal handler has no other way to find the guardians.
+// The program's ends of all socket pairs; 0: none.
 constexpr std::size_t kMostGuardians = 8;
 std::array<std::atomic<int>, kMostGuardians> all_sockets{};
 std::atomic<bool> alarm_sounded{false};
@@ -103,12 +103,12 @@ void replace_in_all(int before, int after) noexcept {
     }
 }
 
-/// What the guardian's process does.
+/// The guardian process.
 class Watch {
   public:
     Watch(int socket, SharedPage& page) noexcept : socket_(socket), page_(page) {}
 
-    /// Until the program has ended.
+    /// Returns after the program has ended and the last packets are sent.
     void run() noexcept {
         while (listen()) {
             if (file_ < 0) continue;
@@ -123,7 +123,7 @@ class Watch {
     }
 
   private:
-    /// Sleeps until there is something to do; false when the program has ended.
+    /// Sleeps until a request comes or the next check is due; false when the program has ended.
     bool listen() noexcept {
         const milliseconds period = sending_ ? kSendsEvery : kLooksEvery;
         pollfd end{socket_, POLLIN, 0};
@@ -151,7 +151,8 @@ class Watch {
 
     void look() noexcept {
         const std::uint32_t beats = page_.beats;
-        const Clock::time_point now = Clock::now();  // not before: a pause of its own is no silence
+        // Read after the beats: otherwise a pause of this process would look like missing beats.
+        const Clock::time_point now = Clock::now();
         if (beats != last_beats_) heard_ = now;
         last_beats_ = beats;
         const bool arrives = farewell_.over == Farewell::Over::stream;
@@ -170,7 +171,7 @@ class Watch {
         }
     }
 
-    /// Behind what the program still has in its queue.
+    /// The kernel sends it after what is still in the program's queue.
     void send_by_usb() noexcept {
         usbdevfs_bulktransfer transfer{};
         transfer.ep = farewell_.endpoint;
@@ -180,8 +181,8 @@ class Watch {
         if (ioctl(file_, USBDEVFS_BULK, &transfer) < 0 && errno == ENODEV) release();  // unplugged
     }
 
-    /// A part of it, where there is no room, would only be in the way of the next one: the other
-    /// end is to hear that nobody is left.
+    /// Without room for the whole packet, a part of it would spoil the next one: the connection is
+    /// closed instead, so that the other end notices.
     void send_by_stream() noexcept {
         discard_answers();
         const ssize_t gone =
@@ -191,7 +192,7 @@ class Watch {
         release();
     }
 
-    /// False: there will be no more.
+    /// False: the stream has ended.
     bool discard_answers() noexcept {
         std::array<char, 4096> unread;
         ssize_t got = 0;
@@ -200,7 +201,7 @@ class Watch {
         return got < 0 && (errno == EAGAIN || errno == EINTR);
     }
 
-    /// A socket that is closed with something unread takes back what it has sent.
+    /// Closing a socket that has unread bytes would discard what was sent: reads until the end.
     void linger() noexcept {
         (void)shutdown(file_, SHUT_WR);
         const Clock::time_point end = Clock::now() + kLingers;
@@ -218,18 +219,18 @@ class Watch {
 
     int socket_;
     SharedPage& page_;
-    int file_{-1};  // the device's; -1: nothing to guard
+    int file_{-1};  // of the device; -1: no device to guard
     Farewell farewell_{};
-    int said_{0};  // of it, since it was given
+    int said_{0};  // packets sent since kWatch
     std::uint32_t last_beats_{0};
-    Clock::time_point heard_{};  // when the beats had changed
+    Clock::time_point heard_{};  // when the count of beats changed last
     bool alarmed_{false};
     bool sending_{false};
 };
 
-/// Where the kernel says that this program's arguments are (proc_pid_stat(5), fields 48 and 49), as
-/// `ps` shows them; empty: it does not. Read before the fork: a library that is interposed before
-/// libc's open() (umockdev's) may hold a lock in another thread at that moment.
+/// The memory of this program's arguments, which `ps` shows (proc_pid_stat(5), fields 48 and 49);
+/// empty: not known. To be read before the fork: a library interposed before libc's open() (as
+/// umockdev's) may hold a lock in another thread during the fork.
 std::span<char> arguments_of_program() noexcept {
     std::array<char, 1024> text{};
     const int file = open("/proc/self/stat", O_RDONLY | O_CLOEXEC);
@@ -248,7 +249,7 @@ std::span<char> arguments_of_program() noexcept {
     return {reinterpret_cast<char*>(begin), end - begin};
 }
 
-/// So that `pkill -f` with the program's name does not find it: the text of this process alone.
+/// So that `pkill -f` with the program's name does not find this process; changes only its copy.
 void rename_arguments(std::span<char> arguments) noexcept {
     if (arguments.empty()) return;
     std::memset(arguments.data(), 0, arguments.size());
@@ -256,8 +257,8 @@ void rename_arguments(std::span<char> arguments) noexcept {
                 std::min(std::strlen(Guardian::kProcessName), arguments.size() - 1));
 }
 
-/// Out of the way of what ends the program: its terminal, its process group, a wish to end; and
-/// with nothing of the program's in its hands.
+/// Leaves the program's terminal and process group, ignores the signals that end the program, and
+/// closes all descriptors that it inherited.
 void step_aside(int socket, std::span<char> arguments) noexcept {
     (void)setsid();
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGPIPE}) {
@@ -275,8 +276,8 @@ void step_aside(int socket, std::span<char> arguments) noexcept {
     (void)sched_setscheduler(0, SCHED_FIFO, &priority);  // where it is allowed
 }
 
-/// Forked twice, so that the guardian is no child of the program, which would have to wait for it.
-/// 0, or why not: an errno.
+/// Forks twice, so that the guardian is no child of the program, which would have to wait for it.
+/// Returns 0, or an errno.
 int fork_guardian(int programs_end, int socket, SharedPage& page) noexcept {
     const std::span<char> arguments = arguments_of_program();
     const pid_t between = fork();

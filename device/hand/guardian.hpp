@@ -1,5 +1,5 @@
-// A small process beside the program that tells a device to let go when the program dies in any
-// way, or falls silent (../falcon/README.md, The guardian).
+// A small process beside the program. It sends a command without force to the device when the
+// program dies or stops sending its heartbeat (../falcon/README.md, The guardian).
 #pragma once
 
 #include <array>
@@ -23,56 +23,55 @@ struct Farewell {
     std::uint16_t size{0};
     std::array<std::uint8_t, kMostBytes> bytes{};
 
-    /// What does not fit is no farewell: it is left empty then, and nothing is ever sent.
+    /// Stays empty where the message is longer than kMostBytes: then nothing is ever sent.
     void say(std::span<const std::uint8_t> message) noexcept;
 };
 
-struct SharedPage;  // what both processes see
+struct SharedPage;  // memory that both processes map
 
-/// Forked at construction. It guards one opened device at a time, and ends with the program. Where
-/// the system allows no process everything here does nothing, and fault() says so. All but alarm()
-/// and alarmed() is one thread's.
+/// Forked at construction. The guardian process guards one opened device at a time, and ends with
+/// the program. Where the system allows no process, all functions do nothing, and fault() returns
+/// why. All functions but alarm() and alarmed() are for one thread.
 class Guardian {
   public:
-    /// As `ps` shows it: without the program's name, so that `pkill dibhr` leaves it.
+    /// As `ps` shows it: without the program's name, so that `pkill dibhr` does not end it.
     static constexpr const char* kProcessName = "force-guardian";
 
-    /// `device`, for people: "Falcon".
+    /// `device`: its name in fault(): "Falcon".
     explicit Guardian(std::string device);
-    ~Guardian();  ///< dismissed
+    ~Guardian();  ///< dismisses the process, which then ends
     Guardian(const Guardian&) = delete;
     Guardian& operator=(const Guardian&) = delete;
 
-    /// Why nobody sends the last packet when the program dies, in one plain line; empty: it is
-    /// there.
+    /// Why no guardian process exists, in one line for the user; empty: it exists.
     [[nodiscard]] std::string fault() const;
 
-    /// From now on it sends `farewell` over this open file or socket, of which it gets a descriptor
-    /// of its own:
+    /// From now on the guardian sends `farewell` over this open file or socket, of which it gets a
+    /// descriptor of its own:
     /// - every 5 ms while beat() has not been called for 50 ms, until it is called again;
     /// - every 5 ms after alarm();
-    /// - five times when the program has ended, however it did.
-    /// Over a stream nothing gets lost, and answers would pile up: five each time, and it has
-    /// spoken() from then on. Not while firmware is loaded, which a packet would be taken for a
-    /// part of.
+    /// - five times when the program has ended, for whatever reason.
+    /// Over a stream no packet gets lost, and unread answers would pile up: there it sends only
+    /// five, and spoken() is true from then on. Not to be called while firmware is loaded: the
+    /// packet would become a part of the image.
     void watch(int descriptor, const Farewell& farewell) noexcept;
-    /// It has sent something since it was dismissed last: what the program hears over a stream may
-    /// be the answer to that.
+    /// The guardian has sent something since the last dismiss(). What the program then receives
+    /// over a stream may be the answer to the guardian's packet.
     [[nodiscard]] bool spoken() const noexcept;
-    /// Somebody has ended it: the force is to go to zero. The next watch() begins another one.
+    /// Somebody ended the guardian process: set the force to zero. The next watch() forks another.
     [[nodiscard]] bool died() const noexcept;
-    /// Of a connection that may still be heard at its other end: the guardian takes this for the
-    /// program's end, and the next watch() begins another one.
+    /// Leaves the connection to the guardian, which handles this like the program's end: it sends
+    /// its five packets and closes. The next watch() forks another guardian.
     void part() noexcept;
-    /// It has closed its descriptor when this returns, or it hangs: then after 0.1 s.
+    /// Returns when the guardian has closed its descriptor; if it hangs, after 0.1 s.
     void dismiss() noexcept;
-    /// The program lives. At least every 20 ms while it is watched.
+    /// Heartbeat: call it at least every 20 ms after watch().
     void beat() noexcept;
 
-    /// Every guardian of this program sends at once and goes on, for good. For the signal handler
-    /// of a program that crashes: async-signal-safe, on any thread.
+    /// Every guardian of this program starts to send at once, for good. For the signal handler of a
+    /// crash: async-signal-safe, on any thread.
     static void alarm() noexcept;
-    /// alarm() has been called: the program is to send no force either.
+    /// alarm() has been called: the program must send no force any more.
     [[nodiscard]] static bool alarmed() noexcept;
 
   private:
@@ -83,12 +82,12 @@ class Guardian {
     const std::string device_;
     SharedPage* page_{nullptr};
     std::uint32_t sent_before_{0};  // of page_->sent
-    int socket_{-1};                // the program's end
+    int socket_{-1};                // the program's end of the socket pair
     const char* failed_{nullptr};
     int error_{0};
 };
 
-/// Watched while it lives.
+/// The guardian watches this descriptor during the lifetime of the object.
 class Guarded {
   public:
     Guarded(Guardian& guardian, int descriptor, const Farewell& farewell) noexcept

@@ -1,4 +1,4 @@
-// How old the poses were that a haptic loop used.
+// Ages of the poses that a haptic loop used.
 #pragma once
 
 #include <algorithm>
@@ -9,20 +9,20 @@
 
 namespace dibhr {
 
-/// A histogram of ages in fixed memory, which only grows: what came between two of them is their
-/// difference.
+/// A histogram of ages in fixed memory. Its counts only grow: the difference of two copies has the
+/// ages between them.
 class PoseAges {
   public:
     static constexpr std::chrono::microseconds kBin{50};
     static constexpr std::size_t kBins = 401;    ///< the last one: 20 ms and older
-    static constexpr double kLongest_ms = 20.0;  ///< what is above it was that old, or older
+    static constexpr double kLongest_ms = 20.0;  ///< a quantile above it means: so old, or older
 
-    /// One tick's; below zero counts as zero.
+    /// The age in one tick; below zero counts as zero.
     void add(std::chrono::nanoseconds age) noexcept {
         const auto bin = std::max<std::int64_t>(age / kBin, 0);
         ++bins_[std::min(static_cast<std::size_t>(bin), kBins - 1)];
     }
-    /// What was added after `earlier`, an older copy of this one.
+    /// The ages added after `earlier`, an older copy of this histogram.
     [[nodiscard]] PoseAges since(const PoseAges& earlier) const noexcept {
         PoseAges later;
         for (std::size_t k = 0; k < kBins; ++k) later.bins_[k] = bins_[k] - earlier.bins_[k];

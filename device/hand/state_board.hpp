@@ -1,4 +1,4 @@
-// Where a device's thread writes its state and the window reads it.
+// The state of a device: written by the device's thread, read by the window.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,11 @@
 
 namespace dibhr {
 
-/// What every device tells, whatever its stages are.
+/// The part of the state that every device has.
 struct DeviceStatus {
-    std::string sentence{};   ///< what is, and what to do next
-    bool trouble{false};      ///< the sentence tells of something that went wrong
-    std::string unguarded{};  ///< why nobody sends zero if the program is killed
+    std::string sentence{};   ///< the state and the next step, for the user
+    bool trouble{false};      ///< the sentence is about a failure
+    std::string unguarded{};  ///< why there is no guardian process; empty: there is one
     ButtonPresses presses{};  ///< since the start
     ButtonPressTimes pressed_at{};
 };
@@ -32,7 +32,7 @@ class StateBoard {
 
     // The device's thread alone:
 
-    /// The state to come.
+    /// The state that is published next.
     [[nodiscard]] State& draft() noexcept { return draft_; }
 
     void publish() {
@@ -43,14 +43,14 @@ class StateBoard {
     /// At most 50 times a second; never waits.
     void publish_if_due(Time now) {
         if (now - published_at_ < kPeriod) return;
-        // The window is reading: it must not hold up a reply. The next one will do.
+        // While the window reads, skip this publication: the device's thread must not wait.
         const std::unique_lock lock(mutex_, std::try_to_lock);
         if (!lock) return;
         published_at_ = now;
         published_ = draft_;
     }
 
-    /// A new stage, published at once.
+    /// Enters a new stage and publishes at once.
     void enter(decltype(State::stage) stage, const std::string& sentence, bool trouble = false) {
         draft_.stage = stage;
         draft_.sentence = sentence;

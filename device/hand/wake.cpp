@@ -1,4 +1,4 @@
-// Lets the haptic thread end a device thread's poll().
+// The haptic thread's way to end the poll() of a device's thread.
 #include "device/hand/wake.hpp"
 
 #include <sys/eventfd.h>
@@ -26,13 +26,13 @@ Wake::~Wake() {
 
 void Wake::signal() const noexcept {
     const std::uint64_t one = 1;
-    // Fails only when as many as a counter holds wait already: then it is readable anyway.
+    // Fails only when the counter is full: then the descriptor is readable anyway.
     [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
 }
 
 void Wake::clear() const noexcept {
     std::uint64_t signals = 0;
-    // Fails only when there was none.
+    // Fails only when there was no signal.
     [[maybe_unused]] const auto got = read(descriptor_, &signals, sizeof signals);
 }
 

@@ -1,9 +1,9 @@
-// Lets the haptic thread end a device thread's poll().
+// The haptic thread's way to end the poll() of a device's thread.
 #pragma once
 
 namespace dibhr {
 
-/// Lets one thread end another's poll(): an eventfd.
+/// An eventfd with which one thread ends the poll() of another.
 class Wake {
   public:
     /// Throws DeviceError when the system has none left.
@@ -14,7 +14,7 @@ class Wake {
 
     /// Any thread; one system call that never waits.
     void signal() const noexcept;
-    /// The waiting thread: forgets the signals so far.
+    /// For the waiting thread: resets the signals so far.
     void clear() const noexcept;
     /// Readable after a signal.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }

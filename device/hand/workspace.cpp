@@ -1,4 +1,4 @@
-// Where the grip's point is in the image: scale, offset, clutch, and the soft boundary.
+// Maps the grip's position into the image: scale, offset, clutch, and the soft boundary.
 #include "device/hand/workspace.hpp"
 
 #include <glm/geometric.hpp>
@@ -31,8 +31,8 @@ Vec3 from_centre_mm(Vec3 grip_mm, const WorkspaceOptions& options) noexcept {
     return grip_mm - Vec3{0.0, 0.0, or_usual(options.centre_z_mm, WorkspaceOptions{}.centre_z_mm)};
 }
 
-/// Half the image and half its relief; the point under the workspace's centre when nothing is
-/// shifted.
+/// Middle of the image at half the height of the relief: the point under the workspace's centre
+/// without offset and shift.
 Vec3 middle_in_grid(const ImageFrame& image) noexcept {
     return 0.5 * Vec3{image.columns - 1, image.rows - 1, or_usual(image.relief_px, 0.0)};
 }
@@ -58,7 +58,7 @@ Vec3 Workspace::goal_in_grid(Vec3 grip_mm, bool clutched, const ImageFrame& imag
     const Vec3 unshifted = middle + grid_axes(point_mm) / pitch;
     if (!is_finite(unshifted)) return placed_ ? last_goal_ : middle;
 
-    // The tick that engages and the one that releases hold the point, too.
+    // The goal also stays in the tick that engages the clutch and in the one that releases it.
     if (placed_ && (clutched || clutched_)) {
         shift_mm_ = device_axes(last_goal_ - unshifted) * pitch;
     } else {

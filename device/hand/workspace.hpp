@@ -1,4 +1,4 @@
-// Where the grip's point is in the image: scale, offset, clutch, and the soft boundary.
+// Maps the grip's position into the image: scale, offset, clutch, and the soft boundary.
 #pragma once
 
 #include "core/haptics/parameters.hpp"
@@ -7,20 +7,20 @@
 
 namespace dibhr {
 
-/// The hand's volume over the image: the workspace's centre is over the image's middle, half way up
-/// the relief.
+/// How the hand's volume lies over the image: without an offset, the centre of the workspace is at
+/// the middle of the image, half way up the relief.
 struct WorkspaceOptions {
-    double scale{1.0};  ///< image millimetres a hand millimetre; 0.1 .. 10
-    /// Of the image point under the centre; image frame: x right, y up, z to the person.
+    double scale{1.0};  ///< image millimetres per hand millimetre; 0.1 .. 10
+    /// Offset of the workspace's centre in the image; x right, y up, z to the user.
     Vec3 offset_mm{0.0};
-    double centre_z_mm{115.0};  ///< of the usable volume, out of the base; x and y are 0
-    double radius_mm{40.0};     ///< beyond it the soft boundary pushes back
+    double centre_z_mm{115.0};  ///< centre of the usable volume, out of the base; x and y are 0
+    double radius_mm{40.0};     ///< beyond this radius the soft boundary pushes back
     double boundary_newton_per_mm{0.3};
 
     bool operator==(const WorkspaceOptions&) const = default;
 };
 
-/// The image it is laid over.
+/// The image under the workspace.
 struct ImageFrame {
     int columns{0};
     int rows{0};
@@ -30,26 +30,26 @@ struct ImageFrame {
 
 [[nodiscard]] ImageFrame image_frame(const DepthSurface& surface, double pixel_pitch_mm) noexcept;
 
-/// Where a hand rests of which no pose is known yet: over the middle of the image, above all that
-/// is there; grid space.
+/// The goal while no pose is known yet: over the middle of the image, above the whole relief; grid
+/// space.
 [[nodiscard]] Vec3 above_image(const DepthSurface& surface) noexcept;
 
-/// Lays the device's millimetres over the image; the clutch shifts it. No allocation. Options and
-/// images beyond their ranges, or not finite, are taken as the nearest or the usual that is.
+/// Maps device millimetres to grid space; the clutch shifts the mapping. No allocation. Values out
+/// of range are clamped; values that are not finite are replaced by their defaults.
 class Workspace {
   public:
-    /// `grip_mm`: device frame. While `clutched` the point stays where it is in the image and the
-    /// hand moves under it; afterwards the point goes on from there: engaging and releasing never
-    /// make it jump. A grip that is not finite leaves it where it was.
+    /// `grip_mm`: device frame. While `clutched`, the goal stays where it is in the image while the
+    /// hand moves; afterwards it continues from there: the clutch never makes the goal jump. A grip
+    /// position that is not finite leaves the goal unchanged.
     [[nodiscard]] Vec3 goal_in_grid(Vec3 grip_mm, bool clutched, const ImageFrame& image,
                                     const WorkspaceOptions& options) noexcept;
 
-    /// Force of the soft boundary on the hand [N], device frame: none within the radius, beyond it
-    /// towards the centre. Zero for whatever is not finite.
+    /// Force of the soft boundary on the hand [N], device frame: zero within the radius, beyond it
+    /// towards the centre. Zero for values that are not finite.
     [[nodiscard]] static Vec3 boundary_force(Vec3 grip_mm,
                                              const WorkspaceOptions& options) noexcept;
 
-    /// The clutch's shift is forgotten: the next goal is where the grip is.
+    /// Resets the shift of the clutch.
     void centre() noexcept;
 
   private:
@@ -64,8 +64,8 @@ class Workspace {
 [[nodiscard]] double fitting_scale(const ImageFrame& image,
                                    const WorkspaceOptions& options) noexcept;
 
-/// Hand axes (x right, y up, z to the person) and grid axes (x right, y down, z to the person)
-/// differ in the sign of y.
+/// Hand axes (x right, y up, z to the user) and grid axes (x right, y down, z to the user) differ
+/// in the sign of y.
 [[nodiscard]] constexpr Vec3 device_axes(Vec3 grid) noexcept {
     return {grid.x, -grid.y, grid.z};
 }

@@ -1,4 +1,4 @@
-// What an arm's states tell over time.
+// Checks the states of an arm over time.
 #include "device/inverse3/arm_watch.hpp"
 
 #include <glm/geometric.hpp>
@@ -10,12 +10,12 @@ namespace {
 using std::chrono::milliseconds;
 
 // README.md, Safety numbers.
-constexpr double kFastest_m_per_s = 10.0;    // no hand is
-constexpr double kJumpAnyway_m = 0.02;       // whatever time it took
-constexpr milliseconds kOurUseBegins{1000};  // from the first force on,
-constexpr milliseconds kOurPushBegins{100};  // and whenever it rises from zero
+constexpr double kFastest_m_per_s = 10.0;    // no hand is faster
+constexpr double kJumpAnyway_m = 0.02;       // added to the greatest step of that speed
+constexpr milliseconds kOurUseBegins{1000};  // `in_use` so soon after our first force is our use
+constexpr milliseconds kOurPushBegins{100};  // likewise after each rise of the force from zero
 constexpr double kWorthHearing_newton = 0.3;
-constexpr double kHeardShare = 0.05;  // filters in the service take most of a force away
+constexpr double kHeardShare = 0.05;  // small, because filters in the service reduce a force
 constexpr milliseconds kDeafAfter{250};
 
 bool is_permuted(const ArmConfig& config) noexcept {
@@ -68,7 +68,7 @@ Stage ArmWatch::stage_of(const Arm& arm) const noexcept {
 }
 
 void ArmWatch::follow_use(bool in_use, Time at) noexcept {
-    // Nobody knows whether the service means us, too: what begins as we begin is ours.
+    // It is not known whether `in_use` includes us: a use that begins with our force is ours.
     if (!in_use) used_by_us_ = false;
     if (in_use && !was_in_use_) {
         used_by_us_ = (driven_since_ && at - *driven_since_ < kOurUseBegins) ||

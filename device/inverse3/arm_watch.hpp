@@ -1,5 +1,5 @@
-// What an arm's states tell over time: whether its poses may be trusted, whether it obeys, and
-// whether somebody else drives it. States in, verdicts out: no clock, no socket.
+// Checks the states of an arm over time: whether its poses are valid, whether it takes forces, and
+// whether another program uses it. A pure computation, without clock or socket.
 #pragma once
 
 #include <chrono>
@@ -13,25 +13,25 @@
 
 namespace dibhr::inverse3 {
 
-/// Whether the arm may be touched with, from one state to the next.
+/// Whether the arm may be used for touching; updated with every state.
 class ArmWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Another arm, or a new link: nothing is known. Epochs go on counting.
+    /// Resets for another arm or a new link. The epochs continue.
     void begin() noexcept;
-    /// A state that came at `at`.
+    /// A state received at `at`.
     void add(const Arm& arm, Time at) noexcept;
-    /// A message without it, or one that made no sense.
+    /// A message without this arm, or one that is not valid.
     void miss() noexcept;
-    /// A force was sent to it at `at`; `pushes`: it was not zero.
+    /// A force was sent at `at`; `pushes`: it was not zero.
     void drove(Time at, bool pushes) noexcept;
 
-    /// What keeps it from touching; `ready`: nothing.
+    /// Why the arm cannot touch; `ready`: it can.
     [[nodiscard]] Stage stage() const noexcept { return stage_; }
-    /// From the second state in a row that can be trusted; another one after each gap and jump.
+    /// From the second valid state in a row; a new epoch after each gap and jump.
     [[nodiscard]] Epoch epoch() const noexcept { return trusted_ >= 2 ? epoch_ : kNoEpoch; }
-    /// Its configuration is to be read again: it jumped.
+    /// The last position jumped: the configuration has to be read again.
     [[nodiscard]] bool jumped() const noexcept { return jumped_; }
 
   private:
@@ -42,27 +42,27 @@ class ArmWatch {
 
     Stage stage_{Stage::no_device};
     Epoch epoch_{kNoEpoch};
-    int trusted_{0};  // states in a row; stops at 2
+    int trusted_{0};  // valid states in a row; stops at 2
     bool jumped_{false};
     std::optional<Vec3> last_m_{};
     Time last_at_{};
     StillPose still_{};
-    std::optional<ArmConfig> config_{};  // the last one that was told
+    std::optional<ArmConfig> config_{};  // the last received one
     std::optional<Time> driven_since_{};
-    std::optional<Time> pushed_since_{};  // the last force that was not zero, after one that was
+    std::optional<Time> pushed_since_{};  // when the force last rose from zero
     bool pushes_{false};
     bool was_in_use_{false};
     bool used_by_us_{false};
 };
 
-/// Whether the service obeys: forces that are sent have to be told back.
+/// Whether the service takes our forces: it has to report back the forces that were sent.
 class HearingWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;
     enum class Hears { unknown, yes, no };
 
     void begin() noexcept;
-    /// The state after a force of `sent_newton` was sent.
+    /// `told_newton`: the force in the state that answered a message with `sent_newton`.
     void add(Vec3 sent_newton, const std::optional<Vec3>& told_newton, Time at) noexcept;
     [[nodiscard]] Hears hears() const noexcept { return hears_; }
 

@@ -1,4 +1,4 @@
-// One connection to the service.
+// The exchange over one connection to the service.
 #include "device/inverse3/conversation.hpp"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using Why = LinkError::Why;
 // README.md, Safety numbers.
 constexpr milliseconds kOldestForce{20};
 constexpr int kZerosAfterForce = 5;
-constexpr milliseconds kNeverSilentFor{10};  // to the guardian, who waits for 50
+constexpr milliseconds kNeverSilentFor{10};  // between beats; the guardian's timeout is 50 ms
 constexpr seconds kLongestSilence{2};
 constexpr milliseconds kMessageTakes{500};  // from its first byte to its last
 constexpr milliseconds kGoodbyeTakes{100};
@@ -29,9 +29,9 @@ constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopPauses{200};  // without a force from the haptic loop
 constexpr milliseconds kReadBackEvery{1000};
 constexpr int kPresetsAsked = 3;
-constexpr const char* kUsualPreset = "defaults";  // which a service may call something else
+constexpr const char* kUsualPreset = "defaults";  // a service may report it by another name
 
-// Between two messages: poses stay young, and a processor has time for other things.
+// Pauses between two messages: short enough for young poses, and they leave the processor free.
 constexpr microseconds kPause{500};
 constexpr microseconds kPauseWithoutLoop{10'000};
 constexpr microseconds kPauseWithoutArm{100'000};
@@ -68,7 +68,7 @@ Conversation::Conversation(ServiceLink& link, const ConnectionOptions& options, 
 Conversation::~Conversation() {
     if (guarded_in_ && !settled_) guardian_.part();
     unguard();
-    exchange_.poses.publish(TimedPose{});  // nobody acts on an old pose
+    exchange_.poses.publish(TimedPose{});  // so that no tick uses an old pose
     memory_.buttons.release();
 }
 
@@ -84,7 +84,8 @@ void Conversation::run(const std::stop_token& stop) {
     say_goodbye();
 }
 
-/// It comes by itself, says the documentation; where it does not, it is asked for like any other.
+/// By the documentation, the service sends the inventory unasked. Where it does not, the first
+/// message requests it.
 void Conversation::take_inventory(const std::stop_token& stop) {
     if (await(Clock::now() + kInventoryTakes, &stop)) take();
 }
@@ -106,8 +107,8 @@ bool Conversation::closed_on_force() const noexcept {
     return in_flight_ && sent_drives_ && !force_answered_ && !memory_.dialect_confirmed;
 }
 
-/// Until the haptic loop has a new force, or a pose is due without; and hears what nobody asked
-/// for, which would else make every later answer one exchange older.
+/// Waits until the haptic loop has a new force, or the next pose is due. Reads unrequested messages
+/// meanwhile: an unread one would make every later answer one exchange older.
 void Conversation::pause() {
     const bool paused = Clock::now() - loop_heard_ > kLoopPauses;
     const Time until = sent_at_ + (arm_.empty() ? kPauseWithoutArm
@@ -122,14 +123,15 @@ void Conversation::pause() {
     }
 }
 
-/// True: something comes. Ends at the wake, and whenever the guardian is to hear of us, too.
+/// True: a message comes. Also ends at the wake, and when the next beat for the guardian is due.
 bool Conversation::wait(Time until) {
     const bool comes = link_.wait(&exchange_.wake, std::min(until, Clock::now() + kNeverSilentFor));
     tell_guardian();
     return comes;
 }
 
-/// What comes after it has spoken answers its words and not ours: the link ends, with a zero.
+/// Beats, and ends the link when the guardian died or has sent its packets: after those, answers no
+/// longer belong to our messages.
 void Conversation::tell_guardian() {
     guardian_.beat();
     if (guarded_in_ && guardian_.died()) throw LinkError(Why::unguarded, "its guardian has ended");
@@ -147,11 +149,11 @@ bool Conversation::await(Time until, const std::stop_token* stop) {
 void Conversation::say_goodbye() noexcept {
     try {
         const Time until = Clock::now() + kGoodbyeTakes;
-        // What is in flight first: there is never more than one.
+        // Reads the pending answer first: there is never more than one message in flight.
         if (in_flight_ && await(until, nullptr)) (void)link_.read(until);
         settled_ = link_.close(until);
     } catch (const LinkError&) {
-        settled_ = false;  // it has gone before
+        settled_ = false;  // the connection was lost before
     }
 }
 
@@ -170,7 +172,7 @@ void Conversation::say(const Order& order) {
     sent_at_ = now;
 }
 
-/// From the first force on, and anew where zero is said in another way.
+/// Called with every force; starts the guardian at the first one, and again for another dialect.
 void Conversation::guard(const Order& order) {
     tell_guardian();
     if (guarded_in_ == order.dialect) return;
@@ -244,7 +246,7 @@ void Conversation::take_message(const ServiceMessage& message, Time at) {
                       "the Haply Inverse Service complains: " + one_line(message.complaint.view()));
         return;
     }
-    // Where no version was told, its words tell it.
+    // Without a known version, the content of the message shows it.
     newer_ = newer_ || message.has_session;
     take_grip(message, at);
     if (arm_.empty()) choose(message);
@@ -263,10 +265,10 @@ void Conversation::take_nonsense(Stage why, const std::string& sentence) {
     tell(why, sentence.empty() ? sentence_for(why, board_.draft()) : sentence, true);
 }
 
-/// The first in order of their names, so that another order of the list changes nothing.
+/// Chooses the first by ID, so that the order of the list does not matter.
 void Conversation::choose(const ServiceMessage& message) {
     for (DeviceId& id : left_alone_)
-        if (message.arm(id) == nullptr) id = {};  // it is a new one when it comes again
+        if (message.arm(id) == nullptr) id = {};  // unplugged: may be chosen when it comes again
     const Arm* chosen = nullptr;
     for (std::size_t k = 0; k < message.arm_count; ++k) {
         const Arm& arm = message.arms[k];
@@ -284,7 +286,7 @@ void Conversation::choose(const ServiceMessage& message) {
     board_.draft().id = one_line(arm_.view());
 }
 
-/// Somebody else may hold another one: it counts as ours when it is plugged in anew, or named.
+/// Another user may hold the other arms: they are ignored until plugged in again.
 void Conversation::leave_others(const ServiceMessage& message) {
     for (std::size_t k = 0; k < message.arm_count; ++k) left_alone_[k] = message.arms[k].id;
 }
@@ -303,9 +305,9 @@ void Conversation::forget_arm() {
     status.minverse = false;
 }
 
-/// None is there, or the chosen one has gone, or those that are there are not meant.
+/// No arm is attached, or the chosen one is lost, or no attached one is the requested one.
 void Conversation::miss_arm(const ServiceMessage& message) {
-    if (gone_ && zeros_owed_ > 0) return;  // to the end, should anybody still hear them
+    if (gone_ && zeros_owed_ > 0) return;  // first the pending zeros: the arm may still get them
     if (gone_) return forget_arm();
     if (!arm_.empty()) return lose_arm(message);
     const bool any = message.arm_count > 0;
@@ -343,7 +345,7 @@ void Conversation::take_arm(const Arm& arm, Time at) {
     tell_stage(stage());
 }
 
-/// The Haply Hub may have put a profile of its own over ours, or the service may not take it.
+/// The Haply Hub may have replaced our preset by its own, or the service may not take ours.
 void Conversation::read_back(const ArmConfig& config) {
     Status& status = board_.draft();
     status.minverse = config.minverse;
@@ -362,7 +364,7 @@ void Conversation::read_back(const ArmConfig& config) {
     }
 }
 
-/// What keeps it from touching.
+/// Why the arm cannot touch; `ready`: it can.
 Stage Conversation::stage() const noexcept {
     if (deaf()) return Stage::deaf;
     const Stage of_arm = memory_.watch.stage();
@@ -376,7 +378,7 @@ Epoch Conversation::epoch() const noexcept {
     return stage() == Stage::ready && !gone_ ? memory_.watch.epoch() : kNoEpoch;
 }
 
-/// The same stage again is told without a word being made.
+/// Publishes a new stage; for the same stage no sentence is made.
 void Conversation::tell_stage(Stage stage) {
     if (told_ && board_.draft().stage == stage) return;
     const bool trouble = stage == Stage::deaf || stage == Stage::other_frame ||
@@ -408,7 +410,7 @@ void Conversation::learn_dialect(const Arm& arm, Time at) {
     if (hearing_.hears() == HearingWatch::Hears::no) try_other_dialect();
 }
 
-/// It rises from zero then: nobody knows how the next one is obeyed.
+/// The force then rises from zero, because the effect of the other dialect is not known.
 void Conversation::try_other_dialect() {
     memory_.dialect_confirmed = false;
     hearing_.begin();

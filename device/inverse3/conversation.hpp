@@ -1,4 +1,4 @@
-// One connection to the service: exactly one message in flight, poses out, forces in.
+// The exchange over one connection to the service: forces out, poses in, one message in flight.
 #pragma once
 
 #include <array>
@@ -21,16 +21,16 @@
 
 namespace dibhr::inverse3 {
 
-/// What outlives a connection.
+/// State of the driver that is kept from one connection to the next.
 struct Memory {
     MessageReader reader{};
     OrderWriter writer{};
-    ArmWatch watch{};  // its epochs go on counting
+    ArmWatch watch{};  // its epochs continue
     DelayWatch delay{};
     ButtonDebounce buttons{};
-    std::optional<ForceDialect> dialect{};  ///< found out; nothing: by the version
+    std::optional<ForceDialect> dialect{};  ///< found by trial; nothing: the version decides
     bool dialect_confirmed{false};
-    int dialects_refused{0};  ///< 2: both
+    int dialects_refused{0};  ///< 2: the service refused both
     std::uint64_t exchanges{0};
     std::uint64_t unasked{0};
     std::uint64_t not_understood{0};
@@ -40,19 +40,21 @@ class Conversation {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// All must outlive it. `newer`: a service of 3.5 or later, which it also tells by its words.
+    /// All must outlive this object. `newer`: the version is 3.5 or later; a message that names its
+    /// session shows this, too.
     Conversation(ServiceLink& link, const ConnectionOptions& options, bool newer,
                  Exchange& exchange, Board& board, Memory& memory, Guardian& guardian);
-    /// No pose is left behind. A link that did not end by a goodbye is left to its guardian, who
-    /// says zero over it and lets it go.
+    /// Withdraws the pose. Without an answered close frame, leaves the connection to the guardian,
+    /// which sends zero forces over it and closes it.
     ~Conversation();
     Conversation(const Conversation&) = delete;
     Conversation& operator=(const Conversation&) = delete;
 
-    /// Until it is to stop, which ends with a zero force and a goodbye. Throws LinkError.
+    /// Runs until a stop request; then sends a zero force and closes the connection. Throws
+    /// LinkError.
     void run(const std::stop_token& stop);
 
-    /// After run() has thrown: the service has gone on the first force that it was sent.
+    /// After run() has thrown: the service closed the connection in answer to the first force.
     [[nodiscard]] bool closed_on_force() const noexcept;
 
   private:
@@ -61,7 +63,7 @@ class Conversation {
     void pause();
     void say_goodbye() noexcept;
 
-    // What is said.
+    // Sending.
     void say(const Order& order);
     void guard(const Order& order);
     void tell_guardian();
@@ -69,7 +71,7 @@ class Conversation {
     [[nodiscard]] Order next_order();
     [[nodiscard]] Vec3 wanted_force(Time now);
 
-    // What is heard.
+    // Receiving.
     [[nodiscard]] bool wait(Time until);
     [[nodiscard]] bool await(Time until, const std::stop_token* stop);
     void take();
@@ -104,18 +106,18 @@ class Conversation {
 
     ServiceMessage message_{};
     DeviceId arm_{};  // empty: none is chosen
-    /// That were there when ours went: nobody has one of them in the hand for us.
+    /// Arms that were attached when ours was lost: another user may hold them.
     std::array<DeviceId, ServiceMessage::kMost> left_alone_{};
     int presets_asked_{0};
     HearingWatch hearing_{};
     bool introduced_{false};
-    bool settled_{false};  // the service has answered the goodbye
+    bool settled_{false};  // the service has answered the close frame
     std::optional<ForceDialect>
-        guarded_in_{};  // how the guardian would say zero; nothing: no guard
+        guarded_in_{};  // dialect of the guardian's zero force; nothing: not guarded
     bool force_answered_{false};
     bool in_flight_{false};
-    bool told_{false};  // something of this arm
-    bool gone_{false};  // the arm, but zeros are owed to it
+    bool told_{false};  // a stage of this arm was published
+    bool gone_{false};  // the arm is lost; zero forces may still be pending
     int zeros_owed_{0};
     Vec3 sent_newton_{0.0};  // with the message in flight
     bool sent_drives_{false};

@@ -42,7 +42,7 @@ std::error_code DeadlineSocket::connect(std::uint16_t port) noexcept {
     descriptor_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor_ < 0) return last_error();
     const int yes = 1;
-    // A refusal only makes messages later.
+    // If this fails, messages are only delayed.
     (void)setsockopt(descriptor_, IPPROTO_TCP, TCP_NODELAY, &yes, sizeof yes);
     sockaddr_in address{};
     address.sin_family = AF_INET;
@@ -86,12 +86,12 @@ std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code&
     for (const iovec& part : parts) all += part.iov_len;
     const bool closes = whole_ && !parts.empty() && parts.front().iov_len > 0 &&
                         *static_cast<const std::uint8_t*>(parts.front().iov_base) == kCloseFrame;
-    if (closes && !say_last_words()) {  // whoever guards the connection has to
+    if (closes && !say_last_words()) {  // then the guardian has to send it
         error = std::make_error_code(std::errc::no_buffer_space);
         return 0;
     }
     msghdr message{};
-    message.msg_iov = const_cast<iovec*>(parts.data());  // it is only read
+    message.msg_iov = const_cast<iovec*>(parts.data());  // sendmsg() only reads it
     message.msg_iovlen = parts.size();
     for (;;) {
         const ssize_t gone = sendmsg(descriptor_, &message, MSG_NOSIGNAL);
@@ -116,7 +116,7 @@ void DeadlineSocket::set_last_words(std::span<const std::uint8_t> frame) noexcep
 bool DeadlineSocket::say_last_words() noexcept {
     const std::size_t size = std::exchange(last_words_size_, 0);
     if (descriptor_ < 0 || size == 0) return true;
-    // Behind a part of a frame they would be taken for its rest.
+    // Behind a partial frame, this frame would be taken for its rest.
     return whole_ && send(descriptor_, last_words_.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT) ==
                          static_cast<ssize_t>(size);
 }

@@ -1,4 +1,4 @@
-// A TCP connection to this machine on which nothing waits longer than it may.
+// A TCP connection to this machine whose calls all have a deadline.
 #pragma once
 
 #include <sys/uio.h>
@@ -14,7 +14,7 @@
 
 namespace dibhr::inverse3 {
 
-/// Every call that waits ends at the deadline, with std::errc::timed_out. Not copied: one owner.
+/// Every call that waits ends at the deadline with std::errc::timed_out. Not copyable.
 class DeadlineSocket {
   public:
     using Clock = std::chrono::steady_clock;
@@ -27,35 +27,36 @@ class DeadlineSocket {
 
     void set_deadline(Time deadline) noexcept { deadline_ = deadline; }
 
-    /// To 127.0.0.1; small messages leave at once.
+    /// Connects to 127.0.0.1, with TCP_NODELAY.
     [[nodiscard]] std::error_code connect(std::uint16_t port) noexcept;
-    /// At least one byte; 0 with an empty code: the other end has closed.
+    /// Reads at least one byte; 0 with an empty code: the other end has closed.
     [[nodiscard]] std::size_t read(std::span<std::uint8_t> into, std::error_code& error) noexcept;
-    /// The parts one behind the other, in one call of the system: whoever dies leaves no half of
-    /// them behind, unless there is no room.
+    /// Writes all parts in one system call: a program that dies leaves no partial frame, unless the
+    /// socket's buffer is full.
     [[nodiscard]] std::size_t write(std::span<const iovec> parts, std::error_code& error) noexcept;
-    /// Sent once before the connection ends, whoever ends it: before a close frame, or close().
+    /// Sets the frame that is sent once before the connection ends: before our close frame, or in
+    /// close().
     void set_last_words(std::span<const std::uint8_t> frame) noexcept;
     void close() noexcept;
 
     /// -1: not connected.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
-    /// Until something can be read (true), `wake` is signalled, or `until`. Also true when the
-    /// other end has gone.
+    /// Waits until bytes can be read (true), `wake` is signalled, or `until`. Also true when the
+    /// other end has closed.
     [[nodiscard]] bool wait_readable(const Wake* wake, Time until) const noexcept;
 
   private:
     [[nodiscard]] std::error_code wait_for(short events) const noexcept;
-    /// False: they have not gone out whole.
+    /// False: the frame was not sent as a whole.
     [[nodiscard]] bool say_last_words() noexcept;
 
     int descriptor_{-1};
     Time deadline_{Time::max()};
-    std::array<std::uint8_t, 16384> came_{};  // and was not taken yet ...
+    std::array<std::uint8_t, 16384> came_{};  // received bytes, not yet read ...
     std::size_t from_{0};                     // ... from here
     std::size_t to_{0};                       // to here
-    bool whole_{true};                        // all frames that were begun
+    bool whole_{true};                        // no frame was written only in part
     std::array<std::uint8_t, 512> last_words_{};
     std::size_t last_words_size_{0};
 };

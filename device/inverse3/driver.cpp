@@ -1,4 +1,4 @@
-// The network thread's life.
+// The network thread.
 #include "device/inverse3/driver.hpp"
 
 #include <exception>
@@ -15,7 +15,7 @@ using std::chrono::milliseconds;
 using Why = LinkError::Why;
 
 constexpr milliseconds kLookAgainAfter{500};
-constexpr milliseconds kBotherStrangerAfter{5000};  // who is no Inverse Service
+constexpr milliseconds kBotherStrangerAfter{5000};  // where another server has the port
 constexpr milliseconds kHandshakeTakes{1000};
 
 }  // namespace
@@ -33,7 +33,7 @@ Driver::~Driver() {
 }
 
 void Driver::live(const std::stop_token& stop) {
-    // What was refused stands in the Loop panel, for the haptic thread asks for the same.
+    // A refusal is shown in the Loop panel, because the haptic thread requests the same.
     (void)become_realtime("dibhr inverse3");
     while (!stop.stop_requested()) {
         pause_ = kLookAgainAfter;
@@ -100,11 +100,11 @@ void Driver::lose(const LinkError& error, const Conversation& conversation) {
     memory_.dialect = other(status.dialect.value_or(ForceDialect::vector));
 }
 
-/// Nobody to talk to.
+/// No connection could be made.
 void Driver::miss(const LinkError& error) {
     const auto [stage, sentence] = why_unheard(error, board_.draft());
     if (error.why() == Why::not_the_service) pause_ = kBotherStrangerAfter;
-    // What was lost and is not there again stays told so.
+    // Keeps the sentence about the loss until the service is there again.
     if (lost_ && stage == Stage::looking && error.why() == Why::refused) return;
     tell(stage, sentence, stage != Stage::looking);
 }

@@ -1,5 +1,5 @@
-// The network thread's life: looks for the service, asks its version, talks to it, loses it, looks
-// again.
+// The network thread: finds the service, reads its version, exchanges messages with it until it is
+// lost, and searches again.
 #pragma once
 
 #include <chrono>
@@ -17,12 +17,12 @@
 
 namespace dibhr::inverse3 {
 
-/// With a guardian of its own from construction on.
+/// Has a guardian process from construction on.
 class Driver {
   public:
     /// `exchange` must outlive it.
     Driver(ConnectionOptions options, Exchange& exchange);
-    ~Driver();  ///< a zero force, then the connection is closed
+    ~Driver();  ///< sends a zero force, then closes the connection
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
 
@@ -41,8 +41,8 @@ class Driver {
     Board board_{};
     Guardian guardian_{"Inverse3"};
     Memory memory_{};
-    bool lost_{false};                   // it was there in this run
-    std::chrono::milliseconds pause_{};  // before the next look
+    bool lost_{false};                   // the service was connected before, in this run
+    std::chrono::milliseconds pause_{};  // before the next search
 
     std::mutex mutex_{};
     std::condition_variable_any news_{};

@@ -1,5 +1,5 @@
-// What passes between the haptic thread and the network thread: the newest pose one way, the newest
-// force the other, and a wake.
+// Buffers between the haptic thread and the network thread: the newest pose, the newest force, and
+// a wake.
 #pragma once
 
 #include <chrono>
@@ -12,21 +12,21 @@
 
 namespace dibhr::inverse3 {
 
-/// As it came, in the service's axes.
+/// A pose as received, in the service's axes.
 struct TimedPose {
     Vec3 position_m{0.0};
-    std::uint8_t buttons{0};  ///< steady
+    std::uint8_t buttons{0};  ///< debounced
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};
-    std::uint64_t number{0};  ///< 1 .., since the start
+    std::uint64_t number{0};  ///< counts from 1 since the start
     int exchange_ms{1};       ///< DelayWatch::within_ms()
 };
 
-/// In the service's axes.
+/// A force in the service's axes.
 struct TimedForce {
     Vec3 newton{0.0};
     std::chrono::steady_clock::time_point at{};
-    Epoch epoch{kNoEpoch};  ///< of the pose it was computed for
+    Epoch epoch{kNoEpoch};  ///< epoch of the pose that the force was computed for
 };
 
 struct Exchange {

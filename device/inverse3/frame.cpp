@@ -1,4 +1,4 @@
-// The hand's axes over the image, and the service's.
+// Rotation between the service's axes and the hand's axes over the image.
 #include "device/inverse3/frame.hpp"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ ImageTilt::ImageTilt(double tilt_deg) noexcept {
     sine_ = std::sin(tilt * std::numbers::pi / 180.0);
 }
 
-// Upright: the image's up is the service's z, and out of it is back to the person (-y). Flat: up in
-// the image is forward (y), and out of it is up (z).
+// Upright: up in the image is the service's z, and out of the image is towards the user (-y). Flat:
+// up in the image is forward (y), and out of the image is up (z).
 Vec3 ImageTilt::hand_from_service(Vec3 service) const noexcept {
     return {service.x, cosine_ * service.z + sine_ * service.y,
             sine_ * service.z - cosine_ * service.y};

@@ -1,4 +1,4 @@
-// The hand's axes over the image, and the service's.
+// Rotation between the service's axes and the hand's axes over the image.
 #pragma once
 
 #include "core/haptics/vec.hpp"
@@ -10,7 +10,7 @@ namespace dibhr::inverse3 {
 /// up, z to the person), with the image upright (0) to lying flat on the table (90 degrees).
 class ImageTilt {
   public:
-    /// Anything else than 0 .. 90 is taken as the nearest.
+    /// Values outside 0 .. 90 are clamped.
     explicit ImageTilt(double tilt_deg) noexcept;
     [[nodiscard]] Vec3 hand_from_service(Vec3 service) const noexcept;
     [[nodiscard]] Vec3 service_from_hand(Vec3 hand) const noexcept;
@@ -20,7 +20,7 @@ class ImageTilt {
     double sine_{0.0};
 };
 
-/// Ends of the comfortable box's edge [mm].
+/// Range of the comfortable box's edge [mm].
 inline constexpr double kSmallestBox_mm = 20.0;
 inline constexpr double kLargestBox_mm = 200.0;
 

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 // README.md, Safety numbers.
 constexpr std::chrono::milliseconds kOldestPose{20};
-constexpr double kMaxForce_newton = 10.0;  // for a moment; Tuning::max_force_newton lasts
+constexpr double kMaxForce_newton = 10.0;  // peak; the lasting limit is Tuning::max_force_newton
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
 constexpr int kTellAgesEvery = 500;  // ticks
 constexpr double kMetre_mm = 1000.0;

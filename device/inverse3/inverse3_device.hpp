@@ -1,4 +1,4 @@
-// The Haply Inverse3 as a device: poses in, forces out, the service on its own thread.
+// The Haply Inverse3 as a force device, with a thread of its own for the service.
 #pragma once
 
 #include <chrono>
@@ -14,38 +14,38 @@
 
 namespace dibhr::inverse3 {
 
-/// What an Inverse3 can do, whether or not one is attached; how it moves is assumed.
+/// Name, limits and assumed dynamics of an Inverse3, whether or not one is attached.
 [[nodiscard]] DeviceSpecification specification_of(const ConnectionOptions& options = {});
 
-/// What every device is asked for, but the ages since the start. `recent`: of about the last
-/// second. Its facts: "dialect", "id", "preset-read", "service".
+/// The state without the pose ages since the start. `recent`: ages of about the last second. Its
+/// facts: "dialect", "id", "preset-read", "service".
 [[nodiscard]] DeviceState state_of(const Status& status, const PoseAges& recent = {});
 
-/// Looks for the service from construction on, and again whenever it is lost; chooses a device, and
-/// then exchanges one message and one state after the other. Everything but read() and send()
-/// happens on the network thread. Its end is a zero force and a closed connection.
+/// Searches for the service from construction on, and again whenever it is lost; chooses a device,
+/// and then exchanges one message and one state at a time. All but read() and send() happens on the
+/// network thread. The destructor sends a zero force and closes the connection.
 class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
   public:
     explicit Inverse3Device(ConnectionOptions options);
 
     /// The newest pose. `ready` is false, and no force will be sent, unless the device is
-    /// calibrated, powered, ours and obeying, its pose younger than 20 ms, and the clutch open.
-    /// Before the first pose the goal waits above the middle, higher than everything; later it
-    /// stays where it was. Workspace, tilt or centre that were changed make it `taken_over`, as
-    /// does every gap and jump.
+    /// calibrated, powered, not used by another program and takes forces, its pose is younger than
+    /// 20 ms, and the clutch is open. Before the first pose the goal is above the middle of the
+    /// image, higher than the relief; without a pose it stays. A change of workspace, tilt or
+    /// centre sets `taken_over`, as does every gap and jump.
     HandReading read(const HandContext& context) noexcept override;
 
-    /// The force of this tick; it leaves with the next message. Zero for anything that is not
-    /// finite and whenever the last read() was not ready; no longer than Tuning::max_force_newton.
+    /// The force of this tick, sent with the next message. Zero for a force that is not finite, and
+    /// whenever the last read() was not ready; at most Tuning::max_force_newton long.
     void send(Vec3 force_newton) noexcept override;
 
-    /// The haptic thread's: how old the pose of the last read() was.
+    /// For the haptic thread: age of the pose of the last read().
     [[nodiscard]] std::chrono::nanoseconds pose_age() const noexcept { return pose_age_; }
 
-    // The window thread's end:
+    // For the window thread:
 
-    /// How old poses were in the ticks in which this hand touched, since the start; at most half a
-    /// second behind.
+    /// Pose ages of all ticks in which this device touched, since the start; updated every half
+    /// second.
     [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
     [[nodiscard]] DeviceState state() override;
@@ -53,13 +53,13 @@ class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
   private:
     void count_age() noexcept;
 
-    PoseAges shown_ages_{};   // since the start, when
-    PoseAges recent_ages_{};  // of the second before that
+    PoseAges shown_ages_{};   // all ages up to shown_at_
+    PoseAges recent_ages_{};  // ages of the second before shown_at_
     std::chrono::steady_clock::time_point shown_at_{};
     TripleBuffer<PoseAges> told_ages_{};
     Exchange exchange_{};
 
-    // The haptic thread's.
+    // Used by the haptic thread only.
     ImageTilt tilt_{0.0};
     std::chrono::nanoseconds pose_age_{0};
     PoseAges ages_{};

@@ -1,4 +1,4 @@
-// Asks for them one after the other.
+// Reads the settings that the service keeps for all programs, one after the other.
 #include "device/inverse3/kept_settings.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::string shortened(const std::string& told) {
     return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
-/// A key whose value says it all: an answer's envelope, a switch.
+/// A key that adds nothing to its value, such as the envelope of an answer, or a switch.
 bool is_said_by_itself(std::string_view key) {
     constexpr std::array<std::string_view, 4> kKeys{"enabled", "value", "data", "result"};
     return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
@@ -64,14 +64,14 @@ std::string words_of(const Json& value, const std::string& name) {
     }
 }
 
-/// Of an answer that says that there is none.
+/// The reason in an answer that reports an error.
 std::optional<std::string> refusal_in(const Json& value) {
     if (!value.is_object() || value.value("ok", Json(true)) != Json(false)) return std::nullopt;
     const Json why = value.value("error", Json());
     return why.is_string() ? why.get<std::string>() : "refused";
 }
 
-/// Empty: nothing.
+/// The answer of the service; empty: none.
 std::string told_of(const ConnectionOptions& options, const std::string& target) {
     try {
         return http_get(options.port, target, ServiceLink::Time::clock::now() + kTakes);

@@ -1,5 +1,5 @@
-// What the service keeps of a device for all programs, such as gravity compensation: shown, never
-// changed.
+// Settings that the service keeps for all programs, such as gravity compensation: they are shown,
+// never changed.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace dibhr::inverse3 {
 struct KeptSetting {
     std::string name{};   ///< "gravity compensation"
     std::string words{};  ///< "on"
-    std::string told{};   ///< as the service spells it, cut where it is long
+    std::string told{};   ///< the service's own text, cut where it is long
 };
 
-/// Those that the service tells of, over HTTP: for at most 300 ms each.
+/// Reads them from the service over HTTP; those without an answer in 300 ms are left out.
 [[nodiscard]] std::vector<KeptSetting> ask_kept_settings(const ConnectionOptions& options,
                                                          const std::string& device);
 
-/// A value that is told as JSON, in words: `{"enabled":true,"gain":0.3}` is "on, gain 0.3", an
-/// error "not told: " and its reason; text that is no JSON is itself.
+/// The text for an answer in JSON: `{"enabled":true,"gain":0.3}` gives "on, gain 0.3", an error
+/// gives "not told: " and its reason. Text that is no JSON stays as it is.
 [[nodiscard]] std::string words_of_setting(std::string_view told);
 
 }  // namespace dibhr::inverse3

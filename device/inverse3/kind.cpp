@@ -41,7 +41,7 @@ std::vector<DeviceLine> ask_kept(const DeviceSettings& settings, const std::stri
     return lines;
 }
 
-/// What it needs after that, power or calibration, is told in the window.
+/// Power and calibration are not checked here: the window shows what is missing.
 std::string why_none_of_service(const DeviceSettings& settings, const DeviceGiven& given) {
     const ConnectionOptions connection = connection_in(settings, given);
     return why_none(survey_service(connection), connection.device);
@@ -94,21 +94,21 @@ bool glance(const DeviceSettings& settings, const TellLine& tell) {
                        [](const SurveyedArm& arm) { return arm.usable(); });
 }
 
-CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const TellLine& /*tell*/,
+CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const TellLine& /*line*/,
                   CheckGuide& guide) {
     return run_check(
         {.connection = connection_in(settings), .record = paper.record, .facts = paper.facts},
         guide);
 }
 
-/// Its hand and device follow what is typed. Throws DeviceError when a port is taken.
+/// Typed lines move the simulated hand and device. Throws DeviceError when a port is taken.
 void simulate(const DeviceSettings& settings, std::istream& orders, const TellLine& tell) {
     const ConnectionOptions connection = connection_in(settings);
     simulated::Scene scene;
     scene.grips = {simulated::Grip{}};
     simulated::Service service(std::move(scene), connection.port, connection.older_port);
     std::string_view commands = simulated::kHandCommands;
-    commands.remove_suffix(1);  // the end of its last line
+    commands.remove_suffix(1);  // the last newline
     tell("A simulated Inverse3 answers on port " + std::to_string(service.port()) +
          ". Start dibhr in another terminal.\n" + std::string(commands));
     simulated::HandScript script(service);

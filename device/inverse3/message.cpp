@@ -20,7 +20,7 @@ using simdjson::dom::object;
 
 constexpr double kFarthest_m = 2.0;  // twice what an arm spans
 constexpr double kFastest_m_per_s = 1e3;
-constexpr double kStrongest_newton = 1e3;  // beyond it a force is no force
+constexpr double kStrongest_newton = 1e3;  // a larger value is not valid
 
 /// The object's member, or nothing.
 std::optional<element> member(const object& from, std::string_view key) noexcept {
@@ -49,7 +49,7 @@ bool flag_in(const std::optional<object>& from, std::string_view key, bool other
     return found && found->get(flag) == simdjson::SUCCESS ? flag : otherwise;
 }
 
-/// A whole number counts, too.
+/// Accepts integers, too.
 std::optional<double> number_in(const object& from, std::string_view key) noexcept {
     const auto found = member(from, key);
     double number = 0.0;
@@ -129,7 +129,7 @@ Grip grip_of(const object& device, bool wired) noexcept {
     return grip;
 }
 
-/// Every device in the list of that name, by `make`, into `into`.
+/// Reads every device of the list `key` with `make`, and appends it to `into`.
 template <typename Device, typename Make>
 void read_list(const object& from, std::string_view key,
                std::array<Device, ServiceMessage::kMost>& into, std::size_t& count,
@@ -142,7 +142,7 @@ void read_list(const object& from, std::string_view key,
         if (count == into.size() || entry.get(device) != simdjson::SUCCESS) continue;
         const std::string_view name = text_in(device, "device_id");
         DeviceId id;
-        // A name that is cut would be another device's.
+        // An ID that does not fit is not used: cut, it could be another device's.
         if (name.empty() || !id.assign(name)) continue;
         into[count] = make(device);
         into[count].id = id;
@@ -177,7 +177,7 @@ struct MessageReader::Parser {
 };
 
 MessageReader::MessageReader() : parser_(std::make_unique<Parser>()) {
-    // The longest text lets it take all the memory that it will ever need.
+    // Parses a text of the greatest length, so that the parser allocates all its memory now.
     std::string longest(kLongest_bytes, ' ');
     longest.front() = '{';
     longest.back() = '}';

@@ -1,4 +1,4 @@
-// What the service says: its devices as plain data, in memory that is used again for every message.
+// Messages of the service: its devices as plain data, in memory that every message reuses.
 #pragma once
 
 #include <array>
@@ -13,18 +13,18 @@
 
 namespace dibhr::inverse3 {
 
-/// Opaque: hex digits for an arm, decimal ones for a grip, whatever comes.
+/// Opaque; so far hex digits for an arm, decimal digits for a grip.
 using DeviceId = ShortText<48>;
 using ShortWord = ShortText<32>;
 
 enum class Handedness : std::uint8_t { unknown, left, right };
 
-/// What is told of a device only with the whole state.
+/// Configuration of an arm, which is only in a whole state.
 struct ArmConfig {
     bool minverse{false};
     Handedness handedness{Handedness::unknown};
-    ShortWord preset{};  ///< empty: not told, as before 3.5
-    ShortWord basis{};   ///< "XYZ"; empty: not told
+    ShortWord preset{};  ///< empty: missing, as before 3.5
+    ShortWord basis{};   ///< "XYZ"; empty: missing
 
     bool operator==(const ArmConfig&) const = default;
 };
@@ -33,14 +33,14 @@ struct ArmConfig {
 struct Arm {
     DeviceId id{};
     std::optional<ArmConfig> config{};
-    /// Nothing where it is missing, no number, or farther off than any arm reaches.
+    /// Nothing where it is missing, no number, or farther away than any arm reaches.
     std::optional<Vec3> position_m{};
     std::optional<Vec3> velocity_m_per_s{};
-    std::optional<Vec3> force_newton{};  ///< as the service holds it; not told before 3.5
-    bool calibrated{false};              ///< not told counts as not
-    bool powered{true};                  ///< not told counts as yes: without power no force comes
+    std::optional<Vec3> force_newton{};  ///< current force in the service; missing before 3.5
+    bool calibrated{false};              ///< false where it is missing
+    bool powered{true};                  ///< true where it is missing: no power gives no force
     bool in_use{false};
-    bool locked{false};  ///< told not to be ready though it is calibrated and powered
+    bool locked{false};  ///< not ready, although calibrated and powered
 };
 
 /// A grip with buttons, wired or not.
@@ -49,7 +49,7 @@ struct Grip {
     bool wired{false};
     bool connected{true};
     bool awake{true};
-    std::uint8_t buttons{0};          ///< bits 0 ..: a, b, c and home, or 0 .. 3
+    std::uint8_t buttons{0};          ///< from bit 0: a, b, c, home; or button_0 .. button_3
     std::optional<double> battery{};  ///< full: 1
 };
 
@@ -61,17 +61,17 @@ struct ServiceMessage {
     std::size_t arm_count{0};
     std::array<Grip, kMost> grips{};
     std::size_t grip_count{0};
-    bool has_session{false};     ///< names its session, as from 3.5 on
-    ShortText<160> complaint{};  ///< what the service says was wrong
+    bool has_session{false};     ///< has the name of the session, as from 3.5 on
+    ShortText<160> complaint{};  ///< the error that the service reports; empty: none
 
-    /// The arm of that name; null: not told of.
+    /// The arm with this ID; null: not in the message.
     [[nodiscard]] const Arm* arm(const DeviceId& id) const noexcept;
 };
 
 /// Reads messages; nothing is allocated after construction.
 class MessageReader {
   public:
-    /// A longer one is not understood: with every device that fits it has some 4 KiB.
+    /// Longer messages are rejected. A message with the greatest number of devices has some 4 KiB.
     static constexpr std::size_t kLongest_bytes = std::size_t{256} * 1024;
 
     MessageReader();
@@ -79,8 +79,8 @@ class MessageReader {
     MessageReader(const MessageReader&) = delete;
     MessageReader& operator=(const MessageReader&) = delete;
 
-    /// False, and an empty message, for what is no JSON object. Unknown keys are passed over,
-    /// missing ones are normal, and a device without a usable name is left out.
+    /// False, and an empty message, for a text that is no JSON object. Unknown keys are ignored,
+    /// missing ones are normal, and a device without a valid ID is left out.
     [[nodiscard]] bool read(std::string_view text, ServiceMessage& message) noexcept;
 
   private:

@@ -1,4 +1,4 @@
-// What is said to the service: one message, written into a buffer that is used again.
+// Messages to the service, written into a buffer that is reused.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace dibhr::inverse3 {
 
-/// How a force is spelled. Sources differ; which service takes which nobody has told.
+/// The JSON format of a force. Sources differ; which service takes which format is not known.
 enum class ForceDialect : std::uint8_t { vector, values };
 
 /// "vector", "values".
@@ -23,11 +23,11 @@ enum class ForceDialect : std::uint8_t { vector, values };
 
 /// One message to the service.
 struct Order {
-    DeviceId arm{};           ///< empty: no device is spoken to
-    bool introduces{false};   ///< names the session
-    ShortWord preset{};       ///< to be set; empty: as it is
-    bool whole_state{false};  ///< the answer is to hold every configuration
-    /// [N], the service's axes; nothing: the pose is asked for and nothing is driven.
+    DeviceId arm{};           ///< empty: addresses no device
+    bool introduces{false};   ///< sets the name of the session
+    ShortWord preset{};       ///< to be set; empty: unchanged
+    bool whole_state{false};  ///< requests an answer with all configurations
+    /// [N], the service's axes; nothing: requests the pose and sends no force.
     std::optional<Vec3> force_newton{};
     ForceDialect dialect{ForceDialect::vector};
 };

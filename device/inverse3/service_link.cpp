@@ -1,5 +1,5 @@
-// WebSocket and HTTP by Boost.Beast over a socket with deadlines: every frame is made and taken
-// apart here. Beast takes long to compile: this file alone includes it.
+// WebSocket and HTTP by Boost.Beast over a socket with deadlines. Only this file includes Beast,
+// which takes long to compile.
 #include "device/inverse3/service_link.hpp"
 
 #include <boost/asio/buffer.hpp>
@@ -35,7 +35,7 @@ error_code as_boost(const std::error_code& error) noexcept {
     return error ? error_code(error.value(), boost::system::system_category()) : error_code();
 }
 
-/// What Beast asks of the layer below it; only its synchronous part is ever used.
+/// The layer below Beast's stream; only its synchronous part is ever used.
 class SocketLayer {
   public:
     using executor_type = boost::asio::io_context::executor_type;
@@ -44,10 +44,10 @@ class SocketLayer {
 
     [[nodiscard]] executor_type get_executor() noexcept { return context_->get_executor(); }
     [[nodiscard]] DeadlineSocket& socket() noexcept { return *socket_; }
-    /// The most bytes of one read, however much room there is: those that Beast lacks, so that
-    /// nothing is read ahead.
+    /// Limits one read to the bytes that Beast still needs, whatever the size of its buffer, so
+    /// that nothing is read ahead.
     void set_longest_read(std::size_t bytes) noexcept { longest_read_ = bytes; }
-    /// From now on what is written goes there and not to the socket; null: to the socket.
+    /// Redirects all writes from the socket into `frame`; null: back to the socket.
     void write_into(std::vector<std::uint8_t>* frame) noexcept { frame_ = frame; }
 
     template <typename Buffers>
@@ -74,7 +74,7 @@ class SocketLayer {
     }
     template <typename Buffers>
     std::size_t write_some(const Buffers& buffers, error_code& error) {
-        std::array<iovec, 8> parts{};  // what there is more comes with the next call
+        std::array<iovec, 8> parts{};  // further parts are written by the next call
         std::size_t count = 0;
         auto it = boost::asio::buffer_sequence_begin(buffers);
         const auto end = boost::asio::buffer_sequence_end(buffers);
@@ -99,7 +99,7 @@ class SocketLayer {
     }
 
   private:
-    /// The first one that holds something.
+    /// The first buffer that is not empty.
     template <typename Buffers>
     static boost::asio::mutable_buffer first_of(const Buffers& buffers) {
         auto it = boost::asio::buffer_sequence_begin(buffers);
@@ -126,7 +126,7 @@ class SocketLayer {
     std::vector<std::uint8_t>* frame_{nullptr};
 };
 
-/// While it lives, what is written to the layer is kept in `frame`.
+/// During its lifetime, writes to the layer are kept in `frame` and not sent.
 class KeptWrites {
   public:
     KeptWrites(SocketLayer& layer, std::vector<std::uint8_t>& frame) noexcept : layer_(layer) {
@@ -140,7 +140,7 @@ class KeptWrites {
     SocketLayer& layer_;
 };
 
-/// Beast calls these by their names when a WebSocket ends.
+/// Beast finds these two by name, and calls them when a WebSocket ends.
 void teardown(beast::role_type /*role*/, SocketLayer& layer, error_code& error) {
     layer.socket().close();
     error = {};
@@ -166,14 +166,14 @@ void connect(SocketLayer& layer, std::uint16_t port, DeadlineSocket::Time deadli
 }  // namespace
 
 struct ServiceLink::Stream {
-    boost::asio::io_context context{1};  // never runs: Beast wants one to exist
+    boost::asio::io_context context{1};  // never runs, but Beast needs one
     websocket::stream<SocketLayer> socket{context};
     beast::flat_static_buffer<kLongestMessage_bytes> message{};
 };
 
 ServiceLink::ServiceLink(std::uint16_t port, Time deadline) : stream_(std::make_unique<Stream>()) {
     connect(stream_->socket.next_layer(), port, deadline);
-    // The inventory may follow the head of the answer at once.
+    // Byte by byte: the inventory may directly follow the HTTP head of the handshake's answer.
     stream_->socket.next_layer().set_longest_read(1);
     stream_->socket.read_message_max(kLongestMessage_bytes);
     error_code refusal;
@@ -196,7 +196,7 @@ std::string_view ServiceLink::read(Time deadline) {
     stream_->message.clear();
     error_code failure;
     do {
-        // A head byte by byte, as only Beast knows how long it is; then the rest of its frame.
+        // A frame's head is read byte by byte, as only Beast knows its length; then the rest.
         stream_->socket.next_layer().set_longest_read(stream_->socket.read_size_hint(1));
         stream_->socket.read_some(stream_->message, 0, failure);
     } while (!failure && !stream_->socket.is_message_done());
@@ -238,7 +238,7 @@ bool ServiceLink::close(Time deadline) noexcept {
         stream_->socket.close(websocket::close_code::normal, failure);
         return !failure;
     } catch (const std::exception&) {
-        // Beast has no memory for its goodbye: the socket is closed all the same.
+        // No memory for the close frame: the socket is closed all the same.
         stream_->socket.next_layer().socket().close();
         return false;
     }

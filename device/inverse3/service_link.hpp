@@ -1,4 +1,4 @@
-// One connection to the service: whole messages over a WebSocket, and questions over HTTP.
+// One connection to the service: whole messages over a WebSocket, and HTTP requests.
 #pragma once
 
 #include <chrono>
@@ -13,16 +13,16 @@
 
 namespace dibhr::inverse3 {
 
-/// Why there is no connection, or none any more. Its text says so in plain words.
+/// A failed or lost connection, with a sentence for the user.
 class LinkError : public DeviceError {
   public:
     enum class Why {
-        refused,          ///< nobody listens there
-        not_the_service,  ///< somebody does who speaks something else
-        lost,             ///< closed, broken off, or silent in the middle of a message
-        too_long,         ///< a message that no device's state fills
+        refused,          ///< no server listens on the port
+        not_the_service,  ///< another server listens on the port
+        lost,             ///< closed, reset, or timed out in the middle of a message
+        too_long,         ///< a message longer than any device's state
         unguarded,        ///< the guardian has died
-        stood_still       ///< this program did, and its guardian has spoken to the service
+        stood_still       ///< this program stalled, and its guardian has sent zero forces
     };
 
     LinkError(Why why, const std::string& text) : DeviceError(text), why_(why) {}
@@ -39,25 +39,25 @@ class ServiceLink {
     using Time = std::chrono::steady_clock::time_point;
     static constexpr std::size_t kLongestMessage_bytes = std::size_t{256} * 1024;
 
-    /// Connects and shakes hands until `deadline`.
+    /// Connects, with the WebSocket handshake, until `deadline`.
     ServiceLink(std::uint16_t port, Time deadline);
     ~ServiceLink();
     ServiceLink(const ServiceLink&) = delete;
     ServiceLink& operator=(const ServiceLink&) = delete;
 
     void send(std::string_view text, Time deadline);
-    /// The next whole message, valid until the next call: to be called when one begins to come.
-    /// Pings on the way are answered.
+    /// The next whole message, valid until the next call: to be called after wait() was true. Pings
+    /// are answered.
     [[nodiscard]] std::string_view read(Time deadline);
-    /// Until a message begins to come or the link has gone (true), `wake` is signalled, or `until`.
-    /// What was not asked for is seen, too: nothing is read ahead.
+    /// Waits until a message begins or the link is lost (true), `wake` is signalled, or `until`.
+    /// Sees unrequested messages, too, because nothing is read ahead.
     [[nodiscard]] bool wait(const Wake* wake, Time until) const noexcept;
     /// The socket, for the guardian.
     [[nodiscard]] int descriptor() const noexcept;
-    /// A message that the service is sent before the link ends, whoever ends it and however; empty:
-    /// none. As a whole frame it is also given back, for the guardian.
+    /// Sets the message that is sent before the link ends, however it ends; empty: none. Returns
+    /// it as a whole frame, for the guardian.
     Farewell set_last_words(std::string_view text);
-    /// Says goodbye and waits for the answer; false: there was none.
+    /// Closes the WebSocket and waits for the answer; false: there was none.
     bool close(Time deadline) noexcept;
 
   private:
@@ -65,7 +65,7 @@ class ServiceLink {
     std::unique_ptr<Stream> stream_;
 };
 
-/// What GET `target` of a port of this machine answers with status 200. Throws LinkError.
+/// The answer to GET `target` on a port of this machine, with status 200. Throws LinkError.
 [[nodiscard]] std::string http_get(std::uint16_t port, std::string_view target,
                                    ServiceLink::Time deadline);
 

@@ -1,4 +1,4 @@
-// Which version of the Inverse Service is there.
+// The version of the Inverse Service.
 #include "device/inverse3/service_version.hpp"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::optional<ServiceVersion> version_of(std::string_view text) {
     if (first.ec != std::errc() || first.ptr == end || *first.ptr != '.') return {};
     const auto second = std::from_chars(first.ptr + 1, end, version.minor);
     if (second.ec != std::errc()) return {};
-    // What is shown is one short word, whatever the service says.
+    // Shown to the user: one short line, whatever the service sends.
     version.text = one_line(text, 32);
     return version;
 }

@@ -1,4 +1,4 @@
-// Which version of the Inverse Service is there, and why none talks.
+// The version of the Inverse Service, and the fault when it cannot be used.
 #pragma once
 
 #include <optional>
@@ -18,14 +18,14 @@ struct ServiceVersion {
     [[nodiscard]] bool at_least(int wanted_major, int wanted_minor) const noexcept;
 };
 
-/// Of "3.5.0", "3.3.2-rc1"; nothing for what begins with no two numbers.
+/// Parses "3.5.0", "3.3.2-rc1"; nothing for a text that does not begin with two numbers.
 [[nodiscard]] std::optional<ServiceVersion> version_of(std::string_view text);
 
-/// What /version tells, on the WebSocket's port or else the older one; nothing when none answers.
+/// Reads /version on the WebSocket's port, else on the older port; nothing when neither answers.
 /// Takes at most 0.6 s.
 [[nodiscard]] std::optional<ServiceVersion> ask_version(const ConnectionOptions& options);
 
-/// What to tell of a service that does not talk.
+/// Stage and sentence for a service without a connection.
 struct Unheard {
     Stage stage{};
     std::string sentence{};
@@ -33,7 +33,7 @@ struct Unheard {
 /// `status`: its version, and whether it is installed.
 [[nodiscard]] Unheard why_unheard(const LinkError& error, const Status& status);
 
-/// The service is installed, as far as can be seen.
+/// Whether one of the service's files is found.
 [[nodiscard]] bool is_installed(const ConnectionOptions& options);
 
 }  // namespace dibhr::inverse3

@@ -1,4 +1,4 @@
-// The table of what is kept about the Inverse3, and what the device makes of it.
+// The table of an Inverse3's settings, and the tuning and limits that follow from it.
 #include "device/inverse3/settings.hpp"
 
 #include <string_view>
@@ -15,7 +15,7 @@ constexpr const char* kService = "Inverse3 service";
 
 }  // namespace
 
-// README.md, Conversation, has where the centre comes from.
+// README.md, Protocol, has the source of the default centre.
 std::vector<DeviceRow> Inverse3Settings::rows() {
     constexpr double kLowestPort = 1.0;
     constexpr double kHighestPort = 65535.0;

@@ -1,4 +1,4 @@
-// What is kept about the Inverse3: how its service is spoken to, its workspace, its buttons.
+// The settings of an Inverse3: connection to its service, workspace, buttons.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace dibhr::inverse3 {
 
-/// How a force is spelled to the service.
+/// The format of a force in messages to the service.
 enum class Dialect : std::uint8_t { automatic, vector, values };
 
 inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
@@ -37,13 +37,13 @@ inline constexpr GripButtons kGrip{
 struct Inverse3Settings final : DeviceSettings {
     Inverse3Settings() : DeviceSettings(kGrip, Tuning{}.workspace) {}
 
-    std::string device{};  ///< a name, "left" or "right"; empty: the first
+    std::string device{};  ///< an ID, "left" or "right"; empty: the first
     int port{10001};
     int older_port{10000};
     Dialect dialect{Dialect::automatic};
     std::string preset{};  ///< of mount, axes and origin; empty: "defaults"
-    Tuning tuning{};       ///< its centre and tilt; the rest comes from elsewhere
-    double box_mm{120.0};  ///< edge of the box that a hand comfortably moves in
+    Tuning tuning{};       ///< only centre_mm and tilt_deg; tuning_of() sets the others
+    double box_mm{120.0};  ///< edge of the box in which a hand moves comfortably
 
     [[nodiscard]] std::unique_ptr<DeviceSettings> clone() const override {
         return std::make_unique<Inverse3Settings>(*this);
@@ -56,10 +56,10 @@ struct Inverse3Settings final : DeviceSettings {
     [[nodiscard]] DeviceLimits limits() const override;
 };
 
-/// Used from the next start of the program.
+/// Takes effect at the next start of the program.
 [[nodiscard]] ConnectionOptions connection_of(const Inverse3Settings& settings);
 
-/// The numbers, buttons and limit as the device takes them.
+/// The tuning from these settings and `hand`.
 [[nodiscard]] Tuning tuning_of(const Inverse3Settings& settings, const HandTuning& hand) noexcept;
 
 }  // namespace dibhr::inverse3

@@ -1,4 +1,4 @@
-// A text that lies in its own few bytes: nothing is allocated for it.
+// A short text stored in the object itself, without allocation.
 #pragma once
 
 #include <algorithm>
@@ -16,10 +16,10 @@ class ShortText {
 
   public:
     constexpr ShortText() = default;
-    /// What does not fit is cut off.
+    /// Cuts off what does not fit.
     constexpr ShortText(std::string_view text) noexcept { assign(text); }
 
-    /// Whether all of it fits; what does not is cut off.
+    /// Cuts off what does not fit; false: some was cut off.
     constexpr bool assign(std::string_view text) noexcept {
         size_ = static_cast<std::uint8_t>(std::min(text.size(), N));
         std::copy_n(text.begin(), size_, bytes_.begin());

@@ -1,4 +1,4 @@
-// What people are told of an Inverse3, as data.
+// The state of an Inverse3 as data for the panel, the session and its reports.
 #include <string>
 #include <vector>
 

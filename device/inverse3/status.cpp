@@ -1,4 +1,4 @@
-// What people are told of their Inverse3.
+// The sentences about an Inverse3 for the user.
 #include "device/inverse3/status.hpp"
 
 namespace dibhr::inverse3 {

@@ -1,4 +1,4 @@
-// What the service has.
+// The devices of the service.
 #include "device/inverse3/survey.hpp"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ ServiceLink::Time in(milliseconds span) {
     return ServiceLink::Time::clock::now() + span;
 }
 
-/// The inventory, or what is answered when it is asked for. Throws LinkError.
+/// Reads the inventory; requests it where the service does not send it. Throws LinkError.
 bool read_inventory(const ConnectionOptions& options, ServiceMessage& message) {
     ServiceLink link(options.port, in(kStepTakes));
     if (!link.wait(nullptr, in(kInventoryTakes))) {

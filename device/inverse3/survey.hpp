@@ -1,4 +1,4 @@
-// What the service has, for `dibhr devices` and for who insists on an Inverse3: nothing is driven.
+// The devices of the service, for `dibhr devices` and `--device inverse3`: no force is sent.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct SurveyedArm {
     bool minverse{false};
     Handedness handedness{Handedness::unknown};
     Stage stage{Stage::looking};
-    std::string sentence{};  ///< what is, and what to do next
+    std::string sentence{};  ///< the state and the next step, for the user
     std::vector<KeptSetting> kept{};
 
     [[nodiscard]] bool usable() const noexcept { return stage == Stage::ready; }
@@ -23,16 +23,16 @@ struct SurveyedArm {
 struct Survey {
     Stage stage{Stage::looking};  ///< of the service; `ready`: it has devices
     std::string sentence{};
-    std::string version{};  ///< empty: not told
+    std::string version{};  ///< empty: not known
     std::vector<SurveyedArm> arms{};
     std::vector<GripStatus> grips{};
 };
 
-/// Asks for at most 3 s; `options.device` is not looked at.
+/// Takes at most 3 s; ignores `options.device`.
 [[nodiscard]] Survey survey_service(const ConnectionOptions& options);
 
-/// Why the device of `options` cannot be used; empty: it is there, though it may want something of
-/// its person.
+/// Why `device` cannot be used; empty: it is attached, though the user may have to do something
+/// before it is ready.
 [[nodiscard]] std::string why_none(const Survey& survey, const std::string& device);
 
 }  // namespace dibhr::inverse3

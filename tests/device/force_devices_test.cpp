@@ -79,7 +79,8 @@ TEST_CASE(
         const auto idle =
             std::count(settings->buttons.begin(), settings->buttons.end(), ButtonAction::none);
         CHECK(buttons <= kGripButtonCount);
-        CHECK(buttons + static_cast<std::size_t>(idle) >= kGripButtonCount);  // each job has a row
+        // Every button with an action has a row.
+        CHECK(buttons + static_cast<std::size_t>(idle) >= kGripButtonCount);
         CHECK(settings->limits() == usable(settings->limits()));
         CHECK(settings->limits().max_force_newton > 0.0);
         CHECK_FALSE(number_facts(*settings).empty());
@@ -184,7 +185,7 @@ TEST_CASE("one button takes the force off and one holds the point, and agreeing 
     for (const ForceDeviceKind* const kind : force_device_kinds()) {
         CAPTURE(kind->name);
         const auto settings = kind->make_settings();
-        if (settings->buttons == ButtonActions{}) continue;  // it has no buttons
+        if (settings->buttons == ButtonActions{}) continue;  // a device without buttons
         CHECK(buttons_for(ButtonAction::clutch, settings->buttons) != 0);
         CHECK(buttons_for(ButtonAction::force_off, settings->buttons) != 0);
         for (const DeviceRow& row : settings->rows()) {

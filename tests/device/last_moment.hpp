@@ -1,5 +1,5 @@
-// What a program that is going to die and the test that watches it tell each other: one page of a
-// file, read and written without a system call.
+// Data shared by a program that is about to die and the test that watches it: one page of a file,
+// read and written without a system call.
 #pragma once
 
 #include <fcntl.h>

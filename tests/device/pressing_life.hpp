@@ -1,5 +1,5 @@
-// A program that presses with a device until its life ends in a way of its choosing: what the
-// guardian's tests look at from outside.
+// A program that presses with a device until it ends in a chosen way; the guardian's tests watch it
+// from outside.
 #pragma once
 
 #include <sys/resource.h>

@@ -134,7 +134,7 @@ class PressingProcess {
     pid_t program_{-1};
 };
 
-/// In which ways a program may die, and what it then ends with.
+/// Ways in which a program may die, and its exit status in each.
 struct WayToDie {
     const char* name;
     int code;

@@ -11,7 +11,7 @@
 
 namespace dibhr::test {
 
-/// Runs it with a force of the test's choosing.
+/// Runs the device with the force that a test sets.
 template <typename AnyDevice>
 class TickingDevice {
   public:
@@ -27,7 +27,7 @@ class TickingDevice {
         reading = device.read({0.001, surface_, kPitch_mm});
         device.send(force_newton);
     }
-    /// Ticks until it is so; false when it never was.
+    /// Ticks until the condition is true; false: it never was.
     bool tick_until(const std::function<bool()>& is_so,
                     std::chrono::milliseconds patience = std::chrono::seconds(60)) {
         const auto end = std::chrono::steady_clock::now() + patience;

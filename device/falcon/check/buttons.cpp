@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 struct Named {
     const char* name;
     const char* where;
-    Button bit;  ///< as ../README.md has it
+    Button bit;  ///< by ../README.md
 };
 
 constexpr std::array kButtons{Named{"plus", "plus, on the right", Button::plus},
@@ -26,21 +26,22 @@ constexpr std::array kButtons{Named{"plus", "plus, on the right", Button::plus},
 
 constexpr milliseconds kPeriod{1};
 
-/// The bits as they come, until they have been calm.
+/// Bits of a press, collected until they no longer change.
 struct Press {
     std::uint8_t bits{0};  ///< all that came on
     int changes{0};
     milliseconds bounced{0};  ///< from the first change to the last one before the calm
 };
 
-/// Waits until a button is `pressed` or none is, and the bits are calm; they were `last` before.
+/// Waits until a button is down (`pressed`) or none is, and the bits no longer change. `last`: the
+/// bits before.
 Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
     const milliseconds calm = desk.options.times.button_calm;
     Press press;
     Clock::time_point first_change{};
     Clock::time_point last_change{};
     for (;;) {
-        if (desk.answered()) return press;  // Enter: this one does nothing
+        if (desk.answered()) return press;  // Enter: this button does nothing
         const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
         if (!heard) continue;
         const std::uint8_t bits = heard->reply.buttons;

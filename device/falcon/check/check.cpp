@@ -1,4 +1,4 @@
-// Leads through the steps of the check, and keeps the record.
+// Runs the steps of the check of a Falcon, and keeps the record.
 #include "device/falcon/check/check.hpp"
 
 #include <array>

@@ -1,5 +1,5 @@
-// `dibhr devices --check`: the protocol for the first unit (../README.md, To be measured),
-// step by step, with a person beside it and a record of everything.
+// `dibhr devices --check` for a Falcon: measures what ../README.md, To be measured, lists, step by
+// step, guides the user, and keeps a record of everything.
 #pragma once
 
 #include <chrono>
@@ -14,14 +14,14 @@
 
 namespace dibhr::falcon {
 
-/// How long things last; tests shorten them.
+/// Durations of the check; tests shorten them.
 struct CheckTimes {
     using Span = std::chrono::milliseconds;
 
     Span rate{3000};        ///< of one measurement of the reply rate
     Span homing_bit{2000};  ///< with the homing bit cleared
     Span sample{500};       ///< over which counts are averaged
-    Span button_calm{100};  ///< without a change: a button has done bouncing
+    Span button_calm{100};  ///< without a change: the button has stopped bouncing
     Span ramp{500};         ///< up to a force, and down again
     Span hold{3000};        ///< of a force on the scale, at most
     Span short_hold{1000};  ///< of the force before a silence
@@ -32,18 +32,17 @@ struct CheckTimes {
 struct CheckOptions {
     std::string serial{};  ///< empty: the first one
     FirmwareImage firmware{};
-    Geometry geometry{};             ///< that the settings now hold
+    Geometry geometry{};             ///< of the current settings
     std::filesystem::path record{};  ///< empty: falcon-check-SERIAL-DATE.json in this folder
-    /// What else belongs into the record, such as the program's version.
+    /// More entries for the record, such as the program's version.
     std::vector<std::pair<std::string, std::string>> facts{};
     CheckTimes times{};
 };
 
-/// Leads through all steps and writes the record after each; a person may skip any of them, or
-/// quit. Force only in steps that say so before: homed, ramped, at most 3 s, and released at once
-/// when the person wants it or anything is odd. Every way out leaves with five packets without
-/// force. Throws DeviceError when there is no Falcon to begin with, InputError when the record
-/// cannot be written.
+/// Runs all steps and writes the record after each; the user may skip any of them, or quit. There
+/// is force only in steps that announce it: homed, ramped, at most 3 s, and ended at once by any
+/// key or fault. However the check ends, it sends five packets without force. Throws DeviceError
+/// when no Falcon is attached, InputError when the record cannot be written.
 [[nodiscard]] CheckResult run_check(const CheckOptions& options, CheckGuide& guide);
 
 }  // namespace dibhr::falcon

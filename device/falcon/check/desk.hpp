@@ -1,4 +1,4 @@
-// Where a step of the check has the person, the Falcon, and what is found.
+// What every step of the check works on: user, Falcon, options and findings.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@
 
 namespace dibhr::falcon {
 
-/// While the person thinks, the Falcon gets commands without force.
+/// While a question is open, the Falcon gets commands without force.
 struct CheckDesk final : CheckQuestions {
     CheckDesk(CheckGuide& person, CheckedFalcon& checked, const CheckOptions& chosen)
         : CheckQuestions(person), falcon(checked), options(chosen) {}
@@ -33,8 +33,8 @@ struct CheckDesk final : CheckQuestions {
     }
 };
 
-// The steps, each in the file of its name (check_silence with check_force). They add what they
-// measure; they throw StepSkipped, PersonQuits, and DeviceError when the Falcon fails.
+// The steps, each in the file of its name (check_silence with check_force). They add their results
+// to `measured`; they throw StepSkipped, PersonQuits, and DeviceError when the Falcon fails.
 void check_identity(CheckDesk& desk, Json& measured);
 void check_upload(CheckDesk& desk, Json& measured);
 void check_rate(CheckDesk& desk, Json& measured);
@@ -45,7 +45,7 @@ void check_force(CheckDesk& desk, Json& measured);
 void check_buttons(CheckDesk& desk, Json& measured);
 void check_plugs(CheckDesk& desk, Json& measured);
 
-/// Until all three axes are homed; leads the person through it when they are not.
+/// Returns when all three axes are homed; guides the user through homing where needed.
 void home_with_person(CheckDesk& desk, Json& measured);
 
 }  // namespace dibhr::falcon

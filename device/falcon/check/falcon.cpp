@@ -1,4 +1,4 @@
-// The one Falcon that is checked.
+// The Falcon under check.
 #include "device/falcon/check/falcon.hpp"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
+constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian's timeout is 50 ms
 
 }  // namespace
 

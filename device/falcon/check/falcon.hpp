@@ -1,5 +1,5 @@
-// The one Falcon that is checked: found by its serial, opened and closed as the steps need it, and
-// one command, one reply, for as long as they talk to it.
+// The Falcon under check: found by its serial, opened and closed as the steps need it. While the
+// link is open, it exchanges one command and one reply at a time.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,10 @@ class CheckedFalcon {
         Clock::duration round_trip{};  ///< from the command to its reply
     };
 
-    /// The one with this serial; when it is empty, the first. Throws DeviceError when there is
+    /// The Falcon with this serial; when it is empty, the first. Throws DeviceError when there is
     /// none.
     explicit CheckedFalcon(const std::string& serial);
-    ~CheckedFalcon();  ///< five packets without force, when it was talked to
+    ~CheckedFalcon();  ///< sends five packets without force, if the link is open
     CheckedFalcon(const CheckedFalcon&) = delete;
     CheckedFalcon& operator=(const CheckedFalcon&) = delete;
 
@@ -34,29 +34,30 @@ class CheckedFalcon {
     /// Why no guardian watches, in a line; empty when one does.
     [[nodiscard]] std::string unguarded() const { return guardian_.fault(); }
 
-    /// Opened if it is not; no talk, as the port is used otherwise. Throws UsbError.
+    /// The port, opened if needed. Closes the link, which must not use the port at the same time.
+    /// Throws UsbError.
     FtdiPort& port();
-    /// Sets run-time speed and asks for a reply; ends the talk. Throws UsbError.
+    /// Sets run-time speed and probes for a reply; closes the link. Throws UsbError.
     bool answers();
-    /// What answers() would say: an upload has found out.
+    /// Sets the result of answers() where an upload has shown it.
     void set_answering(bool answering) noexcept { answering_ = answering; }
     [[nodiscard]] bool answering() const noexcept { return answering_; }
-    /// Whether the chip flushes on '>' from the next talk on.
+    /// Whether the chip flushes on '>', for the next link.
     void use_event_character(bool use) noexcept { event_character_ = use; }
 
-    // The talk begins by itself. Only when answering(); these throw UsbError when the link is lost.
+    // These open the link where needed. Only when answering(); throw UsbError when it is lost.
 
-    /// Sends `command` and gives its reply, not before `period` has passed. Nothing when none came
-    /// within 20 ms.
+    /// Sends `command` and returns its reply, not before `period` has passed. Nothing when no reply
+    /// came within 20 ms.
     std::optional<Heard> exchange(const Command& command, Clock::duration period = {});
     /// Sends nothing until `until`.
     void be_silent(Clock::time_point until);
-    /// Of this talk.
+    /// Counts of this link.
     [[nodiscard]] LinkCounts counts();
 
-    /// Five packets without force to a Falcon that answers; then closes the port.
+    /// Sends five packets without force to a Falcon that answers; then closes the port.
     void let_go() noexcept;
-    /// Lets go and looks for it on the USB again, by its serial. Throws UsbError.
+    /// Closes the port and finds the Falcon on the USB again, by its serial. Throws UsbError.
     [[nodiscard]] bool look_again();
 
   private:
@@ -71,7 +72,7 @@ class CheckedFalcon {
     bool answering_{false};
     bool event_character_{false};
     std::optional<FtdiPort> port_{};
-    std::optional<Guarded> guarded_{};  // while it is talked to, and until after the last packet
+    std::optional<Guarded> guarded_{};  // from opening the link until after the last packet
     std::optional<Link> talk_{};
 };
 

@@ -1,5 +1,5 @@
-// Steps 6 and 7, a kitchen scale under the grip: does a force outlive its last packet, and how
-// strong is it: the torque scale S, by least squares (../README.md: Safety numbers, Motors).
+// Steps 6 and 7, with a kitchen scale under the grip: how long a force lasts after its last packet,
+// and the torque scale S, by least squares (../README.md: Safety numbers, Motors).
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -20,9 +20,9 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr int kWeak_counts = 300;
-// A motion of fewer counts between force and no force tells nothing.
+// A smaller motion between force and no force cannot be evaluated.
 constexpr double kLeastMotion_counts = 10.0;
-// A person sees a scale fall only after so long.
+// A user can see a scale fall only in a silence of at least this length.
 constexpr milliseconds kVisible{100};
 
 struct Silence {
@@ -30,8 +30,8 @@ struct Silence {
     Vec3 after{0.0};          ///< right after the silence
     Vec3 without_force{0.0};  ///< later, without force
 
-    /// The part of the force that was still there after the silence, as far as the grip's place
-    /// tells; nothing when the grip gave way too little.
+    /// The part of the force that was left after the silence, from the grip's motion; nothing when
+    /// the grip moved too little.
     [[nodiscard]] std::optional<double> part_left() const {
         const double whole = glm::distance(pushed, without_force);
         if (whole < kLeastMotion_counts) return std::nullopt;
@@ -51,7 +51,7 @@ PushEnd push_and_fall_silent(CheckDesk& desk, const Counts& motor, milliseconds 
     return end;
 }
 
-/// In words: what was seen after this silence.
+/// Measures one silence; returns the result as text.
 std::string check_one(CheckDesk& desk, milliseconds time, Json& part) {
     const Vec3 without_force = sample_counts(desk).mean;
     const Counts motor = downward(desk, without_force, kWeak_counts);
@@ -91,7 +91,7 @@ constexpr double kHeaviest_g = 10000.0;
 
 struct Reading {
     int counts{0};
-    double unit_newton{0.0};  ///< the force for one count a newton metre
+    double unit_newton{0.0};  ///< the force for a torque scale of 1 count per newton metre
     double force_newton{0.0};
 };
 
@@ -131,7 +131,7 @@ void agree(CheckDesk& desk, int counts, const std::string& strength) {
     if (answer != "yes") throw StepSkipped{};
 }
 
-/// One force, as often as the person wants; nothing without a reading.
+/// Weighs one force, repeated as often as the user wants; nothing without a reading.
 std::optional<Reading> weigh(CheckDesk& desk, int counts, Json& part) {
     for (;;) {
         const Vec3 without_force = sample_counts(desk).mean;
@@ -140,7 +140,7 @@ std::optional<Reading> weigh(CheckDesk& desk, int counts, Json& part) {
         CountsSample held;
         const PushEnd end = push_and_hold(desk, motor, held);
         desk.guide.say(end == PushEnd::held ? "no force any more" : sentence_of(end));
-        // A key that was pressed because the scale had been read is as good as the time.
+        // A key may also mean that the scale was read before the time was over.
         const bool readable = held.replies > 0 && (end == PushEnd::held || end == PushEnd::let_go);
         if (readable) {
             part["motor_counts"] = motor;
@@ -155,7 +155,7 @@ std::optional<Reading> weigh(CheckDesk& desk, int counts, Json& part) {
             part["scale_g"] = *grams;
             part["force_newton"] = reading.force_newton;
             part["force_for_one_count_per_newton_metre_newton"] = *unit;
-            // A scale that shows nothing tells of no scale.
+            // A reading of zero gives no torque scale.
             if (reading.force_newton > 0.0)
                 part["counts_per_newton_metre"] = *unit / reading.force_newton;
             return reading;

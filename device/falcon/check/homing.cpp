@@ -1,4 +1,4 @@
-// Step 4: homing with a person, and what becomes of it when the homing bit is cleared
+// Step 4: homing with the user, and whether it survives when the homing bit is cleared
 // (../README.md, Homing and lamp).
 #include <array>
 #include <chrono>
@@ -29,7 +29,7 @@ std::string live_state(const Reply& reply) {
     return text;
 }
 
-/// Notes the counts right before and after an axis says that it is homed.
+/// Logs the counts right before and after the homed bit of an axis comes on.
 class ReferenceLog {
   public:
     void add(const Reply& reply, double at_s) {
@@ -99,7 +99,7 @@ std::string in_words(const Phase& kept, const Phase& cleared, const Phase& again
 }  // namespace
 
 void home_with_person(CheckDesk& desk, Json& measured) {
-    constexpr int kLook = 20;  // the first replies may be older than the wish for homing
+    constexpr int kLook = 20;  // the first replies may be older than the homing bit
     constexpr std::chrono::milliseconds kShowEvery{100};
     const auto begin = Clock::now();
     HomingWatch watch;

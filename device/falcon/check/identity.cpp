@@ -125,7 +125,7 @@ void check_identity(CheckDesk& desk, Json& measured) {
         measured["configuration"] = configuration_part(handle, *active);
     }
     add_status(handle, measured);
-    // Before anything is set: as the chip was powered up, or as the last program left it.
+    // Read before the first setting: the state after power-up, or as the last program left it.
     std::array<std::uint8_t, 1> latency_ms{};
     port.ask(kReadLatencyTimer, latency_ms);
     measured["latency_timer_ms_found"] = latency_ms[0];

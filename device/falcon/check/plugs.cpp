@@ -1,4 +1,4 @@
-// Step 9: what is told when a cable is out, and what comes back with it.
+// Step 9: which error comes when a cable is unplugged, and what is lost by it.
 #include <libusb.h>
 
 #include <chrono>
@@ -20,9 +20,9 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kPeriod{10};
 constexpr milliseconds kLookEvery{100};
-constexpr int kQuestions = 20;  // the first replies may be older than the wish for homing
+constexpr int kQuestions = 20;  // the first replies may be older than the homing bit
 
-/// Exchanges packets until the USB says something is wrong.
+/// Exchanges packets until the USB reports an error.
 UsbError loss_while_talking(CheckDesk& desk, Json& part) {
     auto last_reply = Clock::now();
     for (;;) {
@@ -40,7 +40,7 @@ UsbError loss_while_talking(CheckDesk& desk, Json& part) {
     }
 }
 
-/// The last reply of some; nothing when none came.
+/// The last of some replies; nothing when none came.
 std::optional<Reply> last_reply_of_some(CheckDesk& desk) {
     std::optional<Reply> last;
     for (int k = 0; k < kQuestions; ++k) {
@@ -50,7 +50,7 @@ std::optional<Reply> last_reply_of_some(CheckDesk& desk) {
     return last;
 }
 
-/// What is still there; in words.
+/// Whether firmware and homing survived, as text.
 std::string what_survived(CheckDesk& desk, Json& part) {
     const bool answers = desk.falcon.answering();
     part["firmware_kept"] = answers;
@@ -63,7 +63,7 @@ std::string what_survived(CheckDesk& desk, Json& part) {
            (homed_axes(reply->homed) == 3 ? "homing stays" : "homing is lost");
 }
 
-/// Opens what was just plugged in; the system may still be giving the permission.
+/// Opens the Falcon that was just plugged in; udev may still be setting its permission.
 void open_again(CheckDesk& desk) {
     const auto end = Clock::now() + desk.options.times.reconnect;
     for (;;) {

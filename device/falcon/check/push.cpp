@@ -1,4 +1,4 @@
-// Force on the grip: ramped, watched, and released.
+// A force on a Falcon's grip: ramped, supervised, and ended.
 #include "device/falcon/check/push.hpp"
 
 #include <glm/geometric.hpp>
@@ -34,7 +34,7 @@ void send_last_packets(CheckedFalcon& falcon) noexcept {
         try {
             (void)falcon.exchange(no_force(Led::blue));
         } catch (const DeviceError& lost) {
-            // The exception that leads here, or the next exchange, tells it.
+            // The exception that led here, or the next exchange, reports the loss.
             continue;
         }
     }

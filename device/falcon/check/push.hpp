@@ -1,4 +1,4 @@
-// The only place of the check where motors get anything but zero.
+// A force on a Falcon's grip: the only part of the check that commands a motor.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,7 @@
 
 namespace dibhr::falcon {
 
-/// Of these counts [m]; nothing when the mechanism has none.
+/// The grip's position for these counts [m]; nothing when the mechanism has none.
 [[nodiscard]] std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry);
 
 [[nodiscard]] inline Vec3 as_vec(const Counts& counts) noexcept {
@@ -27,28 +27,28 @@ struct CountsSample {
     int replies{0};
 };
 
-/// Counts while the motors get zero, over the second half of the time of a sample: after a force
-/// the grip swings back in the first. Throws UsbError when the Falcon gives no replies.
+/// Averages the counts while the motors get zero, over the second half of CheckTimes::sample: in
+/// the first half the grip may still swing back after a force. Throws UsbError without replies.
 [[nodiscard]] CountsSample sample_counts(CheckDesk& desk);
 
-/// Motor counts that push the grip straight down where it is, `most_counts` on the motor that works
-/// hardest. Says so and throws StepSkipped when the mechanism has no place for these counts.
+/// Motor counts that push the grip straight down from where it is, with `most_counts` on the motor
+/// with the largest torque. Prints a note and throws StepSkipped when these counts have no pose.
 [[nodiscard]] Counts downward(CheckDesk& desk, Vec3 encoder_counts, int most_counts);
 
-/// The force down [N] of these motor counts at this place, for one count a newton metre: to be
-/// divided by the torque scale.
+/// The force downwards [N] of these motor counts at this place for a torque scale of 1 count per
+/// newton metre: divide it by the real torque scale.
 [[nodiscard]] std::optional<double> downward_force(const Counts& motor, Vec3 encoder_counts,
                                                    const Geometry& geometry);
 
-/// "1.2 to 3.4 N (120 to 350 g)": how strong that will be by what sources say of the torque scale,
-/// and, once it was measured here, by that.
+/// "1.2 to 3.4 N (120 to 350 g)": the expected force for the torque scales of the sources, and for
+/// the measured one, once there is one.
 [[nodiscard]] std::string strength_of(const CheckDesk& desk, const Counts& motor,
                                       Vec3 encoder_counts);
 
 /// How a push went.
 enum class PushEnd : std::size_t {
-    held,        ///< as long as it was wanted
-    let_go,      ///< the person pressed a key
+    held,        ///< for the whole time
+    let_go,      ///< the user pressed a key
     moved_away,  ///< the grip left its place by more than 30 mm
     not_homed,   ///< an axis was not homed any more
     no_reply     ///< the newest reply was older than 20 ms
@@ -56,31 +56,30 @@ enum class PushEnd : std::size_t {
 
 [[nodiscard]] const char* sentence_of(PushEnd end) noexcept;
 
-/// A force on the grip of a homed Falcon, from its rise to its release. Released at once, with five
-/// packets without force, when any of it ends otherwise than held, and when this goes out of scope.
+/// A force on the grip of a homed Falcon, from its rise to its release. Ended at once with five
+/// packets without force when a part of it does not end as `held`, and by the destructor.
 class Push : public CheckPush {
   public:
     Push(CheckDesk& desk, const Counts& motor);
 
     // These throw PersonQuits and UsbError.
 
-    /// From zero to the whole force, in the time of a ramp.
+    /// From zero to the whole force, in CheckTimes::ramp.
     [[nodiscard]] PushEnd rise();
     /// At most 3 s.
     [[nodiscard]] PushEnd hold(std::chrono::milliseconds time);
     [[nodiscard]] PushEnd fall();
-    /// After the last packet nothing is sent for so long; then `reply` is the answer to the first
-    /// packet without force.
+    /// Sends nothing for `time`. Then `reply` is the answer to the first packet without force.
     [[nodiscard]] PushEnd be_silent(std::chrono::milliseconds time, Reply& reply);
 
     [[nodiscard]] const Reply& last_reply() const noexcept { return reply_; }
-    /// About the last 0.1 s of the last hold, however it ended.
+    /// Mean counts of about the last 0.1 s of the last hold, however it ended.
     [[nodiscard]] CountsSample held() const noexcept { return held_; }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    /// One packet with this part of the force. Anything but held has released it.
+    /// Sends one packet with this part of the force. Ends the force unless the result is `held`.
     PushEnd step(double part);
     PushEnd ramp(double from, double to);
     [[nodiscard]] PushEnd exchange(double part);

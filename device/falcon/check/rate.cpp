@@ -1,4 +1,4 @@
-// Step 3: how many replies a second, and how long one takes, with and without the event character
+// Step 3: replies per second, and the time of one, with and without the event character
 // (../README.md, Reply rate).
 #include <array>
 #include <chrono>

@@ -1,4 +1,4 @@
-// What the check of a Falcon is to find of the questions that ../README.md leaves open.
+// The questions of the check of a Falcon, which ../README.md leaves open.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// Step 5: counts at the end stops and over lengths that a ruler knows, and which thigh angle at
-// count 0 fits them (../README.md, Kinematics).
+// Step 5: counts at the end stops and over lengths measured with a ruler, and the thigh angle at
+// count 0 that fits them (../README.md, Kinematics).
 #include <glm/geometric.hpp>
 
 #include <cmath>
@@ -21,17 +21,17 @@ constexpr double kMillimetres = 1000.0;  // in a metre
 constexpr double kFullyOut_mm = 170.0;
 constexpr double kFullyIn_mm = 75.0;
 
-// What the settings take.
+// The range of the setting.
 constexpr double kLowestAngle_deg = 0.0;
 constexpr double kHighestAngle_deg = 70.0;
 constexpr double kAngleStep_deg = 0.05;
 
-// A fit that a wrong millimetre of the ruler turns by more than this settles nothing.
+// A fit is too vague if an error of 1 mm on the ruler changes the angle by more than this.
 constexpr double kMostDoubt_deg = 3.0;
 constexpr double kMostMisfit_mm = 3.0;
 
-/// Martin & Hillier 2009, second-hand. `angle` is 50 in the paper; the user who has
-/// handed the constants down measured 40.
+/// Martin & Hillier 2009, second-hand. The angle is 50 in the paper; the user who published the
+/// constants measured 40.
 Geometry martin_hillier(double angle_deg) {
     Geometry set;
     set.shin_end_d_m = set.shin_end_e_m = 0.0115;
@@ -67,7 +67,7 @@ std::optional<double> length_mm(const Length& length, const Geometry& geometry) 
     return from && to ? std::optional(glm::distance(*from, *to)) : std::nullopt;
 }
 
-/// Root mean square of what the lengths miss [mm]; infinite where the grip could not be.
+/// Root mean square error of the lengths [mm]; infinite where the grip could not be.
 double misfit_mm(const std::vector<Length>& lengths, const Geometry& geometry) {
     double sum = 0.0;
     for (const Length& length : lengths) {
@@ -82,7 +82,7 @@ double misfit_mm(const std::vector<Length>& lengths, const Geometry& geometry) {
 struct Fit {
     double angle_deg{0.0};
     double misfit_mm{std::numeric_limits<double>::infinity()};
-    double doubt_deg{std::numeric_limits<double>::infinity()};  ///< of 1 mm on the ruler
+    double doubt_deg{std::numeric_limits<double>::infinity()};  ///< for 1 mm on the ruler
 
     [[nodiscard]] bool settles() const {
         return misfit_mm <= kMostMisfit_mm && doubt_deg <= kMostDoubt_deg;
@@ -124,7 +124,7 @@ Json or_null(const std::optional<double>& value) {
     return value ? Json(*value) : Json();
 }
 
-/// What the counts mean by one set of constants.
+/// Positions and lengths of the counts, by one set of constants.
 Json meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths, const Geometry& geometry) {
     const auto place_out = place_mm(out, geometry);
     const auto place_in = place_mm(in, geometry);

@@ -1,4 +1,4 @@
-// Step 2: is firmware there, and how it gets in, with a log (../README.md, Upload).
+// Step 2: whether firmware is present, and a logged upload (../README.md, Upload).
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -23,7 +23,7 @@ double ms_since(Clock::time_point begin) {
     return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
 }
 
-/// What one packet without force brings within 50 ms, byte by byte.
+/// The bytes received within 50 ms after one packet without force.
 std::vector<std::uint8_t> raw_reply(FtdiPort& port) {
     constexpr std::chrono::milliseconds kLimit{50};
     port.write(encode(Command{}));
@@ -53,17 +53,17 @@ void probe(CheckDesk& desk, const char* name, Json& measured) {
     measured[name] = part;
 }
 
-/// How many bytes came before the known answer.
+/// Number of bytes before the known answer.
 std::size_t stray_bytes(const UploadStep& step) {
     const std::size_t answer = std::string(step.name) == "hello" ? 4 : 1;
     return step.heard.size() - std::min(step.heard.size(), answer);
 }
 
-/// Of one upload.
+/// Result of one upload.
 struct Upload {
     bool done{false};
     int tries{0};
-    std::string stray{};  ///< what stood before an answer, in words
+    std::string stray{};  ///< bytes before an answer, as text
 };
 
 Json as_json(const UploadStep& step, double at_ms) {
@@ -77,12 +77,12 @@ Json as_json(const UploadStep& step, double at_ms) {
     return line;
 }
 
-/// Uploads, each with its log in the record, whatever becomes of it.
+/// Uploads, each with its log in the record, also when it fails.
 class LoggedUploads {
   public:
     LoggedUploads(CheckDesk& desk, Json& measured) : desk_(desk), measured_(measured) {}
 
-    /// Until it is in, or the person has enough.
+    /// Repeats the upload until it succeeds or the user skips it.
     Upload run(bool slower) {
         Upload upload = once(slower, false);
         try {

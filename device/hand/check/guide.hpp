@@ -1,4 +1,4 @@
-// The person beside a device that is checked.
+// Input and output of a device check.
 #pragma once
 
 #include <filesystem>
@@ -7,34 +7,34 @@
 
 namespace dibhr {
 
-/// The person beside a device that is checked: a terminal, or a test. Used by one thread. No call
-/// waits for the person.
+/// Input and output of a device check: a terminal, or a test in its place. Used by one thread. No
+/// call waits for the user.
 class CheckGuide {
   public:
-    /// What the person wants while something is measured.
+    /// What the user requests while a force acts.
     enum class Wish { none, let_go, quit };
 
     virtual ~CheckGuide() = default;
 
-    /// Something to read, of one line or more.
+    /// Prints a text of one line or more.
     virtual void say(const std::string& text) = 0;
-    /// One line about what is going on, in place of the last one.
+    /// Shows one line of live state, in place of the last one.
     virtual void show(const std::string& state) = 0;
-    /// A question, whose answer next_line() brings.
+    /// Prints a question; next_line() returns the answer.
     virtual void ask(const std::string& question) = 0;
 
-    /// The next line that was typed, without its end; nothing while there is none.
+    /// The next typed line, without its newline; nothing while there is none.
     [[nodiscard]] virtual std::optional<std::string> next_line() = 0;
-    /// Nobody will type any more.
+    /// The input has ended: no line will come any more.
     [[nodiscard]] virtual bool input_ended() = 0;
     /// Ctrl+C, or another request to end.
     [[nodiscard]] virtual bool interrupted() = 0;
 
-    /// Between them a force acts: wish() is asked about every millisecond, and nothing is said,
-    /// shown or asked.
+    /// A force acts between these two calls. Meanwhile the check polls the requests about every
+    /// millisecond, and prints nothing.
     virtual void force_begins() = 0;
     virtual void force_ended() noexcept = 0;
-    /// While a force acts, any key lets go at once, and q quits.
+    /// While a force acts, any key ends it at once, and q quits.
     [[nodiscard]] virtual Wish wish() = 0;
 };
 

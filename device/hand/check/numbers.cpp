@@ -1,4 +1,4 @@
-// Many measured values in few numbers.
+// Quantiles and histograms of measured values.
 #include "device/hand/check/numbers.hpp"
 
 #include <algorithm>

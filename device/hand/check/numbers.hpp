@@ -1,4 +1,4 @@
-// Many measured values in few numbers.
+// Quantiles and histograms of measured values.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +9,18 @@
 
 namespace dibhr {
 
-/// Values that are not negative, of which every second is left out whenever they become too many:
-/// however long it lasts, those that stay are spread over all of it.
+/// A sample of values that are not negative. When it is full, every second value is dropped: the
+/// values kept are spread evenly over the whole measurement, however long it lasts.
 class Sample {
   public:
     void add(double value);
-    /// With this part of the values below it, 0 to 1; 0 when there are none.
+    /// The quantile `part`, 0 to 1; 0 when there are no values.
     [[nodiscard]] double quantile(double part) const;
-    /// The largest of all; 0 when there are none.
+    /// The largest of all added values; 0 when there are none.
     [[nodiscard]] double most() const noexcept { return most_; }
-    /// How many different ones, of those that are kept.
+    /// Number of different values among the kept ones.
     [[nodiscard]] std::size_t different() const;
-    /// How many were added.
+    /// Number of added values.
     [[nodiscard]] std::size_t count() const noexcept { return count_; }
 
   private:
@@ -30,12 +30,12 @@ class Sample {
     std::size_t stride_{1};
 };
 
-/// How many values came in each range, in steps of 1, 2, 5: 0.01 to 1000, and what is longer.
+/// Number of values per bin; bins in steps of 1, 2, 5 from 0.01 to 1000, and one for longer values.
 class Histogram {
   public:
     void add(double value);
-    /// [{"up_to_ms": 0.02, "count": 12}, ..]; the last may have no "up_to_ms". Empty ranges are
-    /// left out.
+    /// [{"up_to_ms": 0.02, "count": 12}, ..]; the last may have no "up_to_ms". Empty bins are left
+    /// out.
     [[nodiscard]] Json as_json() const;
 
   private:

@@ -1,4 +1,4 @@
-// A force on the grip of a device that is checked.
+// A force on the grip during a device check.
 #include "device/hand/check/push.hpp"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// A force on the grip of a device that is checked: announced, watched by its person, and let go.
+// A force on the grip during a device check: announced, ended at once on the user's request.
 #pragma once
 
 #include <chrono>
@@ -8,9 +8,9 @@
 
 namespace dibhr {
 
-inline constexpr double kStandardGravity = 9.80665;  // m/s2: what a kitchen scale counts on
+inline constexpr double kStandardGravity = 9.80665;  // m/s2, which a kitchen scale assumes
 
-/// From the announcement of a force to its end, whatever ends it. The person must have agreed.
+/// Lasts from the announcement of a force to its end, whatever ends it. The user must have agreed.
 class CheckPush {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -21,13 +21,13 @@ class CheckPush {
     CheckPush(const CheckPush&) = delete;
     CheckPush& operator=(const CheckPush&) = delete;
 
-    /// Lets go of the device; once.
+    /// Ends the force; later calls do nothing.
     void release() noexcept;
-    /// Asks the person, about every millisecond of a force; false: it is to end. Throws
-    /// PersonQuits, and has let go then.
+    /// Polls the user's request, about every millisecond of a force; false: end the force. Throws
+    /// PersonQuits after it has ended the force.
     [[nodiscard]] bool goes_on();
-    /// No packet and no message for so long. `wait` waits until a moment at most 5 ms away; after
-    /// each the person is asked: as goes_on().
+    /// Sends nothing for `span`. `wait` sleeps until a time at most 5 ms away; after each sleep the
+    /// user's request is polled. Result as of goes_on().
     [[nodiscard]] bool be_silent(std::chrono::milliseconds span,
                                  const std::function<void(Time)>& wait);
 

@@ -1,4 +1,4 @@
-// Questions to the person beside a device that is checked.
+// Questions to the user of a device check.
 #include "device/hand/check/questions.hpp"
 
 #include "core/files/plain_text.hpp"

@@ -1,4 +1,4 @@
-// Questions to the person beside a device that is checked.
+// Questions to the user of a device check.
 #pragma once
 
 #include <optional>
@@ -8,44 +8,45 @@
 
 namespace dibhr {
 
-/// The person leaves this step out.
+/// Thrown when the user skips this step.
 struct StepSkipped {};
-/// The person leaves the check.
+/// Thrown when the user quits the check.
 struct PersonQuits {};
-/// The person let go of a force, and with it of the step.
+/// Thrown when the user ended a force, which ends the step.
 struct ForceLetGo {};
 
-/// Every question may throw StepSkipped (the answer "s") and PersonQuits ("q", Ctrl+C). When nobody
-/// can answer, what needs a person is skipped. Single letters count small and large.
+/// Every question may throw StepSkipped (the answer "s") and PersonQuits ("q", Ctrl+C). When the
+/// input has ended, steps that need an answer are skipped. Single letters may be upper or lower
+/// case.
 class CheckQuestions {
   public:
-    /// `person` outlives it.
+    /// `person` must outlive this object.
     explicit CheckQuestions(CheckGuide& person) : guide(person) {}
     virtual ~CheckQuestions() = default;
 
     CheckGuide& guide;
 
-    /// Any answer goes on; so does nobody.
+    /// Returns after any answer, or at once when the input has ended.
     void begin(const std::string& question);
-    /// Until the person typed "f": an Enter may have been meant for what came before, and begins no
-    /// force.
+    /// Repeats the question until the user types "f". Enter alone begins no force: the user may
+    /// have pressed it for the question before.
     void agree_to_force(const std::string& question);
-    /// Asked again until it is y or n.
+    /// Repeats the question until the answer is y or n.
     [[nodiscard]] bool yes_or_no(const std::string& question);
-    /// The typed word, when the person has done what was asked; empty: Enter alone.
+    /// The typed line; empty: Enter alone.
     std::string word(const std::string& question);
-    /// The typed number, asked for again until it is one in the range; nothing: Enter alone.
+    /// The typed number; repeats the question until it is in the range. Nothing: Enter alone.
     [[nodiscard]] std::optional<double> number(const std::string& question, double lowest,
                                                double highest);
 
-    /// Whether a line was typed since the last question; "s" and "q" throw, and so does nobody. For
-    /// steps that wait for something else meanwhile.
+    /// Whether a line was typed since the last question; does not wait. "s", "q" and the end of the
+    /// input throw. For steps that measure while they wait for the answer.
     bool answered();
     /// Throws PersonQuits after Ctrl+C.
     void quit_if_interrupted() const;
 
   protected:
-    /// Some milliseconds while the person thinks: the device must not be forgotten.
+    /// Called every few milliseconds while a question is open: keeps the link to the device alive.
     virtual void keep_talking() = 0;
 
   private:

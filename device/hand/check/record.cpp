@@ -1,4 +1,4 @@
-// The record of a check, and what was found.
+// The record of a check, and its findings.
 #include "device/hand/check/record.hpp"
 
 #include <array>
@@ -17,7 +17,7 @@ namespace {
 constexpr std::array kNamesOfEnds{"done", "skipped", "let go", "quit", "failed", "not begun"};
 static_assert(kNamesOfEnds.size() == static_cast<std::size_t>(CheckEnd::not_begun) + 1);
 
-/// What cannot be found out is left out.
+/// Facts that are not known are left out.
 Json machine_facts() {
     const Machine machine = this_machine();
     Json facts{{"cpus", std::thread::hardware_concurrency()}};
@@ -30,7 +30,7 @@ Json machine_facts() {
     return facts;
 }
 
-/// Now, as strftime() has it.
+/// The current time, formatted by strftime().
 std::string moment(const char* format, std::tm* (*in_zone)(const std::time_t*, std::tm*)) {
     const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
     std::tm parts{};
@@ -44,7 +44,7 @@ std::string utc(const char* format) {
     return moment(format, gmtime_r);
 }
 
-/// A serial is whatever the device says: letters, digits and dashes of it.
+/// A serial can hold any character: all but letters, digits and dashes are replaced.
 std::string fit_for_a_file_name(const std::string& serial) {
     std::string name;
     for (const char c : serial) {

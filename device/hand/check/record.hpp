@@ -1,5 +1,5 @@
-// The record of a check: one JSON file, written again after every step, and what was found of the
-// questions that a device's README.md leaves open.
+// The record of a check: one JSON file, written again after every step, with the answers to the
+// questions that the README.md of the device leaves open.
 #pragma once
 
 #include <cstddef>
@@ -13,28 +13,28 @@
 
 namespace dibhr {
 
-/// One of them.
+/// One open question.
 struct CheckQuestion {
     const char* name;      ///< in the record
-    const char* question;  ///< for people
+    const char* question;  ///< as printed
 };
 
 class CheckFindings {
   public:
-    /// `questions` outlive it; `table`: of the settings file.
+    /// `questions` must outlive this object; `table`: of the settings file.
     CheckFindings(std::span<const CheckQuestion> questions, const char* table)
         : questions_(questions), table_(table), found_(questions.size()) {}
 
-    /// `question`: of an enumeration in the order of the questions; once more: the last answer
-    /// counts.
+    /// `question`: of an enumeration in the order of the questions. A later answer replaces an
+    /// earlier one.
     template <typename Question>
     void settle(Question question, std::string found) {
         found_.at(static_cast<std::size_t>(question)) = std::move(found);
     }
-    /// A line for the table of the settings file: `value` as TOML has it.
+    /// Adds a line for the table of the settings file: `value` in TOML syntax.
     void set(const std::string& name, const std::string& value) { settings_[name] = value; }
 
-    /// Every question with what was found or that it is still open, and the settings; for people.
+    /// A text for the user: every question with its answer or "still open", and the settings.
     [[nodiscard]] std::string summary() const;
     /// Adds "findings" and "settings" to the record.
     void add_to(Json& record) const;
@@ -51,7 +51,7 @@ enum class CheckEnd : std::size_t { done, skipped, let_go, quit, failed, not_beg
 
 struct CheckedDevice {
     std::string kind{};      ///< "falcon"
-    std::string name_key{};  ///< of its name in the record: "serial"
+    std::string name_key{};  ///< JSON key of the name in the record: "serial"
     std::string name{};
 };
 
@@ -61,9 +61,9 @@ class CheckRecord {
     CheckRecord(std::filesystem::path file, const CheckedDevice& device,
                 const std::vector<std::pair<std::string, std::string>>& facts);
 
-    /// Adds these members to its head.
+    /// Adds these members to the head of the record.
     void tell(const Json& members) { head_.update(members); }
-    /// What its names mean, as its last member.
+    /// Sets the legend, the last member of the record: the meaning of every name.
     void explain(Json legend) { legend_ = std::move(legend); }
     /// `remark`: why it failed or was not begun.
     void add(const char* step, CheckEnd end, const std::string& remark, double seconds,

@@ -15,7 +15,7 @@ CheckRun::CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFi
       findings_(findings),
       steps_(steps),
       let_go_(std::move(let_go)) {
-    record_.write(findings_);  // before the work: an unwritable file is told at once
+    record_.write(findings_);  // before any step: fails at once when the file cannot be written
 }
 
 void CheckRun::step(const CheckStep& step, const std::function<std::string()>& why_not,

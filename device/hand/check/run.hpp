@@ -12,29 +12,29 @@
 
 namespace dibhr {
 
-/// Whom a step needs to begin.
+/// What a step needs from the user before it begins.
 enum class StepNeeds {
-    nobody,           ///< it is done when nobody can answer, too
-    person,           ///< who types Enter
-    person_for_force  ///< who types more than that: an Enter may have been meant for the last step
+    nobody,           ///< nothing: it also runs when the input has ended
+    person,           ///< Enter
+    person_for_force  ///< F: an Enter may have been pressed for the step before
 };
 
-/// What of a step is told and asked before it.
+/// The text printed before a step, and what it needs.
 struct CheckStep {
     const char* name;     ///< in the record
-    const char* title;    ///< for people
-    const char* meaning;  ///< what will happen, and what the person does
+    const char* title;    ///< as printed
+    const char* meaning;  ///< what will happen, and what the user does
     StepNeeds needs;
 };
 
 class CheckRun {
   public:
-    /// All outlive it. `let_go`: leaves the device without force; after it no step is begun.
+    /// All must outlive this object. `let_go` leaves the device without force; no step runs then.
     CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFindings& findings,
              std::size_t steps, std::function<void()> let_go);
 
-    /// Introduces and runs it, unless the check is over or `why_not` says why it makes no sense;
-    /// the record is written after it.
+    /// Prints the step's text, runs the step and writes the record. Does not run it when the check
+    /// is over, or when `why_not` returns a reason.
     void step(const CheckStep& step, const std::function<std::string()>& why_not,
               const std::function<void(Json&)>& run);
 
@@ -58,16 +58,16 @@ class CheckRun {
     bool over_{false};
 };
 
-/// A step of a device's check, and what it does.
+/// A step of a device's check: its text and its function.
 template <typename Desk>
 struct StepAt {
     CheckStep told;
     void (*run)(Desk& desk, Json& measured);
-    bool needs_answers{true};  ///< makes no sense while the device gives none
+    bool needs_answers{true};  ///< not run while the device does not answer
 };
 
-/// All of them in turn, and then what was found. `desk`: a CheckQuestions with `findings`;
-/// `let_go`: as of CheckRun; `why_silent`: why the device gives no answers; empty: it does.
+/// Runs all steps in turn, then prints the findings. The second argument is a CheckQuestions with
+/// `findings`; `let_go`: as of CheckRun; `why_silent`: why the device does not answer, or empty.
 template <typename Desk, std::size_t N>
 CheckResult run_steps(const std::array<StepAt<Desk>, N>& steps, Desk& desk, CheckRecord& record,
                       const std::function<void()>& let_go,

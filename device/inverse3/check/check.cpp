@@ -1,4 +1,4 @@
-// Leads through the check of an Inverse3.
+// Runs the steps of the check of an Inverse3, and keeps the record.
 #include "device/inverse3/check/check.hpp"
 
 #include <array>
@@ -56,7 +56,7 @@ constexpr std::array kSteps{
          check_unplugged},
 };
 
-/// What belongs to the whole record.
+/// The head of the record.
 Json about(const CheckTalk& talk, const ConnectionOptions& connection) {
     Json head{{"simulated", talk.is_simulated()},
               {"service_port", connection.port},

@@ -1,4 +1,4 @@
-// The step that leaves a force behind: what becomes of it when its connection ends without a zero.
+// The step that measures how long a force lasts when its connection ends without a zero force.
 #include <glm/geometric.hpp>
 
 #include "core/files/plain_text.hpp"

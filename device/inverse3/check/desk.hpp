@@ -1,4 +1,4 @@
-// Where a step of the check has the person, the device, and what is found.
+// What every step of the check works on: user, device, options and findings.
 #pragma once
 
 #include <array>
@@ -51,7 +51,7 @@ inline constexpr double kMetre_mm = 1000.0;
     return {{"x", values.x}, {"y", values.y}, {"z", values.z}};
 }
 
-/// While the person thinks, the device is asked for its pose alone.
+/// While a question is open, the check polls the device's pose and sends no force.
 struct CheckDesk final : CheckQuestions {
     CheckDesk(CheckGuide& person, CheckTalk& checked, const CheckOptions& chosen)
         : CheckQuestions(person), talk(checked), options(chosen) {}
@@ -59,27 +59,27 @@ struct CheckDesk final : CheckQuestions {
     CheckTalk& talk;
     const CheckOptions& options;
     CheckFindings findings{kQuestions, "inverse3"};
-    std::optional<ForceDialect> dialect{};  ///< once it was found out
+    std::optional<ForceDialect> dialect{};  ///< as measured; nothing: not yet
 
-    /// As it was found out, or else as the settings have it, or by the version.
+    /// The dialect as measured, else of the settings, else by the version.
     [[nodiscard]] ForceDialect likely_dialect() const noexcept {
         const ForceDialect by_version = talk.newer() ? ForceDialect::vector : ForceDialect::values;
         return dialect.value_or(options.connection.dialect.value_or(by_version));
     }
-    /// An Enter was waited for so long.
+    /// Prints that the step went on by itself, `after` so long a wait for an Enter.
     void tell_gone_on(CheckTimes::Span after) const;
 
   private:
     void keep_talking() override;
 };
 
-/// Preset and axes that the positions are told in, as read back; null: not told.
+/// Preset and axes of the positions, as read back; null: not known.
 [[nodiscard]] Json told_frame(const CheckTalk& talk);
-/// What every name in the record means: the head's under "record", the others under their step.
+/// The meaning of every name in the record: of its head under "record", of a step under its name.
 [[nodiscard]] Json check_legend();
 
-// The steps. They add what they measure; they throw StepSkipped, ForceLetGo, PersonQuits, and
-// DeviceError when the device fails.
+// The steps. They add their results to `measured`; they throw StepSkipped, ForceLetGo, PersonQuits,
+// and DeviceError when the device fails.
 void check_service(CheckDesk& desk, Json& measured);
 void check_rate(CheckDesk& desk, Json& measured);
 void check_moving(CheckDesk& desk, Json& measured);

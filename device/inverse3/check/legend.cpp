@@ -1,4 +1,4 @@
-// What every name in the record means, its unit, and how it was found.
+// The legend of the record: the meaning of every name, its unit, and how it was measured.
 #include <array>
 
 #include "device/inverse3/check/desk.hpp"

@@ -1,4 +1,4 @@
-// The steps without force and without hands: what the service says, and how fast.
+// The steps without force and without the user: the service's data, and the rate of exchanges.
 #include <array>
 #include <string>
 #include <thread>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array kKept{"gravity compensation", "torque scaling", "filters", "force scale"};
 
-/// Of a device, by their names.
+/// The settings that the service keeps for a device, by name.
 Json kept_of(const SurveyedArm& arm) {
     Json all;
     for (const char* const name : kKept) all[name] = "not answered";
@@ -25,7 +25,7 @@ Json kept_of(const SurveyedArm& arm) {
     return all;
 }
 
-/// Null where there is none.
+/// The member `name`; null: there is none.
 Json member(const Json& told, const char* name) {
     return told.is_object() ? told.value(name, Json()) : Json();
 }

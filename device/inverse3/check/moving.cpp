@@ -1,5 +1,5 @@
-// The step in which somebody moves the grip: how often its position is new, in which steps it
-// comes, and how far it goes.
+// The step in which the user moves the grip: rate of new positions, their resolution, and the
+// workspace.
 #include <array>
 #include <cmath>
 #include <glm/common.hpp>
@@ -16,11 +16,11 @@ namespace {
 using Clock = CheckTalk::Clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-constexpr double kNoise_mm = 1e-6;           // a conversion's rounding, no step of an encoder
-constexpr Milliseconds kStandsStill{100.0};  // between two changes: it did not move meanwhile
+constexpr double kNoise_mm = 1e-6;           // rounding errors, smaller than any encoder's step
+constexpr Milliseconds kStandsStill{100.0};  // after so long without a change the grip is at rest
 constexpr std::array kAxes{"x", "y", "z"};
 
-/// What positions came.
+/// Statistics of the received positions.
 class Positions {
   public:
     Vec3 lowest_mm{1e9};
@@ -34,7 +34,7 @@ class Positions {
         last_mm_ = position_mm;
     }
 
-    /// Of the time in which it moved; 0: it did not.
+    /// New positions per second while the grip moved; 0: it did not move.
     [[nodiscard]] double new_per_s() const {
         const double half_ms = intervals_ms_.quantile(0.5);
         return half_ms > 0.0 ? 1000.0 / half_ms : 0.0;

@@ -1,4 +1,4 @@
-// A force on the grip: ramped, and released at once.
+// A force on an Inverse3's grip: ramped, held and ended.
 #include "device/inverse3/check/push.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,4 +1,4 @@
-// The only place of the check where a device gets any force but zero.
+// A force on an Inverse3's grip: the only part of the check that sends a force other than zero.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace dibhr::inverse3 {
 
 inline constexpr Vec3 kWeak_newton{-0.5, 0.0, 0.0};  // to the left
 
-/// The state tells a force of at least 5 % of the weak one: filters may take most of it away.
+/// The state reports at least 5 % of the weak force: the service's filters may reduce it so far.
 [[nodiscard]] bool tells_weak_force(const Arm& state);
 
-/// While it lives a force acts; at its end it does not, whatever happened.
+/// A force acts during the lifetime of this object; the destructor ends it.
 class Push : public CheckPush {
   public:
     explicit Push(CheckDesk& desk);
@@ -26,11 +26,11 @@ class Push : public CheckPush {
     /// Sends nothing.
     void be_silent(CheckTimes::Span span);
 
-    /// The answer to the last force, however it ended; nothing: none was sent.
+    /// The state in the answer to the last force; nothing: none was sent.
     [[nodiscard]] const std::optional<Arm>& last() const noexcept { return last_; }
     /// For how long the whole force was held [s].
     [[nodiscard]] double held_s() const noexcept { return held_s_; }
-    /// Sent and told force, position at both ends, and for how long the whole force was held.
+    /// Adds sent and reported force, first and last position, and how long the force was held.
     void add_to(Json& part) const;
 
   private:
@@ -41,7 +41,7 @@ class Push : public CheckPush {
     double held_s_{0.0};
 };
 
-/// Up to when a force was there, and from when it was gone.
+/// The longest time after which a force was still there, and the shortest after which it was gone.
 class ForceEnd {
   public:
     void add(double after_ms, bool acts);

@@ -1,4 +1,4 @@
-// The steps with force: how it is spelled, how long it lasts, and how strong it is.
+// The steps with force: its format, how long it lasts, and how strong it is.
 #include <glm/geometric.hpp>
 
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kHeaviest_g = 2000.0;
 constexpr std::array kOnTheScale_newton{1.0, 2.0, 3.0, 4.0};  // the last is the viewer's own limit
 
-/// What in_use said before a force of ours, at its end, and after it.
+/// The status in_use before a force of ours, at its end, and after it.
 struct InUse {
     bool before{false}, during{false}, after{false};
 
@@ -26,7 +26,7 @@ struct InUse {
     }
 };
 
-/// What became of a force that was spelled so.
+/// Result of a force in one dialect.
 struct Spelled {
     ForceDialect dialect{};
     bool told{false};
@@ -52,7 +52,7 @@ Spelled pull_with(CheckDesk& desk, ForceDialect dialect, InUse& in_use, Json& pa
     } catch (const DeviceError& complaint) {
         part["complaint"] = complaint.what();
     }
-    // Asked after the force has gone.
+    // Asked after the force has ended.
     found.felt = desk.yes_or_no(std::string("Did the grip pull to the left with \"") +
                                 name_of(dialect) + "\"?");
     part["told_back"] = found.told;
@@ -60,7 +60,7 @@ Spelled pull_with(CheckDesk& desk, ForceDialect dialect, InUse& in_use, Json& pa
     return found;
 }
 
-/// What is told back proves only that the service understood: only what is felt is chosen for good.
+/// A reported force proves only that the service understood: the settings get only a felt dialect.
 void choose_dialect(CheckDesk& desk, const std::array<Spelled, 2>& spelled) {
     std::string words = spelled[0].in_words() + "; " + spelled[1].in_words();
     bool any_felt = false;
@@ -74,7 +74,7 @@ void choose_dialect(CheckDesk& desk, const std::array<Spelled, 2>& spelled) {
     desk.findings.settle(OpenQuestion::dialect, words);
 }
 
-/// Whether a force that was pushed with is still told after a silence.
+/// Pushes, pauses, and reads whether the service still reports the force.
 void be_silent_once(CheckDesk& desk, ForceDialect dialect, CheckTimes::Span silence, ForceEnd& end,
                     Json& line) {
     line["silence_ms"] = silence.count();
@@ -91,7 +91,7 @@ void be_silent_once(CheckDesk& desk, ForceDialect dialect, CheckTimes::Span sile
     if (tells_weak_force(*push.last())) end.add(gap.count(), tells_weak_force(after));
 }
 
-/// Presses once, until the person lets go.
+/// Presses once; a key ends it early.
 void press(CheckDesk& desk, double wanted_newton, Json& part) {
     Push push(desk);
     bool let_go = false;

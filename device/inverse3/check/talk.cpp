@@ -1,4 +1,4 @@
-// One message and its answer at a time.
+// The Inverse3 under check: one message and its answer at a time.
 #include "device/inverse3/check/talk.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr std::chrono::milliseconds kAnswerTakes{1000};
 constexpr std::chrono::milliseconds kInventoryTakes{500};
 constexpr std::chrono::milliseconds kVersionTakes{300};
-constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian is told; it waits for 50 ms
+constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian's timeout is 50 ms
 
 /// Text that is no JSON stays text.
 Json as_told(std::string_view text) {
@@ -65,7 +65,7 @@ CheckTalk::CheckTalk(const ConnectionOptions& options) : options_(options) {
     inventory_unasked_ = connect();
     inventory_ = as_told(text_);
     introduce();
-    (void)ask({.arm = DeviceId(id_), .whole_state = true});  // what it is set to now
+    (void)ask({.arm = DeviceId(id_), .whole_state = true});  // reads the settings back
     introduced_ = as_told(text_);
 }
 
@@ -139,7 +139,7 @@ std::optional<Arm> CheckTalk::look(ForceDialect dialect) {
     return arm == nullptr ? std::nullopt : std::optional(*arm);
 }
 
-/// How long the answer took, which is in the message.
+/// Sends a message and reads the answer into message_; returns the time between.
 std::chrono::nanoseconds CheckTalk::ask(const Order& order) {
     if (!link_) begin_again();
     const auto sent = Clock::now();
@@ -208,12 +208,12 @@ void CheckTalk::let_go() noexcept {
             }
         }
     } catch (const LinkError&) {
-        pushed_in_.reset();  // it has gone, and its session with it
-        guardian_.part();    // or it can still be heard
+        pushed_in_.reset();  // the connection and its session are lost,
+        guardian_.part();    // or the guardian can still send over it
     }
     if (guarded_in_) guardian_.dismiss();
     guarded_in_.reset();
-    // What came unasked would make every later answer one message older.
+    // An unrequested message would make every later answer one exchange older.
     if (anew) link_.reset();
 }
 

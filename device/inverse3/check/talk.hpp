@@ -1,4 +1,4 @@
-// One message and its answer at a time with the device that is checked.
+// The Inverse3 under check: one message and its answer at a time.
 #pragma once
 
 #include <chrono>
@@ -20,9 +20,9 @@ class CheckTalk {
     using Clock = std::chrono::steady_clock;
 
     /// Finds the device, connects, and sets the preset as the viewer does. Throws DeviceError.
-    /// `options` outlive it.
+    /// `options` must outlive this object.
     explicit CheckTalk(const ConnectionOptions& options);
-    /// Zero forces, then goodbye.
+    /// Sends zero forces, then closes the connection.
     ~CheckTalk();
     CheckTalk(const CheckTalk&) = delete;
     CheckTalk& operator=(const CheckTalk&) = delete;
@@ -32,54 +32,54 @@ class CheckTalk {
         std::chrono::nanoseconds round_trip{0};
     };
 
-    /// Sends it, and waits for what comes: at most a second. `force`: nothing asks for the pose
-    /// alone. Throws DeviceError when nothing comes, or the device is not in it.
+    /// Sends one message and waits for the answer, at most a second. Without a force it only
+    /// requests the pose. Throws DeviceError without an answer, or when the device is not in it.
     Heard exchange(const std::optional<Vec3>& force_newton, ForceDialect dialect);
-    /// The same without a force, of a device that may be there or not; the message is message().
+    /// The same without a force; nothing: the device is not in the answer, which is in message().
     [[nodiscard]] std::optional<Arm> look(ForceDialect dialect);
-    /// Three zero forces in both dialects, that of the last force first; over a new connection
-    /// where there is none. No error is told.
+    /// Sends three zero forces in both dialects, first in that of the last force; opens a
+    /// connection where there is none. Ignores errors.
     void let_go() noexcept;
-    /// Without a word to the service, which the guardian knows of; no longer than 40 ms at a time.
+    /// Sends nothing to the service, but beats for the guardian; at most 40 ms at a time.
     void keep_silent(Clock::time_point until);
-    /// Ends the connection as a program's death would, but for the guardian's last word: no zero,
-    /// no goodbye. The next message makes a new one.
+    /// Closes the connection as a crash would, without a zero force, a close frame or the
+    /// guardian's packets. The next message opens a new connection.
     void break_off() noexcept;
 
     struct Found {
         Arm arm{};
-        bool unasked{false};  ///< told before anything was said
+        bool unasked{false};  ///< the service sent it before any message of ours
     };
-    /// What a new connection is told first of the device. Throws DeviceError.
+    /// Opens a new connection and returns the first state of the device. Throws DeviceError.
     [[nodiscard]] Found connect_again();
 
     /// Why no guardian watches while a force acts, in a line; empty when one does.
     [[nodiscard]] std::string unguarded() const { return guardian_.fault(); }
 
     [[nodiscard]] const std::string& id() const noexcept { return id_; }
-    /// As /version told it; null: it did not.
+    /// The answer of /version; null: there was none.
     [[nodiscard]] const Json& version_answer() const noexcept { return version_answer_; }
-    /// It is dibhr's own.
+    /// The service is dibhr's own simulation.
     [[nodiscard]] bool is_simulated() const;
     /// When the last message was sent.
     [[nodiscard]] Clock::time_point sent_at() const noexcept { return sent_at_; }
     [[nodiscard]] const ServiceMessage& message() const noexcept { return message_; }
     [[nodiscard]] bool newer() const noexcept { return newer_; }
 
-    // Whole states, in the service's own words. Text that is no JSON is kept as text.
+    // Whole states as the service sent them. Text that is no JSON is kept as text.
 
-    /// The first one, before anything was set.
+    /// The first one, before any setting.
     [[nodiscard]] const Json& inventory() const noexcept { return inventory_; }
-    /// The service sent it by itself, else it was asked for it.
+    /// The service sent the inventory unrequested.
     [[nodiscard]] bool inventory_unasked() const noexcept { return inventory_unasked_; }
-    /// The one after the session was introduced and the preset set.
+    /// The one after the session was named and the preset set.
     [[nodiscard]] const Json& introduced() const noexcept { return introduced_; }
-    /// What the service complained of when it was; empty: of nothing.
+    /// The error that the service reported to those settings; empty: none.
     [[nodiscard]] const std::string& complaint() const noexcept { return complaint_; }
 
   private:
     std::chrono::nanoseconds ask(const Order& order);
-    /// The first whole state, which is in text_ and message_; whether it came unasked.
+    /// Reads the first whole state into text_ and message_; true: it came unrequested.
     bool connect();
     void introduce();
     void begin_again();
@@ -96,8 +96,8 @@ class CheckTalk {
     bool inventory_unasked_{false};
     Json introduced_{};
     std::string complaint_{};
-    std::optional<ForceDialect> pushed_in_{};  // how the last force was spelled
-    std::optional<ServiceLink> link_{};        // nothing: broken off
+    std::optional<ForceDialect> pushed_in_{};  // dialect of the last force
+    std::optional<ServiceLink> link_{};        // nothing: not connected
     Clock::time_point sent_at_{};
     MessageReader reader_{};
     OrderWriter writer_{};
@@ -105,7 +105,7 @@ class CheckTalk {
     std::string_view text_{};  // of the last message; until the next one
 };
 
-/// What a whole state tells of the configuration of a device; an empty object: nothing.
+/// The configuration of a device in a whole state; an empty object: not in it.
 [[nodiscard]] Json config_in(const Json& whole_state, const std::string& id);
 
 }  // namespace dibhr::inverse3

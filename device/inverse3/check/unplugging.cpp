@@ -1,4 +1,4 @@
-// The step in which the cable is pulled out: what the service makes of it.
+// The step in which the user unplugs the cable: what the service reports then.
 #include <algorithm>
 #include <optional>
 #include <string>
@@ -14,11 +14,11 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using Time = CheckTalk::Clock::time_point;
 
-/// What the service tells of a device while its cable is out.
+/// What the service reports about a device while its cable is out.
 class Absence {
   public:
     bool is_back{true};
-    std::string ended_by{};  ///< what the service did in the end instead of answering
+    std::string ended_by{};  ///< the error that ended the step; empty: none
 
     void add(const std::optional<Arm>& arm, Time now) {
         is_back = arm.has_value();
@@ -37,8 +37,8 @@ class Absence {
         if (!stays_since_) stays_since_ = now;
         last_m_ = position_m;
     }
-    /// The person says that the cable is out: what stays now is frozen, and so is what stayed until
-    /// its entry went.
+    /// The user reports that the cable is out. An unchanged position counts as frozen from now on,
+    /// as does the one before the entry was removed.
     void cable_is_out(Time now) {
         out_at_ = now;
         if (!is_back) frozen_ = last_stay_;
@@ -78,7 +78,7 @@ class Absence {
     }
 
   private:
-    /// Its position is another one, or its entry goes.
+    /// The position changed, or the entry was removed.
     void end_stay(Time now) {
         if (!stays_since_) return;
         last_stay_ = now - *stays_since_;
@@ -103,7 +103,7 @@ std::string names_in(const ServiceMessage& message) {
     return names.empty() ? "nothing" : names;
 }
 
-/// Until Enter; false: it went on by itself.
+/// Polls the device until Enter; false: the time was over.
 bool watch(CheckDesk& desk, const std::string& question, Absence& absence) {
     desk.guide.ask(question);
     const auto limit = CheckTalk::Clock::now() + desk.options.times.unplugging;
@@ -131,7 +131,7 @@ void check_unplugged(CheckDesk& desk, Json& measured) {
             "Count to five, plug the USB cable in again, wait until the light is as before, "
             "and move the grip; then Enter",
             absence);
-    } catch (const DeviceError& failure) {  // which is a finding, too
+    } catch (const DeviceError& failure) {  // a failure is a result, too
         absence.ended_by = failure.what();
     }
     absence.add_to(measured);

@@ -1,4 +1,4 @@
-// A service's end of RFC 6455.
+// The server's side of RFC 6455.
 #include "device/inverse3/simulated/frames.hpp"
 
 #include <array>
@@ -42,7 +42,7 @@ void add_block(Digest& digest, std::string_view block) {
     digest = {digest[0] + a, digest[1] + b, digest[2] + c, digest[3] + d, digest[4] + e};
 }
 
-/// RFC 3174; the handshake asks for no other.
+/// RFC 3174, as the handshake needs it.
 std::string sha1(std::string text) {
     Digest digest{0x67452301, 0xEFCDAB89, 0x98BADCFE, 0x10325476, 0xC3D2E1F0};
     const std::uint64_t bits = 8 * text.size();

@@ -1,4 +1,4 @@
-// A service's end of RFC 6455: the handshake's answer, frames out, frames in.
+// The server's side of RFC 6455: the answer to a handshake, frames out, frames in.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace dibhr::inverse3::simulated {
 
 enum class Opcode : std::uint8_t { rest = 0, text = 1, binary = 2, close = 8, ping = 9, pong = 10 };
 
-/// Of Sec-WebSocket-Key: what Sec-WebSocket-Accept has to be (RFC 6455, 4.2.2).
+/// The value of Sec-WebSocket-Accept for a Sec-WebSocket-Key (RFC 6455, 4.2.2).
 [[nodiscard]] std::string accept_of(std::string_view key);
 
 /// How a frame is written.
@@ -20,17 +20,17 @@ struct FrameForm {
     bool last{true};
 };
 
-/// A frame as a service sends it, without a mask.
+/// A frame as a server sends it, without a mask.
 [[nodiscard]] std::string frame(std::string_view payload, FrameForm form = {});
 
-/// One frame as it came.
+/// A received frame.
 struct Frame {
     Opcode opcode{Opcode::text};
     bool last{true};
     std::string payload{};
 };
 
-/// The first frame of `bytes`, unmasked and taken off them; nothing while it is not whole.
+/// Removes the first frame from `bytes` and returns it unmasked; nothing while it is incomplete.
 [[nodiscard]] std::optional<Frame> take_frame(std::string& bytes);
 
 }  // namespace dibhr::inverse3::simulated

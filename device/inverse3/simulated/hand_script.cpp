@@ -1,4 +1,4 @@
-// The simulated hand and device, moved by lines of text.
+// Moves the simulated hand and device by lines of text.
 #include "device/inverse3/simulated/hand_script.hpp"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 constexpr Vec3 kMiddle_m{0.0, -0.15, 0.18};
 constexpr double kMetre_mm = 1000.0;
 
-/// From where it is to a place, in a time, without a jerk at either end.
+/// Moves the hand from where it is to `to_m`, smoothly at both ends.
 void move_hand(Scene& scene, Vec3 to_m, double seconds, double now_s) {
     const Vec3 from_m = scene.hand_m         ? scene.hand_m(now_s)
                         : scene.arms.empty() ? to_m

@@ -1,4 +1,4 @@
-// The simulated hand and device, moved by lines of text: by hand or by a script.
+// Moves the simulated hand and device by lines of text, typed or from a script.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace dibhr::inverse3::simulated {
 
-/// What can be typed, for people.
+/// The commands, for the user.
 inline constexpr const char* kHandCommands =
     "Type: hand X Y Z SECONDS (mm from the middle of the box: right, forward, up)\n"
     "      button A|B|C|HOME down|up\n"
@@ -15,12 +15,12 @@ inline constexpr const char* kHandCommands =
     "      plug, unplug, silence on|off, drop\n"
     "      state (where the hand is, and what pushes it back)\n";
 
-/// Obeys one line after the other; the hand goes its way in the meantime.
+/// Runs one line after the other; the hand keeps moving meanwhile.
 class HandScript {
   public:
-    /// `service` outlives it.
+    /// `service` must outlive this object.
     explicit HandScript(Service& service);
-    /// What is to be told; a line that is not understood says so, an empty one nothing.
+    /// Runs one line and returns the answer to print: empty, or an error for an unknown command.
     [[nodiscard]] std::string obey(const std::string& line);
 
   private:

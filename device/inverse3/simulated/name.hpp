@@ -1,9 +1,9 @@
-// By what the simulated service can be told from Haply's.
+// The name by which the simulated service can be distinguished from Haply's.
 #pragma once
 
 namespace dibhr::inverse3::simulated {
 
-/// What it tells as `project_name` at /version.
+/// The simulated service's `project_name` at /version.
 inline constexpr const char* kProjectName = "dibhr-simulated-inverse-service";
 
 }  // namespace dibhr::inverse3::simulated

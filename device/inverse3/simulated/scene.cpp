@@ -1,4 +1,4 @@
-// What is attached to the simulated service, as JSON and under orders.
+// The devices of the simulated service as JSON, and the effect of a client's messages.
 #include "device/inverse3/simulated/scene.hpp"
 
 #include <algorithm>
@@ -142,7 +142,7 @@ Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now) {
         obey_message(scene, root, now, done);
         done.understood = true;
     } catch (const Json::exception&) {
-        done.understood = false;  // a member of another kind than it has to be
+        done.understood = false;  // a member has the wrong type
     }
     return done;
 }

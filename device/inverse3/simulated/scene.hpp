@@ -1,5 +1,5 @@
-// What is attached to the simulated service, and its manners: all that sources tell of services and
-// that a client has to stand.
+// The devices of the simulated service, and its behaviour: the variants that sources describe, and
+// faults that a client has to handle.
 #pragma once
 
 #include <chrono>
@@ -21,15 +21,15 @@ struct Arm {
     bool minverse{false};
     std::string handedness{"right"};
     Vec3 position_m{0.0, -0.15, 0.18};
-    Vec3 velocity_m_per_s{0.0};   ///< as it is reported
-    std::string position_text{};  ///< in the place of the position: "null", "{\"x\":NaN}"
+    Vec3 velocity_m_per_s{0.0};   ///< as reported
+    std::string position_text{};  ///< sent in place of the position: "null", "{\"x\":NaN}"
     bool calibrated{true};
     bool powered{true};
     bool in_use{false};
     bool ready{true};
     std::string preset{"defaults"};
     std::string basis{"XYZ"};
-    // What its motors do.
+    // The force of its motors.
     Vec3 force_newton{0.0};
     Clock::time_point force_at{};
 };
@@ -38,7 +38,7 @@ struct Grip {
     std::string id{"61548"};
     std::string list{"wireless_verse_grip"};
     std::uint8_t buttons{0};
-    bool numbered{false};  ///< button_0 .. instead of a ..
+    bool numbered{false};  ///< names are button_0 .. instead of a ..
     bool awake{true};
     double battery{0.8};
 };
@@ -46,7 +46,7 @@ struct Grip {
 enum class Takes { vector, values, both };
 enum class OnWrong { ignores, refuses, closes };
 
-/// What comes in the place of an answer.
+/// What is sent in place of an answer.
 enum class Garble {
     none,
     malformed,
@@ -54,14 +54,14 @@ enum class Garble {
     empty,
     megabyte,
     not_utf8,
-    masked,         ///< a frame as only a client may send it
-    reserved_bits,  ///< of a frame's first byte
-    close_frame,    ///< and it goes on to obey until the client's own
+    masked,         ///< a frame that only a client may send
+    reserved_bits,  ///< a frame with the reserved bits of its first byte set
+    close_frame,    ///< a close frame; messages still take effect until the client's own
     array,
     binary,       ///< a whole answer, in a binary frame
     fragments,    ///< a whole answer, in three frames with a ping between them
-    long_length,  ///< a whole answer, and so much room in it that its length takes 64 bits
-    two           ///< a whole answer, and another one that nobody asked for
+    long_length,  ///< a whole answer, padded so that its length takes 64 bits
+    two           ///< a whole answer, and another one that was not requested
 };
 
 struct Manners {
@@ -70,39 +70,39 @@ struct Manners {
     Takes takes{Takes::vector};
     OnWrong on_wrong{OnWrong::ignores};
     bool inventory_at_once{true};
-    bool takes_preset{true};            ///< else it keeps its own
-    bool answers{true};                 ///< else it keeps silent: half open
-    std::chrono::microseconds tick{0};  ///< answers come at its own ticks; 0: at once
+    bool takes_preset{true};            ///< else the service keeps its own preset
+    bool answers{true};                 ///< else no answers come: a half-open connection
+    std::chrono::microseconds tick{0};  ///< answers are sent at ticks of this period; 0: at once
     std::chrono::microseconds delay{0};
-    std::chrono::microseconds jitter{0};  ///< up to that much more
+    std::chrono::microseconds jitter{0};  ///< a random part added to the delay, at most this
     Garble garble{Garble::none};
-    /// What it keeps for all programs: gravity compensation, as JSON; empty: it does not tell.
+    /// A setting kept for all programs, gravity compensation, as JSON; empty: no answer.
     std::string gravity_compensation{R"({"enabled":true,"gravity_scaling_factor":1.0})"};
     bool http_beside{true};                    ///< /version on the WebSocket's own port
-    bool http_older{true};                     ///< and on the older one
-    std::chrono::milliseconds force_held{50};  ///< without a new one; 0: for ever
+    bool http_older{true};                     ///< /version on the older port
+    std::chrono::milliseconds force_held{50};  ///< a force lasts so long without a new one; 0: ever
 };
 
-/// All of it, behind one lock.
+/// The state of the simulation; the service guards it by one lock.
 struct Scene {
     std::vector<Arm> arms{Arm{}};
     std::vector<Grip> grips{};
     Manners manners{};
-    /// Where the first arm's hand is at a time [s] since the service began; null: where it is.
+    /// Position of the first arm's hand at a time [s] since the service began; null: constant.
     std::function<Vec3(double)> hand_m{};
 
     [[nodiscard]] Arm* arm(std::string_view id);
-    /// Lets forces end that nobody renewed.
+    /// Ends forces that were not renewed.
     void forget_old_forces(Clock::time_point now);
 };
 
 /// The state message; `whole`: with the configurations, as the inventory.
 [[nodiscard]] std::string state_text(const Scene& scene, bool whole);
 
-/// What one message did.
+/// Effect of one message.
 struct Obeyed {
     bool understood{false};  ///< JSON of a known shape
-    bool drives{false};      ///< it held a force, whatever became of it
+    bool drives{false};      ///< the message has a force, taken or not
     bool wrong_dialect{false};
     bool wants_whole{false};
     bool asks_preset{false};
@@ -110,7 +110,7 @@ struct Obeyed {
     std::string arm{};
 };
 
-/// Does what a client's message asks for.
+/// Applies a client's message to the scene.
 Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now);
 
 }  // namespace dibhr::inverse3::simulated

@@ -1,4 +1,4 @@
-// The Inverse Service, simulated.
+// The simulated Inverse Service.
 #include "device/inverse3/simulated/service.hpp"
 
 #include <arpa/inet.h>
@@ -22,7 +22,7 @@ namespace dibhr::inverse3::simulated {
 
 namespace {
 
-constexpr int kPatience_ms = 20;  // between looks whether it is to end
+constexpr int kPatience_ms = 20;  // period of the checks whether the service has to end
 constexpr std::size_t kMostHeard = 1'000'000;
 
 /// Throws DeviceError.
@@ -47,7 +47,7 @@ int listening_socket(std::uint16_t& port) {
     return descriptor;
 }
 
-/// More bytes of the client; false: it has gone. At most kPatience_ms.
+/// Receives bytes of the client, for at most kPatience_ms; false: the client has closed.
 bool receive(int descriptor, std::string& bytes) {
     pollfd watched{descriptor, POLLIN, 0};
     if (poll(&watched, 1, kPatience_ms) == 0) return true;
@@ -80,7 +80,7 @@ std::string http_answer(const std::string& status, const std::string& body) {
            "\r\nConnection: close\r\n\r\n" + body;
 }
 
-/// What is asked for by the head of a request, on the older port or the WebSocket's; empty: no such
+/// The page for the head of an HTTP request, on the older port or the WebSocket's; empty: no such
 /// page.
 std::string page_of(const Scene& scene, const std::string& head, bool older) {
     const Manners& manners = scene.manners;
@@ -178,7 +178,7 @@ void Service::listen_again() {
     try {
         listener_ = listening_socket(port_);
     } catch (const DeviceError&) {
-        listener_ = -1;  // somebody has the port: the next round tries again
+        listener_ = -1;  // another program has the port: the next round tries again
     }
 }
 
@@ -207,7 +207,7 @@ void Service::reap(bool all) {
 }
 
 void Service::serve(Client& client, bool older) {
-    prctl(PR_SET_TIMERSLACK, 1UL);  // its ticks are punctual
+    prctl(PR_SET_TIMERSLACK, 1UL);  // for punctual ticks
     if (shake_hands(client, older)) talk(client);
     ::close(client.descriptor);
     client.done = true;
@@ -343,7 +343,7 @@ std::string Service::answer_bytes(bool whole) {
 }
 
 void Service::note_what_waits(Client& client) {
-    // What came is only looked at: a message is taken when its turn comes.
+    // Only peeks at the waiting bytes: the message is read when its turn comes.
     std::array<char, 256> piece;
     const ssize_t waits =
         recv(client.descriptor, piece.data(), piece.size(), MSG_DONTWAIT | MSG_PEEK);

@@ -1,4 +1,4 @@
-// The Inverse Service, simulated: a real TCP server of this machine that speaks RFC 6455 and HTTP.
+// The simulated Inverse Service: a real TCP server on this machine with WebSocket and HTTP.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@
 
 namespace dibhr::inverse3::simulated {
 
-/// One message of a client, as it came.
+/// One received message of a client.
 struct Heard {
     Clock::time_point at{};
     bool drives{false};
@@ -24,7 +24,7 @@ struct Heard {
     bool asks_preset{false};
 };
 
-/// How clients are to lose it.
+/// How the connection of a client ends.
 enum class Loss { closed, reset };
 
 /// Serves from construction to destruction, any number of clients, each on a thread of its own.
@@ -40,24 +40,24 @@ class Service {
     /// Where older versions have HTTP.
     [[nodiscard]] std::uint16_t older_port() const noexcept { return older_port_; }
 
-    /// How long it has served; the time that Scene::hand_m is asked for.
+    /// Time since construction [s]; the argument of Scene::hand_m.
     [[nodiscard]] double seconds() const noexcept {
         return std::chrono::duration<double>(Clock::now() - began_).count();
     }
 
-    /// Looks at or changes what is there, while no message is being answered.
+    /// Runs `work` on the scene, while no message is being answered.
     template <typename Work>
     auto with(Work&& work) {
         const std::lock_guard lock(mutex_);
         return std::forward<Work>(work)(scene_);
     }
-    /// All clients lose it now; it goes on to listen.
+    /// Ends all connections now; goes on listening.
     void drop_clients(Loss how);
-    /// Nobody can connect until listen(); clients that are there stay.
+    /// Refuses new connections until listen(); open ones stay.
     void refuse();
     void listen();
 
-    // What it has heard.
+    // What the service has received.
     [[nodiscard]] std::vector<Heard> heard() const;
     void forget_heard();
     [[nodiscard]] std::uint64_t exchanges() const noexcept { return exchanges_; }

@@ -1,4 +1,4 @@
-// Force during a check: when there is any, how it comes, and that it goes.
+// Force during a check: when it acts, how it rises, and that it ends.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

@@ -1,4 +1,4 @@
-// What the person does, question by question.
+// The simulated user's answers and motions, question by question.
 #include "tests/device/falcon/check_person.hpp"
 
 #include <sqlite3.h>

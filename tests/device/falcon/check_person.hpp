@@ -14,7 +14,7 @@ namespace dibhr::test::falcon {
 
 using dibhr::CheckGuide;
 
-/// Does what is asked, and answers truly, unless a test wants it otherwise.
+/// A user who does what the check asks for and answers truly, unless a test changes that.
 class CheckPerson final : public CheckGuide {
   public:
     CheckPerson(UsbBench& bus, Unit& unit) : bus_(bus), unit_(unit) {}

@@ -1,4 +1,4 @@
-// The protocol for the first unit: what a check finds out of a simulated Falcon, and how it ends.
+// The check of a simulated Falcon: its findings, and how it ends.
 #include "device/falcon/check/check.hpp"
 
 #include <chrono>

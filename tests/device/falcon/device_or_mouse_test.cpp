@@ -1,4 +1,4 @@
-// The mouse stands in for a Falcon that is not ready, and gives the hand back to it.
+// The mouse as fallback while a Falcon is not ready; the Falcon takes over when it is.
 #include "device/device_or_mouse.hpp"
 
 #include <glm/geometric.hpp>

@@ -1,5 +1,5 @@
-// The life of the USB thread: which Falcon it takes, what it waits for, how it loses one and takes
-// it back.
+// The USB thread: which Falcon it opens, what it waits for, how it handles a lost Falcon and opens
+// it again.
 #include "device/falcon/driver.hpp"
 
 #include <cerrno>

@@ -24,7 +24,7 @@ enum class BoardStage {
     dead         ///< until it is put back into its boot ROM
 };
 
-/// What the firmware has been told.
+/// Counts of the commands that the firmware received.
 struct CommandLog {
     std::uint64_t commands{0};
     std::uint64_t with_force{0};           ///< of them, those with a motor not at zero
@@ -52,11 +52,11 @@ class FalconBoard {
     void dtr_changed(bool high);
     /// A byte at `baud`; what the board answers, at the same rate.
     [[nodiscard]] Bytes receive(std::uint8_t byte, unsigned baud, Faults& faults, Moment now);
-    /// Lets the hand, the motors and the axes' references go on to `now`.
+    /// Advances the hand, the motors and the axes' references to `now`.
     void advance(Moment now);
 
     void set_powered(bool powered);
-    /// As another program leaves it.
+    /// The state in which another program leaves the board.
     void start_firmware();
     /// All axes, as after pulling the grip out and pushing it in.
     void home();

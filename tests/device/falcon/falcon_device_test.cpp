@@ -40,7 +40,7 @@ struct Homed {
     Counts motors() {
         return unit.with([](FalconModel& model) { return model.board().motors(); });
     }
-    /// Ticks until the unit's motors have been told this.
+    /// Ticks until the unit's motors have received this command.
     bool told(const Counts& counts) {
         return loop->tick_until([&] { return motors() == counts; });
     }

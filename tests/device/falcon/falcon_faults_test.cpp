@@ -26,7 +26,7 @@ using dibhr::falcon::Status;
 using std::chrono::milliseconds;
 using Bytes = std::vector<std::uint8_t>;
 
-/// Of one line, about this Falcon, without the words of the library below.
+/// One line about this Falcon, without texts of libusb.
 void check_plain(const std::string& sentence, const std::string& part) {
     CAPTURE(sentence, part);
     CHECK(sentence.find(part) != std::string::npos);

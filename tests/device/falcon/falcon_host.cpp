@@ -1,4 +1,4 @@
-// Runs an unmodified program with simulated Falcons on its USB; kUsage tells how.
+// Runs an unmodified program with simulated Falcons on its USB; see kUsage.
 #include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -363,7 +363,7 @@ int run(Arguments arguments) {
     const std::jthread scripted(
         [&](const std::stop_token& stop) { run_script(stop, script, host); });
     const int status = wait_for(program, signals);
-    // What it left behind may have something to say yet.
+    // Its guardian process may still send packets.
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (host.in_use() && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(5));

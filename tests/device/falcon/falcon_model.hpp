@@ -40,7 +40,7 @@ class FalconModel {
     [[nodiscard]] Moment next_in() const;
     /// The next bulk packet to the host, at most 64 bytes; 0 when there is none yet.
     std::size_t in(std::span<std::uint8_t> packet, Moment now);
-    /// Lets the hand and the motors go on.
+    /// Advances the hand and the motors.
     void advance(Moment now) { board_.advance(now); }
     /// The cable is in again: the chip is as new. The motor controller has its own power supply and
     /// keeps its program, unless it is taken too.

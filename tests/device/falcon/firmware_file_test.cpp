@@ -44,7 +44,7 @@ class Folder : public TemporaryFolder {
     Variable data_home_{"XDG_DATA_HOME", (*this / "data").c_str()};
 };
 
-/// What a person is told when the file is refused; empty when it is not.
+/// The message when the file is refused; empty: it is accepted.
 std::string refusal_of(const fs::path& file) {
     try {
         (void)read_firmware(file);

@@ -45,7 +45,7 @@ class HandModel {
 
     /// Grip and hand are there, at rest; the rest of the way is forgotten.
     void place(Vec3 grip_m);
-    /// After what it was told before, the hand goes there in a straight line at an even speed.
+    /// After the earlier motions, the hand moves there in a straight line at constant speed.
     void move(Vec3 to_m, double seconds);
 
     /// Motor commands, as the firmware gets them; they last until the next ones.

@@ -40,7 +40,7 @@ Packet packet_of(const Counts& numbers, std::uint8_t flags, std::uint8_t unknown
     return packet;
 }
 
-/// A reply that tells which one it is.
+/// A reply that contains its own number.
 Packet numbered(int number) {
     const auto first = static_cast<std::int16_t>(number);
     return packet_of({first, static_cast<std::int16_t>(-first), 4660},

@@ -56,9 +56,9 @@ class UsbBench {
     Unit& plug(const std::string& serial = "SIM00001");
     /// Back in, at the next address (or `address`). The board has kept its own power.
     void plug(Unit& unit, int address = 0);
-    /// The cable is out, and udev says so.
+    /// The cable is out, and udev has reported it.
     void unplug(Unit& unit);
-    /// The cable is out, and udev has not heard of it yet; unplug() may follow.
+    /// The cable is out, and udev has not reported it yet; unplug() may follow.
     static void pull_cable(Unit& unit);
 
   private:

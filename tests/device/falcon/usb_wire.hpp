@@ -62,7 +62,7 @@ class UsbWire {
     void unplug();
     void plug();
     [[nodiscard]] bool gone(const UsbFile& file);
-    /// An open file: it is told when the cable is pulled. 0, or -ENODEV.
+    /// Registers an open file, which is notified when the cable is pulled. 0, or -ENODEV.
     int open(UsbFile& file);
     /// Whether its last descriptor is closed.
     [[nodiscard]] bool abandoned(const UsbFile& file);

@@ -167,7 +167,7 @@ TEST_CASE("a service that was in use before we drive is another program's", "[in
 TEST_CASE("a service that tells back no force is deaf after a quarter of a second", "[inverse3]") {
     CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(240)) == Hears::unknown);
     CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(260)) == Hears::no);
-    // What its filters leave of a force is heard.
+    // A force reduced by the service's filters counts as taken.
     CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0, 0.0, 0.3}, milliseconds(1)) == Hears::yes);
 }
 

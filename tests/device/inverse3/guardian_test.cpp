@@ -1,5 +1,5 @@
-// What the service hears after the program that pressed has died, or while it stands still. When
-// the guardian speaks, to the millisecond, is tested on simulated time (../hand/guardian_test.cpp).
+// What the service receives after a pressing program has died, or while it is stopped. The times of
+// the guardian's packets are tested on simulated time (../hand/guardian_test.cpp).
 #include "device/hand/guardian.hpp"
 
 #include <glm/geometric.hpp>
@@ -81,7 +81,7 @@ class Pressing : public PressingProcess {
     simulated::Service service{};
 };
 
-/// When the first force of zero was heard, after which all are zero [s].
+/// Time of the first zero force, after which all forces are zero [s].
 double let_go(const std::vector<Heard>& heard) {
     const auto first = std::ranges::find_if(heard, is_zero);
     REQUIRE(first != heard.end());
@@ -127,8 +127,8 @@ TEST_CASE(
     CHECK(pressing.its_guardian_ends());
     const std::vector<Heard> later = pressing.after(goes_on_s);
     CHECK(is_zero(later.back()));
-    // The zero that ends the old connection is heard first, or after the one force whose message
-    // was being sent when the program was stopped.
+    // The zero that ends the old connection comes first, or after the one force whose message was
+    // being sent when the program was stopped.
     const auto zero = std::ranges::find_if(later, is_zero);
     CHECK(zero - later.begin() <= 1);
 }

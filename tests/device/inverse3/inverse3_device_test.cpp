@@ -1,4 +1,4 @@
-// The device against the simulated service, as it is meant to go.
+// The device with the simulated service, without faults.
 #include "device/inverse3/inverse3_device.hpp"
 
 #include <glm/geometric.hpp>
@@ -62,7 +62,7 @@ TEST_CASE("both dialects, in the shapes of 3.1 and 3.5, are found without being 
     manners.on_wrong = GENERATE(simulated::OnWrong::ignores, simulated::OnWrong::refuses,
                                 simulated::OnWrong::closes);
     manners.version = manners.newer_shape ? "3.5.0" : "3.1.4";
-    // 3.1 tells no force back: one that ignores what it does not know cannot be found out.
+    // 3.1 reports no force: a service that ignores the wrong dialect cannot be detected.
     const bool mute = !manners.newer_shape && manners.takes == Takes::vector &&
                       manners.on_wrong == simulated::OnWrong::ignores;
     CAPTURE(manners.newer_shape, static_cast<int>(manners.takes),

@@ -1,5 +1,5 @@
-// Whatever goes wrong at the service: the right state, a plain sentence, no force within 25 ms, and
-// back by the ramp.
+// Faults of the service: each gives the right stage, a plain sentence, no force within 25 ms, and a
+// ramp afterwards.
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using Clock = simulated::Clock;
 
 constexpr milliseconds kGrace{25};
 
-/// What is done to the service, and how it is undone.
+/// A fault of the service, and how it is undone.
 struct Fault {
     const char* name;
     std::function<void(simulated::Scene&)> begin;
@@ -67,7 +67,7 @@ void tell_time(const char* fault, Clock::time_point began) {
     WARN("Inverse3, " << fault << ": zero force after " << taken.count() << " s");
 }
 
-/// Forces that come back rise: none of the first is more than the ramp lets through.
+/// Forces rise again from zero: none of the first exceeds the ramp.
 bool rises(const std::vector<simulated::Heard>& heard, Clock::time_point since) {
     const simulated::Heard* last = nullptr;
     for (const simulated::Heard& one : heard) {

@@ -1,5 +1,5 @@
-// The haptic loop with the simulated service: how old poses are, and that there is never more than
-// one message in flight, over very many exchanges.
+// The haptic loop with the simulated service: the ages of poses, and never more than one message in
+// flight, over very many exchanges.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>

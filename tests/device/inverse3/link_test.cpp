@@ -34,7 +34,7 @@ ServiceLink::Time in(milliseconds span) {
     return ServiceLink::Time::clock::now() + span;
 }
 
-/// The next message as it is understood; fails when none comes.
+/// The next message, parsed; fails when none comes.
 ServiceMessage next(ServiceLink& link) {
     MessageReader reader;
     ServiceMessage message;

@@ -1,4 +1,4 @@
-// What the service says, in every shape that sources have, and what of it is not to be trusted.
+// Messages of the service, in every form that the sources have, and invalid ones.
 #include "device/inverse3/message.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-// What is said to the service, letter by letter as its documentation has it.
+// Messages to the service, letter by letter as in its documentation.
 #include "device/inverse3/order.hpp"
 
 #include <limits>

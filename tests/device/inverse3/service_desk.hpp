@@ -1,4 +1,4 @@
-// A simulated service, an Inverse3 in a haptic loop, and what of it arrived at the service.
+// A simulated service, an Inverse3 in a haptic loop, and the forces that the service received.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -49,7 +49,7 @@ class ServiceDesk {
     TickingDevice<Inverse3Device> loop;
     Vec3 pressed_newton{0.0, 0.0, 2.0};
 
-    /// Ticks until it is so; false when it never was.
+    /// Ticks until the condition is true; false: it never was.
     template <typename IsSo>
     bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(60'000)) {
         return loop.tick_until(
