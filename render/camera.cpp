@@ -1,4 +1,4 @@
-// Camera: the matrices of the eye, and the ray under the cursor.
+// Camera: its matrices, and the ray under the cursor.
 #include "render/camera.hpp"
 
 #include <algorithm>
@@ -16,18 +16,18 @@ namespace {
 constexpr double kHomeYaw_rad = 20.0 * std::numbers::pi / 180.0;
 constexpr double kHomePitch_rad = 12.0 * std::numbers::pi / 180.0;
 constexpr double kMostPitch_rad = 85.0 * std::numbers::pi / 180.0;
-constexpr double kDistanceInRadii = 3.2;  // a calm perspective, about 35 degrees of view
-constexpr double kMargin = 1.03;          // air around the relief
+constexpr double kDistanceInRadii = 3.2;  // a weak perspective, about 35 degrees of view
+constexpr double kMargin = 1.03;          // free space around the relief
 constexpr double kLeastZoom = 0.2;
 constexpr double kMostZoom = 50.0;
-constexpr double kDepthInRadii = 3.0;  // what lies nearer or farther than this is not drawn
+constexpr double kDepthInRadii = 3.0;  // of the clip planes, before and behind the middle
 
 glm::dmat4 turn(double yaw_rad, double pitch_rad) {
     const glm::dmat4 pitched = glm::rotate(glm::dmat4(1.0), pitch_rad, glm::dvec3(1.0, 0.0, 0.0));
     return glm::rotate(pitched, yaw_rad, glm::dvec3(0.0, 1.0, 0.0));
 }
 
-/// Half width and half height of what must be in view, whatever the window's proportions.
+/// Half the height of the view, so that the whole extent is in view at this aspect.
 double half_height(glm::dvec2 half_extent, double aspect) {
     return std::max(half_extent.y, half_extent.x / aspect);
 }
@@ -90,7 +90,7 @@ double Camera::distance_px() const {
     return kDistanceInRadii * radius_px();
 }
 
-/// Half width and height to show: tangents in perspective, pixels in the straight projection.
+/// Half width and height of the view: tangents in perspective, pixels in the straight projection.
 glm::dvec2 Camera::half_extent() const {
     const glm::dvec2 half(0.5 * columns_, 0.5 * rows_);
     if (projection_ == Projection::straight) return half * (kMargin / zoom_);

@@ -1,4 +1,4 @@
-// The eye: orbit, pan and zoom around the relief, or straight down as the recording camera saw it.
+// The camera: orbit, pan and zoom around the relief, or straight down like the recording camera.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -15,27 +15,27 @@ class Camera {
     /// straight: orthographic, along the recording axis.
     enum class Projection { perspective, straight };
 
-    /// Puts the whole relief of this size into view, from the default three-quarter angle. It is in
-    /// view whatever the window's proportions.
+    /// Puts the whole relief of this size into view, from the default three-quarter angle, whatever
+    /// the window's proportions.
     void frame_relief(int columns, int rows, double relief_px);
     void reset();  ///< back to what frame_relief() set; the projection stays
 
-    /// Turns the near side of the relief to the right and down, as a hand that drags it there
-    /// would. Pitch stays within +-85 degrees. Not seen in the straight projection.
+    /// Turns the near side of the relief to the right and down, as if dragged. Pitch stays within
+    /// +-85 degrees. Has no effect in the straight projection.
     void orbit(double yaw_rad, double pitch_rad);
 
     /// Moves the picture by so many screen pixels (in the plane through the middle of the relief;
     /// exact in a window no narrower, in proportion, than the relief).
     void pan(double right_px, double up_px, int viewport_height);
 
-    /// > 1: larger. A lens, not a walk: the eye never enters the relief. Bounded.
+    /// > 1: larger, by a narrower view, so that the camera never enters the relief. Bounded.
     void zoom(double factor);
 
-    /// Puts a ball in grid space in the middle, as large as it fits (but see zoom()). The direction
-    /// stays.
+    /// Moves a ball of grid space into the middle, as large as fits (within the bounds of zoom()).
+    /// Keeps the direction.
     void close_up(Vec3 centre_in_grid, double radius_px);
 
-    /// Where it looks from, in numbers that mean the same over reliefs of one size.
+    /// The view in numbers, which are valid for all reliefs of one size.
     struct View {
         double yaw_rad{0.0}, pitch_rad{0.0}, zoom{1.0};
         Vec3 centre_in_world{0.0};
@@ -43,14 +43,14 @@ class Camera {
         bool operator==(const View&) const = default;
     };
     [[nodiscard]] View view() const { return {yaw_rad_, pitch_rad_, zoom_, centre_in_world_}; }
-    /// Held to what orbit() and zoom() can give.
+    /// Clamped to the bounds of orbit() and zoom().
     void set_view(const View& view);
 
     void set_projection(Projection projection) { projection_ = projection; }
 
     [[nodiscard]] glm::dmat4 view_from_world() const;
     [[nodiscard]] glm::dmat4 clip_from_view(double aspect) const;  ///< aspect = width / height
-    /// From grid space to the clip space of such a viewport, for what is drawn over the picture.
+    /// From grid space to the clip space of such a viewport, for drawings over the picture.
     [[nodiscard]] glm::dmat4 clip_from_grid(double aspect) const;
     [[nodiscard]] Vec3 grid_from_world(Vec3 world) const;
     [[nodiscard]] Vec3 world_from_grid(Vec3 grid) const;

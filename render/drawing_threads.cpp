@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kLowestNiceness = 19;
 
-/// As the driver names them; others' drivers share nothing.
+/// Whether Mesa's driver llvmpipe named this thread as its own; other drivers have no such threads.
 bool draws(const std::filesystem::path& thread) {
     std::ifstream file(thread / "comm");
     std::string name;
@@ -30,7 +30,7 @@ bool draws(const std::filesystem::path& thread) {
 void let_drawing_give_way() {
     const int own = getpriority(PRIO_PROCESS, 0);
     const int niceness = std::min(own + kDrawingNiceness, kLowestNiceness);
-    std::error_code none;  // where threads are not listed, they keep their share
+    std::error_code none;  // if the threads cannot be listed, they keep their priority
     std::filesystem::directory_iterator thread("/proc/self/task", none);
     for (; !none && thread != std::filesystem::directory_iterator(); thread.increment(none)) {
         if (!draws(thread->path())) continue;

@@ -3,16 +3,15 @@
 
 namespace dibhr {
 
-/// How much less urgent drawing is than decoding and cleaning, as `nice` counts: a quarter of the
-/// time of a core that both want. A late picture is seen less than a late video is, and felt not at
-/// all.
+/// The `nice` value of drawing above that of decoding and cleaning: drawing gets a quarter of a
+/// core that both need. A late picture is less visible than a late frame, and cannot be felt.
 inline constexpr int kDrawingNiceness = 5;
 
-/// Lets the driver's own threads give way to the rest of the program, once there is a context:
-/// each core has one, and together they would take half of a busy machine. They and the calling
-/// thread, which waits for them, take long turns (core/realtime/time_slice.hpp), so that what a
-/// hand is waited for by, a device's service among it, need not wait for them. For software alone:
-/// where a graphics card draws there is little to give way.
+/// Lowers the priority of the driver's threads of software OpenGL; call it when there is a context.
+/// The driver has a thread on each core; together they would take half of a busy machine. They and
+/// the calling thread, which waits for them, get long time slices (core/realtime/time_slice.hpp),
+/// so that they do not delay threads with deadlines, such as a device's service. Of little use
+/// where a graphics card draws.
 void let_drawing_give_way();
 
 }  // namespace dibhr

@@ -57,8 +57,8 @@ void filter(GLenum minify, GLenum magnify) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-/// Tells one map from another by its size and evenly spaced heights (FNV-1a); the address of a map
-/// may be used again for another one.
+/// Identifies a map by its size and evenly spaced heights (FNV-1a): its address may be reused by
+/// another map.
 std::uint64_t fingerprint(const BumpMap& bump) {
     std::uint64_t hash = 14695981039346656037ULL;
     const auto mix = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211ULL; };

@@ -43,12 +43,12 @@ using GlVertexArray = GlName<glGenVertexArrays, glDeleteVertexArrays>;
 using GlFramebuffer = GlName<glGenFramebuffers, glDeleteFramebuffers>;
 using GlRenderbuffer = GlName<glGenRenderbuffers, glDeleteRenderbuffers>;
 
-/// Where an attribute begins in its vertex, as OpenGL takes it.
+/// The offset of an attribute in its vertex, in OpenGL's form.
 [[nodiscard]] inline const void* attribute_offset(std::size_t bytes) noexcept {
     return reinterpret_cast<const void*>(bytes);  // NOLINT(performance-no-int-to-ptr): its way
 }
 
-/// A linked program. Throws DeviceError with the driver's words when it refuses the source.
+/// A linked program. Throws DeviceError with the driver's log when it refuses the source.
 class ShaderProgram {
   public:
     /// `defines` are lines put right after `#version`, the same for both stages.
@@ -72,7 +72,7 @@ class ShaderProgram {
     GLuint name_{0};
 };
 
-/// What the driver offers, read once.
+/// The driver's limits, read once.
 struct GlLimits {
     bool software{false};  ///< drawn by the processor: llvmpipe, softpipe and the like
     int texture_side{0};   ///< largest width and height of a texture
@@ -82,15 +82,15 @@ struct GlLimits {
 /// Throws DeviceError when the current context is older than OpenGL 3.3.
 [[nodiscard]] GlLimits read_limits();
 
-/// Waits until all is drawn, or until `go_on`, which is asked every 20 ms, says no.
+/// Waits until all is drawn, or until `go_on`, called every 20 ms, returns false.
 void wait_for_drawing(const std::function<bool()>& go_on);
 
-/// After a picture. Throws DeviceError when the driver was reset or is out of memory: then nothing
-/// is drawn any more.
+/// Call it after each picture. Throws DeviceError if the driver was reset or is out of memory:
+/// after that nothing is drawn.
 void require_graphics();
 
-/// Colour and depth of `size` pixels. Bound from construction to destruction, which puts back the
-/// framebuffer and the viewport of before.
+/// A framebuffer with colour and depth of `size` pixels, bound from construction to destruction.
+/// The destructor restores the previous framebuffer and viewport.
 class Offscreen {
   public:
     /// `samples` a pixel, 0: one, without smoothing. Throws DeviceError when the driver cannot make
@@ -115,8 +115,8 @@ class Offscreen {
     GlRenderbuffer merged_colour_{};
 };
 
-/// Which shared object a texture was filled from: it names the object for good, as no other has its
-/// control block, and keeps nothing alive. Of a large video each frame kept is tens of megabytes.
+/// Identifies the shared object that a texture was filled from, by its control block, which no
+/// other object gets while this exists. Keeps no object alive: a frame may be tens of megabytes.
 template <typename T>
 class UploadedFrom {
   public:
@@ -133,7 +133,7 @@ class UploadedFrom {
     bool filled_{false};
 };
 
-/// A texture of one float a vertex of the grid.
+/// A texture with one float for each vertex of the grid.
 class GridTexture {
   public:
     /// Row-major, `columns * rows` values.
@@ -146,15 +146,15 @@ class GridTexture {
     int rows_{0};
 };
 
-/// The two depth images of a moment. When playback goes on, the old `to` is the new `from` and
-/// stays where it is: one upload a video frame.
+/// The two depth images of a moment. In playback the old `to` is the next `from` and keeps its
+/// texture: one upload a video frame.
 class DepthTextures {
   public:
     struct Names {
         GLuint from{0};
         GLuint to{0};
     };
-    /// Uploads what is not there yet. Both images have the grid's size.
+    /// Uploads the images that are not in a texture yet. Both have the grid's size.
     Names show(const std::shared_ptr<const DepthImage>& from,
                const std::shared_ptr<const DepthImage>& to, const ReliefGrid& grid);
 
@@ -171,10 +171,10 @@ class DepthTextures {
     std::vector<float> staged_{};
 };
 
-/// Where no surface was ever seen, as 0 and 1, filtered.
+/// The mask of places where no surface was ever seen (1), filtered.
 class UnseenTexture {
   public:
-    /// Uploads when it is another mask than last time, or another grid. Of the grid's image.
+    /// Uploads if the mask or the grid has changed. The mask has the size of the grid's image.
     GLuint show(const std::shared_ptr<const std::vector<std::uint8_t>>& mask,
                 const ReliefGrid& grid);
 
@@ -185,11 +185,11 @@ class UnseenTexture {
     std::vector<std::uint8_t> staged_{};
 };
 
-/// The bump map's height at every drawn vertex, exactly as the hand feels it.
+/// The bump map's height at every drawn vertex, exactly as it is rendered to the hand.
 class BumpTexture {
   public:
     /// Uploads when the map's content, its size (SurfaceShape::bump_size_px) or the grid changed.
-    /// `depth` gives the image's size only.
+    /// `depth` is used for the image's size only.
     GLuint show(const BumpMap& bump, double size_px, const DepthImage& depth,
                 const ReliefGrid& grid);
 
@@ -203,7 +203,7 @@ class BumpTexture {
 /// Painted heights at every drawn vertex.
 class HeightTexture {
   public:
-    /// Uploads when they are other maps than last time, or another grid; laid over its image.
+    /// Uploads if the maps or the grid have changed. The maps have the size of the grid's image.
     GLuint show(const std::shared_ptr<const TouchMaps>& maps, const ReliefGrid& grid);
 
   private:
@@ -216,7 +216,7 @@ class HeightTexture {
 /// The colour picture, filtered.
 class ColourTexture {
   public:
-    /// Uploads when it is another image than last time; larger than `most_side`: thinned out.
+    /// Uploads if the image has changed. An image larger than `most_side` is subsampled.
     GLuint show(const std::shared_ptr<const ColourImage>& image, int most_side, bool mipmaps);
 
   private:

@@ -1,4 +1,4 @@
-// The markers of the hand, and how they are drawn over the relief.
+// The strokes of the markers, and how they are drawn over the relief.
 #include "render/marker_pass.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace dibhr {
 
 namespace {
 
-// After Okabe and Ito's palette, told apart by colour-blind people too; shapes differ besides.
+// After Okabe and Ito's palette, which colour-blind people can distinguish; the shapes differ, too.
 constexpr glm::vec4 kProxyTint{0.16F, 0.56F, 0.95F, 1.0F};
 constexpr glm::vec4 kRecordedTint{0.88F, 0.92F, 0.98F, 0.85F};
 constexpr glm::vec4 kFingerTint{0.16F, 0.56F, 0.95F, 0.9F};
@@ -32,14 +32,14 @@ constexpr double kProxyRadius = 7.0;
 constexpr double kFingerRadius = 1.2;
 constexpr double kFingerContactRadius = 4.5;
 constexpr double kOtherRadius = 5.5;
-constexpr double kOtherStep = 2.2;  // of those at one place
+constexpr double kOtherStep = 2.2;  // between proxies at one place
 constexpr double kOtherLineRadius = 0.9;
 constexpr float kOtherLineOpacity = 0.8F;
 constexpr double kGoalRadius = 11.0;
 constexpr float kGoalHollow = 0.66F;
 constexpr double kCatchingUpRadius = 15.0;  // clear of the goal's ring when the proxy is there
 constexpr float kCatchingUpHollow = 0.84F;
-constexpr double kGaugeRadius = 22.0;  // clear of both
+constexpr double kGaugeRadius = 22.0;  // clear of both rings
 constexpr float kGaugeHollow = 0.85F;
 constexpr double kTraceRadius = 2.0;
 constexpr float kTraceOpacity = 0.8F;
@@ -59,7 +59,7 @@ glm::vec4 ball(const Camera& camera, Vec3 centre_in_grid, double radius) {
     return {glm::vec3(camera.world_from_grid(centre_in_grid)), static_cast<float>(radius)};
 }
 
-/// A direction of grid space in world space: y turns round.
+/// A direction of grid space in world space: y has the other sign.
 Vec3 upright(Vec3 direction) {
     return {direction.x, -direction.y, direction.z};
 }
@@ -86,7 +86,7 @@ void add_force_arrow(std::vector<MarkerStroke>& strokes, const TouchMarkers& tou
                        ball(camera, tip, 0.8 * scale), kForceTint});
 }
 
-/// How much of the most that may be sent: it faces the viewer, wherever the force points.
+/// The force as a share of the force limit: a ring that always faces the viewer.
 void add_force_gauge(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch,
                      const Camera& camera, double scale) {
     const double newton = glm::length(touch.force_newton);
@@ -102,7 +102,7 @@ void add_force_gauge(std::vector<MarkerStroke>& strokes, const TouchMarkers& tou
                        .share = share});
 }
 
-/// Dots where the proxy was in contact, fainter with time.
+/// Dots at earlier contacts of the proxy, which fade with time.
 void add_trace(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
                double scale) {
     for (const TracePoint& point : touch.trace) {
@@ -116,7 +116,7 @@ void add_trace(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, co
 /// The ball's three great circles, dashed.
 void add_finger(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
                 double scale) {
-    constexpr int kSegments = 72;  // of which every second is drawn: two that meet would be a bead
+    constexpr int kSegments = 72;  // every second is drawn, so that no two ends overlap
     const Vec3 centre = touch.proxy + Vec3(0.0, 0.0, touch.finger_px);
     const std::array<Vec3, 3> axes{Vec3(1.0, 0.0, 0.0), Vec3(0.0, 1.0, 0.0), Vec3(0.0, 0.0, 1.0)};
     for (std::size_t n = 0; n < axes.size(); ++n) {
@@ -130,7 +130,7 @@ void add_finger(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, c
     }
 }
 
-/// Each with a line to the goal; of those at one place the first is the widest, and all are seen.
+/// Each with a line to the goal. At one place each ball is larger than the next: all are visible.
 void add_others(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, const Camera& camera,
                 double scale) {
     const std::vector<OtherProxy>& others = touch.others;
@@ -149,7 +149,7 @@ void add_others(std::vector<MarkerStroke>& strokes, const TouchMarkers& touch, c
 }
 
 constexpr int kConeSegments = 64;
-constexpr float kHiddenOpacity = 0.55F;  // of what lies behind the relief
+constexpr float kHiddenOpacity = 0.55F;  // of marks behind the relief
 constexpr double kScaleHeight_px = 800.0;
 
 void stroke_attribute(GLuint location, GLint count, std::size_t offset) {
@@ -272,7 +272,7 @@ void MarkerPass::draw_cone(const FrictionCone& cone, const glm::mat4& clip_from_
 
 void MarkerPass::draw_strokes(std::vector<MarkerStroke> strokes, const glm::mat4& view_from_world,
                               const glm::mat4& clip_from_view, glm::ivec2 size) {
-    // Soft edges blend with what lies behind them: far strokes first.
+    // Far strokes first, since soft edges blend with the picture behind them.
     const auto nearness = [&](const MarkerStroke& s) {
         const glm::vec3 middle = 0.5F * (glm::vec3(s.ball_a) + glm::vec3(s.ball_b));
         return (view_from_world * glm::vec4(middle, 1.0F)).z;

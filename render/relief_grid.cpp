@@ -24,7 +24,7 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
             mesh.vertices.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
         }
     }
-    // Both triangles of a cell end with its upper right vertex, which is no other cell's.
+    // Both triangles of a cell end with its upper right vertex, so the last vertex names the cell.
     for (int j = top; j < bottom; ++j) {
         for (int i = left; i < right; ++i) {
             const auto here = first + static_cast<std::uint32_t>(j - top) * width +
@@ -36,15 +36,15 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
     }
 }
 
-// Parts of the step between two faces. A vertex so near the higher (lower) end is on the near (far)
-// face. A fragment so near its layer belongs to it: seen straight on, there is no gap between them.
+// Shares of the step between two faces. kOnFace: a vertex this near the higher (lower) end is on
+// the near (far) face. kShown: a fragment this near its layer is drawn; no gap is seen straight on.
 constexpr float kOnFace = 0.3F;
-constexpr float kGoesOn = 0.2F;  // so near the slope of a face a vertex is on it
+constexpr float kGoesOn = 0.2F;  // a vertex this near a face's extrapolated slope is on the face
 constexpr float kShown = 0.5F;
-// A relief that is steep almost everywhere has no outlines worth the work.
+// Bounds the work for a relief that is steep almost everywhere, where outlines mean little.
 constexpr std::size_t kMostLayerVertices = 120'000;
 
-/// Of a pixel of the whole image [px].
+/// The elevation of a pixel of the whole image [px].
 class PixelElevation {
   public:
     explicit PixelElevation(const BlendedDepth& depth)
@@ -100,7 +100,7 @@ class Tearing {
     }
 
   private:
-    /// The vertices around a triangle's cell, one further on each side, and the two faces there.
+    /// The vertices of a triangle's cell and one more on each side, and the heights of both faces.
     struct Around {
         Corner first{};
         Corner last{};
@@ -150,7 +150,7 @@ class Tearing {
         return false;
     }
 
-    /// One of the two triangles of these four neighbours is.
+    /// Whether one of the two triangles of these four neighbours is steep.
     [[nodiscard]] bool is_steep(float here, float right, float below, float beyond) const {
         const auto steep = [this](float x, float y) {
             return x * x + y * y > limit_px_ * limit_px_;
@@ -179,7 +179,7 @@ class Tearing {
         return found;
     }
 
-    /// Loose are corners that go on neither with the slope of the face above nor of the one below.
+    /// Marks the cell as torn. Marks a corner as loose if it continues neither face's slope.
     void loosen_and_mark(int i, int j) {
         rims_.torn[index(i, j)] = 1.0F;
         for (const Corner& corner : corners(i, j)) {
@@ -201,7 +201,7 @@ class Tearing {
         }
     }
 
-    /// The elevation at `end` when the slope before `next`, its neighbour, goes on.
+    /// The elevation at `end`, extrapolated from the slope behind its neighbour `next`.
     [[nodiscard]] float gone_on(Corner end, Corner next) const {
         const float z = at(next.i, next.j);
         const int i = 2 * next.i - end.i;
@@ -210,7 +210,7 @@ class Tearing {
         return 2.0F * z - at(i, j);
     }
 
-    /// What there is no room for stays whole.
+    /// A cell for which the layers have no room stays whole.
     void tear(int i, int j) {
         const bool has_room = rims_.layers.size() < kMostLayerVertices;
         rims_.torn[index(i, j)] = has_room ? 1.0F : 0.0F;
@@ -258,7 +258,7 @@ class Tearing {
         return best;
     }
 
-    const DepthImage& image_;  // as wide as both are
+    const DepthImage& image_;  // used for the size only
     PixelElevation elevation_;
     const ReliefGrid& grid_;
     int columns_;

@@ -1,6 +1,6 @@
 // Which vertices of the depth image are drawn, in what order, and where the relief is torn at
-// silhouettes: the triangles there become a near and a far layer each, which the fragment shader
-// cuts along the outline in the whole depth image. Numbers only, no OpenGL.
+// silhouettes: there each triangle becomes a near and a far layer, and the fragment shader cuts
+// them along the outline in the whole depth image. Numbers only, no OpenGL.
 #pragma once
 
 #include <cstddef>
@@ -48,12 +48,12 @@ struct GridMesh {
 /// Two triangles a cell; the diagonal of cell (i, j) joins (i+1, j) and (i, j+1).
 [[nodiscard]] GridMesh tile_grid(const ReliefGrid& grid);
 
-/// The border of the grid, once around, each vertex twice and the first again at the end: a strip
-/// for the walls that close the relief at its sides.
+/// The border of the grid, once around, each vertex twice, the first again at the end: a triangle
+/// strip for the walls at the relief's sides.
 [[nodiscard]] std::vector<GridVertex> border_strip(const ReliefGrid& grid);
 
-/// One corner of a layer: it lies at `corner`, as high and as bright as the drawn vertex `source`
-/// of the same face. Of the layer only what is within `tolerance_px` of the depth image is shown.
+/// One corner of a layer: it lies at `corner`, with the height and colour of the drawn vertex
+/// `source` of the same face. Only the part within `tolerance_px` of the depth image is shown.
 struct RimVertex {
     GridVertex corner{};
     GridVertex source{};
@@ -78,9 +78,9 @@ struct Rims {
 };
 
 /// Tears the cells of the drawn grid in which the image is steeper than `slope_limit` [px/px] from
-/// pixel to pixel, and those that hang on the blur beside one: so what is a silhouette does not
-/// depend on how coarse the drawn grid is. What is too thin to reach a drawn vertex is not drawn,
-/// and not torn. `elevations` are those drawn.
+/// pixel to pixel, and cells that share a blurred vertex with one. So the silhouettes do not depend
+/// on how coarse the drawn grid is. A part too thin to reach a drawn vertex is neither drawn nor
+/// torn. `elevations`: those of drawn_elevations().
 void tear_rims(const BlendedDepth& depth, const ReliefGrid& grid,
                const std::vector<float>& elevations, double slope_limit, Rims& rims);
 

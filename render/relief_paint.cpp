@@ -14,7 +14,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kColours = 256;
-constexpr std::array<std::uint8_t, 3> kUnseen{24, 27, 38};  // in no ramp
+constexpr std::array<std::uint8_t, 3> kUnseen{24, 27, 38};  // not in any ramp
 
 std::shared_ptr<const ColourImage> ramp_of(ColourRamp ramp) {
     return std::make_shared<const ColourImage>(colours_of(ramp));

@@ -1,4 +1,4 @@
-// What the relief is painted with: the video's colour, clay, or its depth in colours.
+// How the relief is painted: with the video's colour, as clay, or with its depth in colours.
 #pragma once
 
 #include <array>
@@ -26,13 +26,13 @@ static_assert(has_all_in_order(kReliefPaintWords, ReliefPaint::grey));
     return kReliefPaintWords;
 }
 
-/// Colours for depth, from the farthest to the nearest: one row of 256 pixels. Null for a paint
-/// that is not of depth.
+/// Colours for depth, from the farthest to the nearest: one row of 256 pixels. Null for the video's
+/// colour and clay.
 [[nodiscard]] std::shared_ptr<const ColourImage> depth_colours(ReliefPaint paint);
 
-/// A depth image in those colours, thinned out to at most `most_side` columns and rows. `unseen`,
-/// of its pixels: 1 where no surface was ever seen, which is dark blue; null: seen all over. Null
-/// for a paint that is not of depth.
+/// A depth image in those colours, subsampled to at most `most_side` columns and rows. `unseen`: 1
+/// for each pixel where no surface was ever seen, painted dark blue; may be null. Returns null for
+/// the video's colour and clay.
 [[nodiscard]] std::shared_ptr<const ColourImage> depth_picture(
     const DepthImage& depth, const std::vector<std::uint8_t>* unseen, ReliefPaint paint,
     int most_side);

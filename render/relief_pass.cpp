@@ -14,10 +14,10 @@ namespace {
 
 constexpr std::size_t kMostVerticesHardware = 1'000'000;
 constexpr std::size_t kMostVerticesSoftware = 50'000;  // llvmpipe: 0.15 us a triangle, all in all
-constexpr std::size_t kMostDetail = 1'000'000;         // of the images that outlines follow
+constexpr std::size_t kMostDetail = 1'000'000;         // vertices of `detail_`
 constexpr int kMostColourSideSoftware = 2048;          // an upload costs processor time there
 constexpr double kGroundDepth = 0.03;                  // of the image's width, below level 0
-// As dark, or as light, as the wall behind it: a line around the picture would be seen first.
+// Like the wall behind the relief, since an outline around the picture would distract.
 constexpr glm::vec3 kDarkSide{0.125F, 0.130F, 0.140F};
 constexpr glm::vec3 kLightSide{0.64F, 0.65F, 0.67F};
 
@@ -134,7 +134,7 @@ void ReliefPass::tear(const SceneContent& content) {
 }
 
 void ReliefPass::bind_textures(const SceneContent& content, const Variant& variant) {
-    // Uploads bind to the active unit, so all come before the units are set.
+    // Uploads bind to the active unit, so all uploads come before the units are set.
     const auto depth = depth_.show(content.depth.from->drawn(), content.depth.to->drawn(), grid_);
     auto detail = depth;
     if (variant.silhouettes && detail_grid_ != grid_) {

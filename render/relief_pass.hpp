@@ -17,11 +17,11 @@ class ReliefPass {
   public:
     explicit ReliefPass(const GlLimits& limits) : limits_(limits) {}
 
-    /// `content.depth` names two frames with depth images of the same size.
+    /// `content.depth` has two frames with depth images of the same size.
     void draw(const SceneContent& content, const glm::mat4& clip_from_world);
 
   private:
-    /// What differs between shader programs.
+    /// The options of a shader program; one program for each combination in use.
     struct Variant {
         bool wall{false};
         bool rim{false};
@@ -43,7 +43,7 @@ class ReliefPass {
     GlLimits limits_{};
     std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};
     DepthTextures depth_{};
-    DepthTextures detail_{};  ///< as fine as can be, for the outlines
+    DepthTextures detail_{};  ///< at full resolution if possible, for the outlines
     UnseenTexture unseen_{};
     BumpTexture bump_{};
     HeightTexture heights_{};

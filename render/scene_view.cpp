@@ -12,14 +12,14 @@
 namespace dibhr {
 namespace {
 
-/// Behind the relief, at its upper and lower end.
+/// The wall behind the relief: its colours at the upper and lower end.
 struct Wall {
     glm::vec3 top, bottom;
 };
 constexpr Wall kDarkWall{{0.165F, 0.172F, 0.190F}, {0.055F, 0.058F, 0.066F}};
 constexpr Wall kLightWall{{0.90F, 0.91F, 0.92F}, {0.76F, 0.77F, 0.79F}};
 
-constexpr int kSamples = 4;  // a pixel, off-screen; on software they cost four times the work
+constexpr int kSamples = 4;  // for each pixel off-screen; by software, four times the work
 
 }  // namespace
 
@@ -51,7 +51,7 @@ void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ive
         objects_->relief.draw(content,
                               glm::mat4(camera.clip_from_view(aspect) * camera.view_from_world()));
     }
-    // After the relief, so that only what stays empty is filled.
+    // After the relief, so that it fills only pixels without relief.
     objects_->backdrop.use();
     objects_->backdrop.set("height_px", static_cast<float>(size.y));
     const Wall& wall = content.light_wall ? kLightWall : kDarkWall;

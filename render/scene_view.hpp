@@ -22,17 +22,17 @@ struct ReliefLook {
     ReliefPaint paint{ReliefPaint::video};
     double light{0.6};   ///< 0: flat colour, 1: strong shading
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
-    bool dent{true};     ///< the skin gives way under the proxy, in a soft shadow; drawn only
-    bool trace{true};    ///< dots where one has touched in the last seconds
+    bool dent{true};     ///< a dent with a soft shadow under the proxy; drawn only, not felt
+    bool trace{true};    ///< dots at the contacts of the last seconds
 };
 
-/// Where the proxy was in contact, on the surface of now. Grid space.
+/// A place of an earlier contact, on the current surface. Grid space.
 struct TracePoint {
     Vec3 place{0.0};
-    double strength{1.0};  ///< 1: a moment ago, 0: forgotten
+    double strength{1.0};  ///< 1: just touched, 0: faded out
 };
 
-/// What a finger would do to skin: nothing of it is felt. Grid space.
+/// A dent as of a finger in skin: drawn only, not rendered to the hand. Grid space.
 struct Dent {
     Vec3 at{0.0};           ///< on the surface
     double radius_px{0.0};  ///< of the dent; 0: none
@@ -40,34 +40,34 @@ struct Dent {
     double shadow{0.0};  ///< 0: none, 1: black
 };
 
-/// The proxy that another algorithm would have. Grid space.
+/// The proxy of another algorithm for the same goal. Grid space.
 struct OtherProxy {
     Vec3 place{0.0};
     glm::vec3 tint{1.0F};  ///< red, green, blue
 };
 
-/// What the hand does, for the markers. Grid space.
+/// The state of the touch, for the markers. Grid space.
 struct TouchMarkers {
     bool visible{false};
     bool contact{false};
-    bool catching_up{false};  ///< the proxy is still on its way to where it rests
+    bool catching_up{false};  ///< the proxy has not yet reached its final place
     Vec3 goal{0.0}, proxy{0.0};
     Vec3 normal{0.0, 0.0, 1.0};  ///< of the surface under the proxy
-    double friction{0.4};        ///< the cone's coefficient in force
+    double friction{0.4};        ///< the coefficient of the friction cone
     Vec3 force_newton{0.0};      ///< as sent
     double newton_per_px{0.02};  ///< length of the force arrow
-    double most_newton{0.0};     ///< of the gauge around the proxy; 0: no gauge
+    double most_newton{0.0};     ///< full scale of the gauge around the proxy; 0: no gauge
     std::vector<TracePoint> trace{};
-    std::optional<Vec3> recorded_proxy{};   ///< of a session, when `proxy` is computed anew
+    std::optional<Vec3> recorded_proxy{};   ///< of a session, if `proxy` is computed again
     std::optional<glm::vec3> proxy_tint{};  ///< nothing: the proxy is blue
     std::vector<OtherProxy> others{};
     double finger_px{0.0};                 ///< radius of the ball whose lowest point is `proxy`
-    std::optional<Vec3> finger_contact{};  ///< where the ball touches what is drawn
+    std::optional<Vec3> finger_contact{};  ///< where the ball touches the drawn surface
 };
 
 /// Everything one picture needs; a view that owns nothing.
 struct SceneContent {
-    DepthBlend depth{};            ///< from/to may be null: nothing is drawn but the backdrop
+    DepthBlend depth{};            ///< from/to may be null: only the backdrop is drawn
     const Frame* colour{nullptr};  ///< the frame whose colour is shown
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
@@ -79,8 +79,8 @@ struct SceneContent {
 };
 
 /// Owns the OpenGL objects; needs a current OpenGL 3.3 core context from construction to
-/// destruction. Throws DeviceError when the driver offers less. Large images are thinned out, more
-/// on software OpenGL. Depth and colour are uploaded only when the frame's images changed.
+/// destruction. Throws DeviceError when the driver offers less. Large images are subsampled, more
+/// so on software OpenGL. Depth and colour are uploaded only when the frame's images have changed.
 class SceneView {
   public:
     SceneView();
@@ -88,8 +88,8 @@ class SceneView {
     SceneView(const SceneView&) = delete;
     SceneView& operator=(const SceneView&) = delete;
 
-    /// Into the bound framebuffer, viewport `size` pixels from its lower left corner. Leaves depth
-    /// test, blending and scissors off and nothing bound but the textures.
+    /// Draws into the bound framebuffer, in a viewport of `size` pixels from its lower left corner.
+    /// Leaves depth test, blending and scissors off, and nothing but textures bound.
     void draw(const SceneContent& content, const Camera& camera, glm::ivec2 size);
 
     /// The same picture drawn off-screen; rows from the top. Throws DeviceError when the driver
@@ -102,7 +102,7 @@ class SceneView {
     std::unique_ptr<Objects> objects_;
 };
 
-/// What the bound framebuffer shows, rows from the top (screenshots with panels).
+/// The picture in the bound framebuffer, rows from the top (for screenshots with panels).
 [[nodiscard]] ColourImage read_framebuffer(glm::ivec2 size);
 
 }  // namespace dibhr

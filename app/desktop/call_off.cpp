@@ -1,4 +1,4 @@
-// An event of the kernel's, since who waits does so in poll().
+// An eventfd, because the waiting thread waits in poll().
 #include "app/desktop/call_off.hpp"
 
 #include <poll.h>

@@ -1,9 +1,9 @@
-// Calls off, from another thread, a question that somebody waits for an answer to.
+// Cancels a file dialog from another thread than the one that waits for its answer.
 #pragma once
 
 namespace dibhr {
 
-/// Shared by who asks and who waits. For any thread.
+/// Shared by the thread that cancels and the thread that waits. For any thread.
 class CallOff {
   public:
     CallOff();
@@ -11,12 +11,12 @@ class CallOff {
     CallOff(const CallOff&) = delete;
     CallOff& operator=(const CallOff&) = delete;
 
-    /// For good.
+    /// Cannot be undone.
     void call_off() const noexcept;
     [[nodiscard]] bool called_off() const noexcept;
 
-    /// Can be read from then on; to be waited for beside others. Negative: too many files are open,
-    /// and called_off() is always true.
+    /// Readable after call_off(), so that a poll() can wait for it. Negative: too many files are
+    /// open, and called_off() is always true.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
   private:

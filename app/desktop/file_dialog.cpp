@@ -1,4 +1,4 @@
-// Whether there is a desktop, and which of its ways to ask is taken.
+// Whether there is a desktop, and which way to open its dialog is used.
 #include "app/desktop/file_dialog.hpp"
 
 #include <string_view>
@@ -10,7 +10,7 @@ namespace dibhr {
 
 namespace {
 
-/// Where sd_bus_open_user() looks for it.
+/// In the places where sd_bus_open_user() looks for the bus.
 bool has_session_bus() {
     const std::string_view address = environment_variable("DBUS_SESSION_BUS_ADDRESS");
     if (!address.empty()) return address != "disabled:";
@@ -23,7 +23,7 @@ bool has_session_bus() {
 }  // namespace
 
 bool has_desktop() {
-    // From afar the session bus is that of the machine's own screen, where nobody may be.
+    // Over SSH the session bus belongs to the machine's own screen, where nobody may be.
     const bool from_afar = !environment_variable("SSH_CONNECTION").empty();
     return has_session_bus() && !from_afar;
 }

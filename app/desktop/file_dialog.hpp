@@ -11,7 +11,7 @@
 
 namespace dibhr {
 
-/// One of the kinds of files that a person can have listed.
+/// A kind of files that the dialog can list.
 struct FileFilter {
     std::string name{};                   ///< "All files"
     std::vector<std::string> patterns{};  ///< "*.mp4", as a shell has them
@@ -19,46 +19,46 @@ struct FileFilter {
 
 struct FileQuestion {
     std::string title{};
-    std::filesystem::path folder{};     ///< where to begin; whole
-    std::vector<FileFilter> filters{};  ///< the first one holds
-    unsigned long x11_window{0};        ///< over which the dialog is to stay; 0: not known
+    std::filesystem::path folder{};     ///< where to begin; absolute
+    std::vector<FileFilter> filters{};  ///< the first one is active
+    unsigned long x11_window{0};        ///< the dialog stays above it; 0: not known
 };
 
 struct FileAnswer {
     enum class Of {
-        nobody,     ///< there is no such dialog, it went away, or it did not answer
-        cancelled,  ///< by the person, or the question was called off
+        nobody,     ///< no such dialog, or it was lost or did not answer
+        cancelled,  ///< by the person, or by CallOff
         chosen
     };
     Of of{Of::nobody};
-    std::vector<std::filesystem::path> files{};  ///< chosen, at least one; whole
+    std::vector<std::filesystem::path> files{};  ///< chosen, at least one; absolute
 };
 
-/// How long the desktop may take.
+/// How long to wait for the desktop.
 struct DialogTimes {
     std::chrono::milliseconds bus{2000};     ///< the session bus, to take the connection
-    std::chrono::milliseconds portal{2000};  ///< the portal, for its word that it will ask
-    /// So quickly no person answers: it was the desktop that refused.
+    std::chrono::milliseconds portal{2000};  ///< the portal, to accept the request
+    /// No person answers more quickly: a quicker answer is the desktop's refusal.
     std::chrono::milliseconds quickest_person{300};
 };
 
-/// Whether a desktop can be expected at all: a session bus, whose screen is the one that the window
-/// is on. Asks nobody.
+/// Whether there is a desktop: a session bus that belongs to the window's screen. Checks the
+/// environment only.
 [[nodiscard]] bool has_desktop();
 
-/// Waits for the person, or until it is called off: for a thread that may wait. By the portal, else
-/// by a helper.
+/// Waits for the person or for call_off(), so call it on a thread that may wait. Uses the portal,
+/// or else a helper program.
 [[nodiscard]] FileAnswer ask_desktop(const FileQuestion& question, const CallOff& off);
 
-// Its two ways.
+// The two ways of ask_desktop().
 
-/// org.freedesktop.portal.FileChooser on the session bus. Nobody, within a few seconds, where there
-/// is none, it does not answer or it refuses; later, when it goes away. Called off, it closes its
+/// org.freedesktop.portal.FileChooser on the session bus. Of::nobody within a few seconds if there
+/// is no portal, or it does not reply or refuses; later, if it is lost. call_off() closes the
 /// dialog.
 [[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const CallOff& off,
                                     const DialogTimes& times = {});
 
-/// kdialog on KDE, zenity or qarma elsewhere, found on PATH. Called off, it is ended.
+/// kdialog on KDE, zenity or qarma elsewhere, found on PATH. call_off() ends the program.
 [[nodiscard]] FileAnswer ask_helper(const FileQuestion& question, const CallOff& off,
                                     const DialogTimes& times = {});
 

@@ -1,4 +1,4 @@
-// kdialog, zenity and qarma: a program that asks, and prints what was chosen.
+// The helper programs kdialog, zenity and qarma: each shows a dialog and prints the chosen files.
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/wait.h>
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPoliteTime = std::chrono::milliseconds(50);  // after SIGTERM
 constexpr int kLook_ms = 5;
 
-/// qarma's, too.
+/// Also for qarma, which takes the same options.
 std::vector<std::string> zenity(const std::string& name, const FileQuestion& question) {
     std::vector<std::string> words{name,
                                    "--file-selection",
@@ -56,7 +56,7 @@ std::vector<std::string> kdialog(const FileQuestion& question) {
     return words;
 }
 
-/// In the order in which they fit the desktop.
+/// The desktop's own helper first.
 std::vector<std::vector<std::string>> helpers_for(const FileQuestion& question) {
     const bool kde =
         environment_variable("XDG_CURRENT_DESKTOP").find("KDE") != std::string_view::npos;
@@ -66,7 +66,7 @@ std::vector<std::vector<std::string>> helpers_for(const FileQuestion& question) 
     return helpers;
 }
 
-/// One a line. A name may hold a line break, but no path goes on with a slash after one.
+/// One path a line. A name may contain a line break, but no slash follows it.
 std::vector<std::filesystem::path> paths_in(std::string printed) {
     constexpr std::string_view kNext = "\n/";
     if (printed.ends_with('\n')) printed.pop_back();
@@ -79,7 +79,7 @@ std::vector<std::filesystem::path> paths_in(std::string printed) {
     return files;
 }
 
-/// A helper that asks, ended at the latest by the destructor.
+/// A running helper program, ended at the latest by the destructor.
 class Asking {
   public:
     explicit Asking(std::vector<std::string> words) {
@@ -98,7 +98,7 @@ class Asking {
 
     [[nodiscard]] bool started() const { return child_ != 0; }
 
-    /// All that it prints; false: called off.
+    /// Reads all its output; false: called off.
     [[nodiscard]] bool read_all(const CallOff& off, std::string& printed) const {
         std::array<pollfd, 2> events{pollfd{printed_end_, POLLIN, 0},
                                      pollfd{off.descriptor(), POLLIN, 0}};
@@ -112,7 +112,7 @@ class Asking {
         }
     }
 
-    /// waitpid()'s, when it has ended; nothing: called off.
+    /// The status from waitpid(), when the helper has ended; nothing: called off.
     [[nodiscard]] std::optional<int> status(const CallOff& off) {
         while (!off.called_off()) {
             if (const auto ended = take_status()) return ended;
@@ -130,7 +130,7 @@ class Asking {
         return status;
     }
 
-    /// With whatever it has started.
+    /// Ends the helper and all programs it has started.
     void end() {
         if (child_ == 0) return;
         ::kill(-child_, SIGTERM);
@@ -159,7 +159,7 @@ FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off,
     const auto status = helper.status(off);
     if (!status) return {FileAnswer::Of::cancelled};
     if (!WIFEXITED(*status)) return {};
-    if (WEXITSTATUS(*status) != 0) {  // 1 for Cancel, and for a display that it cannot open
+    if (WEXITSTATUS(*status) != 0) {  // 1: cancelled, or the helper cannot open the display
         const bool person = Clock::now() - begin >= times.quickest_person;
         return {person ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
     }

@@ -1,5 +1,5 @@
 // The file chooser of the desktop's portal (XDG Desktop Portal, org.freedesktop.portal.FileChooser
-// and .Request): asked over the session bus, it answers with a signal.
+// and .Request): called over the session bus; its answer is a signal.
 #include <poll.h>
 #include <systemd/sd-bus.h>
 
@@ -21,13 +21,13 @@ namespace dibhr {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-using Deadline = std::optional<SteadyClock::time_point>;  // nothing: a person has time
+using Deadline = std::optional<SteadyClock::time_point>;  // nothing: no limit, for a person
 
 constexpr const char* kPortal = "org.freedesktop.portal.Desktop";
 constexpr const char* kPortalPath = "/org/freedesktop/portal/desktop";
 constexpr const char* kChooser = "org.freedesktop.portal.FileChooser";
 constexpr const char* kRequest = "org.freedesktop.portal.Request";
-constexpr const char* kToken = "dibhr";  // each question has a connection of its own
+constexpr const char* kToken = "dibhr";  // the same for all: each has its own connection
 constexpr const char* kPortalGone =
     "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged',"
     "arg0='org.freedesktop.portal.Desktop',arg2=''";
@@ -47,7 +47,7 @@ int milliseconds_to(SteadyClock::time_point time) {
     return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 1'000'000));
 }
 
-/// Until the bus has something to do, or the question is called off.
+/// Waits until the bus has something to do, the deadline, or call_off().
 void wait_for_bus(sd_bus* bus, const CallOff& off, const Deadline& latest) {
     const auto events = static_cast<short>(sd_bus_get_events(bus));
     std::array<pollfd, 2> waited{pollfd{sd_bus_get_fd(bus), events, 0},
@@ -62,7 +62,7 @@ void wait_for_bus(sd_bus* bus, const CallOff& off, const Deadline& latest) {
     ::poll(waited.data(), waited.size(), wait_ms);
 }
 
-/// Lets the bus work until `done`; false: it is too late, the bus is lost, or it was called off.
+/// Runs the bus until `done`; false: deadline passed, bus lost, or called off.
 template <typename Done>
 bool run_until(sd_bus* bus, const CallOff& off, const Deadline& latest, const Done& done) {
     while (!done()) {
@@ -75,16 +75,16 @@ bool run_until(sd_bus* bus, const CallOff& off, const Deadline& latest, const Do
     return true;
 }
 
-/// "file:///home/me/a%20film.mp4"; another address as it is.
+/// Decodes "file:///home/me/a%20film.mp4"; returns other addresses unchanged.
 std::filesystem::path path_of(const std::string& address) {
     constexpr std::string_view kFile = "file://";
     if (!address.starts_with(kFile)) return address;
-    const std::size_t path = address.find('/', kFile.size());  // after the name of the machine
+    const std::size_t path = address.find('/', kFile.size());  // behind the machine's name
     if (path == std::string::npos) return address;
     return percent_decoded(std::string_view(address).substr(path));
 }
 
-/// What is known of one question; its static members are the bus's callbacks.
+/// The state of one request to the portal; its static members are the bus's callbacks.
 struct PortalQuestion {
     std::string request{};                                               ///< the path of its object
     bool accepted{false}, refused{false}, answered{false}, gone{false};  ///< gone: the portal
@@ -108,7 +108,7 @@ struct PortalQuestion {
         return 0;
     }
 
-    /// For its answer, of which nobody else knows the path.
+    /// Subscribes to the answer, a signal of the object `request`.
     bool listen(sd_bus* bus) {
         return sd_bus_match_signal_async(bus, nullptr, nullptr, request.c_str(), kRequest,
                                          "Response", &on_response, nullptr, this) >= 0;
@@ -122,7 +122,7 @@ struct PortalQuestion {
         return 0;
     }
 
-    /// "uris" of the results.
+    /// Reads "uris" of the results.
     void read_files(sd_bus_message* signal) {
         if (sd_bus_message_enter_container(signal, 'a', "{sv}") <= 0) return;
         while (sd_bus_message_enter_container(signal, 'e', "sv") > 0) {
@@ -147,7 +147,7 @@ struct PortalQuestion {
     }
 };
 
-/// The path that a request of that connection and token has, so that its answer is not missed.
+/// The path the request object will have. Known before the call, so that no answer is missed.
 std::string expected_request(sd_bus* bus) {
     const char* name = nullptr;
     if (sd_bus_get_unique_name(bus, &name) < 0) return {};
@@ -178,7 +178,7 @@ int append_filters(sd_bus_message* call, const FileQuestion& question) {
     return failed;
 }
 
-/// A string of bytes with its zero.
+/// As bytes with a final zero, as the portal expects.
 int append_folder(sd_bus_message* call, const std::filesystem::path& folder) {
     int failed = sd_bus_message_open_container(call, 'e', "sv");
     failed = std::min(failed, sd_bus_message_append(call, "s", "current_folder"));
@@ -189,7 +189,7 @@ int append_folder(sd_bus_message* call, const std::filesystem::path& folder) {
     return failed;
 }
 
-/// Not modal: the force can be taken off in the window meanwhile.
+/// Not modal, so that the force can be switched off in the window meanwhile.
 int append_options(sd_bus_message* call, const FileQuestion& question) {
     int failed = sd_bus_message_open_container(call, 'a', "{sv}");
     failed = std::min(failed, sd_bus_message_append(call, "{sv}", "handle_token", "s", kToken));
@@ -207,7 +207,7 @@ std::string parent_of(const FileQuestion& question) {
     return text.data();
 }
 
-/// Sends it, to be answered by on_reply() in time.
+/// Sends the call; on_reply() gets its reply, or an error after `patience`.
 bool send_question(sd_bus* bus, const FileQuestion& question, std::chrono::microseconds patience,
                    PortalQuestion& asked) {
     sd_bus_message* made = nullptr;
@@ -221,7 +221,7 @@ bool send_question(sd_bus* bus, const FileQuestion& question, std::chrono::micro
                                             static_cast<std::uint64_t>(patience.count())) >= 0;
 }
 
-/// Also where it has not answered: it may be only slow.
+/// Also if the portal has not replied: it may only be slow.
 void close_request(sd_bus* bus, const PortalQuestion& asked) {
     sd_bus_message* made = nullptr;
     if (sd_bus_message_new_method_call(bus, &made, kPortal, asked.request.c_str(), kRequest,
@@ -236,12 +236,12 @@ void close_request(sd_bus* bus, const PortalQuestion& asked) {
 FileAnswer answer_of(PortalQuestion& asked, bool at_once) {
     if (asked.response == 0 && !asked.files.empty())
         return {FileAnswer::Of::chosen, std::move(asked.files)};
-    // A dialog that its person closes may end "in another way", too.
+    // A dialog that a person closes may also end "in another way".
     const bool refused = asked.response != 1 && at_once;
     return {refused ? FileAnswer::Of::nobody : FileAnswer::Of::cancelled};
 }
 
-/// Asks, and waits for the person. False: there is no answer.
+/// Sends the request and waits for the person. False: there is no answer.
 bool hear_answer(sd_bus* bus, const FileQuestion& question, const CallOff& off,
                  const DialogTimes& times, PortalQuestion& asked) {
     const auto ready = [bus] { return sd_bus_is_ready(bus) > 0; };

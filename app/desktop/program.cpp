@@ -1,4 +1,4 @@
-// posix_spawn, with what this program's threads have of their own taken away.
+// posix_spawn, without this program's signal mask, process group and stdin.
 #include "app/desktop/program.hpp"
 
 #include <fcntl.h>
@@ -33,7 +33,7 @@ pid_t start_program(std::vector<std::string> words, const ProgramOutput& printed
     ::posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     add_output(files, printed.output, STDOUT_FILENO);
     add_output(files, printed.errors, STDERR_FILENO);
-    // It may be ended, whatever this thread leaves to others.
+    // No signal blocked, so that SIGTERM ends it, whatever this thread blocks.
     posix_spawnattr_t manner;
     sigset_t none;
     ::sigemptyset(&none);

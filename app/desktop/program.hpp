@@ -8,14 +8,14 @@
 
 namespace dibhr {
 
-/// Where what it prints goes: descriptors; negative: nowhere.
+/// Descriptors for the program's stdout and stderr; negative: discarded.
 struct ProgramOutput {
     int output{-1};
     int errors{-1};
 };
 
-/// Starts a program, found on PATH, as the first of a group of processes of its own, with nothing
-/// to read. 0: it could not be started.
+/// Starts a program, found on PATH, in a process group of its own, with an empty stdin. 0: it could
+/// not be started.
 [[nodiscard]] pid_t start_program(std::vector<std::string> words, const ProgramOutput& printed);
 
 }  // namespace dibhr

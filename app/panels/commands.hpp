@@ -1,4 +1,4 @@
-// What panels and keys ask the viewer to do after the picture, in the order in which they ask.
+// Commands of panels and keys, which the viewer carries out after the picture, in their order.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +17,13 @@
 
 namespace dibhr {
 
-/// What a person wants of depth that can be made for a video of colour alone.
+/// Commands on the offer to make depth for a video of colour alone.
 enum class DepthWish { make, agree, cancel, open, close };
 
-/// What was entered in the Open dialog, to be looked up.
+/// A text entered in the Open dialog, to be resolved.
 struct TypedFile {
     std::string typed{};
-    std::optional<FolderEntry> chosen{};  ///< where that is no file
+    std::optional<FolderEntry> chosen{};  ///< used if `typed` is no file
 };
 
 struct SaveSidecar {};
@@ -34,7 +34,7 @@ struct UseMaterial {
     std::string name{};  ///< as material_called() takes it
 };
 struct KeepMaterial {
-    std::string name{};  ///< of what is felt
+    std::string name{};  ///< for the current material
 };
 struct UseFirmware {
     std::filesystem::path file{};
@@ -46,8 +46,8 @@ struct RemovePaint {};
 struct MarkMoment {
     std::chrono::steady_clock::time_point at{};
 };
-struct ReplayAsRecorded {};  ///< with no other parameters any more
-struct LeaveReplay {};       ///< its video is to be touched
+struct ReplayAsRecorded {};  ///< back to the recorded parameters
+struct LeaveReplay {};       ///< to touch its video
 struct ReadFolder {
     std::filesystem::path folder{};  ///< for the Open dialog
 };
@@ -58,8 +58,8 @@ struct MakeReport {
     std::filesystem::path session{};
 };
 
-/// An Action: as its key, but that what a key leaves for after the picture is done then. A
-/// DepthStatement: what a person says of the depth that is open.
+/// An Action does the same as its key, and also the work that a key defers until after the picture.
+/// A DepthStatement is a person's statement on the open depth.
 using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthWish, TypedFile, SaveSidecar, LoadBump,
                  UseMaterial, KeepMaterial, UseFirmware, AnswerDoubts, RemovePaint, MarkMoment,
@@ -75,8 +75,8 @@ Overloaded(Visit...) -> Overloaded<Visit...>;
 
 class CommandQueue {
   public:
-    /// What is asked for again before it was done is done once, as it was asked for last; but each
-    /// moment is marked.
+    /// A command replaces a queued one of its kind (of an Action: the same Action). But each
+    /// MarkMoment is kept.
     void push(WindowCommand command) {
         const auto again = [&command](const WindowCommand& queued) {
             if (queued.index() != command.index()) return false;
@@ -89,7 +89,7 @@ class CommandQueue {
         else
             *same = std::move(command);
     }
-    /// All of them, once.
+    /// Empties the queue.
     [[nodiscard]] std::vector<WindowCommand> take() { return std::exchange(queue_, {}); }
     [[nodiscard]] bool empty() const noexcept { return queue_.empty(); }
 

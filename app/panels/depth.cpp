@@ -1,4 +1,4 @@
-// What the depth's levels mean: who says so, and how a person says else.
+// The rows with the meaning of the depth's levels: its origin, and a person's own statement.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -17,7 +17,7 @@ constexpr const char* kRowsPopup = "Depth##rows";
 constexpr double kMostShift_px = 10'000.0;
 constexpr double kMostScale = 10.0;
 
-/// Asks for other words than the panel's.
+/// Pushes the statement as a command, if it differs from the panel's current one.
 void say(const DepthStatement& said, ViewerState& state) {
     if (!(said == state.media.opened.request.panel)) state.commands.push(said);
 }
@@ -26,13 +26,13 @@ std::string with_origin(const std::string& text, Origin origin) {
     return text + " (" + std::string(name_of(origin)) + ")";
 }
 
-/// The command line's word beats the panel's: its row only tells it.
+/// Whether the command line states it: then the panel's row is read-only.
 template <typename Fact>
 bool is_given(std::optional<Fact> DepthStatement::*fact, const ViewerState& state) {
     return (state.media.opened.request.command_line.*fact).has_value();
 }
 
-/// A list that begins with what was found out; the first entry takes a person's word back.
+/// A drop-down list. Its first entry is the detected value, and withdraws a person's statement.
 template <typename Values, typename Value>
 void word_row(const char* label, const char* help, const Values& values, const Known<Value>& known,
               std::optional<Value> DepthStatement::*fact, ViewerState& state) {
@@ -59,14 +59,14 @@ void word_row(const char* label, const char* help, const Values& values, const K
     say(said, state);
 }
 
-/// What a typed row is called, and what is known.
+/// Label, help and current value of a typed row.
 struct TypedRow {
     const char* label;
     const char* help;
-    std::string known;  ///< and by whose word
+    std::string known;  ///< with its origin
 };
 
-/// A line to type into, which shows what is known while it is empty.
+/// A text input, which shows the known value while it is empty.
 template <typename Fact, typename Read>
 void typed_row(const TypedRow& row, const Read& read, std::optional<Fact> DepthStatement::*fact,
                std::span<char> text, ViewerState& state) {
@@ -105,7 +105,7 @@ std::string text_of(double number) {
     return number_text(number);
 }
 
-/// As much as fits; nothing where the command line says else.
+/// As much of the panel's statement as fits; empty if the command line states it.
 template <typename Fact>
 void show_word(std::optional<Fact> DepthStatement::*fact, const ViewerState& state,
                std::span<char> field) {
@@ -123,7 +123,7 @@ std::string camera_text(const Known<std::optional<Intrinsics>>& camera) {
     return with_origin(text, camera.origin);
 }
 
-/// Where the colour lies over the depth, to be dragged until they fit.
+/// Rows to drag the colour over the depth until they match.
 void registration_rows(ViewerState& state) {
     TextFields& fields = state.ui.fields;
     auto& [right, down] = fields.colour_shift_px;
@@ -154,7 +154,7 @@ bool has_assumed(const DepthMeaning& meaning) {
            meaning.packing.origin == Origin::assumed || meaning.code.origin == Origin::assumed;
 }
 
-/// The longest that has room [px].
+/// The longest text that fits into `room` [px].
 std::string depth_line(const DepthMeaning& meaning, float room) {
     const std::string whole = "Depth: " + in_words(meaning);
     std::vector<std::string> lines;
@@ -179,7 +179,7 @@ void draw_depth_rows(ViewerState& state) {
         return;
     }
     ImGui::PushID("depth");
-    ImGui::BeginDisabled(state.media.opening);  // with the last word
+    ImGui::BeginDisabled(state.media.opening);  // with the last statement
     const DepthMeaning& known = *state.media.meaning;
     TextFields& fields = state.ui.fields;
     word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,

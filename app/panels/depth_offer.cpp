@@ -1,4 +1,4 @@
-// A video of colour alone: the button that has depth made for it, and how that goes.
+// A video of colour alone: the button that makes depth for it, and the progress.
 #include <algorithm>
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ void ask_for(ViewerState& state, DepthWish wish) {
     state.commands.push(wish);
 }
 
-/// Each line has its place from the beginning, so that the button stays under the pointer.
+/// Each line is reserved from the start, so that the button stays under the pointer.
 void draw_making(ViewerState& state, const DepthOffer& offer) {
     const EstimateProgress& now = *offer.progress;
     const bool measured = now.step != EstimateStep::estimating || now.counted;
@@ -40,7 +40,7 @@ void draw_choice(DepthOffer& offer) {
     index_row("Estimator", names, offer.chosen, "As the settings name them, in [estimators]", 0);
 }
 
-/// All of the command, as it is: no answer before its end was in sight.
+/// Shows the whole command. A person can agree only after scrolling to its end.
 void draw_question(ViewerState& state, const DepthOffer& offer) {
     ImGui::TextWrapped(
         "The settings name this command. Nobody on this machine has agreed to run it yet. It can "

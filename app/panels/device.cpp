@@ -1,4 +1,4 @@
-// The Device panel: what touches, its state, and the switch of the force.
+// The Device panel: the devices, the state of the touch, and the switch of the force.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>
@@ -32,7 +32,7 @@ std::string state_text(const ViewerState& state) {
     return haptic.touch.proxy.contact ? "in contact" : "free";
 }
 
-/// How the switch of the force looks.
+/// Text, colour and help of the force switch.
 struct ForceSwitch {
     const char* text;
     ImVec4 ground;

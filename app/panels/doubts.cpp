@@ -1,5 +1,5 @@
-// What a settings file takes away from what protects the hand: usual and other value side by side,
-// and a person's word on it.
+// The settings of a file that protect the hand less, beside their defaults, for a person to accept
+// or refuse.
 #include <string>
 
 #include "app/panels/panels.hpp"

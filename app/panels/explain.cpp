@@ -1,5 +1,5 @@
-// One update of DIBHR on the relief: the primitives it visits, the goal's foot, the friction cone
-// and where the proxy goes, with a line of text for each step.
+// One update of DIBHR on the relief: the visited primitives, the goal's foot, the friction cone and
+// the proxy's path, with a line of text for each step.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -33,8 +33,8 @@ constexpr ImU32 kCone = IM_COL32(255, 205, 120, 200);
 constexpr ImU32 kWord = IM_COL32(255, 255, 255, 235);
 constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
 
-constexpr int kNetAround = 4;   // cells on each side of the walk
-constexpr int kWidestNet = 90;  // of a wider one the lines would cover the relief: none is drawn
+constexpr int kNetAround = 4;   // cells on each side of the path
+constexpr int kWidestNet = 90;  // the lines of a wider mesh would cover the relief: not drawn
 
 /// Draws in grid space on top of the relief.
 class Blackboard {
@@ -79,7 +79,7 @@ class Blackboard {
         }
     }
 
-    /// Whether words beside both would be side by side, or one below the other.
+    /// Whether labels at both places would not overlap.
     [[nodiscard]] bool are_apart(Vec3 one, Vec3 other) const {
         const auto a = screen_.at(one);
         const auto b = screen_.at(other);
@@ -87,7 +87,7 @@ class Blackboard {
         return !a || !b || std::abs(a->y - b->y) > word.y || std::abs(a->x - b->x) > 1.5F * word.x;
     }
 
-    /// Beside a place, readable on any picture.
+    /// A label beside a place, readable on any picture.
     void word(Vec3 at, const char* text) const {
         const auto p = screen_.at(at);
         if (!p) return;
@@ -152,7 +152,7 @@ void draw_primitive(const Blackboard& board, const DepthSurface& surface,
     }
 }
 
-/// Around the foot, in the plane across the way from the goal to it, and its sides from the goal.
+/// The cone's rim, a circle around the foot across the axis from the goal, and lines from the goal.
 void draw_cone(const Blackboard& board, Vec3 goal, const WalkStep& step) {
     constexpr int kSides = 48;
     constexpr int kRays = 6;
@@ -206,14 +206,14 @@ void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
     }
     draw_path(board, news);
     const Vec3 proxy = last != nullptr ? last->after.position : update.start.position;
-    const bool apart = board.are_apart(proxy, update.goal);  // else one word would hide the other
+    const bool apart = board.are_apart(proxy, update.goal);  // else one label hides the other
     board.ring(update.goal, 9.0F, kGoal);
     if (apart) board.word(update.goal, "goal");
     board.dot(proxy, 6.0F, kProxy);
     board.word(proxy, apart ? "proxy" : "proxy, goal");
 }
 
-/// What to read: of the last step that was taken.
+/// The card's text: on the current step, or how to begin.
 std::string words_of(const ViewerState& state) {
     const ExplainedNews& news = *state.ui.explained;
     if (news.taken > 0) return text_of(news.update.steps[news.taken - 1]);
@@ -229,7 +229,7 @@ std::string words_of(const ViewerState& state) {
            after;
 }
 
-/// As much of it as there is room for.
+/// The longest title that fits into `room`.
 std::string title_of(const ExplainedNews& news, float room) {
     const std::size_t steps = news.update.steps.size();
     const std::string what = "Explain one update of DIBHR";
@@ -273,7 +273,7 @@ void draw_card(ViewerState& state) {
     ImGui::SameLine(end_x);
     if (ImGui::SmallButton(end.c_str())) state.commands.push(Action::explain);
     ImGui::TextWrapped("%s", words_of(state).c_str());
-    // As high as for two lines: what is read does not jump.
+    // At least two lines high, so that the text does not jump.
     const float lines = ImGui::GetCursorPosY();
     const float least = ImGui::GetFrameHeight() + 2.6F * ImGui::GetTextLineHeightWithSpacing();
     if (lines < least + ImGui::GetStyle().WindowPadding.y)

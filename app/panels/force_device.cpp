@@ -1,4 +1,4 @@
-// A force device in the Device panel: its state and what it needs next; then its rows by topic.
+// A force device in the Device panel: its state and the next step; then its settings by topic.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -63,7 +63,7 @@ void draw_device_value(const DeviceRow& row, const DeviceWord& value, const Devi
     *value = static_cast<std::uint8_t>(chosen);
 }
 
-/// Those of `topic`, texts behind the others.
+/// The rows of `topic`, text inputs last.
 void draw_device_rows(DeviceSettings& settings, DeviceSettings& standard, std::string_view topic) {
     const std::vector<DeviceRow> rows = settings.rows();
     const std::vector<DeviceRow> usual = standard.rows();
@@ -101,7 +101,7 @@ void draw_sentence(const DeviceState& device) {
     }
 }
 
-/// Where a person names the firmware file.
+/// The input for the path of the firmware file.
 void draw_firmware_field(ViewerState& state) {
     const bool entered = text_field("##firmware", "Firmware file (.bin)", state.ui.fields.firmware,
                                     "Path of the firmware; Enter loads it. The file is checked "
@@ -145,7 +145,7 @@ void draw_lamp(const DeviceLamp& lamp) {
                                                 ImGui::GetColorU32(colour_of(lamp.colour)), 20);
 }
 
-/// Over the rows of the topic that places the hand.
+/// Above the rows of the topic that maps the device to the image.
 void draw_placing(ViewerState& state, DeviceSettings& settings, const char* fit_help) {
     if (ImGui::Button("Fit the image")) {
         settings.fit({state.media.depth_columns, state.media.depth_rows,
@@ -158,7 +158,7 @@ void draw_placing(ViewerState& state, DeviceSettings& settings, const char* fit_
     explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
 }
 
-/// Over the rows of the topic that makes the connection.
+/// Above the rows of the topic on the connection.
 void draw_connection(ViewerState& state, const DeviceNews& news) {
     if (const auto& firmware = news.state.firmware) {
         fact_row("Firmware", firmware->name.empty() ? "none kept" : firmware->name);
@@ -188,7 +188,7 @@ void draw_force_device(ViewerState& state, const DeviceNews& news) {
 void draw_force_device_settings(ViewerState& state, const DeviceNews& news) {
     DeviceSettings& settings = state.settings.devices[news.kind];
     const auto standard = force_device_kinds()[news.kind]->make_settings();
-    ImGui::PushID(force_device_kinds()[news.kind]->name);  // another device has rows of such names
+    ImGui::PushID(force_device_kinds()[news.kind]->name);  // kinds have rows with equal labels
     for (const DeviceTopic& topic : settings.topics()) {
         if (!part(topic.name)) continue;
         if (*topic.remark != '\0') quiet_text(topic.remark);

@@ -1,5 +1,5 @@
-// The homing guide of the Device panel: a grip that is pulled out and pushed in, as a moving
-// picture, and which axes are homed.
+// The homing guide of the Device panel: an animation of the grip pulled out and pushed in, and
+// which axes are homed.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,12 +13,12 @@ namespace dibhr {
 namespace {
 
 constexpr float kHeight = 5.2F;   // of the picture, text lines
-constexpr double kOut_s = 1.6;    // the grip is pulled out so long,
-constexpr double kPause_s = 0.6;  // pauses,
-constexpr double kIn_s = 1.2;     // is pushed in, and pauses again
+constexpr double kOut_s = 1.6;    // pulling the grip out
+constexpr double kPause_s = 0.6;  // after each movement
+constexpr double kIn_s = 1.2;     // pushing it in
 constexpr double kCycle_s = kOut_s + kIn_s + 2.0 * kPause_s;
 
-/// Where the grip is, 0: in, 1: all the way out, and which of the two steps that is.
+/// The grip's position, 0: in, 1: all the way out, and which of the two steps is shown.
 struct Movement {
     float out{0.0F};
     bool pulling{true};
@@ -39,7 +39,7 @@ ImVec2 between(ImVec2 from, ImVec2 to, float share) {
     return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
 }
 
-/// One of the legs: a thigh from the base to its elbow, and a shin from there to the grip.
+/// One leg: a thigh from the base to the elbow, and a shin from the elbow to the grip.
 void draw_leg(ImDrawList& list, ImVec2 hip, ImVec2 grip, float up, float unit, ImU32 colour) {
     const ImVec2 middle = between(hip, grip, 0.42F);
     const ImVec2 elbow{middle.x, middle.y - up * unit * 0.75F};

@@ -1,5 +1,5 @@
-// The Open dialog: a folder's recordings, a line that narrows them or takes a path, and a picture
-// of the one that is chosen.
+// The Open dialog: a folder's recordings, a text line that filters them or takes a path, and a
+// preview of the chosen one.
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
@@ -63,7 +63,7 @@ bool is_path(const std::string& typed) {
     return typed.find('/') != std::string::npos || typed.starts_with('~');
 }
 
-/// What was typed narrows the rows, unless it is a path. Worked out when something changed.
+/// Filters the rows by the typed text, unless it is a path. Only if an input has changed.
 void list_rows(OpenDialog& dialog) {
     const std::string typed = dialog.typed.data();
     OpenDialog::Rows& rows = dialog.rows;
@@ -81,7 +81,7 @@ void list_rows(OpenDialog& dialog) {
     }
 }
 
-/// Which row is chosen; nothing: none that is listed.
+/// The chosen row; nothing: the chosen file is not listed.
 std::optional<std::size_t> chosen_row(const OpenDialog& dialog) {
     const std::vector<std::size_t>& rows = dialog.rows.entries;
     const auto found = std::find_if(rows.begin(), rows.end(), [&](std::size_t entry) {
@@ -100,7 +100,7 @@ const FolderEntry* chosen_of(const OpenDialog& dialog) {
     return row ? &entry_in(dialog, *row) : nullptr;
 }
 
-/// The chosen row; else what was typed, or the first row that it leaves.
+/// Opens the chosen row, else the typed path, or the first row that matches the typed text.
 void enter(ViewerState& state) {
     OpenDialog& dialog = state.ui.dialog;
     const std::string typed = dialog.typed.data();
@@ -116,7 +116,7 @@ void enter(ViewerState& state) {
     state.commands.push(file);
 }
 
-/// Asks for the completion at Tab, and writes it when it is there, unless more was typed since.
+/// Requests the completion at Tab, and inserts it when it is known, unless the text has changed.
 int complete(ImGuiInputTextCallbackData* data) {
     ViewerState& state = *static_cast<ViewerState*>(data->UserData);
     const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
@@ -132,7 +132,7 @@ int complete(ImGuiInputTextCallbackData* data) {
     return 0;
 }
 
-/// The folder's parents, each a button.
+/// The parts of the folder's path, each a button.
 void draw_path(ViewerState& state) {
     const fs::path& path = state.ui.dialog.folder.path;
     fs::path part;
@@ -142,7 +142,7 @@ void draw_path(ViewerState& state) {
     const auto name_of_part = [](const fs::path& p) {
         return p.has_filename() ? p.filename().string() : p.string();
     };
-    float width = 0.0F;  // the last ones are those that matter
+    float width = 0.0F;  // the last parts matter most
     std::size_t first = parts.size();
     const float around = 2.0F * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
     while (first > 0) {
@@ -207,7 +207,7 @@ void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
     ImGui::TextDisabled("%s", time_text(entry).c_str());
 }
 
-/// The chosen row into the middle, where it is moved to by keys.
+/// Scrolls the chosen row to the middle, after a choice by keys.
 void scroll_to_chosen(OpenDialog& dialog, float height) {
     const auto row = chosen_row(dialog);
     if (!row || !std::exchange(dialog.bring_into_sight, false)) return;
@@ -221,7 +221,7 @@ void draw_rows(ViewerState& state, ImVec2 size) {
     const float em = ImGui::GetFontSize();
     const bool wide = size.x > 26.0F * em;
     if (!ImGui::BeginTable("rows", wide ? 3 : 1, kTable, size)) return;
-    // With a weight: one of the names' own would leave no room to a long one.
+    // With a fixed weight: the names' own width would leave no room for the other columns.
     ImGui::TableSetupColumn("Name", ImGuiTableColumnFlags_WidthStretch, 1.0F);
     if (wide) {
         ImGui::TableSetupColumn("Size", ImGuiTableColumnFlags_WidthFixed, 4.6F * em);
@@ -293,7 +293,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
 void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     OpenDialog& dialog = state.ui.dialog;
     ImGui::Checkbox("All files", &dialog.all_files);
-    constexpr float kAllInARow_em = 36.0F;  // else it is on the Video panel, beside the last files
+    constexpr float kAllInARow_em = 36.0F;  // if narrower, the box is only in Video, Recent
     if (ImGui::GetContentRegionAvail().x > kAllInARow_em * ImGui::GetFontSize()) {
         ImGui::SameLine();
         desktop_dialog_box(state.settings.open_with);
@@ -309,7 +309,7 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
     ImGui::EndDisabled();
 }
 
-/// What the folder holds, or why that is not known.
+/// The folder's rows, or why they are not known.
 void draw_contents(ViewerState& state, ImVec2 size) {
     const OpenDialog& dialog = state.ui.dialog;
     if (dialog.folder.trouble.empty() && !dialog.reads) return draw_rows(state, size);
@@ -322,7 +322,7 @@ void draw_contents(ViewerState& state, ImVec2 size) {
     ImGui::EndChild();
 }
 
-/// Places, rows and preview, beside each other where there is room.
+/// Places, rows and preview side by side if there is room, else only the rows.
 void draw_middle(ViewerState& state, const FolderEntry* chosen, float width) {
     const float em = ImGui::GetFontSize();
     const float gap = ImGui::GetStyle().ItemSpacing.x;

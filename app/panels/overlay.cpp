@@ -1,5 +1,5 @@
-// What is written over the relief: the force in numbers, the first hint, short notices, the box
-// that tells what went wrong, and the help sheet.
+// Texts over the relief: the force in numbers, hints, short notices, the legend, the message box,
+// and the help sheet.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,7 +22,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kGround = 0.92F;  // what is below must not be read with it
+constexpr float kGround = 0.92F;  // opacity of a label's background: texts below must not show
 
 void draw_ground(ImVec2 low, ImVec2 size, float alpha,
                  ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
@@ -34,15 +34,15 @@ float wrap_of(float widest, ImVec2 pad) {
     return widest > 0.0F ? std::max(widest - 2.0F * pad.x, 1.0F) : -1.0F;
 }
 
-/// Of a label, with its ground.
+/// The size of a label with its background.
 ImVec2 label_size(const std::string& text, float widest = 0.0F,
                   ImVec2 pad = ImGui::GetStyle().FramePadding) {
     const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_of(widest, pad));
     return {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y};
 }
 
-/// Text on a rounded ground, so that it can be read over any picture; broken into lines that wide
-/// (0: nowhere). Its height.
+/// Text on a rounded background, readable over any picture, wrapped to `widest` (0: not wrapped).
+/// Returns its height.
 float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0F,
             ImDrawList& list = *ImGui::GetBackgroundDrawList(),
             ImVec2 pad = ImGui::GetStyle().FramePadding) {
@@ -54,8 +54,8 @@ float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0
     return size.y;
 }
 
-/// What a device lacks, in the middle of the relief below what is touched, as wide as there is
-/// room. Where it ends.
+/// A message centred in the upper part of the relief, as wide as there is room. Returns its lower
+/// end.
 float draw_banner(const ViewerState& state, const std::string& text) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const ImVec2 pad = ImGui::GetStyle().WindowPadding;
@@ -66,7 +66,7 @@ float draw_banner(const ViewerState& state, const std::string& text) {
     return low.y + label(text, low, 1.0F, widest, *ImGui::GetBackgroundDrawList(), pad);
 }
 
-/// What is missing to touch: of a device, or of what is live. Empty: nothing.
+/// Why the device or the live source cannot be used now; empty: both can.
 std::string banner_of(const ViewerState& state) {
     if (const std::string banner = device_banner(state.settings, state.touch); !banner.empty())
         return capitalised(banner);
@@ -81,14 +81,14 @@ void centred_label(const ViewerState& state, const std::string& text, float line
     const float width = display.x - panel_column_width(state);
     const float widest = width - 24.0F * state.ui.scale;
     const ImVec2 size = label_size(text, widest);
-    const float below = label_size({}).y;  // as one line is: more of them grow upwards
+    const float below = label_size({}).y;  // of one line: more lines grow upwards
     label(text,
           {(width - size.x) * 0.5F,
            display.y - bottom_bar_height(state) - (1.4F + lines_above_bar) * line + below - size.y},
           alpha, widest);
 }
 
-/// Whether something is recorded is seen at a glance, also from afar.
+/// A label with a red dot, so that a recording is visible at a glance.
 void red_dot_label(ImDrawList& list, const std::string& text, ImVec2 low) {
     const ImVec2 pad = ImGui::GetStyle().FramePadding;
     const float line = ImGui::GetTextLineHeight();
@@ -105,7 +105,7 @@ std::string replay_text(const ReplayNews& replay) {
     return "Replay of " + replay.file.filename().string() + (about.empty() ? "" : " - " + about);
 }
 
-/// Where playing is, in time and in frames or ticks.
+/// The playing position, in time and in frames or ticks.
 std::string place_text(const ViewerState& state) {
     const auto& replay = state.touch.replay;
     const PlaybackStatus& video = state.media.playback;
@@ -134,7 +134,7 @@ std::string touch_text(const ViewerState& state) {
                      decimal(f.z, 2).c_str());
 }
 
-/// What a picky person wants to know at any moment, a line each.
+/// The statistics, one line each.
 std::vector<std::string> statistics_of(const ViewerState& state) {
     std::vector<std::string> lines;
     const MediaDescription& media = state.media;
@@ -172,7 +172,7 @@ std::string statistics_text(const ViewerState& state) {
     return listed(statistics_of(state), "\n");
 }
 
-/// What the pointer is on; where that is no line, in two.
+/// The pixel under the pointer, in one line or, if too wide, in two.
 std::string pointer_text(const ViewerState& state, float widest) {
     const PixelShown& pixel = *state.ui.under_pointer;
     std::string text = formatted("Pixel %d, %d", pixel.column, pixel.row);
@@ -188,7 +188,7 @@ struct AlgorithmLine {
     std::string text{};
 };
 
-/// The one that is felt first, and how far from its proxy those of the others are.
+/// First the algorithm in use, then the others with the distances of their proxies from its proxy.
 std::vector<AlgorithmLine> side_by_side(const ViewerState& state) {
     const auto line_of = [](Algorithm algorithm, const std::string& what) {
         const SeriesLook look = look_of(algorithm);
@@ -206,7 +206,7 @@ std::vector<AlgorithmLine> side_by_side(const ViewerState& state) {
     return lines;
 }
 
-/// On a ground of their own, each after its ball. How high they are.
+/// The lines on a background, each after a ball of its colour. Returns their height.
 float draw_algorithms(const std::vector<AlgorithmLine>& lines, ImVec2 low) {
     std::string text;
     for (const AlgorithmLine& line : lines)
@@ -223,7 +223,7 @@ float draw_algorithms(const std::vector<AlgorithmLine>& lines, ImVec2 low) {
     return height;
 }
 
-/// What a legend says.
+/// The legend of the depth's colours.
 struct Legend {
     static constexpr int kNumbers = 5;
 
@@ -250,7 +250,7 @@ Legend legend_of(const ViewerState& state) {
     return legend;
 }
 
-/// The nearest on top.
+/// The colour bar, the nearest depth on top.
 void draw_colours(const ColourImage& colours, ImVec2 low, ImVec2 high) {
     constexpr int kSteps = 64;
     const float height = high.y - low.y;
@@ -264,13 +264,13 @@ void draw_colours(const ColourImage& colours, ImVec2 low, ImVec2 high) {
     }
 }
 
-/// Where the bar below the relief begins.
+/// The upper edge of the bar under the relief.
 float bar_top(const ViewerState& state) {
     return ImGui::GetIO().DisplaySize.y - bottom_bar_height(state);
 }
 
-/// Which colour is how far, at the right of the relief, down to the bar at most. Where it begins,
-/// or the relief ends.
+/// The legend at the right of the relief, down to the bar at most. Returns its left edge, or the
+/// relief's right edge if there is no legend.
 float draw_legend(const ViewerState& state, float margin) {
     const float room = ImGui::GetIO().DisplaySize.x - panel_column_width(state);
     const Legend legend = legend_of(state);
@@ -299,9 +299,8 @@ float draw_legend(const ViewerState& state, float margin) {
     return low.x;
 }
 
-/// One label under the other, up to `right` and down to the bar: of what has no room the last lines
-/// are left out. Those that come and go by themselves are the last. A banner is below what is
-/// touched.
+/// One label below the other, up to `right` and down to the bar; lines without room are left out.
+/// Labels that appear by themselves are the last. The banner is below the text on the touch.
 void draw_upper_left(const ViewerState& state, float margin, float right) {
     ImVec2 low{margin, panes_height(state) + margin};
     const float widest = right - 2.0F * margin;
@@ -359,12 +358,12 @@ constexpr Explained kMouse[] = {
     {"Wheel", "Nearer, farther"},
 };
 
-/// What belongs together on the help sheet.
+/// A group of rows on the help sheet.
 struct SheetGroup {
     std::string title{};
     std::vector<std::pair<std::string, std::string>> rows{};
 
-    /// With the heading.
+    /// Including the heading.
     [[nodiscard]] std::size_t lines() const { return rows.size() + 1; }
 };
 
@@ -384,7 +383,7 @@ std::vector<SheetGroup> sheet_of(const KeyTable& keys) {
     return groups;
 }
 
-/// How many of the groups are left of the others, so that both columns are as low as can be.
+/// The number of groups in the left column, so that the higher column is as low as possible.
 std::size_t groups_at_left(std::span<const SheetGroup> groups) {
     const auto lines = [](std::span<const SheetGroup> some) {
         std::size_t sum = 0;
@@ -419,7 +418,7 @@ SheetWidths widths_of(std::span<const SheetGroup> groups) {
     return widths;
 }
 
-/// One line of text or, where that has no room, more; their height.
+/// Text wrapped at `width`. Returns its height.
 float sheet_text(const std::string& text, ImVec2 place, float width) {
     ImGui::SetCursorPos(place);
     ImGui::PushTextWrapPos(place.x + width);
@@ -428,7 +427,7 @@ float sheet_text(const std::string& text, ImVec2 place, float width) {
     return ImGui::GetItemRectSize().y;
 }
 
-/// One group under the other.
+/// One group below the other.
 void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> groups,
                        const SheetWidths& widths, ImVec2 place) {
     const float between = 0.25F * ImGui::GetFontSize();
@@ -449,7 +448,7 @@ void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> gro
     }
 }
 
-/// Always in view, at the upper right of the relief, and never over what is said at its left.
+/// The keys for help and panels, at the upper right, unless the text on the touch is in the way.
 void draw_way_to_keys(const ViewerState& state, float margin) {
     constexpr float kFaint = 0.6F;
     const std::string help = state.keys.name_for(Action::toggle_help);

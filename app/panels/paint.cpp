@@ -1,4 +1,4 @@
-// The Paint panel: what a brush lays on the relief, how, and what to do with it; and its edge.
+// The Paint panel: what a brush paints on the relief and how, undo and redo; and the brush's edge.
 #include <algorithm>
 #include <string>
 
@@ -30,7 +30,7 @@ void draw_material_row(ViewerState& state) {
         brush.material = all[static_cast<std::size_t>(chosen)];
 }
 
-/// What is laid where the brush goes.
+/// The value that the brush paints.
 void draw_value_row(ViewerState& state) {
     Brush& brush = state.ui.brush;
     const Brush standard;
@@ -117,7 +117,7 @@ void draw_paint_panel(ViewerState& state) {
         quiet_text("Kept beside the recording as " + brush.saved_as.filename().string() +
                    " and files named like it; dibhr finds them again.");
     }
-    // All of it, not its first line: the column knows its new height a picture later.
+    // To the end of the panel; the column's new height is known only a picture later.
     constexpr int kPicturesToScroll = 3;
     if (comes) brush.scrolls = kPicturesToScroll;
     if (brush.scrolls > 0) {

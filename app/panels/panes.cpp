@@ -20,7 +20,7 @@ struct PaneRect {
     ImVec2 low{}, size{};
 };
 
-/// Both of the picture's shape, in the middle above the relief.
+/// Both panes have the picture's proportions and are centred above the relief.
 std::array<PaneRect, 2> pane_rects(const ViewerState& state) {
     const float gap = std::round(kPaneGap * state.ui.scale);
     const float room = state.ui.window_width - panel_column_width(state);
@@ -33,7 +33,7 @@ std::array<PaneRect, 2> pane_rects(const ViewerState& state) {
     return {PaneRect{{left, gap}, size}, PaneRect{{left + size.x + gap, gap}, size}};
 }
 
-/// The middle of a pixel.
+/// The place of a pixel's middle in a pane.
 ImVec2 place_of(const ViewerState& state, const PaneRect& pane, double column, double row) {
     const auto along = [](double pixel, int pixels, float size) {
         return static_cast<float>((pixel + 0.5) / std::max(pixels, 1)) * size;

@@ -1,4 +1,4 @@
-// Follows the window from outside, picture by picture.
+// A hook that observes the window after each picture.
 #pragma once
 
 #include <chrono>
@@ -10,30 +10,30 @@
 
 namespace dibhr {
 
-/// Where a participant of a study is.
+/// The position of a participant in a study.
 struct StudyPlace {
     int step{0};          ///< a StudyStep
     int trial{0};         ///< number of the running trial, from 0
-    int interval{0};      ///< of it, from 0
-    bool waits{false};    ///< the interval's surface is not there yet
+    int interval{0};      ///< of the trial, from 0
+    bool waits{false};    ///< the interval's surface is not ready
     bool leaving{false};  ///< the participant is asked whether to leave
-    bool agrees{false};   ///< whoever leads it is asked whether it may protect the hand less
-    /// When what is asked was on the screen; nothing: it is not yet.
+    bool agrees{false};   ///< the experimenter is asked whether the study may protect less
+    /// When the question appeared on the screen; nothing: not yet.
     std::optional<std::chrono::steady_clock::time_point> seen_since{};
 };
 
-/// A picture that the window has just shown; valid during the call.
+/// The picture that the window has just shown; valid during the call.
 struct PictureShown {
     const Settings& settings;
     const TouchState& touch;
     const MediaState& media;
     const DepthBlend& surface;
-    const UiState* ui{nullptr};        ///< the viewer's; null: it is a study's window
-    const StudyPlace* study{nullptr};  ///< null: it is the viewer's
+    const UiState* ui{nullptr};        ///< the viewer's; null in a study's window
+    const StudyPlace* study{nullptr};  ///< null in the viewer's window
 };
 
-/// Called on the window's thread after each picture. The tests' build of the program follows the
-/// window by it; the shipped program passes none.
+/// Called on the window's thread after each picture. The tests' build of the program observes the
+/// window by it; the shipped program sets none.
 using PictureHook = std::function<void(const PictureShown&)>;
 
 }  // namespace dibhr

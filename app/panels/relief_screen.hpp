@@ -1,4 +1,4 @@
-// Where a place of the grid is on the window, for what panels draw over the relief.
+// From grid space to the window, for drawings of panels over the relief.
 #pragma once
 
 #include <imgui.h>
@@ -20,7 +20,7 @@ class ReliefScreen {
           high_(ImGui::GetIO().DisplaySize.x - panel_column_width(state),
                 ImGui::GetIO().DisplaySize.y) {}
 
-    /// Nothing: it is behind the camera.
+    /// The place in the window [px]; nothing: behind the camera.
     [[nodiscard]] std::optional<ImVec2> at(Vec3 place) const {
         const glm::dvec4 clip = clip_from_grid_ * glm::dvec4(place, 1.0);
         if (clip.w <= 0.0) return std::nullopt;

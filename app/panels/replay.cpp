@@ -1,4 +1,4 @@
-// The Replay panel: whose session it is, what was felt at the moment shown, and its marks.
+// The Replay panel: the session's facts, the touch at the shown moment, and its marks.
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <string>

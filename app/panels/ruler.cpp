@@ -1,4 +1,4 @@
-// The ruler: two points on the relief and how far they are apart.
+// The ruler: two points on the relief and their distance.
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -18,7 +18,7 @@ Vec3 end_place(const PixelShown& pixel) {
     return {pixel.column, pixel.row, pixel.elevation_px};
 }
 
-/// How far apart in the file's own words; empty where nothing is known of that.
+/// The difference of depth in the file's own unit; empty if the depth's meaning is not known.
 std::string depth_between(const ViewerState& state, const PixelShown& a, const PixelShown& b) {
     if (a.unseen || b.unseen) return "no data";
     if (!state.media.meaning) return {};

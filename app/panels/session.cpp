@@ -1,4 +1,4 @@
-// The Session panel: recording what is touched, with who it was, notes and marks.
+// The Session panel: recording the touch, with participant, notes and marks.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -17,7 +17,7 @@ constexpr std::size_t kMarksShown = 5;
 constexpr double kBytesPerMegabyte = 1e6;
 constexpr int kRecordingColours = 4;
 
-/// Of a button that ends what goes on; readable in every theme.
+/// The colours of a button that stops a recording or clip; readable in every theme.
 void push_recording_colours() {
     const ImU32 raised = IM_COL32(168, 49, 43, 255);
     ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(255, 255, 255, 255));

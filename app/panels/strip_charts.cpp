@@ -1,5 +1,5 @@
-// Strip charts of the last seconds of touch, one under the other over one axis of time: they can
-// stand still, and are read off under the pointer.
+// Strip charts of the last seconds of touch, one below the other with one time axis. They can be
+// paused, and show the values under the pointer.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,7 +21,7 @@ struct StripKind {
     Strip strip;
     const char* name;
     const char* unit;
-    float least;  ///< the chart shows at least so much
+    float least;  ///< smallest full scale of the chart
     const char* help;
     bool ChartsShown::*shown;
 };
@@ -38,7 +38,7 @@ constexpr std::array<StripKind, kStrips> kKinds{
      {Strip::lateness, "Lateness", "us", 100.0F, "How long after its deadline each tick began",
       &ChartsShown::lateness}}};
 
-/// What a chart spans from bottom to top.
+/// A chart's range of values, from bottom to top.
 struct Range {
     float low{0.0F}, high{1.0F};
 };
@@ -52,7 +52,7 @@ float round_above(float value) {
     return 10.0F * power;
 }
 
-/// Round numbers that all values are between, 0 among them but for the energy, which is a sum.
+/// A range of round numbers around all values; it includes 0, but not for the energy, a sum.
 Range range_of(const StripHistory& strips, const StripKind& kind) {
     const auto& values = strips.values[static_cast<std::size_t>(kind.strip)];
     const auto [lowest, highest] = std::minmax_element(values.begin(), values.end());
@@ -62,7 +62,7 @@ Range range_of(const StripHistory& strips, const StripKind& kind) {
     return {low, std::max(low + 2.0F * step, step * std::ceil(*highest / step))};
 }
 
-/// The part of a window that a chart is in.
+/// A chart's rectangle in the window.
 struct ChartFrame {
     ImVec2 low{}, high{};  // upper left, lower right
     Range range{};
@@ -82,7 +82,7 @@ struct ChartFrame {
     }
 };
 
-/// One upright stroke a pixel column, from the lowest to the highest value in it: no peak is lost.
+/// A vertical line in each pixel column, from its lowest to its highest value: no peak is lost.
 void draw_values(ImDrawList& list, const StripHistory& strips, Strip strip,
                  const ChartFrame& frame) {
     const auto columns = static_cast<std::size_t>(frame.width());
@@ -119,7 +119,7 @@ void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
     }
 }
 
-/// A line each second; in words where `words_y` is given.
+/// A line each second; labelled if `words_y` is given.
 void draw_time_axis(ImDrawList& list, const ChartFrame& frame, std::optional<float> words_y) {
     constexpr int kSeconds = static_cast<int>(StripHistory::kTicks / kTicksPerSecond);
     for (int second = 0; second < kSeconds; ++second) {
@@ -133,7 +133,7 @@ void draw_time_axis(ImDrawList& list, const ChartFrame& frame, std::optional<flo
     }
 }
 
-/// What the chart is of, or, under the pointer, its value there.
+/// The chart's name, or, under the pointer, its value there.
 std::string words_of(const StripKind& kind, const StripHistory& strips,
                      std::optional<std::size_t> age) {
     if (!age) return formatted("%s [%s]", kind.name, kind.unit);
@@ -142,12 +142,12 @@ std::string words_of(const StripKind& kind, const StripHistory& strips,
                      static_cast<double>(*age) / kTicksPerSecond);
 }
 
-/// The part of a chart that is left of the values' frame.
+/// The space for the numbers at the left of a chart's frame.
 float gutter() {
     return 3.2F * ImGui::GetFontSize();
 }
 
-/// Words above, the values' frame, and under the last chart the time.
+/// The title, the frame with the values, and the time under the last chart.
 void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, bool last,
                 std::optional<std::size_t> age) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
@@ -171,7 +171,7 @@ void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, 
     ImGui::Dummy({high.x - low.x, high.y - low.y});
 }
 
-/// In the upper right corner of the first chart.
+/// The buttons in the upper right corner of the first chart.
 void draw_buttons(ViewerState& state, ImVec2 corner) {
     const float gap = 2.0F * state.ui.scale;
     const char* const choose = "Charts";

@@ -11,11 +11,11 @@ namespace dibhr {
 
 namespace {
 
-/// A number that is moved is a person's own from then on.
+/// A change by a person switches the automatic value off.
 void draw_shape(ViewerState& state) {
     Settings& settings = state.settings;
     const TouchParameters before = settings.touch;
-    TouchParameters usual;  // what fits is not to be put back
+    TouchParameters usual;  // an automatic value counts as its default
     if (settings.fit_relief) usual.shape.relief_px = before.shape.relief_px;
     if (settings.fit_pitch) usual.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
     draw_parameters(TouchTopic::shape, settings.touch, usual);
@@ -30,7 +30,7 @@ void draw_shape(ViewerState& state) {
              "The reach of the device is laid over the picture's width (--pixel-pitch auto)");
 }
 
-/// The pixel under the hand, in the depth's own words and as it stands.
+/// The pixel under the hand: its elevation, and its depth in the file's own unit.
 void draw_under_hand(const ViewerState& state) {
     if (!state.ui.under_hand) {
         fact_row("Under the hand", "beside the picture");
@@ -43,7 +43,7 @@ void draw_under_hand(const ViewerState& state) {
         fact_row("Depth", depth_text(state, here), "As the file has it");
 }
 
-/// No slider: it would grow under the hand that drags it.
+/// Buttons, not a slider, which would change its size while it is dragged.
 void draw_text_size(ViewerState& state) {
     constexpr double kStep = 1.25;
     double& scale = state.settings.ui_scale;

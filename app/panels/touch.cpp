@@ -1,4 +1,4 @@
-// The Touch panel: what is computed at each tick, from the table of options.
+// The Touch panel: the parameters of each tick, from the table of options; material and sound.
 
 #include <algorithm>
 #include <string>
@@ -11,14 +11,14 @@ namespace dibhr {
 
 namespace {
 
-/// Where there is anything to be carried by.
+/// Why the video's motion cannot carry the proxy, if carrying is on.
 void draw_motion_trouble(const ViewerState& state) {
     if (!state.settings.touch.carry || state.media.depth_path.empty()) return;
     const std::string trouble = motion_trouble(state.media);
     if (!trouble.empty()) quiet_text(capitalised(trouble) + '.');
 }
 
-/// In a replay: whose parameters these are, and the way back to those of the recording.
+/// In a replay: whether the parameters are the recorded ones, and a button to restore them.
 void draw_origin(ViewerState& state) {
     if (!state.touch.replay) return;
     if (!state.touch.replay->computes) {
@@ -30,7 +30,7 @@ void draw_origin(ViewerState& state) {
     explain("Back to the recorded parameters, proxies and forces");
 }
 
-/// Says so when the device cannot be as stiff, or damp as much, as it was asked for.
+/// A note if the device cannot render the requested stiffness or damping.
 void draw_held_coupling(const ViewerState& state) {
     const Coupling held = felt_coupling(state.settings, state.touch);
     if (!(held == asked_coupling(state.settings, state.touch))) {
@@ -41,11 +41,11 @@ void draw_held_coupling(const ViewerState& state) {
     }
 }
 
-/// Damping as the hand needs it, or a person's own; what is watched, and how it goes.
+/// Stability control, automatic or manual damping, and the measured energy.
 void draw_stability(ViewerState& state) {
     Settings& settings = state.settings;
     const DeviceDynamics& hand = limits_of_hand(state.touch).dynamics;
-    if (state.touch.replay || !hand.moves()) {  // the mouse's does not
+    if (state.touch.replay || !hand.moves()) {  // no force moves the mouse
         draw_parameters(TouchTopic::damper, settings.touch);
         return;
     }
@@ -83,7 +83,7 @@ void draw_stability(ViewerState& state) {
              "How much of the energy that rendering adds is taken out");
 }
 
-/// One of the row, lit when it is the chosen one; where it does not fit, on the next line.
+/// A button of the row of materials, lit if it is the chosen one; on a new line if the row is full.
 void draw_material(ViewerState& state, const std::string& name, const char* help) {
     const std::string label = spoken_name(name.empty() ? std::string(kAsRecorded) : name);
     if (!name.empty()) {  // not the first
@@ -99,7 +99,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
     explain(help);
 }
 
-/// What the surface is made of, and a person's own made from it.
+/// The materials, and a field to save a changed material under a name.
 void draw_materials(ViewerState& state) {
     if (state.touch.replay) return;
     ImGui::PushID("materials");
@@ -135,9 +135,9 @@ void draw_bump(ViewerState& state) {
     if (ImGui::Button("Remove the bump map")) state.commands.push(LoadBump{});
 }
 
-/// Its volume, and whether it is heard at all.
+/// The sound's volume and mute.
 void draw_sound(ViewerState& state) {
-    if (state.touch.replay) return;  // it is not touched
+    if (state.touch.replay) return;  // a replay makes no sound
     if (state.touch.sound == SoundOutput::State::no_device) {
         fact_row("Sound", "No sound device");
         return;

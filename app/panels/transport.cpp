@@ -1,4 +1,4 @@
-// The bar under the relief, always in reach: the line of time, playback and the force switch.
+// The bar under the relief: the time line, playback and the force switch.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace dibhr {
 
 namespace {
 
-/// A line of time to go along.
+/// The contents of a time line.
 struct TimeLineContents {
     double now_s{0.0};  ///< from the line's beginning, like all its times
     double length_s{0.0};
-    std::optional<MediaPart> part{};       ///< only that is played
-    const ContactBand* contacts{nullptr};  ///< null: none to show
+    std::optional<MediaPart> part{};       ///< the only part that is played
+    const ContactBand* contacts{nullptr};  ///< null: none
     std::vector<SessionMark> marks{};
 };
 
@@ -34,7 +34,7 @@ struct Track {
     [[nodiscard]] float middle() const { return low.y + height * 0.5F; }
 };
 
-/// Contacts as blocks under the line; neighbours in one piece.
+/// Contacts as blocks under the line; adjacent blocks are merged.
 void draw_contacts(ImDrawList& list, const ContactBand& band, const Track& track) {
     const ImU32 colour = IM_COL32(242, 140, 13, 190);  // the hand's orange
     const float top = track.low.y + track.height * 0.68F;
@@ -51,7 +51,7 @@ void draw_contacts(ImDrawList& list, const ContactBand& band, const Track& track
     }
 }
 
-/// Marks as small flags above the line. The one under the cursor, if any.
+/// Marks as small flags above the line. Returns the mark under the cursor, or null.
 const SessionMark* draw_marks(ImDrawList& list, const std::vector<SessionMark>& marks,
                               const Track& track, float cursor_x) {
     const SessionMark* under = nullptr;
@@ -78,7 +78,7 @@ void draw_line(ImDrawList& list, const Track& track, float x, bool lively) {
         ImGui::GetColorU32(lively ? ImGuiCol_CheckMark : ImGuiCol_SliderGrabActive), 24);
 }
 
-/// The part that is played, between two posts.
+/// The played part, between two posts.
 void draw_part(ImDrawList& list, const MediaPart& part, const Track& track) {
     const ImU32 colour = ImGui::GetColorU32(ImGuiCol_CheckMark);
     const float thick = std::max(1.5F, track.height * 0.07F);
@@ -91,7 +91,7 @@ void draw_part(ImDrawList& list, const MediaPart& part, const Track& track) {
     list.AddRectFilled({left, y + reach - thick}, {right, y + reach}, colour);
 }
 
-/// Click or drag to go there: gives back where to. `width` in pixels.
+/// Returns the time that a person clicked or dragged to [s]. `width` in pixels.
 std::optional<double> draw_time_line(const TimeLineContents& line, float width) {
     const Track track{ImGui::GetCursorScreenPos(), std::max(width, 1.0F), ImGui::GetFrameHeight(),
                       line.length_s};
@@ -116,15 +116,15 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
     return {};
 }
 
-/// What stands beside the line: all of it where there is room for a line one can aim at, else less,
-/// or nothing.
+/// The text beside the time line: whole if it leaves room for a usable line, else shorter, or
+/// nothing.
 struct Beside {
     std::string time{};  ///< "00:04.1 / 00:10.0"
-    std::string more{};  ///< "frame 124"; empty where there is no room for it
-    float width{0.0F};   ///< of all, with the gaps
+    std::string more{};  ///< "frame 124"; empty if there is no room
+    float width{0.0F};   ///< of both, with the gaps
 };
 
-/// `more_width` is that of the longest; `right_of_line`: what is to stay free for others.
+/// `more_width`: of the longest `more`; `right_of_line`: space for other items [px].
 Beside beside_line(const TimeLineContents& line, const std::string& more, float more_width,
                    float right_of_line) {
     const float least = 7.0F * ImGui::GetFontSize();
@@ -141,8 +141,8 @@ Beside beside_line(const TimeLineContents& line, const std::string& more, float 
     return {};
 }
 
-/// The line, as long as it can be with `right_of_line` pixels free beside the time. Gives back
-/// where to go.
+/// The time line, as long as possible with `right_of_line` pixels free beside the time. Returns the
+/// time to seek [s].
 std::optional<double> draw_line_and_time(const TimeLineContents& line, const std::string& more,
                                          float more_width, float right_of_line) {
     const Beside beside = beside_line(line, more, more_width, right_of_line);
@@ -165,7 +165,7 @@ std::optional<double> draw_line_and_time(const TimeLineContents& line, const std
     return wanted_s;
 }
 
-/// As wide as the relief; to be ended with ImGui::End().
+/// As wide as the relief. End it with ImGui::End().
 void begin_bottom_bar(const ViewerState& state, const char* name) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float height = bottom_bar_height(state);
@@ -175,7 +175,7 @@ void begin_bottom_bar(const ViewerState& state, const char* name) {
     ImGui::Begin(name, nullptr, kBareWindow | ImGuiWindowFlags_NoBringToFrontOnFocus);
 }
 
-/// Where the line of time would be: there is none.
+/// The state of a live source, in place of the time line.
 void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
     const ImU32 red = IM_COL32(226, 60, 52, 255);
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -195,7 +195,7 @@ void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
     ImGui::SameLine(right + ImGui::GetStyle().ItemSpacing.x);
 }
 
-/// From the beginning on.
+/// The time line of a course, from its begin.
 TimeLineContents line_of(const Course& course) {
     TimeLineContents line{.now_s = course.now_s - course.begin_s,
                           .length_s = course.end_s - course.begin_s,
@@ -260,8 +260,8 @@ void draw_replay_bar(ViewerState& state, Transport& replay) {
     ImGui::End();
 }
 
-/// Where the panels are hidden, the bar is, too, until the pointer comes near it; a hand that
-/// presses there is not in its way.
+/// While the panels are hidden, the bar appears only near the pointer, but not while the pointer
+/// presses on the relief.
 bool bar_is_wanted(const ViewerState& state) {
     constexpr float kNear = 2.5F;  // of its height
     if (state.settings.panels_visible) return true;
@@ -271,7 +271,7 @@ bool bar_is_wanted(const ViewerState& state) {
     return !touches && from_below >= 0.0F && from_below < kNear * bottom_bar_height(state);
 }
 
-/// What is always in reach.
+/// The force switch without the bar, always in reach.
 void draw_force_switch_alone(ViewerState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(display, ImGuiCond_Always, {1.0F, 1.0F});

@@ -1,4 +1,4 @@
-// What is typed is read from ImGui's text field, which stands in the item's place meanwhile.
+// Reads the typed text from ImGui's text field, which replaces the item meanwhile.
 #include "app/panels/typed_number.hpp"
 
 #include <imgui.h>
@@ -15,7 +15,7 @@ namespace dibhr {
 
 namespace {
 
-using Halves = std::array<int, 2>;  ///< of a double: ImGui keeps numbers of 32 bits
+using Halves = std::array<int, 2>;  ///< of a double: ImGui stores 32-bit numbers only
 
 void keep_before(double value) {
     const auto halves = std::bit_cast<Halves>(value);
@@ -29,7 +29,7 @@ double kept_before() {
                ImGui::GetStateStorage()->GetInt(ImGui::GetID("before, high"))});
 }
 
-/// The text that ImGui's field begins with.
+/// The text that ImGui's field starts with.
 std::array<char, 64> text_of(double value, const char* format) {
     std::array<char, 32> digits{};
     format = ImParseFormatTrimDecorations(format, digits.data(), digits.size());

@@ -5,9 +5,9 @@
 
 namespace dibhr {
 
-/// A slider or drag of ImGui, named `name`, that `draw` draws; what is typed into it is read here.
-/// Its decimal sign is a point or a comma: ImGui leaves the comma out, and so makes 7 of 0,7. Text
-/// that is no number leaves the value as it was before. Returns whether a number is being typed.
+/// A slider or drag of ImGui, named `name`, drawn by `draw`. A number typed into it is read here,
+/// with decimal point or comma: ImGui ignores a comma, and so reads 0,7 as 7. A text that is no
+/// number leaves the value unchanged. Returns whether a number is being typed.
 bool number_item(const char* name, const char* format, double& value,
                  const std::function<void()>& draw);
 

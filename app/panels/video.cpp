@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kRecent = "Recent";
 
-/// The files opened before, the last one first; those that are gone cannot be chosen.
+/// The recent files, the last one first; missing files are disabled.
 void draw_recent(ViewerState& state) {
     const float width = button_width(kRecent);
     ImGui::SameLine();
@@ -90,8 +90,8 @@ bool passes_frames_over(const PlaybackStatus& playback) {
     return playback.playing && playback.shown_per_s < kAll * playback.frames_per_s;
 }
 
-/// With how many are shown, where this machine is too slow for all. A line of its own would come
-/// and go with each hiccup, and move what is below from under a hand that is about to click on it.
+/// The frame's number and, on a machine that is too slow, the shown rate. Not in a row of its own,
+/// which would appear at each short delay and move the rows below while a person clicks on them.
 void draw_frame(const PlaybackStatus& playback) {
     std::string value = std::to_string(playback.frame + 1) + " of " +
                         std::to_string(std::max(playback.frames, playback.frame + 1));
@@ -117,7 +117,7 @@ void draw_playback(const ViewerState& state, Transport& player) {
     speed_row(playback.speed, player);
 }
 
-/// What comes as it happens.
+/// The state of a live source.
 void draw_live(const ViewerState& state, Transport& player) {
     const PlaybackStatus& playback = state.media.playback;
     const LiveStatus& live = *playback.live;
@@ -143,7 +143,7 @@ void draw_live(const ViewerState& state, Transport& player) {
     if (!live.signal && !live.trouble.empty()) quiet_text(capitalised(live.trouble));
 }
 
-/// A step switched by hand makes all of them one's own choice, beginning with what is done now.
+/// If a person switches a step, the preset becomes `own`, with the other steps as they are now.
 void draw_cleaning(ViewerState& state) {
     CleaningOptions& cleaning = state.settings.cleaning;
     const std::string held = state.keys.name_for(Action::show_as_recorded);

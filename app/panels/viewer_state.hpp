@@ -1,5 +1,4 @@
-// What the window shows and what a person changes in it: plain data that every panel reads and
-// edits.
+// The state of the window: plain data that every panel shows and edits.
 #pragma once
 
 #include <array>
@@ -24,7 +23,7 @@
 
 namespace dibhr {
 
-/// A row of the Open dialog, opened: depth alone finds its colour.
+/// The request to open a row of the Open dialog; for depth alone, its colour is searched.
 [[nodiscard]] inline OpenRequest request_for(const FolderEntry& entry) {
     OpenRequest request{entry.file, entry.depth};
     request.in_any_order = entry.depth.empty();
@@ -36,34 +35,34 @@ struct TextFields {
     TextField colour{};
     TextField depth{};
     TextField bump{};
-    TextField material{};  ///< the name to keep one under
+    TextField material{};  ///< the name to save one as
     TextField firmware{};
     TextField depth_scale{};                  ///< "0.001"
     TextField depth_range{};                  ///< "480:4210"
     TextField no_data{};                      ///< "0,65535"
     TextField intrinsics{};                   ///< "525,525,319.5,239.5" or "60deg"
     std::array<double, 2> colour_shift_px{};  ///< right and down, in depth pixels
-    std::array<double, 1> colour_size{1.0};   ///< times
+    std::array<double, 1> colour_size{1.0};   ///< a factor
 };
 
-/// A recording before it is opened.
+/// The preview of a recording that is not open.
 struct Preview {
     std::filesystem::path of{};
-    std::uintptr_t texture{0};  ///< name of an OpenGL texture; 0: nothing to see
+    std::uintptr_t texture{0};  ///< name of an OpenGL texture; 0: none
     int columns{0}, rows{0};
     std::string words{};
 };
 
-/// What Tab makes of what is typed.
+/// The completion of a typed text by Tab.
 struct Completion {
     std::string typed{}, whole{};
 };
 
 /// The window's own dialog for opening files.
 struct OpenDialog {
-    static constexpr int kPicturesToFocus = 30;  ///< it takes two
+    static constexpr int kPicturesToFocus = 30;  ///< at most; usually it takes two
 
-    /// The folder's entries that are listed, and what that depends on.
+    /// The listed entries of the folder, and the inputs they were selected by.
     struct Rows {
         std::vector<std::size_t> entries{};
         std::string typed{};
@@ -72,58 +71,58 @@ struct OpenDialog {
     };
 
     bool shown{false};
-    bool in_front{false};  ///< none of the panels' fields has the keyboard
-    Folder folder{};       ///< its entries are still being read, while `reads`
+    bool in_front{false};  ///< the dialog has the keyboard, not a panel
+    Folder folder{};       ///< its entries are still being read while `reads`
     bool reads{false};
-    int reading{0};  ///< another number with every change of `folder`
+    int reading{0};  ///< a new number with every change of `folder`
     Rows rows{};
     std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
     TextField typed{};               ///< narrows the entries, or is a path
-    Completion completion{};         ///< of what is typed, when it is known
-    bool all_files{false};           ///< also those that cannot be opened
+    Completion completion{};         ///< of the typed text, once it is known
+    bool all_files{false};           ///< also list files that cannot be opened
     Preview preview{};
     std::filesystem::path sample_folder{};
-    int line{0};               ///< another one has nothing typed into it yet
-    int asks_for_keyboard{0};  ///< pictures left in which the line asks for it
-    int move{0};               ///< the choice, by so many entries
-    bool enter{false};         ///< opens the choice
+    int line{0};               ///< ID of the text line; a new ID makes a new, empty line
+    int asks_for_keyboard{0};  ///< pictures left in which the line requests the keyboard
+    int move{0};               ///< move the choice by so many entries
+    bool enter{false};         ///< open the choice
     bool bring_into_sight{false};
 };
 
-/// Whether Enter and the arrows are meant for it; from the moment it is asked for on.
+/// Whether Enter and the arrow keys go to the dialog, also before it has the keyboard.
 [[nodiscard]] inline bool takes_keys(const OpenDialog& dialog) {
     return dialog.shown && (dialog.in_front || dialog.asks_for_keyboard > 0);
 }
 
-/// What a picture or a clip of the window is of.
+/// What a picture or clip of the window contains.
 enum class PictureOf { window, relief };
 
-/// What the window shows of a clip that is made of it.
+/// The state of a clip that is being made of the window.
 struct ClipNews {
     std::filesystem::path file{};
     double time_s{0.0};     ///< since its first picture
-    bool finishing{false};  ///< it has ended, its file is on its way
+    bool finishing{false};  ///< ended; its file is not complete yet
 };
 
-/// The pictures above the relief.
+/// The panes: pictures above the relief.
 struct PanesShown {
-    std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: nothing to see
+    std::uintptr_t colour{0};  ///< names of OpenGL textures; 0: none
     std::uintptr_t depth{0};
 };
 
-/// Depth for a video of colour alone: to be made, being made, or made.
+/// The offer of depth for a video of colour alone: before, during and after its making.
 struct DepthOffer {
     std::filesystem::path colour{};
-    std::string words{};  ///< why it cannot be opened as it is, or what went wrong; empty: neither
+    std::string words{};  ///< why the video cannot be opened, or an error; empty: neither
     std::vector<std::string> estimators{};  ///< names to choose from; none: it cannot be made
-    int chosen{0};                          ///< of them
-    std::string asks{};  ///< its command, escaped: it runs when a person agrees; empty: not asked
+    int chosen{0};                          ///< index in `estimators`
+    std::string asks{};  ///< the command, escaped, that a person must agree to; empty: none
     std::optional<EstimateProgress> progress{};  ///< nothing: it is not being made
-    bool ending{false};                          ///< it was cancelled, and is on its way
-    std::filesystem::path depth{};  ///< made, while something else was opened; empty: not yet
+    bool ending{false};                          ///< cancelled, but not yet ended
+    std::filesystem::path depth{};  ///< finished while something else was open; empty: not yet
 };
 
-/// A pixel of the depth that is drawn, and what it holds.
+/// A pixel of the drawn depth, and its values.
 struct PixelShown {
     int column{0}, row{0};
     double nearness{0.0};      ///< 0: the farthest, 1: the nearest
@@ -133,15 +132,15 @@ struct PixelShown {
 
 /// Two points on the relief, whose distance is shown.
 struct Ruler {
-    std::vector<Vec3> places{};      ///< up to two; grid space, the elevation means nothing
-    bool pressed{false};             ///< the mouse's button was, a picture ago
-    std::vector<PixelShown> ends{};  ///< the places, now
+    std::vector<Vec3> places{};      ///< up to two; grid space, elevation unused
+    bool pressed{false};             ///< the mouse button, in the last picture
+    std::vector<PixelShown> ends{};  ///< the current pixels at `places`
 
-    /// A click sets a point; a third one begins anew. `under`: nothing: it is beside the relief.
+    /// A click sets a point; a third click starts again. `under` empty: outside the relief.
     void press(bool down, const std::optional<Vec3>& under);
 };
 
-/// What a brush lays on the relief, in the order of the panel.
+/// What a brush paints on the relief, in the order of the panel.
 enum class BrushLays { material, stiffness, friction, height, nothing };
 inline constexpr std::array<Word<BrushLays>, 5> kBrushWords{
     {{BrushLays::material, "material", "Material"},
@@ -160,47 +159,47 @@ struct Brush {
     double height_px{8.0};
     double width{0.08};        ///< of the picture's width
     double strength{1.0};      ///< 0 .. 1
-    int scrolls{0};            ///< pictures in which the panel still comes into sight
-    std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is beside it
-    std::string refusal{};     ///< why nothing can be painted; empty: it can
+    int scrolls{0};            ///< pictures left in which the panel scrolls into view
+    std::vector<Vec3> ring{};  ///< its edge on the relief; empty: the pointer is elsewhere
+    std::string refusal{};     ///< why painting is not possible; empty: it is
     bool can_undo{false}, can_redo{false};
     bool has_paint{false};             ///< there are maps
     std::filesystem::path saved_as{};  ///< "cup_stiffness.png" and its like; empty: not kept
 };
 
-/// One update, looked at step by step.
+/// One update of the algorithm, explained step by step.
 struct ExplainedNews {
     ExplainedUpdate update{};
-    bool held{false};      ///< the goal stays: a first step was taken, or it is a replay's
-    std::size_t taken{0};  ///< steps, of update.steps
-    bool runs{false};      ///< takes them by itself, slowly
-    bool waits{false};     ///< for the replay's next tick: nothing is known of it yet
+    bool held{false};      ///< the goal is fixed: after the first step, or in a replay
+    std::size_t taken{0};  ///< steps shown, of update.steps
+    bool runs{false};      ///< slow motion: the steps advance by themselves
+    bool waits{false};     ///< for the replay's next tick, which is not read yet
 };
 
-/// The window's own.
+/// The state of the window itself.
 struct UiState {
-    std::vector<Doubt> doubts{};                ///< of the settings file; a person is asked
+    std::vector<Doubt> doubts{};                ///< of the settings file, to be agreed to
     MaterialNames materials{};                  ///< to choose from
-    std::optional<PixelShown> under_hand{};     ///< nothing: the hand is beside the picture
-    std::optional<PixelShown> under_pointer{};  ///< nothing: it presses, or is beside the relief
+    std::optional<PixelShown> under_hand{};     ///< nothing: the hand is outside the picture
+    std::optional<PixelShown> under_pointer{};  ///< nothing: pressed, or outside the relief
     PanesShown panes{};
-    std::optional<Ruler> ruler{};  ///< nothing: it is off
+    std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};
     std::optional<ExplainedNews> explained{};
-    bool statistics{false};                     ///< are shown over the relief
+    bool statistics{false};                     ///< shown over the relief
     std::optional<ClipNews> clip{};             ///< nothing: no clip is made
     std::optional<DepthOffer> depth_offer{};    ///< nothing: no video lacks depth
-    std::optional<StripHistory> held_strips{};  ///< the charts stand still
-    float strips_end_y{0.0F};                   ///< where they ended in the last picture [px]
+    std::optional<StripHistory> held_strips{};  ///< the values of paused charts
+    float strips_end_y{0.0F};                   ///< the charts' lower end in the last picture [px]
     double pictures_per_s{0.0};
-    bool touched{false};  ///< there has been a contact: the first hint has done its work
+    bool touched{false};  ///< there was a contact: the first hint is not needed any more
 
-    bool show_paint{false};    ///< the brush was taken by key: the Paint panel comes into sight
-    bool show_session{false};  ///< recording began by key: the Session panel comes into sight
+    bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view
+    bool show_session{false};  ///< recording begun by key: scroll the Session panel into view
     bool help_open{false};
-    std::string message{};        ///< shown in a box until it is closed
-    std::string notice{};         ///< shown for a while at the bottom
-    bool notice_of_place{false};  ///< instead: where playing is, as long as it is shown
+    std::string message{};        ///< shown in a box until a person closes it
+    std::string notice{};         ///< shown at the bottom until notice_until_s
+    bool notice_of_place{false};  ///< shows the current playing position instead
     double notice_until_s{0.0};
     OpenDialog dialog{};
     TextFields fields{};
@@ -220,7 +219,7 @@ struct ViewerState {
 
     /// As TouchState::shape().
     [[nodiscard]] const SurfaceShape& shape() const noexcept { return touch.shape(settings.touch); }
-    /// Of what plays: the session, in a replay, or the video.
+    /// The course of the session, in a replay, or else of the video.
     [[nodiscard]] Course course() const {
         return touch.replay ? Course(touch.replay->playback) : media.playback.course();
     }

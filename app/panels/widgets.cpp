@@ -24,15 +24,15 @@ namespace dibhr {
 namespace {
 
 constexpr float kLabelShare = 0.40F;  // of a row's width
-constexpr float kTooltip_em = 22.0F;  // its text is no wider
+constexpr float kTooltip_em = 22.0F;  // widest text
 
-/// Of a warning, readable on the theme's ground.
+/// The colour of warnings, readable on the theme's background.
 ImU32 trouble_colour() {
     const bool on_dark = ImGui::GetStyleColorVec4(ImGuiCol_Text).x > 0.5F;
     return on_dark ? IM_COL32(242, 184, 97, 255) : IM_COL32(146, 84, 0, 255);
 }
 
-/// The label, and the cursor moved to where the row's value begins.
+/// Draws the label and moves the cursor to the begin of the row's value.
 void row_label(const char* label, const char* help) {
     const float begin = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
@@ -42,13 +42,13 @@ void row_label(const char* label, const char* help) {
     ImGui::SameLine(begin + width * kLabelShare);
 }
 
-/// Room for the arrow at the right end of each row, so that rows stay aligned whether it shows or
-/// not.
+/// The space for the arrow at the right end of each row; kept free while the arrow is hidden, so
+/// that rows stay aligned.
 float arrow_width() {
     return ImGui::GetFrameHeight();
 }
 
-/// What is left of a row beside that.
+/// The width of a row's value, without the arrow.
 float value_width() {
     return ImGui::GetContentRegionAvail().x - arrow_width() - ImGui::GetStyle().ItemInnerSpacing.x;
 }
@@ -120,7 +120,7 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
     }
 }
 
-/// A name that would take more than two lines of that width, without some of its middle.
+/// The name, shortened in its middle if it needs more than two lines of that width.
 std::string on_two_lines(const std::string& name, float width) {
     const auto is_within = [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; };
     std::string text = name;
@@ -136,7 +136,7 @@ std::string on_two_lines(const std::string& name, float width) {
     return text;
 }
 
-/// The slider ends where people work; a typed number may go on to the option's own end.
+/// The slider covers the useful range; a typed number may go up to the option's limit.
 double slider_end(const TouchNumber& option, double standard) {
     return std::min(option.highest, standard > 0.0 ? 4.0 * standard : option.highest / 4.0);
 }
@@ -221,7 +221,7 @@ bool number_row(const NumberRow& row, double& value) {
         ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &row.lowest, &row.highest,
                             format, row.logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
     });
-    // What is dragged is rounded to the digits that are shown; a word has none.
+    // ImGui rounds a dragged value to the shown digits, but a text instead of 0 has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
     explain("Drag, or Ctrl+click to type a number");
     if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
@@ -366,7 +366,7 @@ void place_next_tooltip() {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float widest =
         kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
-    // The nearer to the display's edge, the more of it is on the other side.
+    // Shifted by its place on the display, so that the tooltip stays inside.
     if (window.x > widest + gap) {
         const float y = ImGui::GetItemRectMin().y;
         ImGui::SetNextWindowPos({window.x - gap, y}, ImGuiCond_Always,

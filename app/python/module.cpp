@@ -15,9 +15,9 @@ namespace dibhr {
 
 namespace {
 
-/// The classes of the errors are the package's own.
+/// Raises an error class of the package dibhr.
 void raise(const char* name, const std::exception& error) {
-    const std::string_view text = error.what();  // names of files need not be UTF-8
+    const std::string_view text = error.what();  // a file's name in it may not be UTF-8
     const auto words = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
         text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
     PyErr_SetObject(py::module_::import("dibhr").attr(name).ptr(), words.ptr());
@@ -35,7 +35,7 @@ void translate(std::exception_ptr thrown) {
     }
 }
 
-/// (name, label, unit, lowest, highest, default, help) of each.
+/// (name, label, unit, lowest, highest, default, help) of each number and switch.
 py::list table_of_numbers() {
     py::list table;
     for (const PlainNumber& number : plain_numbers()) {
@@ -46,7 +46,7 @@ py::list table_of_numbers() {
     return table;
 }
 
-/// (name, words, default) of each.
+/// (name, names of its values, default) of each choice.
 py::list table_of_choices() {
     py::list table;
     for (const TouchChoice& choice : touch_choices()) {

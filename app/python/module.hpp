@@ -1,4 +1,4 @@
-// The compiled part of the Python package; what people call is in dibhr/*.py.
+// The compiled part of the Python package; its public interface is in dibhr/*.py.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -10,13 +10,13 @@
 
 namespace dibhr {
 
-/// What one thread uses was asked for by another one.
+/// A thread called a renderer that another thread is using.
 class BusyError : public Error {
   public:
     using Error::Error;
 };
 
-/// "static-friction" is the keyword static_friction.
+/// Python's keyword of an option: static_friction for "static-friction".
 [[nodiscard]] pybind11::str keyword_of(std::string_view name);
 
 void bind_touch(pybind11::module_& module);

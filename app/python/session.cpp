@@ -24,7 +24,7 @@ namespace dibhr {
 
 namespace {
 
-/// A column of the view `tick` in a row of the array: its name, numpy's letter for its kind, where.
+/// A column of the view `tick`: its name, numpy's letter for its kind, its offset in a row.
 using Field = std::tuple<std::string, char, std::size_t>;
 
 template <typename Value>
@@ -32,7 +32,7 @@ void store(char* to, Value value) noexcept {
     std::memcpy(to, &value, sizeof value);
 }
 
-/// NULL becomes not a number, or -1.
+/// NULL becomes NaN, or -1 for an integer.
 void write_cell(char* to, char kind, const Statement& row, int column) {
     const bool nothing = !row.has(column);
     if (kind == 'f') {
@@ -53,20 +53,20 @@ void write_cell(char* to, char kind, const Statement& row, int column) {
 /// " FROM tick WHERE ...": the ticks of a span of time.
 std::string ticks_between(double begin_s, double end_s) {
     const auto bound = [](double t_s) {
-        constexpr double kMost = std::numeric_limits<double>::max();  // SQL knows no infinity
+        constexpr double kMost = std::numeric_limits<double>::max();  // SQL has no infinity
         return number_text(std::clamp(t_s, -kMost, kMost));
     };
     return " FROM tick WHERE t BETWEEN " + bound(begin_s) + " AND " + bound(end_s);
 }
 
 std::int64_t count_ticks(const Session& session, double begin_s, double end_s) {
-    // A connection of its own each time: threads may share the session.
+    // A connection for each call, because threads may share the session.
     const SessionReader reader(session.file());
     Statement query = reader.rows("SELECT count(*)" + ticks_between(begin_s, end_s));
     return query.next() ? query.integer(0) : 0;
 }
 
-/// Fills rows from the first on; how many there were.
+/// Fills rows from the first on; returns their number.
 std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
                         const std::vector<Field>& fields, py::array& rows) {
     std::string names;
@@ -90,7 +90,7 @@ std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
     return done;
 }
 
-/// As Python holds a file's name: whatever bytes a session has, it opens.
+/// Decoded as Python decodes file names, so that a session with any bytes can be opened.
 py::object text_of(const std::string& text) {
     return py::reinterpret_steal<py::object>(PyUnicode_DecodeFSDefault(text.c_str()));
 }

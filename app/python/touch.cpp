@@ -1,5 +1,5 @@
-// Depth images from arrays, and the updates as `dibhr touch` makes them. The package has checked
-// what comes here: shapes, types, ranges, finite numbers.
+// Depth images from arrays, and updates like those of `dibhr touch`. The Python package has checked
+// all arguments: shapes, types, ranges, finite numbers.
 #include "core/haptics/touch.hpp"
 
 #include <pybind11/numpy.h>
@@ -27,15 +27,15 @@ namespace {
 using Levels = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-/// Two depth images, which may be one, and a bump map or none. They never change: any number of
-/// renderers and threads share them.
+/// One or two depth images, and a bump map or none. They never change, so any number of renderers
+/// and threads can share them.
 class Images {
   public:
     Images(const Levels& from, const std::optional<Levels>& to, double highest_level,
            const std::optional<Levels>& bump)
         : from_{columns_of(from), rows_of(from), highest_level, values_of(from)} {
         if (to) to_ = DepthImage{columns_of(*to), rows_of(*to), highest_level, values_of(*to)};
-        // Not stretched beforehand: images may be one frame of many, touched some thirty times.
+        // Not scaled in advance: the images may be one of many frames, each touched 30 times.
         if (bump) bump_ = BumpMap{columns_of(*bump), rows_of(*bump), values_of(*bump)};
     }
 
@@ -55,7 +55,7 @@ class Images {
     std::optional<BumpMap> bump_{};
 };
 
-/// A row of the results, as the package's TOUCH_ROW lays it out.
+/// A row of the results, laid out as TOUCH_ROW of the package.
 struct Row {
     double t_s;
     Vec3 goal, proxy, spring_newton, sent_newton;
@@ -84,10 +84,10 @@ py::tuple tuple_of(Vec3 v) {
     return py::make_tuple(v.x, v.y, v.z);
 }
 
-/// One hand: what an update depends on, kept from one to the next.
+/// One hand: the state that is kept from one update to the next.
 class Renderer {
   public:
-    /// In the order of the package's Touch.
+    /// Returns the fields of the package's Touch, in their order.
     py::tuple update(const Images& images, double blend, const Numbers& goal, double dt_s) {
         const Use use(busy_);
         const Touch& touch = step(images.at(blend, parameters_.shape),
@@ -121,7 +121,7 @@ class Renderer {
             double step_s = dt_s;
             if (time_s != nullptr) {
                 t_s = time_s[k];
-                // Recorded hands have equal time stamps: still an update, of the usual length.
+                // Recordings may have equal time stamps: that update has the default length.
                 const double passed_s = last_t_s_ ? t_s - *last_t_s_ : 0.0;
                 if (passed_s > 0.0) step_s = passed_s;
             }
@@ -140,7 +140,7 @@ class Renderer {
         last_t_s_.reset();
     }
 
-    /// All that is tuned, each in its range.
+    /// Sets all parameters; each value is in its range.
     void set(const py::dict& keywords) {
         const Use use(busy_);
         for (const TouchChoice& choice : touch_choices()) {
@@ -154,7 +154,7 @@ class Renderer {
         limits_.max_force_newton = keywords["max_force"].cast<double>();
     }
 
-    /// At N places (x, y).
+    /// The elevations at N places (x, y).
     [[nodiscard]] py::array_t<double> elevation(const Images& images, double blend,
                                                 const Numbers& x, const Numbers& y) const {
         const DepthSurface surface = images.at(blend, parameters_.shape);
@@ -166,7 +166,7 @@ class Renderer {
     }
 
   private:
-    /// From here to its end no other thread touches the renderer.
+    /// During its life no other thread may call the renderer.
     class Use {
       public:
         explicit Use(bool& busy) : busy_(busy) {
@@ -196,7 +196,7 @@ class Renderer {
     SafetyLimits limits_{};
     TouchRenderer renderer_{};
     std::optional<double> last_t_s_{};
-    bool busy_{false};  ///< read and written by who holds the interpreter
+    bool busy_{false};  ///< protected by Python's interpreter lock
 };
 
 }  // namespace

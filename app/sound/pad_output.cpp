@@ -1,4 +1,4 @@
-// The thread that game pads are looked for and told to rumble on: a driver may take its time.
+// The thread that scans for game pads and makes them rumble: drivers may block it.
 #include "app/sound/pad_output.hpp"
 
 #define SDL_MAIN_HANDLED  // main stays as it is
@@ -22,7 +22,7 @@ constexpr double kTell_s = 0.01;
 
 }  // namespace
 
-/// What the thread does, and all that it needs for it.
+/// The thread's function and all its data.
 class PadOutput::Work {
   public:
     explicit Work(std::shared_ptr<TouchSource> from) : source(std::move(from)) {}
@@ -31,8 +31,8 @@ class PadOutput::Work {
     [[nodiscard]] PadNews news() const;
 
     std::shared_ptr<TouchSource> source;
-    Wishes<bool> wishes{};                    // that pads are served
-    TripleBuffer<SoundMaterial> materials{};  // the window thread's and this one's
+    Wishes<bool> wishes{};                    // true: pads rumble
+    TripleBuffer<SoundMaterial> materials{};  // from the window's thread to this one
     std::atomic<bool> coils_move{false};
 
   private:
@@ -53,7 +53,7 @@ void PadOutput::Work::run() {
         }
         say({});
     }
-    SDL_TLSCleanup();  // what it keeps of a thread that is not its own
+    SDL_TLSCleanup();  // SDL's data of this thread, which SDL did not start
     wishes.say_left();
 }
 

@@ -1,4 +1,4 @@
-// Lets game pads rumble with what is touched, away from all other threads.
+// Makes game pads rumble with the touch, on a thread of its own.
 #pragma once
 
 #include <memory>
@@ -11,41 +11,41 @@
 
 namespace dibhr {
 
-/// What is known of game pads.
+/// The game pads found, or why none is looked for.
 struct PadNews {
     enum class State { off, no_session, looking };
 
-    State state{State::off};  ///< no_session: without a desktop session none is looked for
+    State state{State::off};  ///< no_session: no desktop session, so no pad is looked for
     std::vector<FoundPad> found{};
 
-    /// One of them has voice coils.
+    /// Whether a found pad has voice coils.
     [[nodiscard]] bool has_coils() const;
 
     bool operator==(const PadNews&) const = default;
 };
 
-/// From construction to destruction. While it is on it looks for pads twice a second, and tells
-/// those that are there a hundred times a second how strongly to rumble. That there is none, or no
-/// longer, is no error. No pad moves the hand.
+/// While switched on, its thread scans for pads twice a second, and sends them the strength of the
+/// rumble a hundred times a second. A missing or lost pad is no error. Input from pads is ignored:
+/// they do not move the hand.
 class PadOutput {
   public:
-    /// Off at first.
+    /// Starts switched off.
     explicit PadOutput(const std::shared_ptr<TouchSource>& source);
-    /// The motors stop. Waits half a second for a pad at most: one that hangs is left alone.
+    /// Stops the motors. Waits at most half a second: a thread that hangs in a driver is detached.
     ~PadOutput();
     PadOutput(const PadOutput&) = delete;
     PadOutput& operator=(const PadOutput&) = delete;
 
-    /// The window thread's. `coils_move`: by sound, so that pads which have them need not rumble.
+    /// For the window's thread. `coils_move`: by sound; then pads that have coils do not rumble.
     void choose(const SoundMaterial& material, bool on, bool coils_move);
 
-    /// The window thread's.
+    /// For the window's thread.
     [[nodiscard]] PadNews news() const;
 
   private:
     class Work;
 
-    std::shared_ptr<Work> work_;  // with the thread, which may outlive this
+    std::shared_ptr<Work> work_;  // shared with the thread, which may outlive this object
     SoundMaterial chosen_{};
     std::thread thread_;
 };

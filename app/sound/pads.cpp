@@ -19,8 +19,8 @@ constexpr std::size_t kMostPads = 8;
 constexpr Uint16 kSony = 0x054c;
 constexpr Uint16 kDualSense = 0x0ce6;
 constexpr Uint16 kDualSenseEdge = 0x0df2;
-constexpr Uint32 kLasts_ms = 1000;  // it is told again long before
-constexpr double kSteps = 64.0;     // a pad need not hear of smaller changes
+constexpr Uint32 kLasts_ms = 1000;  // turn() renews the rumble long before its end
+constexpr double kSteps = 64.0;     // smaller changes are not sent to a pad
 
 Uint16 motor(double strength) {
     return static_cast<Uint16>(std::lround(std::round(kSteps * strength) / kSteps * 65535.0));
@@ -32,7 +32,7 @@ bool has_coils(SDL_Joystick* joystick) {
            (product == kDualSense || product == kDualSenseEdge);
 }
 
-/// Reads what the pads say, so that SDL sees them come and go, and forgets it.
+/// Updates SDL's list of pads and discards their events.
 void read_pads() {
     SDL_JoystickUpdate();
     SDL_FlushEvents(SDL_FIRSTEVENT, SDL_LASTEVENT);

@@ -1,4 +1,4 @@
-// The game pads that are plugged in, and their motors.
+// The connected game pads and their motors.
 #pragma once
 
 #include <cstdint>
@@ -12,34 +12,34 @@ struct _SDL_Joystick;
 
 namespace dibhr {
 
-/// A pad as people are told of it.
+/// A pad as the Touch panel shows it.
 struct FoundPad {
     std::string name{};
     bool rumbles{false};
-    bool has_coils{false};  ///< by cable it may show as a sound device that moves them
+    bool has_coils{false};  ///< voice coils: by cable, its sound device may move them
 
     bool operator==(const FoundPad&) const = default;
 };
 
-/// Whether setting up SDL's pads would copy the whole process, and so make ticks late: SDL asks the
-/// session's D-Bus, and where nobody has started one the D-Bus library does, beside an X server.
+/// Whether initialising SDL's joysticks would copy the whole process, which makes ticks late. SDL
+/// uses the session's D-Bus; with an X server but no bus, the D-Bus library forks to start one.
 [[nodiscard]] bool pads_would_copy_process();
 
-/// SDL's joysticks, from construction to destruction, on one thread. What is pressed or moved on
-/// them is read from nobody.
+/// SDL's joysticks, from construction to destruction, all on one thread. Their buttons and sticks
+/// are ignored.
 class Pads {
   public:
     explicit Pads(TouchSource& source);
-    ~Pads();  ///< no motor turns any more
+    ~Pads();  ///< stops all motors
     Pads(const Pads&) = delete;
     Pads& operator=(const Pads&) = delete;
 
-    /// Takes note of what has been plugged in and pulled out. What cannot be opened is tried again
-    /// the next time.
+    /// Opens pads that were connected, closes pads that were disconnected. A pad that cannot be
+    /// opened is tried again by the next call.
     void look();
 
-    /// To be called often while there is a pad. `coils_move`: pads that have them do not rumble,
-    /// which would switch them over from their sound.
+    /// Call it often while there is a pad. `coils_move`: pads with voice coils do not rumble, which
+    /// would switch off their sound.
     void turn(Rumble rumble, bool coils_move);
 
     [[nodiscard]] bool empty() const noexcept { return pads_.empty(); }

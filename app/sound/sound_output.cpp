@@ -1,5 +1,4 @@
-// The thread that opens and closes sound devices: a sound server may take its time to answer, or
-// never do.
+// The thread that opens and closes sound devices: a sound server may answer late or never.
 #include "app/sound/sound_output.hpp"
 
 #define SDL_MAIN_HANDLED  // main stays as it is
@@ -21,22 +20,22 @@ namespace {
 constexpr double kLook_s = 0.5;
 constexpr double kTryAgain_s = 5.0;
 
-/// What devices are given to play.
+/// What the sound devices play from.
 struct Heard {
     explicit Heard(std::shared_ptr<TouchSource> from) : source(std::move(from)) {}
 
     std::shared_ptr<TouchSource> source;
-    // The window thread's and SDL's audio threads'.
+    // From the window's thread to SDL's audio threads.
     TripleBuffer<SoundChoice> by_speaker{};
     TripleBuffer<SoundChoice> by_coils{};
 };
 
-/// SDL's audio, and the devices that are open, or were to be.
+/// SDL's audio and the requested devices, as far as they could be opened.
 class Playing {
   public:
     Playing(Heard& heard, SoundOutput::Wish wish) : heard_(heard), wish_(wish) {
         const SdlTurn::Taken turn(heard.source->sdl);
-        // Not SDL_InitSubSystem, which looks for D-Bus, and may copy the whole process for that.
+        // Not SDL_InitSubSystem: it connects to D-Bus and may fork the whole process for that.
         if (SDL_AudioInit(nullptr) != 0) return;
         initialised_ = true;
         if (wish.speaker) speaker_.emplace(nullptr, heard.source->ticks, heard.by_speaker);
@@ -54,13 +53,13 @@ class Playing {
     Playing(const Playing&) = delete;
     Playing& operator=(const Playing&) = delete;
 
-    /// False when there was no speaker, or something has been pulled out.
+    /// False if there was no speaker, or a device was disconnected.
     [[nodiscard]] bool goes_on() const {
         return initialised_ && (!wish_.speaker || (speaker_ && speaker_->plays())) &&
                (!coils_ || refused_ || coils_->plays());
     }
     [[nodiscard]] bool moves_coils() const { return coils_ && coils_->plays(); }
-    /// Those that have come since.
+    /// Voice coils that were connected since the construction.
     [[nodiscard]] std::optional<std::string> new_coils() const {
         return wish_.coils && !coils_ ? voice_coil_device() : std::nullopt;
     }
@@ -71,12 +70,12 @@ class Playing {
     bool initialised_{false};
     std::optional<SoundStream> speaker_{};
     std::optional<SoundStream> coils_{};
-    bool refused_{false};  // the coils have, which is no reason to open everything anew
+    bool refused_{false};  // the coils could not be opened: no reason to reopen everything
 };
 
 }  // namespace
 
-/// What the thread does, and all that it needs for it.
+/// The thread's function and all its data.
 class SoundOutput::Work {
   public:
     explicit Work(const std::shared_ptr<TouchSource>& source) : heard(source) {}
@@ -89,7 +88,7 @@ class SoundOutput::Work {
     std::atomic<bool> moves_coils{false};
 
   private:
-    /// Until something else is wanted, or a device comes or goes.
+    /// Plays until another request, or until a device is connected or lost.
     enum class End { other_wish, lost, new_coils };
     [[nodiscard]] End play(const Wish& wish);
 };
@@ -101,7 +100,7 @@ void SoundOutput::Work::run() {
         state = end == End::lost && wish->speaker ? State::no_device : State::quiet;
         if (end == End::lost && !wishes.holds_for(*wish, kTryAgain_s)) state = State::quiet;
     }
-    SDL_TLSCleanup();  // what it keeps of a thread that is not its own
+    SDL_TLSCleanup();  // SDL's data of this thread, which SDL did not start
     wishes.say_left();
 }
 

@@ -1,5 +1,5 @@
-// Plays the sound of touch through whatever the machine has to play it, and through the voice
-// coils of a game pad, away from all other threads.
+// Plays the sound of touch on the machine's sound device, and on the voice coils of a game pad. It
+// opens them on a thread of its own.
 #pragma once
 
 #include <memory>
@@ -10,30 +10,30 @@
 
 namespace dibhr {
 
-/// From construction to destruction. While it is not muted it has a sound device open; without one
-/// it looks for one every few seconds. That there is none, or no longer, is no error.
+/// Unless muted, it keeps a sound device open; if there is none, it tries again every few seconds.
+/// A missing or lost device is no error.
 class SoundOutput {
   public:
-    enum class State { quiet, playing, no_device };  ///< quiet: muted, or about to play
+    enum class State { quiet, playing, no_device };  ///< quiet: muted, or opening
 
-    /// What is to be open. Nothing at first.
+    /// Which devices are to be open. None at first.
     struct Wish {
         bool speaker{false};  ///< false: muted
-        bool coils{false};    ///< a game pad with voice coils, once it shows as a sound device
+        bool coils{false};    ///< a game pad's voice coils, once its sound device exists
 
         bool operator==(const Wish&) const = default;
     };
 
     explicit SoundOutput(const std::shared_ptr<TouchSource>& source);
-    /// Waits half a second for a sound server at most: one that hangs is left alone.
+    /// Waits at most half a second: a thread that hangs in a sound server is detached.
     ~SoundOutput();
     SoundOutput(const SoundOutput&) = delete;
     SoundOutput& operator=(const SoundOutput&) = delete;
 
-    /// The window thread's: what the next samples are made of. The volume is the speaker's.
+    /// For the window's thread: the choice for the next samples. The volume is the speaker's.
     void choose(const SoundChoice& choice, Wish wish);
 
-    /// Of the speaker.
+    /// The speaker's state.
     [[nodiscard]] State state() const noexcept;
     /// Whether voice coils move now.
     [[nodiscard]] bool moves_coils() const noexcept;
@@ -41,7 +41,7 @@ class SoundOutput {
   private:
     class Work;
 
-    std::shared_ptr<Work> work_;  // with the thread, which may outlive this
+    std::shared_ptr<Work> work_;  // shared with the thread, which may outlive this object
     SoundChoice chosen_{};
     std::thread thread_;
 };

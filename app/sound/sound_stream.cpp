@@ -14,10 +14,10 @@ namespace dibhr {
 namespace {
 
 constexpr int kRate_hz = 48'000;
-constexpr Uint16 kBlock = 256;  // 5 ms: a tap is heard as it is felt
+constexpr Uint16 kBlock = 256;  // 5 ms: a tap's sound comes with its force
 
-// Through PulseAudio SDL means front, centre and bass by four channels; by six it means the same
-// everywhere, and the rear pair is the last. A device that has four gives four.
+// With PulseAudio, SDL takes four channels as front, centre and bass. Of six channels the last two
+// are always the rear pair. A device of four channels still opens with four.
 constexpr int kCoilChannels = 6;
 
 }  // namespace
@@ -38,7 +38,7 @@ SoundStream::SoundStream(const char* coils, const SoundRing& ticks,
         coils, 0, &wanted, &given,
         SDL_AUDIO_ALLOW_FREQUENCY_CHANGE | (is_pad ? SDL_AUDIO_ALLOW_CHANNELS_CHANGE : 0));
     if (device_ == 0) return;
-    if (is_pad && given.channels < kFewestCoilChannels) return;  // it stays silent
+    if (is_pad && given.channels < kFewestCoilChannels) return;  // the device stays silent
     channels_ = given.channels;
     mono_.resize(given.samples);
     sound_.emplace(given.freq);
@@ -53,7 +53,7 @@ bool SoundStream::plays() const {
     return device_ != 0 && SDL_GetAudioDeviceStatus(device_) == SDL_AUDIO_PLAYING;
 }
 
-/// SDL's audio thread.
+/// Called by SDL's audio thread.
 void SoundStream::fill(void* self, std::uint8_t* bytes, int count) {
     SoundStream& stream = *static_cast<SoundStream*>(self);
     TouchSound& sound = *stream.sound_;
@@ -73,7 +73,7 @@ void SoundStream::fill(void* self, std::uint8_t* bytes, int count) {
 std::optional<std::string> voice_coil_device() {
     for (int k = 0; k < SDL_GetNumAudioDevices(0); ++k) {
         const char* name = SDL_GetAudioDeviceName(k, 0);
-        SDL_AudioSpec preferred{};  // no channels where they are not known before it is open
+        SDL_AudioSpec preferred{};  // 0 channels: not known before the device is open
         if (SDL_GetAudioDeviceSpec(k, 0, &preferred) != 0) preferred.channels = 0;
         if (name != nullptr && has_voice_coils(name, preferred.channels)) return name;
     }

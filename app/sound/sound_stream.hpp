@@ -1,4 +1,4 @@
-// One sound device that is open, and plays the sound of touch.
+// One open sound device that plays the sound of touch.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@
 
 namespace dibhr {
 
-/// From construction to destruction, on SDL's audio, which is to be set up. What it is made of must
-/// outlive it.
+/// Plays from construction to destruction. SDL's audio must be initialised. The constructor's
+/// arguments must outlive the stream.
 class SoundStream {
   public:
-    /// `coils`: the voice coils of the pad whose sound device is called so, and nothing on its
-    /// front channels; null: one channel, on the device that the machine plays sounds on.
+    /// `coils`: name of the sound device of a pad: plays on its voice coils, and leaves its front
+    /// channels silent. Null: one channel, on the machine's default sound device.
     SoundStream(const char* coils, const SoundRing& ticks, TripleBuffer<SoundChoice>& choices);
     ~SoundStream();
     SoundStream(const SoundStream&) = delete;
     SoundStream& operator=(const SoundStream&) = delete;
 
-    /// False when there is no such device, or it has been pulled out.
+    /// False if there is no such device, or it was disconnected.
     [[nodiscard]] bool plays() const;
 
   private:
     static void fill(void* self, std::uint8_t* bytes, int count);
 
-    // SDL's audio thread's, once it plays.
+    // Only for SDL's audio thread, once the device plays.
     SoundListener ticks_;
     TripleBuffer<SoundChoice>& choices_;
     std::optional<TouchSound> sound_{};
@@ -39,7 +39,7 @@ class SoundStream {
     std::uint32_t device_{0};
 };
 
-/// The first sound device that moves voice coils; nothing when there is none.
+/// The name of the first sound device that moves voice coils; nothing if there is none.
 [[nodiscard]] std::optional<std::string> voice_coil_device();
 
 }  // namespace dibhr

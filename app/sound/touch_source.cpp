@@ -1,4 +1,4 @@
-// How SDL is held apart from the rest of the program.
+// How SDL is kept from disturbing the rest of the program.
 #include "app/sound/touch_source.hpp"
 
 #define SDL_MAIN_HANDLED  // main stays as it is
@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// A machine without a sound card is none that misses something.
+/// Ignores ALSA's error messages: a machine without a sound card is no error.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
 }  // namespace
@@ -31,10 +31,10 @@ SdlTurn::Taken::~Taken() {
 }
 
 void teach_sdl_manners() {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // those are the program's
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program handles signals itself
     SDL_SetHint(SDL_HINT_APP_NAME, "dibhr");
     SDL_SetHint(SDL_HINT_AUDIO_DEVICE_STREAM_NAME, "Touch");
-    // The kernel's own drivers rumble; SDL's would open every pad, and set its lights.
+    // The kernel's drivers can rumble; SDL's drivers would open every pad and set its lights.
     SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
     SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // SDL has no window
     snd_lib_error_set_handler(say_nothing);

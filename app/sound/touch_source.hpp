@@ -1,4 +1,4 @@
-// What the sound of touch and the game pads are fed from, and share.
+// The ticks that sound and game pads are made from, and the lock for SDL that both outputs share.
 #pragma once
 
 #include <condition_variable>
@@ -8,11 +8,11 @@
 
 namespace dibhr {
 
-/// SDL is set up and taken down by one thread after the other.
+/// Only one thread at a time may initialise or shut down SDL.
 class SdlTurn {
   public:
-    /// While it lives, it is this thread's turn. Waits a second for that and goes on then: a
-    /// server that hangs keeps the other thread no longer.
+    /// Holds the lock during its life. Waits at most a second for it and then goes on without: a
+    /// hanging server must not block the other thread.
     class Taken {
       public:
         explicit Taken(SdlTurn& turn);
@@ -31,14 +31,14 @@ class SdlTurn {
     bool taken_{false};  // under the mutex
 };
 
-/// Held by each output together with its thread, which may outlive it.
+/// Owned by each output together with its thread, which may outlive the output.
 struct TouchSource {
-    SoundRing ticks{};  ///< pushed by the haptic loop
+    SoundRing ticks{};  ///< the haptic loop pushes them
     SdlTurn sdl{};
 };
 
-/// SDL leaves signals, drivers' messages and the program's name as they are to be. Called by each
-/// output before its thread begins, on the thread of the window.
+/// SDL must not handle signals, print drivers' messages, or open pads by its own drivers. Each
+/// output calls it on the window's thread before its own thread starts.
 void teach_sdl_manners();
 
 }  // namespace dibhr

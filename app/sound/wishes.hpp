@@ -1,4 +1,4 @@
-// What a thread is asked to do that may hang in somebody else's code, and how it is left.
+// Controls a thread that may hang in a driver or server: its latest request, and its stop.
 #pragma once
 
 #include <chrono>
@@ -9,11 +9,11 @@
 
 namespace dibhr {
 
-/// `Wish{}`: nothing is wanted. The thread must own this together with the one who asks.
+/// `Wish{}`: nothing to do. The thread and its controller own this object together.
 template <typename Wish>
 class Wishes {
   public:
-    /// The asking thread's.
+    /// For the controlling thread: replaces the request.
     void wish(const Wish& wish) {
         const std::lock_guard lock(mutex_);
         if (wish_ == wish) return;
@@ -21,7 +21,7 @@ class Wishes {
         changed_.notify_all();
     }
 
-    /// Asks it to leave, and waits half a second for that: one that hangs is left alone.
+    /// Stops the thread and waits at most half a second; a thread that hangs is detached.
     void leave(std::thread& thread) {
         if (has_left_in_time()) {
             thread.join();
@@ -30,21 +30,21 @@ class Wishes {
         }
     }
 
-    /// The asked thread's. Waits until something is wanted; nothing when it is to leave.
+    /// For the controlled thread. Waits for a request other than Wish{}; nothing: it must stop.
     [[nodiscard]] std::optional<Wish> wait() {
         std::unique_lock lock(mutex_);
         changed_.wait(lock, [this] { return leaving_ || !(wish_ == Wish{}); });
         return leaving_ ? std::nullopt : std::optional<Wish>(wish_);
     }
 
-    /// The asked thread's. Waits so long [s], or until something else is wanted: then false.
+    /// For the controlled thread. Waits `longest_s`, or until the request changes: then false.
     [[nodiscard]] bool holds_for(const Wish& wish, double longest_s) {
         std::unique_lock lock(mutex_);
         return !changed_.wait_for(lock, std::chrono::duration<double>(longest_s),
                                   [&] { return leaving_ || !(wish_ == wish); });
     }
 
-    /// The asked thread's last word.
+    /// The last call of the controlled thread.
     void say_left() {
         const std::lock_guard lock(mutex_);
         left_ = true;

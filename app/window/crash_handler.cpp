@@ -1,4 +1,4 @@
-// Signal handlers of a crash.
+// The signal handlers for a crash.
 #include "app/window/crash_handler.hpp"
 
 #include <unistd.h>
@@ -25,8 +25,8 @@ constexpr std::array<std::pair<int, const char*>, 5> kCrashes{{{SIGSEGV, "segmen
                                                                {SIGILL, "illegal instruction"},
                                                                {SIGABRT, "aborted"}}};
 
-// A signal's handler is given no argument of ours: this is where it finds the one that lives. Taken
-// by the first crash, so that there is one line.
+// A signal handler gets no argument of ours: here it finds the CrashHandler that exists. The first
+// crash takes it, so that only one line is printed.
 std::atomic<const CrashHandler*> living{nullptr};
 
 const char* name_of_signal(int signal) noexcept {
@@ -36,7 +36,7 @@ const char* name_of_signal(int signal) noexcept {
 }
 
 void on_crash(int signal, siginfo_t* info, void*) noexcept {
-    // The kernel tells the limit in the name of the thread that wrote: the write fails.
+    // The kernel sends SIGXFSZ to the thread that wrote; the failed write is enough.
     if (signal == SIGXFSZ && (info->si_code == SI_KERNEL || info->si_pid == getpid())) return;
     if (const CrashHandler* const handler = living.exchange(nullptr))
         handler->crashed(name_of_signal(signal));
@@ -50,7 +50,7 @@ void on_crash(int signal, siginfo_t* info, void*) noexcept {
             if (const auto error = std::current_exception()) std::rethrow_exception(error);
             handler->crashed("terminated");
         } catch (const std::bad_alloc&) {
-            // In a thread or a library that has nobody to tell it to: no crash of ours.
+            // In a thread or library that cannot report it: not a fault of the program.
             handler->crashed("there is not enough memory: close other programs or raise the limit");
             _exit(EXIT_FAILURE);
         } catch (const std::exception& error) {
@@ -86,7 +86,7 @@ CrashHandler::CrashHandler(const LastWords& words, void (*first)() noexcept)
 }
 
 CrashHandler::~CrashHandler() {
-    // What others still write beyond the limit of a file's size fails likewise.
+    // Other code may still write beyond the limit of a file's size: its writes only fail, too.
     for_each_signal([](int signal) { std::signal(signal, signal == SIGXFSZ ? SIG_IGN : SIG_DFL); });
     living = nullptr;
     if (kSanitized) return;

@@ -1,4 +1,4 @@
-// What is still done when the program crashes: the force, one plain line, and then what is usual.
+// What still runs when the program crashes: force off, the crash note, then the default action.
 #pragma once
 
 #include <cstddef>
@@ -8,27 +8,26 @@
 
 namespace dibhr {
 
-/// While it lives, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and std::terminate() run `first`
-/// and say what happened; then the signal does what it does by default, so that exit status and
-/// core dump are the usual ones; but of an allocation that failed the status is 1. A sanitizer's
-/// own handlers stay. A write that meets the limit of a file's size (SIGXFSZ) fails with EFBIG and
-/// nothing else; the same signal from another program is a crash. One at a time.
+/// During its life, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT and std::terminate() run `first` and
+/// print the crash note. Then the signal's default action gives the usual exit status and core
+/// dump; after a failed allocation the status is 1. A sanitizer's own handlers stay. A write beyond
+/// the limit of a file's size (SIGXFSZ) only fails with EFBIG; SIGXFSZ from another program is a
+/// crash. At most one handler may exist.
 class CrashHandler {
   public:
-    /// `first` is called by the thread that crashed: it may do only what is async-signal-safe.
-    /// `words` outlives it.
+    /// The crashing thread calls `first`, which must be async-signal-safe. `words` must outlive it.
     CrashHandler(const LastWords& words, void (*first)() noexcept);
     ~CrashHandler();
     CrashHandler(const CrashHandler&) = delete;
     CrashHandler& operator=(const CrashHandler&) = delete;
 
-    /// `first` and the line; from a signal handler.
+    /// Calls `first` and prints the crash note; from a signal handler.
     void crashed(const char* how) const noexcept;
 
   private:
     const LastWords& words_;
     void (*first_)() noexcept;
-    std::unique_ptr<std::byte[]> stack_;  // for a stack that overflowed: this thread's
+    std::unique_ptr<std::byte[]> stack_;  // the handler's, if this thread's stack overflowed
 };
 
 }  // namespace dibhr

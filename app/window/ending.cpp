@@ -1,4 +1,4 @@
-// Waits for a signal or the display's end, and then for the program.
+// The thread waits for a signal or the loss of the display, then for the end of the program.
 #include "app/window/ending.hpp"
 
 #include <poll.h>
@@ -65,7 +65,7 @@ void Ending::run() {
         poll(ready.data(), ready.size(), timeout_ms);
         if (over_) return;
         if (eventfd_t times = 0; ready[0].revents != 0) eventfd_read(told_, &times);
-        // Unless another one, or none, is to be watched by now.
+        // Unless watch_display() has replaced the display meanwhile.
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;
         if (!signals_.arrived()) continue;

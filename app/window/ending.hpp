@@ -1,5 +1,5 @@
-// The end that somebody asks for by a signal, or that a display makes that goes away: the force is
-// off whatever the window's thread does.
+// Shutdown by a signal, or because the display is lost: the force goes off, whatever the window's
+// thread does.
 #pragma once
 
 #include <atomic>
@@ -12,44 +12,43 @@
 
 namespace dibhr {
 
-/// The requests to end, by the times of their signals.
+/// Requests to shut down, from the times of their signals.
 class EndRequests {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// With the last tick, the recorder's last transaction and the line, less than a second.
+    /// Less than a second, together with the last tick, the last transaction and the crash note.
     static constexpr std::chrono::milliseconds kPatience{600};
     /// A terminal that closes, or `timeout`, sends two signals for one request.
     static constexpr std::chrono::milliseconds kOneRequest{200};
 
-    /// A signal has come: whether it is another request than the first one.
+    /// To be called at each signal. True: it is a second request.
     [[nodiscard]] bool is_repeated(Time now) noexcept;
-    /// What is left of kPatience since the first request, or nothing of it; no value: there was
-    /// none.
+    /// The rest of kPatience after the first request, at least 0; no value: no request yet.
     [[nodiscard]] std::optional<std::chrono::milliseconds> patience_left(Time now) const noexcept;
 
   private:
     std::optional<Time> first_{};
 };
 
-/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT are taken by a thread of their own: they ask
-/// for the end, and if the program still lives after EndRequests::kPatience, or another one comes,
-/// that thread says what hangs and ends it with status 1. Ctrl+Z is held back. Made before any
-/// thread is started.
+/// During its life a thread of its own takes SIGINT, SIGTERM, SIGHUP and SIGQUIT as requests to
+/// shut down. If the program still runs after EndRequests::kPatience, or at a second request, the
+/// thread prints the crash note and exits with status 1. Ctrl+Z is blocked. Construct it before any
+/// thread starts.
 class Ending {
   public:
-    /// `words` outlives it. Throws DeviceError when the system has no descriptor left.
+    /// `words` must outlive it. Throws DeviceError when the system has no descriptor left.
     explicit Ending(LastWords& words);
     ~Ending();
     Ending(const Ending&) = delete;
     Ending& operator=(const Ending&) = delete;
 
-    /// To be looked at by any thread: once true, the window closes.
+    /// For any thread to poll: once true, the window closes.
     [[nodiscard]] const std::atomic<bool>& asked() const noexcept { return asked_; }
-    /// To be looked at by any thread: once true, no force is sent any more. A signal does it, and
-    /// the display's end, of which the thread that draws hears only after its picture.
+    /// For any thread to poll: once true, no force is sent. Set by a signal, and by the loss of the
+    /// display, which the drawing thread notices only after its picture.
     [[nodiscard]] const std::atomic<bool>& without_force() const noexcept { return without_force_; }
-    /// `connection`: the display server's socket, from here on; -1: none any more.
+    /// `connection`: the display server's socket, watched from now on; -1: none.
     void watch_display(int connection);
     [[nodiscard]] LastWords& words() noexcept { return words_; }
 
@@ -62,7 +61,7 @@ class Ending {
     std::atomic<bool> without_force_{false};
     std::atomic<bool> over_{false};
     std::atomic<int> display_{-1};
-    int told_;  // a descriptor that tells the thread to look at the two above
+    int told_;  // an eventfd: wakes the thread when one of the two above has changed
     std::thread thread_{};
 };
 

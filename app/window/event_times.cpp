@@ -1,4 +1,4 @@
-// Looks through Xlib's queue and leaves all in it.
+// Reads Xlib's queue and leaves all events in it.
 #include "app/window/event_times.hpp"
 
 #include <algorithm>
@@ -9,8 +9,8 @@ namespace dibhr {
 
 namespace {
 
-/// The X server on this machine counts milliseconds of the same clock as std::chrono does; the
-/// stamp of another one is seldom this young.
+/// An X server on this machine has the clock of std::chrono. A stamp of another machine's server is
+/// seldom this young.
 EventTimes::Time of_server(std::uint32_t server_ms, EventTimes::Time now) {
     using std::chrono::milliseconds;
     constexpr std::uint32_t kOldest_ms = 10'000;
@@ -44,7 +44,7 @@ EventTimes::Time EventTimes::of(Kind kind, unsigned code) {
     const auto found = std::find_if(presses_.begin(), presses_.end(), [&](const Press& press) {
         return press.kind == kind && press.code == code;
     });
-    if (found == presses_.end()) return now;  // it came after the look
+    if (found == presses_.end()) return now;  // pressed after look()
     const Time at = of_server(found->server_ms, now);
     presses_.erase(presses_.begin(), found + 1);
     return at;

@@ -1,4 +1,4 @@
-// When keys and the mouse's button went down, which GLFW does not pass on.
+// The times of key and mouse button presses, which GLFW does not pass on.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,7 @@
 
 namespace dibhr {
 
-/// Of presses that wait to be polled: as the X server has stamped them.
+/// The X server's time stamps of the presses that wait to be polled.
 class EventTimes {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -15,14 +15,14 @@ class EventTimes {
 
     struct Press {
         Kind kind{Kind::key};
-        unsigned code{0};  ///< the server's, of the key; the button, the left one is 1
+        unsigned code{0};  ///< the server's key code; or the button, 1: the left one
         std::uint32_t server_ms{0};
     };
 
-    /// To be called right before events are polled.
+    /// Call it right before events are polled.
     void look();
-    /// Of the press that GLFW has just told of; presses are asked for in their order. The server's
-    /// milliseconds begin; now where there is no X server, or its clock is not this machine's.
+    /// The time of the press that GLFW has just reported; call it in the order of the presses. The
+    /// begin of the server's millisecond; now, without an X server or with one of another clock.
     [[nodiscard]] Time of(Kind kind, unsigned code);
 
   private:

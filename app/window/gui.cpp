@@ -20,7 +20,7 @@ namespace dibhr {
 
 namespace {
 
-/// ImGui takes for granted that there is memory.
+/// ImGui does not check whether an allocation failed.
 void* allocate_or_throw(std::size_t bytes, void*) {
     void* const memory = std::malloc(std::max<std::size_t>(bytes, 1));
     if (memory == nullptr) throw std::bad_alloc();
@@ -51,7 +51,7 @@ void set_spacing(ImGuiStyle& style, float scale) {
     style.ScaleAllSizes(scale);
 }
 
-/// What is drawn on what: the lightness of each, by theme.
+/// The lightness of a colour in each theme.
 struct Shade {
     float dark, light;
 };
@@ -81,7 +81,7 @@ void set_colours(ImGuiStyle& style, Theme theme) {
     colours[ImGuiCol_Button] = grey({0.20F, 0.81F});
     colours[ImGuiCol_ButtonHovered] = grey({0.27F, 0.75F});
     colours[ImGuiCol_ButtonActive] = grey({0.32F, 0.69F});
-    // The value is written over it.
+    // Half transparent, because the value is written over the grab.
     colours[ImGuiCol_SliderGrab] = {accent.x, accent.y, accent.z, 0.45F};
     colours[ImGuiCol_SliderGrabActive] = accent;
     colours[ImGuiCol_CheckMark] = accent_text;
@@ -93,7 +93,7 @@ void set_colours(ImGuiStyle& style, Theme theme) {
     colours[ImGuiCol_TextSelectedBg] = {accent.x, accent.y, accent.z, 0.4F};
 }
 
-/// A font's file, and which of the fonts in it.
+/// A font's file, and the number of the font in it.
 struct FontFile {
     std::string name{};
     int number{0};
@@ -110,7 +110,7 @@ std::optional<FontFile> matched(FcPattern* wanted) {
     FontFile file;
     const bool known = FcPatternGetString(match, FC_FILE, 0, &name) == FcResultMatch &&
                        FcPatternGetString(match, FC_FONTFORMAT, 0, &format) == FcResultMatch;
-    // Others make ImGui's reader stop the program.
+    // On other formats ImGui's font reader stops the program.
     const bool readable =
         known && std::string_view(reinterpret_cast<const char*>(format)) == "TrueType";
     if (readable) file.name = reinterpret_cast<const char*>(name);
@@ -119,7 +119,7 @@ std::optional<FontFile> matched(FcPattern* wanted) {
     return readable ? std::optional(file) : std::nullopt;
 }
 
-/// The desktop's own font for text without serifs; nothing where fontconfig knows none.
+/// The desktop's sans-serif font; nothing if fontconfig finds none.
 std::optional<FontFile> desktop_font(int weight) {
     FcPattern* const wanted = FcPatternCreate();
     FcPatternAddString(wanted, FC_FAMILY, reinterpret_cast<const FcChar8*>("sans-serif"));
@@ -132,8 +132,8 @@ std::optional<FontFile> desktop_font(int weight) {
     return font;
 }
 
-/// Alphabets that are written from left to right, letter by letter, with their signs; what the font
-/// lacks, and other letters, are shown as "?".
+/// Alphabets written from left to right, letter by letter, and their signs. Other letters, and
+/// letters that the font lacks, are shown as "?".
 constexpr ImWchar kLetters[] = {0x20,   0x36F,   // Latin, and accents that follow their letter
                                 0x370,  0x58F,   // Greek, Cyrillic, Armenian
                                 0x10A0, 0x10FF,  // Georgian
@@ -178,7 +178,7 @@ void set_style(const GuiLook& look) {
 }
 
 #if IMGUI_VERSION_NUM < 18700
-/// Keys that count as down for as long as it lives.
+/// Keys that ImGui sees as down during this object's life.
 class LingeringKeys {
   public:
     explicit LingeringKeys(std::span<const KeyPress> pressed) {
@@ -236,10 +236,10 @@ void Gui::begin(std::span<const KeyPress> pressed) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
 #if IMGUI_VERSION_NUM < 18700
-    // It looks at what is down now: a key that came up again since the last picture would be lost.
+    // This ImGui polls the keys: it would miss a key released again since the last picture.
     const LingeringKeys lingering(pressed);
 #else
-    static_cast<void>(pressed);  // it has all of them in a queue
+    static_cast<void>(pressed);  // this ImGui has a queue of key events
 #endif
     ImGui::NewFrame();
 }

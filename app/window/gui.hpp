@@ -1,4 +1,4 @@
-// Dear ImGui with the program's calm look: fonts, sizes and the colours of a theme.
+// Dear ImGui with the program's style: fonts, sizes and the colours of a theme.
 #pragma once
 
 #include <span>
@@ -11,15 +11,15 @@ struct ImFont;
 
 namespace dibhr {
 
-/// null: the built-in one.
+/// A null font is ImGui's built-in one.
 struct Fonts {
     ImFont* text{nullptr};
     ImFont* heading{nullptr};
 };
 
-/// How the panels look.
+/// How the panels are drawn.
 struct GuiLook {
-    float scale{1.0F};  ///< of text and all that is around it; 1: an ordinary display's
+    float scale{1.0F};  ///< of text, rows and gaps; 1: for an ordinary display
     Theme theme{Theme::dark};
 
     bool operator==(const GuiLook&) const = default;
@@ -33,16 +33,16 @@ class Gui {
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
 
-    /// A new picture; panels may be drawn until end(). `pressed` since the last one.
+    /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
     void begin(std::span<const KeyPress> pressed);
-    void end();  ///< draws them into the bound framebuffer
+    void end();  ///< draws the panels into the bound framebuffer
 
-    [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel, or dragging one
+    [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel or drags in one
     [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into
-    /// To and from the desktop's clipboard; what is no text is empty.
+    /// To and from the desktop's clipboard; a clipboard without text reads as empty.
     void copy(const std::string& text);
     [[nodiscard]] std::string copied() const;
-    /// Between two pictures. Takes some milliseconds when it is another one.
+    /// Call between two pictures. A new scale takes some milliseconds: fonts are loaded again.
     void wear(const GuiLook& look);
     [[nodiscard]] const Fonts& fonts() const { return fonts_; }
     [[nodiscard]] float scale() const { return look_.scale; }

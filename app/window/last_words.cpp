@@ -1,4 +1,4 @@
-// One line, put together on the stack and written at once.
+// The crash note is put together on the stack and written by one call.
 #include "app/window/last_words.hpp"
 
 #include <fcntl.h>
@@ -27,7 +27,7 @@ class Line {
         text_[length_++] = '\n';
         pollfd errors{STDERR_FILENO, POLLOUT, 0};
         if (poll(&errors, 1, 0) != 1 || (errors.revents & POLLOUT) == 0) return;
-        // Up to PIPE_BUF bytes a pipe that takes any takes all.
+        // A writable pipe takes up to PIPE_BUF bytes whole.
         [[maybe_unused]] const ssize_t told = ::write(STDERR_FILENO, text_.data(), length_);
     }
 

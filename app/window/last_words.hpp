@@ -1,4 +1,4 @@
-// The one line the program leaves on stderr when it cannot end in order.
+// The crash note: one line on stderr when the program cannot end in order.
 #pragma once
 
 #include <atomic>
@@ -9,33 +9,32 @@
 
 namespace dibhr {
 
-/// Knows what goes on, so that whoever ends the program can say it: a signal's handler, too.
+/// Records what the program does now, so that a signal handler or the shutdown thread can print it.
 class LastWords {
   public:
     LastWords() = default;
     LastWords(const LastWords&) = delete;
     LastWords& operator=(const LastWords&) = delete;
 
-    // The window thread's.
+    // Called by the window's thread.
 
-    /// What it does from here on: a literal such as "drawing".
+    /// The program's activity from now on: a literal such as "drawing".
     void doing(const char* what) noexcept { doing_.store(what, std::memory_order_release); }
-    /// Where it records from here on; empty: nowhere.
+    /// The session file that is written from now on; empty: none.
     void recording(const std::filesystem::path& file);
-    /// The clip that is being made, which is written as `part` until then and plays; both empty:
-    /// none is. Where it `replaces` no file of its name, one that is there stays.
+    /// The clip that is being made: `part` is its playable temporary file, `file` its final name;
+    /// both empty: no clip. `replaces`: whether it may overwrite an existing `file`.
     void clip(const std::filesystem::path& part, const std::filesystem::path& file, bool replaces);
 
-    // Any thread's, and a signal handler's.
+    // Called by any thread, also in a signal handler.
 
     [[nodiscard]] const char* what_is_done() const noexcept {
         return doing_.load(std::memory_order_acquire);
     }
-    /// Gives the clip its name, for a program that ends before the clip is finished.
+    /// Renames the clip's part to its final name, when the program ends before the clip does.
     void keep_clip() noexcept;
-    /// "dibhr: " and the parts, and where the clip that was kept is, and where the recording is, if
-    /// there is one; one line. Neither allocates nor waits: where stderr takes nothing now, it is
-    /// not said.
+    /// Prints one line: "dibhr: ", the parts, and where recording and kept clip are, if any.
+    /// Neither allocates nor waits: if stderr is not writable now, nothing is printed.
     void tell(std::initializer_list<const char*> parts) const noexcept;
 
   private:
@@ -45,9 +44,9 @@ class LastWords {
     };
 
     std::atomic<const char*> doing_{"starting"};
-    std::deque<std::string> files_{};  // of all recordings: a name that is being read stays
+    std::deque<std::string> files_{};  // of all recordings: a handler may still read an old name
     std::atomic<const std::string*> recording_{nullptr};
-    std::deque<Clip> clips_{};  // likewise
+    std::deque<Clip> clips_{};  // of all clips, for the same reason
     std::atomic<const Clip*> clip_{nullptr};
     std::atomic<const Clip*> kept_{nullptr};
 };

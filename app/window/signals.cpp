@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-// Ctrl+Z would leave the last force in a device's motors, so it is held back for as long.
+// Ctrl+Z would leave the last force in a device's motors, so SIGTSTP is blocked, too.
 constexpr std::array kHeld{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP};
 
 sigset_t held_signals() {
@@ -21,8 +21,8 @@ sigset_t held_signals() {
     return signals;
 }
 
-/// Runs only in a thread that a preloaded library started before us, and that holds nothing back:
-/// it holds this one from now on, and the signal is sent again, to the descriptor.
+/// Runs only in a thread that a preloaded library started before us, with no signal blocked: blocks
+/// this signal in that thread, and sends it again, so that the descriptor gets it.
 void pass_on(int signal, siginfo_t*, void* context) {
     sigaddset(&static_cast<ucontext_t*>(context)->uc_sigmask, signal);
     kill(getpid(), signal);

@@ -1,11 +1,11 @@
-// Ctrl+C and a request to end, handled as a request to close the window, so that the force ends at
-// zero.
+// Ctrl+C and the other shutdown signals, taken as requests to close the window, so that the force
+// ends at zero.
 #pragma once
 
 namespace dibhr {
 
-/// While it lives, SIGINT, SIGTERM, SIGHUP and SIGQUIT do not kill the process and Ctrl+Z does not
-/// stop it. Made before any thread is started, since threads inherit what is held back.
+/// During its life, SIGINT, SIGTERM, SIGHUP and SIGQUIT do not kill the process and Ctrl+Z does not
+/// stop it. Construct it before any thread starts: threads inherit the blocked signals.
 class EndingSignals {
   public:
     EndingSignals();
@@ -13,9 +13,9 @@ class EndingSignals {
     EndingSignals(const EndingSignals&) = delete;
     EndingSignals& operator=(const EndingSignals&) = delete;
 
-    /// Whether one that ends has arrived since the last call.
+    /// Whether a shutdown signal has arrived since the last call.
     [[nodiscard]] bool arrived();
-    /// Can be read when one may have arrived; negative: none is held back.
+    /// Readable when a signal may have arrived; negative: no signal is blocked.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 
   private:

@@ -1,4 +1,4 @@
-// The window, through GLFW.
+// The window, by GLFW.
 #include "app/window/window.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -35,7 +35,7 @@ bool key_down(GLFWwindow* window, int key) {
     return glfwGetKey(window, key) == GLFW_PRESS;
 }
 
-/// Newer GLFW tries Wayland first and complains on stderr where there is none.
+/// Newer GLFW tries Wayland first, and prints an error on stderr if there is none.
 void choose_display_server() {
 #ifdef GLFW_PLATFORM
     const char* const wayland = std::getenv("WAYLAND_DISPLAY");
@@ -49,19 +49,19 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
     glfwWindowHint(GLFW_DEPTH_BITS, 24);
-    // Where the driver can: its reset is told, and not a crash.
+    // If the driver supports it, a reset of the driver is reported and does not crash the program.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
     return glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
 }
 
-/// A display may say anything.
+/// Clamped, since a display may report any scale.
 float usable_scale(double asked, float displays) {
     const double scale = asked > 0.0 ? asked : static_cast<double>(displays);
     if (!std::isfinite(scale) || scale <= 0.0) return 1.0F;
     return static_cast<float>(std::clamp(scale, kSmallestUi, kLargestUi));
 }
 
-/// Text twice as large takes a window twice as large, where the display has room for it.
+/// Text twice as large needs a window twice as large, if the display has room for it.
 glm::ivec2 grown(glm::ivec2 size, double asked) {
     GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
     if (monitor == nullptr) return size;
@@ -95,7 +95,7 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
                           "): install a graphics driver, or libgl1-mesa-dri for software drawing");
     }
     glfwMakeContextCurrent(window_);
-    // Under Wayland a window that is hidden would wait for its picture until it is seen again.
+    // Not under Wayland: a hidden window would wait in the swap until it is visible again.
     glfwSwapInterval(sync && x11_window() != 0 ? 1 : 0);
     glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
                             GLFW_DONT_CARE);
@@ -118,7 +118,7 @@ void Window::collect_events() {
         all.input.keys.push_back(all.key);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
-        // GLFW tells a character after the key that typed it.
+        // GLFW reports a character after the key that typed it.
         const KeyPress& by = gathered_of(window).key;
         input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
     });
@@ -137,7 +137,7 @@ void Window::collect_events() {
 void Window::leave_without_display() {
     if (on_display_loss_) on_display_loss_();
     print_error_line("the display went away: start dibhr again when it is back");
-    // No destructor and no handler of exit(): a driver's would talk to the display.
+    // Without destructors and exit() handlers: a driver's would use the display.
     _exit(EXIT_FAILURE);
 }
 

@@ -1,4 +1,4 @@
-// The program's window with its OpenGL context, and what people did in it.
+// The program's window with its OpenGL context, and the input in it.
 #pragma once
 
 #include <chrono>
@@ -16,7 +16,7 @@ struct GLFWwindow;
 
 namespace dibhr {
 
-/// A key as GLFW tells it.
+/// A key press as GLFW reports it.
 struct KeyPress {
     int key{0};
     bool control{false};
@@ -38,14 +38,14 @@ struct WindowInput {
     std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
     double wheel_steps{0.0};  ///< > 0: away from the person
-    /// When the left button of the mouse went down last.
+    /// When the left mouse button was last pressed.
     std::optional<EventTimes::Time> clicked_at{};
 };
 
-/// As the window's callbacks gather it.
+/// The input that the window's callbacks collect.
 struct GatheredInput {
     WindowInput input{};
-    KeyPress key{};  ///< the last one, whose character may come later
+    KeyPress key{};  ///< the last key press: its character may follow
     EventTimes times{};
 };
 
@@ -58,11 +58,10 @@ struct Pointer {
     bool shift{false};
 };
 
-/// Of a window that is to be opened [screen units].
+/// The size of a window to open [screen units].
 struct WindowSize {
     int width{0}, height{0};
-    /// As for Window::scale(): so many times as large, as far as the display has room; nothing:
-    /// exactly so large.
+    /// A factor as for Window::scale(), as far as the display has room; nothing: exactly this size.
     std::optional<double> times{};
 };
 
@@ -75,34 +74,34 @@ class Window {
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    /// What is to be done when the display goes away, before the program ends with a line and
-    /// status 1; without the window.
+    /// `act` is called when the display is lost, before the program prints a line and exits with
+    /// status 1. It must not use the window.
     void on_display_loss(std::function<void()> act) { on_display_loss_ = std::move(act); }
 
     [[nodiscard]] bool wants_to_close() const;
     void close();
 
-    /// Looks for events, without waiting.
+    /// Polls for events; does not wait.
     WindowInput take_input();
-    /// Whether people work in it now: it has the keyboard and can be seen. Asked of the display
-    /// server itself: its events come in another order than what they are of.
+    /// Whether a person works in the window now: it has the keyboard and is visible. Queries the
+    /// display server, because events may arrive in another order than their causes.
     [[nodiscard]] bool in_front() const;
     [[nodiscard]] Pointer pointer() const;
     /// Whether a GLFW key is down now.
     [[nodiscard]] bool holds(int key) const;
     [[nodiscard]] glm::ivec2 framebuffer_size() const;
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
-    /// Of text and panels: `asked`, or, where that is 0, as the display says; 1 on an ordinary one.
+    /// Of text and panels: `asked`, or if that is 0, the display's own scale (1: an ordinary one).
     [[nodiscard]] float scale(double asked) const;
     void set_title(const std::string& title);
     void toggle_full_screen();
     [[nodiscard]] bool full_screen() const;
-    void show_picture();  ///< swaps; waits for an X display when in sync
-    /// Asks the display server something and waits for its answer: shows that it goes on. (Under
-    /// Wayland nothing is asked.)
+    void show_picture();  ///< swaps the buffers; with `sync`, waits for an X display
+    /// A round trip to the display server, which returns only if the server responds. (Does nothing
+    /// under Wayland.)
     void meet_display() const { static_cast<void>(framebuffer_size()); }
 
-    /// As the X server knows it; 0: there is none.
+    /// The X server's ID of the window; 0: no X server.
     [[nodiscard]] unsigned long x11_window() const;
 
     [[nodiscard]] GLFWwindow* handle() const { return window_; }
@@ -120,7 +119,7 @@ class Window {
 };
 
 /// Waits between pictures, so that the haptic thread and the decoder keep their share of the
-/// processor, and counts them.
+/// processor, and measures the picture rate.
 class PicturePace {
   public:
     /// `shortest`: least time from picture to picture; zero: do not wait.

@@ -1,4 +1,4 @@
-// The X server that GLFW is connected to. Only for files without other libraries of windows: Xlib's
+// The X server that GLFW is connected to. Only for files without other window libraries: Xlib's
 // header defines plain words as macros.
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace dibhr {
 
-/// What only some builds of GLFW have, of its glfw3native.h, whose own header needs GLFW's; null in
-/// one that was built for Wayland alone. Looked up by name: linkers disagree on whether a weak
-/// symbol that one GLFW has may be absent from another.
+/// A function of glfw3native.h that only some builds of GLFW have; null in a build for Wayland
+/// only. Looked up by name, because linkers disagree on whether a weak symbol may be absent from
+/// one GLFW and present in another.
 template <typename Function>
 Function* glfw_native(const char* name) {
     return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));

@@ -1,5 +1,5 @@
-// Asks through Xlib, to which GLFW (3.3 and 3.4) leaves the end of the X server: Xlib would print a
-// line of its own and call exit().
+// The queries, by Xlib. GLFW (3.3 and 3.4) leaves the loss of the X server to Xlib, which would
+// print a line of its own and call exit().
 #include "app/window/x_server.hpp"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// A window manager may close its frame between two questions; Xlib would end the program then.
+/// A window manager may close its frame between two queries; Xlib would then exit the program.
 class ErrorsPassedOver {
   public:
     ErrorsPassedOver() : before_(XSetErrorHandler([](Display*, XErrorEvent*) { return 0; })) {}
@@ -23,7 +23,7 @@ class ErrorsPassedOver {
     XErrorHandler before_;
 };
 
-/// The window's frame, the child of `root` that holds it; 0 when it has just gone.
+/// The window's frame: the child of `root` that contains it; 0 if it was just closed.
 Window frame_of(Display* display, Window window, Window root) {
     for (;;) {
         Window of_screen = 0;
@@ -64,7 +64,7 @@ bool is_covered(unsigned long x11_window, int width, int height) {
 void when_display_goes(const std::function<void()>& act) {
     Display* const display = x11_display();
     if (display == nullptr) return;
-    XSetIOErrorHandler([](Display*) { return 0; });  // which would print
+    XSetIOErrorHandler([](Display*) { return 0; });  // the default handler would print
     const auto call = [](Display*, void* act_to_call) {
         (*static_cast<const std::function<void()>*>(act_to_call))();
     };

@@ -1,5 +1,5 @@
-// What only the X server knows of the program's window: whether it is covered, and that the server
-// goes away. A file of its own, since Xlib's header defines plain words as macros.
+// Queries of the X server: whether the window is covered, and whether the server is lost. A file of
+// its own, since Xlib's header defines plain words as macros.
 #pragma once
 
 #include <functional>
@@ -8,22 +8,21 @@ struct GLFWwindow;
 
 namespace dibhr {
 
-/// The window as the X server knows it; 0 under another display server.
+/// The X server's ID of the window; 0 under another display server.
 [[nodiscard]] unsigned long x11_window_of(GLFWwindow* window);
 
-/// Whether another window lies over all of it: so a screen lock hides it, which takes no keyboard
-/// away and unmaps nothing. Asks at the middle of a mapped window of that size [px] and of its
-/// quarters. False under another display server, which takes the keyboard away where it hides a
-/// window.
+/// Whether other windows cover this one. A screen lock does so: it neither takes the keyboard away
+/// nor unmaps the window. Checks the middle of a mapped window of that size [px] and the middles of
+/// its quarters. False under another display server: there a hidden window has no keyboard.
 [[nodiscard]] bool is_covered(unsigned long x11_window, int width, int height);
 
-/// From here on `act` is called by the thread that notices that the X server has gone, within the
-/// call that noticed it: it must not return, nor use the display. It outlives the display. Does
+/// From now on the thread that notices the loss of the X server calls `act`, within the call that
+/// noticed it. `act` must neither return nor use the display, and must outlive the display. Does
 /// nothing under another display server.
 void when_display_goes(const std::function<void()>& act);
 
-/// The socket of the X server, which hangs up when it goes; -1 under another display server. For
-/// the thread that made the window.
+/// The socket of the X server; it hangs up when the server is lost. -1 under another display
+/// server. Call it on the thread that made the window.
 [[nodiscard]] int display_connection();
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// The eye: what is in view, and that the cursor's ray is the picture's.
+// The camera: what is in view, and that the ray under the cursor matches the picture.
 #include "render/camera.hpp"
 
 #include <algorithm>
@@ -73,7 +73,7 @@ TEST_CASE(
         farthest =
             std::max({farthest, std::abs(seen.x) / viewport.x, std::abs(seen.y) / viewport.y});
     }
-    CHECK(farthest > 0.25);  // of the window: it is no speck
+    CHECK(farthest > 0.25);  // of the window: not too small
 }
 
 TEST_CASE(
@@ -123,7 +123,7 @@ TEST_CASE("the whole relief is in view after framing, whatever the window's prop
     CHECK(most.x <= size.x);
     CHECK(most.y <= size.y);
     const glm::dvec2 filled = (most - least) / glm::dvec2(size);
-    CHECK(std::max(filled.x, filled.y) > 0.75);  // and it is not lost in it
+    CHECK(std::max(filled.x, filled.y) > 0.75);  // and it fills most of the view
 }
 
 TEST_CASE("the straight view keeps the picture's proportions and does not see elevation") {
@@ -194,7 +194,7 @@ TEST_CASE("zooming in makes the relief larger, within bounds to both sides") {
     CHECK(std::isfinite(width()));
     for (int k = 0; k < 500; ++k) camera.zoom(0.5);
     CHECK(width() > 10.0);
-    camera.zoom(0.0);  // refused
+    camera.zoom(0.0);  // ignored
     CHECK(width() > 10.0);
 }
 

@@ -1,4 +1,4 @@
-// What software OpenGL takes of the processor.
+// The share of the processor that software OpenGL takes.
 #include "render/drawing_threads.hpp"
 
 #include <pthread.h>
@@ -13,7 +13,7 @@
 namespace dibhr {
 namespace {
 
-/// How nice a thread of this name is after drawing gave way, against the one that asked for it.
+/// The niceness of a thread of this name, after the call, above that of the calling thread.
 int niceness_of(const std::string& name) {
     std::promise<void> named;
     std::promise<void> asked;

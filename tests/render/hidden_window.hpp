@@ -1,5 +1,4 @@
-// A real OpenGL 3.3 core context for the tests, in a window nobody sees; counts the driver's
-// complaints.
+// A real OpenGL 3.3 core context for the tests, in a hidden window; counts the driver's errors.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -15,7 +14,7 @@ namespace dibhr {
 class HiddenWindow {
   public:
     HiddenWindow() {
-        // Once for all tests: a virtual display resets itself when its last client leaves.
+        // Once for all tests: a virtual display resets itself when its last client disconnects.
         static const bool ready = glfwInit() == GLFW_TRUE;
         if (!ready) throw std::runtime_error("no display: run under xvfb-run");
         glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
@@ -35,7 +34,7 @@ class HiddenWindow {
     HiddenWindow(const HiddenWindow&) = delete;
     HiddenWindow& operator=(const HiddenWindow&) = delete;
 
-    /// Errors so far, in the driver's words.
+    /// The driver's error messages so far.
     [[nodiscard]] std::vector<std::string> errors() {
         for (GLenum error = glGetError(); error != GL_NO_ERROR; error = glGetError()) {
             errors_.push_back("glGetError " + std::to_string(error));

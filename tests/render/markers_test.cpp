@@ -1,4 +1,4 @@
-// The markers tell the truth about the touch.
+// The markers show the touch as it is.
 #include "render/marker_pass.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ TEST_CASE("a fingertip is a ball that stands on the proxy, with a mark where it 
 
 TEST_CASE("while the proxy catches up a ring is around it, and the line to the goal is dashed") {
     TouchMarkers touch = pressed();
-    touch.contact = GENERATE(true, false);  // the line in the air too
+    touch.contact = GENERATE(true, false);  // the line also without contact
     const Camera camera = camera_640x480();
     const auto dashed = [](const MarkerStroke& s) { return s.dash > 0.0F; };
     const auto ring = [](const MarkerStroke& s) { return s.hollow > 0.0F; };

@@ -1,4 +1,4 @@
-// Which vertices are drawn: as many as the machine can, always to the border, each triangle once.
+// The drawn vertices: as many as allowed, always to the border, each triangle once.
 #include "render/relief_grid.hpp"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ TEST_CASE("each cell has its two triangles once, split from upper right to lower
     std::set<Triangle> drawn;
     for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
         Triangle corners = triangle(mesh, k);
-        const Corner last = corners.back();  // which says whether its cell is torn
+        const Corner last = corners.back();  // identifies the cell, for torn cells
         std::sort(corners.begin(), corners.end());
         const int upper =
             std::min(corners[0].second, std::min(corners[1].second, corners[2].second));

@@ -85,7 +85,7 @@ TEST_CASE("no layer hangs on a vertex in the blur between two faces") {
         const double z = torn.at(vertex.source);
         CHECK_THAT(std::abs(z - 120.0), WithinAbs(100.0, 1e-6));
     }
-    for (std::size_t k = 0; k < torn.rims.torn.size(); ++k) {  // all cells that hang on it
+    for (std::size_t k = 0; k < torn.rims.torn.size(); ++k) {  // all cells with that vertex
         const bool beside = k < std::size_t{9 * 20} && (k % 20 == 8 || k % 20 == 9);
         CHECK((torn.rims.torn[k] > 0.0F) == beside);
     }

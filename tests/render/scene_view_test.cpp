@@ -1,4 +1,4 @@
-// The picture, drawn by a real OpenGL: what is seen is what is felt.
+// The picture, drawn by a real OpenGL: the drawn surface is the touched one.
 #include "render/scene_view.hpp"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ glm::ivec2 pixel_of(const Camera& camera, Vec3 grid, glm::ivec2 size) {
     return glm::ivec2(glm::floor(on_screen(camera, grid, size)));
 }
 
-/// What the drawn depth of each pixel means in grid space; only points well inside the image.
+/// The grid point at each pixel's drawn depth; only points well inside the image.
 std::vector<Vec3> visible_points(const Camera& camera, glm::ivec2 size, glm::ivec2 image) {
     std::vector<float> depth(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y));
     glReadPixels(0, 0, size.x, size.y, GL_DEPTH_COMPONENT, GL_FLOAT, depth.data());
@@ -195,7 +195,7 @@ TEST_CASE("the picture lies the right way round on the relief, in its own colour
         if (j < 32) return i < 8 ? upper_left : upper_right;
         return i < 8 ? lower_left : lower_right;
     });
-    // Colour and depth differ in size and proportion: they meet by normalised coordinates.
+    // Colour and depth differ in size and proportion: normalised coordinates match them.
     const Frame shown = frame(depth_image(40, 30, [](int, int) { return 100.0; }), quarters);
     SceneContent content = still(shown);
     content.look.light = GENERATE(0.0, 0.6, 1.0);  // a flat relief keeps the colours in any light
@@ -261,7 +261,7 @@ TEST_CASE("triangles steeper than the silhouette slope are left out, when asked"
     const glm::ivec2 step = pixel_of(camera, {2.5, 2.3, 110.0}, size);
     const glm::ivec2 face = pixel_of(camera, {1.5, 2.3, 10.0}, size);
     const ColourImage cut = view.capture(content, camera, size);
-    CHECK(difference(pixel(cut, step), pixel(backdrop, step)) < 10);  // or a wall, as dark
+    CHECK(difference(pixel(cut, step), pixel(backdrop, step)) < 10);  // or an equally dark wall
     CHECK(difference(pixel(cut, face), pixel(backdrop, face)) > 20);
     content.look.discard_silhouettes = false;
     const ColourImage whole = view.capture(content, camera, size);
@@ -335,7 +335,7 @@ TEST_CASE("a view that has shown other frames draws the same as a fresh one") {
     std::mt19937 random(3);
     BumpMap bump{4, 4, std::vector<float>(16, 0.0F)};
     for (int k = 0; k < 12; ++k) {
-        // Frames are freed in every round, so that new ones may come to lie at their addresses.
+        // Frames are freed in every round, so that new frames may get their addresses.
         const auto noise = [&](int, int) { return static_cast<double>(random() % 256U); };
         const auto colours = [&](int, int) {
             return Rgb{static_cast<int>(random() % 256U), 90, 0};
@@ -403,7 +403,7 @@ TEST_CASE("the ring around the proxy shows the force as a part of the most, wher
     content.markers.visible = true;
     content.markers.proxy = {32.0, 24.0, 50.0};
     content.markers.goal = content.markers.proxy;
-    content.markers.newton_per_px = 1e3;  // the arrow is too short to be seen
+    content.markers.newton_per_px = 1e3;  // makes the arrow too short to be visible
     content.markers.most_newton = 4.0;
     const double share = GENERATE(0.1, 0.25, 0.6, 0.9, 1.0, 1.5);
     const Vec3 direction = GENERATE(Vec3(0.0, 0.0, 1.0), Vec3(0.6, 0.8, 0.0));

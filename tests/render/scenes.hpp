@@ -53,7 +53,7 @@ inline Frame frame(std::shared_ptr<const DepthImage> depth,
     return made;
 }
 
-/// Shows one frame, at rest.
+/// Shows one frame that does not move.
 inline SceneContent still(const Frame& shown) {
     SceneContent content;
     content.depth = {&shown, &shown, 0.0};
@@ -68,7 +68,7 @@ inline Rgb pixel(const ColourImage& image, glm::ivec2 at) {
     return {image.rgb.at(first), image.rgb.at(first + 1), image.rgb.at(first + 2)};
 }
 
-/// The largest difference of a channel.
+/// The largest difference among the channels.
 inline int difference(const Rgb& a, const Rgb& b) {
     int most = 0;
     for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::abs(a[k] - b[k]));

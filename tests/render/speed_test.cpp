@@ -1,4 +1,4 @@
-// How long a picture takes of a machine that draws by software.
+// The time for a picture drawn by software.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -15,7 +15,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kPictures = 60;
-// Of all processors, for one picture: three times what it takes, and others do not count to it.
+// Processor time of all threads for one picture: three times the usual; other programs' excluded.
 constexpr double kMost_ms = 150.0;
 
 TEST_CASE("a playing 640x480 relief at 1280x800 takes at most 150 ms of processors a picture",

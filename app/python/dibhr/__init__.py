@@ -5,7 +5,7 @@
     renderer = dibhr.Renderer(surface, stiffness=0.8, friction=0.3)
     touch = renderer.update((120, 80, 90))           # one goal: touch.proxy, touch.sent_force
     rows = renderer.run(goals)                       # N x 3 goals: rows["px"], rows["fz"], ...
-    ticks = dibhr.Session("mine.dibhr").ticks()      # what was recorded, by the same names
+    ticks = dibhr.Session("mine.dibhr").ticks()      # recorded ticks, with the same column names
 
 Grid space throughout: x = column, y = row (down), z = elevation towards the viewer, all in pixels
 of the depth image. Forces are newtons along the same axes, times seconds.
@@ -39,4 +39,4 @@ __version__ = _dibhr.VERSION
 
 for _name in __all__:
     if callable(globals()[_name]):
-        globals()[_name].__module__ = __name__  # where people find it
+        globals()[_name].__module__ = __name__  # the public name, for help() and pickle

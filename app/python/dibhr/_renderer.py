@@ -15,8 +15,8 @@ from ._values import InputError, finite_numbers, in_range
 
 
 class Parameter(NamedTuple):
-    """A number that people tune, or a switch (0: off, else on): an entry of the table that also
-    makes the program's options."""
+    """A tunable number, or a switch (0: off, else on): an entry of the table that also makes the
+    program's options."""
 
     name: str  #: the keyword: "static_friction", for the option --static-friction
     label: str  #: "Static friction"
@@ -30,25 +30,25 @@ class Parameter(NamedTuple):
 _WORDS = {name: tuple(words) for name, words, _ in _dibhr.CHOICES}
 #: The algorithms by name.
 ALGORITHMS: tuple[str, ...] = _WORDS["algorithm"]
-#: The table of the numbers and switches that people tune.
+#: The table of tunable numbers and switches.
 PARAMETERS: tuple[Parameter, ...] = tuple(Parameter._make(entry) for entry in _dibhr.NUMBERS)
 
 
 class Touch(NamedTuple):
-    """What one update gives; (x, y, z) in grid space."""
+    """The result of one update; (x, y, z) in grid space."""
 
     goal: tuple[float, float, float]  #: [px]
     proxy: tuple[float, float, float]  #: [px]
     spring_force: tuple[float, float, float]  #: [N], before the safety stage
-    sent_force: tuple[float, float, float]  #: [N], after it: limited, and rising slowly
+    sent_force: tuple[float, float, float]  #: [N], after it: limited and ramped up
     contact: bool
-    slipping: bool  #: the dynamic coefficient of friction holds
+    slipping: bool  #: the dynamic coefficient of friction is in effect
     primitive: str  #: under the proxy: "none", "triangle", "edge" or "vertex"
     i: int  #: its column, -1 for none
     j: int  #: its row, -1 for none
     moves: int  #: primitives visited in this update
     cut: str  #: why no force was sent: "late tick", "goal jumped", ...; or empty
-    bound_met: bool  #: that was all an update may do: the proxy is still catching up
+    bound_met: bool  #: the update stopped at its bound: the proxy is still catching up
 
 
 def _step(dt: float) -> float:
@@ -60,11 +60,11 @@ def _step(dt: float) -> float:
 class Renderer:
     """A hand on a surface: goals in, proxy and forces out.
 
-    What `dibhr touch` takes is a keyword: `algorithm`, one of ALGORITHMS; the names in PARAMETERS;
-    `friction` for both coefficients, over which a coefficient of its own wins. Beyond that, `max_force` [N]:
-    the most that the safety stage lets through.
+    The keywords are the parameters of `dibhr touch`: `algorithm`, one of ALGORITHMS; the names in PARAMETERS;
+    `friction` for both coefficients, unless a coefficient is also given by itself. And `max_force` [N]:
+    the limit of the safety stage.
 
-    Each renderer is one thread's at a time (BusyError); several run in parallel.
+    Only one thread at a time may use a renderer (else BusyError); several renderers run in parallel.
     """
 
     def __init__(
@@ -83,7 +83,7 @@ class Renderer:
         self.set(algorithm=algorithm, max_force=max_force, **others)
 
     def set(self, **parameters: Any) -> None:
-        """Changes parameters, by keyword; the next update has them."""
+        """Changes parameters, by keyword, for the next update on."""
         ranges = {each.name: (each.lowest, each.highest) for each in PARAMETERS}
         ranges["friction"] = ranges["static_friction"]
         ranges["max_force"] = (0.0, 1000.0)
@@ -115,8 +115,8 @@ class Renderer:
 
     @property
     def surface(self) -> Surface:
-        """What is touched. Another one may take its place between updates: as the next frame of
-        a video if it has the same shape, else everything begins anew."""
+        """The touched surface. It may be replaced between updates: one of the same shape counts as
+        the next frame of a video, another shape resets the renderer."""
         return self._surface
 
     @surface.setter
@@ -129,14 +129,14 @@ class Renderer:
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """All of them, by keyword."""
+        """All parameters, by keyword."""
         return dict(self._keywords)
 
     def update(self, goal: Sequence[float] | NDArray[Any], dt: float = 0.001) -> Touch:
         """One update of the haptic loop.
 
         goal  (x, y, z): column, row and elevation [px]
-        dt    time since the update before [s]; after more than 0.02 s no force is sent
+        dt    time since the previous update [s]; after more than 0.02 s no force is sent
         """
         point = finite_numbers(goal, "goal", (3,))
         images, blend = self.surface._images, self.surface._blend
@@ -150,18 +150,18 @@ class Renderer:
         dt: float = 0.001,
         blend: ArrayLike | None = None,
     ) -> NDArray[np.void]:
-        """An update for each goal; other Python threads go on meanwhile.
+        """An update for each goal; other Python threads run meanwhile.
 
         goals  N x 3: column, row and elevation [px]
-        t      N times that do not fall [s]; None: dt apart
-        dt     the length of an update that t does not tell [s]: the first one, and of equal times
-        blend  N blends, 0 to 1: the surface at each update; None: that of the surface
+        t      N times that do not decrease [s]; None: dt apart
+        dt     the length [s] of the first update, and of updates at equal times
+        blend  N blends, 0 to 1: of the surface at each update; None: the surface's own
 
         Returns N rows (TOUCH_ROW) with the columns of `dibhr touch`: t [s]; goal gx, gy, gz and
         proxy px, py, pz [px]; force fx, fy, fz of the spring and cx, cy, cz as sent [N]; contact;
         primitive ("none", "triangle", "edge", "vertex") and its column i and row j; moves, the
-        primitives visited; ns, the time it took. (Whether an update ended at its bound, `update`
-        tells; the bound is far beyond a hand's steps.)
+        primitives visited; ns, the time of the computation. (Only `update` returns bound_met: the
+        bound is far beyond a hand's steps.)
         """
         points = finite_numbers(goals, "goals", (None, 3))
         times = None if t is None else finite_numbers(t, "t", (len(points),))
@@ -177,7 +177,7 @@ class Renderer:
         return rows
 
     def reset(self) -> None:
-        """Forgets everything but the parameters: the next update is a first one."""
+        """Resets all but the parameters: the next update is a first one."""
         self._core.reset()
 
     def elevation(self, x: ArrayLike, y: ArrayLike) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""The rows that a run and a session give, as structured arrays."""
+"""The rows of runs and sessions, as structured arrays."""
 
 from __future__ import annotations
 

@@ -15,31 +15,31 @@ from ._values import InputError, MissingFileError
 
 
 class Session:
-    """A recorded session (.dibhr), also while it is recorded; the file stays as it is.
+    """A recorded session (.dibhr), also during its recording; the file is not changed.
 
-    Opening reads all but the ticks. Raises MissingFileError, and InputError for a file that is no
-    session of this version.
+    Opening reads all but the ticks. Raises MissingFileError, or InputError if the file is no session
+    of this version.
     """
 
-    #: Names and values that describe it.
+    #: Names and values that describe the session.
     facts: dict[str, str]
-    #: All that was tuned, in the order in which ticks first used it. Dictionaries: `version` (the
+    #: The versions of the parameters, by the first tick that used each. Dictionaries: `version` (the
     #: ticks' column `settings`), `first_tick`, `touch` (keywords for a Renderer), `force_enabled`,
     #: `bump` (a path or None).
     parameters: list[dict[str, Any]]
-    #: The files that were touched. Dictionaries: `first_tick`, `colour` and `depth` (paths), and
+    #: The touched files. Dictionaries: `first_tick`, `colour` and `depth` (paths), and
     #: how the depth was cleaned: `fill_holes`, `remove_spikes`, `smooth_steps`,
     #: `sharpen_silhouettes`, `colour_edges`, `steady`, `smooth_noise`, `in_betweens`, `motion`,
     #: `finger_px`, `finger_relief_px`.
     sources: list[dict[str, Any]]
-    #: What was marked, by time. Dictionaries: `t` [s], `tag`, `text`.
+    #: The marks, by time. Dictionaries: `t` [s], `tag`, `text`.
     marks: list[dict[str, Any]]
-    #: The first and the last tick's t [s].
+    #: t of the first and the last tick [s].
     begin: float
     end: float
-    #: How many ticks are missing between them.
+    #: The number of ticks missing between them.
     missing: int
-    #: What may be lacking, as a sentence; empty: nothing.
+    #: What may be missing from the session, as a sentence; empty: nothing.
     warning: str
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
@@ -62,9 +62,9 @@ class Session:
     def ticks(self, begin: float = -math.inf, end: float = math.inf) -> NDArray[np.void]:
         """The ticks whose time t is in begin to end [s], both included.
 
-        Returns N rows (TICK_ROW) with the columns of `dibhr export`, which begin as those of
-        Renderer.run. Where the file has nothing a real is nan, an integer -1. Other Python threads
-        go on meanwhile.
+        Returns N rows (TICK_ROW) with the columns of `dibhr export`; the first ones are those of
+        Renderer.run. For a missing value a real is nan, an integer -1. Other Python threads run
+        meanwhile.
         """
         for t in (begin, end):
             if math.isnan(t):
@@ -75,5 +75,5 @@ class Session:
         return rows[: self._core.read_ticks(begin, end, fields, rows)]
 
     def check(self) -> None:
-        """Looks through the whole file; raises InputError when it is damaged."""
+        """Checks the whole file; raises InputError if it is damaged."""
         self._core.check()

@@ -1,4 +1,4 @@
-"""What is touched, from arrays."""
+"""The touched surface, from arrays."""
 
 from __future__ import annotations
 
@@ -53,20 +53,20 @@ def _usual_highest(picture: NDArray[Any]) -> float:
 
 
 class Surface:
-    """What is touched: one depth image, or two and how far the one has become the other.
+    """The touched surface: one depth image, or two depth images and a blend between them.
 
-    The arrays are copied, whatever their order in memory; a surface never changes, and renderers
-    and threads can share it.
+    The arrays are copied, in any memory order. A surface never changes, so renderers and threads
+    can share it.
 
     depth          rows x columns, at least 2 x 2; uint8, uint16, float32 or float64 levels,
                    brighter = nearer = higher; held as float32
-    to             the depth image it becomes, of the same shape; None: it stands still
+    to             the next depth image, of the same shape; None: the surface does not move
     blend          0: depth, 1: to
     highest_level  the level of depth 1.0, whose elevation is the parameter `relief`; None: 255 for
                    uint8, 65535 for uint16, 1 for floats
-    bump           fine relief laid over the whole image: rows x columns of any size, of the same
-                   types, from 0 where it is lowest to the parameter `roughness` [px] where it is
-                   highest; None: none
+    bump           fine relief added to the whole image: rows x columns of any size, of the same
+                   types; its lowest value is 0, its highest the parameter `roughness` [px];
+                   None: none
     """
 
     def __init__(
@@ -79,7 +79,7 @@ class Surface:
         bump: NDArray[Any] | None = None,
     ) -> None:
         first = _picture(depth, "depth", 2)
-        # As float32, because the levels are: none of them must come out above it.
+        # As float32, like the levels: no level may be above it by rounding.
         highest = float(np.float32(highest_level or 0.0))
         if highest_level is None:
             highest = _usual_highest(first)

@@ -1,4 +1,4 @@
-"""Errors, and the checks of what people give."""
+"""The errors, and the checks of arguments."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 
 class Error(Exception):
-    """What dibhr could not do, as one plain line; the other errors are of this family."""
+    """An error of dibhr, as one plain line; the base class of the other errors."""
 
 
 class InputError(Error, ValueError):
@@ -22,7 +22,7 @@ class MissingFileError(InputError, FileNotFoundError):
 
 
 class BusyError(Error, RuntimeError):
-    """Another thread uses what one thread uses at a time."""
+    """Another thread is using the renderer."""
 
 
 def in_range(what: str, value: float, lowest: float, highest: float) -> float:
@@ -38,7 +38,7 @@ def in_range(what: str, value: float, lowest: float, highest: float) -> float:
 
 
 def as_array(given: Any, what: str) -> NDArray[Any]:
-    """As numpy reads it; rows of different lengths are no numbers."""
+    """numpy's array; rows of different lengths give an empty one, refused later."""
     if isinstance(given, np.ma.MaskedArray) and given.mask.any():
         raise InputError(f"{what}: some of its values are masked; fill them")
     try:
@@ -50,7 +50,7 @@ def as_array(given: Any, what: str) -> NDArray[Any]:
 def finite_numbers(
     given: ArrayLike, what: str, shape: tuple[int | None, ...]
 ) -> NDArray[np.float64]:
-    """Finite numbers of that shape, in which None is any length."""
+    """Finite numbers of this shape, in which None is any length."""
     array = as_array(given, what)
     if array.dtype.kind not in "fiu":
         raise InputError(f"{what}: real numbers are needed")

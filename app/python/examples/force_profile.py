@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Strokes across a ridge and plots the force that leans against the hand.
+"""Strokes across a ridge and plots the force against the hand.
 
     PYTHONPATH=build/release/python python3 app/python/examples/force_profile.py [PICTURE]
 """
@@ -12,7 +12,7 @@ import numpy as np
 import dibhr
 
 y, x = np.mgrid[0:120, 0:320]
-depth = 0.3 + 0.15 * np.exp(-(((x - 160) / 40) ** 2))  # of the parameter `relief`, 255 px
+depth = 0.3 + 0.15 * np.exp(-(((x - 160) / 40) ** 2))  # times the parameter `relief`, 255 px
 surface = dibhr.Surface(depth)
 
 x, y = np.linspace(20, 300, 2000), np.full(2000, 60.3)

@@ -1,5 +1,4 @@
-// The desktop's dialog, asked through a portal and through helper programs as they are, may be, and
-// should not be.
+// The desktop's dialog, by a portal and by helper programs: usual, unusual and faulty ones.
 #include "app/desktop/file_dialog.hpp"
 
 #include <chrono>
@@ -28,12 +27,12 @@ const FileQuestion question_asked{
     .filters = {{"Recordings", {"*.mp4", "*.MP4"}}, {"All files", {"*"}}},
     .x11_window = 0x2a0000f};
 
-/// Nobody is waited for in vain, and every answer comes too late to be a refusal of the desktop's.
+/// No timeout passes, and every answer is slow enough to be a person's.
 constexpr DialogTimes kPatient{.bus = 1h, .portal = 1h, .quickest_person = 0ms};
-/// The same, and every answer comes too quickly to be a person's.
+/// No timeout passes, and every answer is too quick to be a person's.
 constexpr DialogTimes kAllAtOnce{.bus = 1h, .portal = 1h, .quickest_person = 1h};
 
-/// A bus on which a portal answers, and what comes of asking it.
+/// The answer of a dialog, and the request that the portal received.
 struct Asked {
     FileAnswer answer{};
     PortalAsked portal{};
@@ -51,7 +50,7 @@ Asked ask(const PortalManner& manner, const DialogTimes& times = kPatient) {
     return asked;
 }
 
-/// A folder of programs that are called so, and no others: the machine may have them, too.
+/// A folder of helper programs that replaces PATH, since the machine may have real ones.
 class Helpers {
   public:
     void add(const std::string& name, const std::string& script) {
@@ -79,7 +78,7 @@ FileAnswer ask(const Helpers& helpers, const std::string& desktop = "GNOME",
     return ask_helper(question_asked, off, times);
 }
 
-/// What comes of a question that is called off.
+/// The answer of a dialog that was called off.
 FileAnswer answer_of(std::future<FileAnswer>& asking) {
     REQUIRE(eventually([&asking] { return asking.wait_for(0s) == std::future_status::ready; },
                        std::chrono::minutes(1)));
@@ -103,7 +102,7 @@ TEST_CASE("the portal is asked for files, over the window, and gives those that 
     CHECK(asked.portal.filters == std::vector<std::string>{"Recordings", "All files"});
     CHECK(asked.portal.patterns == std::vector<std::string>{"*.mp4", "*.MP4", "*"});
     CHECK(asked.portal.multiple);
-    CHECK_FALSE(asked.portal.modal);  // F8 in the window takes the force off meanwhile
+    CHECK_FALSE(asked.portal.modal);  // so that F8 in the window can switch the force off
     CHECK_FALSE(asked.portal.closed);
 }
 
@@ -122,7 +121,7 @@ TEST_CASE("a portal that is missing, refuses, goes away or does not answer is no
     CHECK(ask({.vanishes = true}).answer.of == FileAnswer::Of::nobody);
     const Asked mute = ask({.replies = false}, kBriefToPortal);
     CHECK(mute.answer.of == FileAnswer::Of::nobody);
-    CHECK(mute.portal.closed);  // should it be slow, and not deaf
+    CHECK(mute.portal.closed);  // it may only be slow
     const CallOff off;
     {
         const SessionBus empty;

@@ -1,4 +1,4 @@
-// The queue of what panels and keys ask the viewer to do.
+// The queue of commands from panels and keys.
 #include "app/panels/commands.hpp"
 
 #include <chrono>
@@ -23,7 +23,7 @@ TEST_CASE("a command that is asked for twice before it is done is done once, in 
     CHECK(std::get<LoadBump>(asked[1]).file == "last.png");
     CHECK(std::get<Action>(asked[2]) == Action::take_screenshot);
     CHECK(queue.empty());
-    queue.push(Action::record);  // it was done
+    queue.push(Action::record);  // after it was taken
     CHECK(queue.take().size() == 1);
 }
 

@@ -12,7 +12,7 @@ using namespace dibhr;
 
 namespace {
 
-/// TypedRows in a window of ImGui that nothing draws, and a person at its mouse and keys.
+/// TypedRows in an ImGui window that is not drawn, with simulated mouse and keys.
 class TypedRows {
   public:
     TypedRows() {
@@ -43,14 +43,14 @@ class TypedRows {
         mouse(at, false, false);
         picture();
     }
-    /// A key a picture.
+    /// One key in each picture.
     void type(const std::string& text) {
         for (const char key : text) {
             ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(key));
             picture();
         }
     }
-    /// A click beside the rows, which ends the typing.
+    /// A click outside the rows, which ends the typing.
     void leave() {
         mouse({790.0F, 590.0F}, true, false);
         picture();

@@ -1,4 +1,4 @@
-"""What arrays and parameters may be, and what is said of those that cannot be used."""
+"""Which arrays and parameters are accepted, and the errors for the others."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""What the tests of the Python module share."""
+"""Shared code of the Python module's tests."""
 
 import contextlib
 import locale
@@ -14,7 +14,7 @@ PROGRAM = os.environ["DIBHR_PROGRAM"]
 
 
 def run_dibhr(folder, *arguments):
-    """The finished program, run in `folder`, which also has its settings."""
+    """Runs the program in `folder`, which also has its settings; returns its result."""
     homes = {name: str(folder) for name in ("XDG_CONFIG_HOME", "XDG_DATA_HOME", "XDG_STATE_HOME")}
     environment = os.environ | homes
     return subprocess.run(
@@ -52,7 +52,7 @@ def circle(count=20000, centre=(242.0, 242.0), z=108.0, radius=200.0, step=4.961
 
 @contextlib.contextmanager
 def decimal_commas():
-    """This process with numbers as a German program of Qt or GTK has them."""
+    """Sets the German number format for this process, as a program of Qt or GTK does."""
     with tempfile.TemporaryDirectory() as folder:
         words = ["localedef", "-i", "de_DE", "-f", "UTF-8", f"{folder}/de_DE.UTF-8"]
         subprocess.run(words, check=True)

@@ -109,7 +109,7 @@ class Sessions(FolderTest):
         self.session.check()
 
     def test_can_be_touched_again(self):
-        """A contact-free beginning aside, a flat surface makes a contact of every low goal."""
+        """After a beginning without contact, every low goal touches the flat surface."""
         ticks = self.session.ticks()
         renderer = dibhr.Renderer(
             dibhr.Surface(np.full((90, 120), 255, np.uint8)), **self.session.parameters[0]["touch"]

@@ -13,8 +13,8 @@ from helpers import circle, hills
 class Threads(unittest.TestCase):
     def test_of_python_advance_during_a_run(self):
         renderer = dibhr.Renderer(dibhr.Surface(hills()))
-        goals = circle(100, (80, 60), 90.0, 55.0, 0.9)  # too few for NumPy to let others run
-        # The interpreter is not taken from a thread that holds it; only a run gives it away.
+        goals = circle(100, (80, 60), 90.0, 55.0, 0.9)  # too few for NumPy to release the interpreter
+        # A thread keeps the interpreter until a run releases it.
         interval = sys.getswitchinterval()
         sys.setswitchinterval(1000.0)
         self.addCleanup(sys.setswitchinterval, interval)

@@ -1,4 +1,4 @@
-"""The package says what types it has, and its example runs."""
+"""The package's type hints match the module, and its example runs."""
 
 import ast
 import importlib.util
@@ -33,7 +33,7 @@ def stub_names(body):
 
 
 def argument_count(function):
-    """As the first line of the docstring of a compiled function says."""
+    """The number in the first line of a compiled function's docstring."""
     return len(re.findall(r"[(\s](\w+): ", function.__doc__.splitlines()[0]))
 
 

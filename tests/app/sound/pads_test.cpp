@@ -1,4 +1,4 @@
-// Game pads that SDL pretends to have, and what the real output does to their motors.
+// SDL's virtual game pads, and what the real output sends to their motors.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -29,7 +29,7 @@ using std::chrono::milliseconds;
 constexpr Uint16 kSony = 0x054c;
 constexpr Uint16 kDualSense = 0x0ce6;
 
-/// What a pad's motors were told, and when.
+/// A rumble sent to a pad, and its time.
 struct Told {
     Clock::time_point at{};
     int low{0};
@@ -90,7 +90,7 @@ class VirtualPad {
         return std::any_of(all.begin(), all.end(), [](const Told& one) { return one.low > 3000; });
     }
 
-    /// Answers nothing any more, as a driver that hangs.
+    /// Blocks, like a driver that hangs.
     void hang(bool hang) {
         hangs_ = hang;
         hangs_.notify_all();
@@ -127,14 +127,14 @@ struct Touching {
             source->ticks.push(tick);
         }
     }
-    /// So many ticks and more, until somebody is satisfied.
+    /// Pushes `ticks` ticks, and more until the condition is met.
     template <typename Condition>
     [[nodiscard]] bool push_until(const Condition& is_so, int ticks, const SoundTick& tick) {
         push(ticks, tick);
         for (int k = 0; k < kMostTicks && !is_so(); ++k) push(1, tick);
         return is_so();
     }
-    /// Rubs to and fro, for as long as nobody is satisfied.
+    /// Rubs to and fro until the condition is met.
     template <typename Condition>
     [[nodiscard]] bool rub_until(const Condition& is_so) {
         for (int k = 0; k < kMostTicks && !is_so(); ++k) push(1, k % 8 < 4 ? kTouch : kHarder);
@@ -170,7 +170,7 @@ TEST_CASE("a tap rumbles a pad, and force off stops it", "[pads]") {
     for (int k = 0; k < 3; ++k) {
         CHECK(touching.push_until([&] { return !pad.turns(); }, 50 + 3 * k, kAir));
         pad.forget();
-        // Ticks that came late were no tap: it is lifted and taps again.
+        // Late ticks are no tap: lift and tap again.
         CHECK(eventually([&] {
             touching.push(40, kAir);
             touching.push(20, kTouch);
@@ -283,7 +283,7 @@ TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]")
     auto end = std::async(std::launch::async, [&touching] { touching.reset(); });
     CHECK(eventually([&end] { return end.wait_for(milliseconds(0)) == std::future_status::ready; },
                      std::chrono::minutes(1)));
-    CHECK(source.use_count() > 1);  // its thread is with the pad still
+    CHECK(source.use_count() > 1);  // its thread still hangs in the pad's driver
     pad.hang(false);
     CHECK(eventually([&] { return source.use_count() == 1; }));
     CHECK_FALSE(pad.turns());
@@ -318,7 +318,7 @@ TEST_CASE("where SDL would copy the process to start a D-Bus, no pad is looked f
     const Variable runtime("XDG_RUNTIME_DIR", nullptr);
     {
         const Variable display("DISPLAY", nullptr);
-        CHECK_FALSE(pads_would_copy_process());  // the library starts none, either
+        CHECK_FALSE(pads_would_copy_process());  // the D-Bus library starts no bus either
     }
     const Variable display("DISPLAY", ":77");
     CHECK(pads_would_copy_process());

@@ -1,4 +1,4 @@
-// A sound device as SDL has it: what is played on it, and on which channels.
+// The samples that a stream plays on SDL's sound devices, and on which channels.
 #include "app/sound/sound_stream.hpp"
 
 #include <algorithm>
@@ -24,11 +24,11 @@ using namespace dibhr::test;
 
 namespace {
 
-/// SDL's audio that is written into files, each called as its device.
+/// SDL's audio driver that writes files, each named like its device.
 class DiskAudio {
   public:
     DiskAudio() {
-        SDL_LogSetAllPriority(SDL_NUM_LOG_PRIORITIES);  // it warns of itself
+        SDL_LogSetAllPriority(SDL_NUM_LOG_PRIORITIES);  // hides this driver's warning
         REQUIRE(SDL_AudioInit("disk") == 0);
     }
     ~DiskAudio() {

@@ -1,4 +1,4 @@
-// Requests to end and the crash, each in a child process that holds nothing but what handles them.
+// Shutdown requests and crashes, each in a child process that contains only their handlers.
 #include "app/window/ending.hpp"
 
 #include <sys/resource.h>
@@ -33,8 +33,8 @@ struct HowItEnded {
     std::string errors{};
 };
 
-/// Runs in a process of its own, which begins with `life` and tells by one byte that it may be
-/// disturbed.
+/// Runs `life` in a process of its own, which writes one byte when it is ready for the test's
+/// signals.
 class Child {
   public:
     using Life = std::function<int(int told)>;
@@ -91,7 +91,7 @@ void tell(int told) {
     if (::write(told, "!", 1) != 1) ::_exit(99);
 }
 
-/// A program that does what it is asked.
+/// A program that shuts down when requested.
 int end_when_asked(int told) {
     LastWords words;
     Ending ending(words);
@@ -100,7 +100,7 @@ int end_when_asked(int told) {
     return asked && ending.without_force() ? 0 : 98;
 }
 
-/// One that does not.
+/// A program that does not.
 int hang(int told) {
     LastWords words;
     words.doing("sleeping");
@@ -110,7 +110,7 @@ int hang(int told) {
     for (;;) ::pause();
 }
 
-/// The first thing that is done in a crash.
+/// The handler's first action in a crash.
 void say_first() noexcept {
     if (::write(STDERR_FILENO, "first, ", 7) != 7) ::_exit(97);
 }
@@ -143,7 +143,7 @@ TEST_CASE(
     (void)requests.is_repeated(begin);
     CHECK(requests.patience_left(begin) == 600ms);
     (void)requests.is_repeated(begin + 150ms);
-    CHECK(requests.patience_left(begin + 599ms + 1us) == 1ms);  // never too short a sleep
+    CHECK(requests.patience_left(begin + 599ms + 1us) == 1ms);  // rounded up
     CHECK(requests.patience_left(begin + 600ms) == 0ms);
     CHECK(requests.patience_left(begin + 5s) == 0ms);
 }
@@ -164,7 +164,7 @@ TEST_CASE("a program that hangs is ended after a signal, and says what it did", 
     Child program(hang);
     program.wait_until_told();
     program.send(SIGTERM);
-    program.send(SIGHUP);  // of the same request
+    program.send(SIGHUP);  // part of the same request
     const HowItEnded how = program.wait();
     CHECK(how.status == 1);
     CHECK(how.errors ==

@@ -1,5 +1,5 @@
-// A newcomer's first quarter of an hour in the real window: with pointer and keys alone, and
-// without settings that somebody else wrote.
+// A newcomer's first quarter of an hour in the real window: with pointer and keys only, and with
+// default settings.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -27,12 +27,12 @@ namespace {
 
 constexpr double kFrame_s = 0.05;
 constexpr double kNear_s = 1e-6;
-constexpr int kStill = 2000;  // bytes of a picture: more have changed when something happened
+constexpr int kStill = 2000;  // bytes of a picture: if more differ, the picture has changed
 constexpr double kRounding_s = 0.002;
-constexpr std::uint64_t kHeldTicks = 320;  // of a moment: more than held_moments() wants
+constexpr std::uint64_t kHeldTicks = 320;  // of a moment: more than held_moments() requires
 
-// Where the buttons stand: the first one in the panels as they are at first, by a few pixels higher
-// or lower with the fonts, the others at their end.
+// The places of the buttons: the first one in the panels as at the start, some pixels higher or
+// lower with other fonts; the others at the panels' end.
 constexpr const char* kBark = "mousemove 1063 424 click 1";
 constexpr const char* kReplayIt = "mousemove 1026 680 click 1";
 constexpr const char* kReport = "mousemove 1182 680 click 1";
@@ -51,7 +51,7 @@ class Newcomer {
     void wait_until(const std::function<bool(const Seen&)>& is_so) const {
         viewer_.wait_until(is_so);
     }
-    /// With the pointer, over what is touched.
+    /// With the pointer over the relief.
     void drag(int way_px) const {
         constexpr int kSteps = 3;
         for (int step = 0; step < kSteps; ++step)
@@ -61,7 +61,7 @@ class Newcomer {
         const std::uint64_t rows = seen().recorded_rows;
         wait_until([wanted = rows + more](const Seen& now) { return now.recorded_rows >= wanted; });
     }
-    /// The video that stands still goes on to its next frame, and stands still there.
+    /// Steps the paused video to its next frame.
     void step() const {
         const double still_s = seen().media_s;
         act("key period");
@@ -71,7 +71,7 @@ class Newcomer {
         });
         wait_for_rows(kHeldTicks);
     }
-    /// To their end, whatever they hold.
+    /// To their end, whatever their length.
     void scroll_panels() const {
         act("mousemove 1110 640");
         for (int k = 0; k < 10; ++k) desk_.press("click 5 click 5 click 5");
@@ -87,7 +87,7 @@ class Newcomer {
         return std::count(tenths.begin(), tenths.end(), true);
     }
 
-    /// Files of that ending that the window wrote.
+    /// The files with that extension that the window wrote.
     [[nodiscard]] std::vector<std::string> made(const std::string& ending) const {
         std::vector<std::string> names = names_in(folder_.path());
         std::erase_if(names, [&ending](const std::string& name) {
@@ -96,7 +96,7 @@ class Newcomer {
         return names;
     }
 
-    /// What the relief looks like now, from below the notices' corner to above the time line: RGB.
+    /// The picture of the relief, from below the corner of notices to above the time line: RGB.
     [[nodiscard]] std::string picture() const {
         constexpr std::size_t kDisplay = 1280;
         constexpr std::size_t kRelief = 930;
@@ -106,7 +106,7 @@ class Newcomer {
         return relief;
     }
 
-    /// Waits until it looks otherwise than then.
+    /// Waits until the picture differs from that one.
     void see_change_from(const std::string& before) const {
         REQUIRE(eventually([&] { return changed(before, picture()) > kStill; },
                            std::chrono::minutes(1)));
@@ -145,7 +145,7 @@ void make_waves(const TemporaryFolder& folder) {
               "-map 0 -c:v ffv1 wave_color.mkv -map 1 -c:v ffv1 wave_depth.mkv");
 }
 
-/// Of a part of a video, not of all of it.
+/// Of a part of a video.
 std::ptrdiff_t laps_of_a_part(const std::vector<Row>& rows) {
     std::ptrdiff_t laps = 0;
     for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -197,7 +197,7 @@ TEST_CASE(
     newcomer.see_change_from(newcomer.picture());  // the sample plays by itself
 
     newcomer.act(kBark);
-    // What moves in the video may have come against the hand before it moves itself.
+    // Something in the video may have touched the hand before the hand moves.
     const std::ptrdiff_t before = newcomer.heard();
     newcomer.act(kPress);
     newcomer.wait_until([](const Seen& now) { return now.contact; });
@@ -217,7 +217,7 @@ TEST_CASE(
         return now.dialog_typing && !now.dialog_reads && now.dialog_entries > 0;
     });
     for (std::uint64_t k = newcomer.seen().dialog_entries; k > 0; --k) newcomer.act("key Down");
-    newcomer.act("key Return");  // the last of the folder
+    newcomer.act("key Return");  // opens the folder's last entry
     newcomer.wait_until(
         [](const Seen& now) { return now.surface && now.file.str().ends_with("wave_color.mkv"); });
 
@@ -250,7 +250,7 @@ TEST_CASE(
     newcomer.act(kReplayIt);
     newcomer.wait_until([](const Seen& now) { return now.replays && now.surface; });
 
-    // In its last second the hand drags. It stands still there, and is computed again without
+    // In the last second the hand drags. The replay pauses there, and is computed again without
     // friction.
     newcomer.act("key space key End");
     newcomer.wait_until(
@@ -270,7 +270,7 @@ TEST_CASE(
     const std::int64_t explained = newcomer.seen().tick;
     CHECK(eventually(
         [&] {
-            newcomer.act("key period");  // behind an update's last step comes the next update
+            newcomer.act("key period");  // after an update's last step, to the next update
             return newcomer.seen().explained_steps > 0 || newcomer.seen().tick > explained + 1;
         },
         std::chrono::minutes(1)));

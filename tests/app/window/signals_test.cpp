@@ -1,4 +1,4 @@
-// Signals that end the viewer in order, whichever thread they reach.
+// Signals that shut the viewer down in order, whichever thread they reach.
 #include "app/window/signals.hpp"
 
 #include <unistd.h>
@@ -17,7 +17,7 @@ using dibhr::test::eventually;
 
 namespace {
 
-/// Sleeps until it is asked to stop.
+/// Sleeps until a stop is requested.
 void idle(const std::stop_token& stop) {
     std::mutex mutex;
     std::condition_variable_any never;
@@ -25,7 +25,7 @@ void idle(const std::stop_token& stop) {
     never.wait(lock, stop, [] { return false; });
 }
 
-/// Sent to this process, and not yet taken by a thread.
+/// Whether a signal is pending for this process.
 bool is_pending(int signal) {
     sigset_t pending;
     return sigpending(&pending) == 0 && sigismember(&pending, signal) == 1;
@@ -35,7 +35,7 @@ bool is_pending(int signal) {
 
 TEST_CASE("a wish to end arrives even when a thread that was there before takes the signal",
           "[signals]") {
-    const std::jthread foreign(idle);  // holds nothing back
+    const std::jthread foreign(idle);  // blocks no signal
     EndingSignals signals;
     const int signal = GENERATE(as<int>{}, SIGTERM, SIGINT, SIGHUP, SIGQUIT);
     CAPTURE(signal);
