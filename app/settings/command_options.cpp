@@ -1,4 +1,4 @@
-// Command line options that several commands share: made from the one table of parameters.
+// Command line options that several commands share, made from the table of parameters.
 #include "app/settings/command_options.hpp"
 
 #include <CLI/CLI.hpp>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// "N s/m" -> "N_S_PER_M", a ratio -> "MU": what stands behind the option in the help.
+/// Placeholder of the option in the help: "N s/m" -> "N_S_PER_M", a ratio -> "MU".
 std::string placeholder_of(const TouchNumber& option) {
     if (option.unit.empty()) return "MU";
     std::string name;
@@ -55,7 +55,7 @@ auto value_called(const std::string& name, const Values& values, const char* opt
 
 constexpr std::string_view kAutomatic = "auto";
 
-/// --NAME with what `read` makes of the text, or auto, which leaves `fact` empty.
+/// --NAME: stores read(text) in `fact`; auto leaves `fact` empty.
 template <typename Fact, typename Read>
 void add_fact_option(CLI::App& app, const char* name, std::optional<Fact>& fact, const Read& read,
                      const char* type, const std::string& lacking, const std::string& help) {
@@ -100,7 +100,7 @@ double parse_number(const std::string& option, const std::string& text, double l
     return *value;
 }
 
-/// The shape on the picture plane, and how large a pixel of it is.
+/// Parameters of the surface: its shape, texture and pixel pitch.
 bool shapes_surface(TouchTopic topic) {
     return topic == TouchTopic::shape || topic == TouchTopic::texture;
 }
@@ -109,7 +109,7 @@ std::function<void(double)> taken(const TouchNumber& option, GivenParameters& gi
     return [&option, &given](double value) { given.numbers.emplace_back(&option, value); };
 }
 
-/// Whether auto was given for one of the numbers that can be fitted to a media; null: another.
+/// The flag for auto of a number that can be fitted to the media; null: a number that cannot.
 bool* fitted(const TouchNumber& option, GivenParameters& given) {
     TouchParameters any;
     if (&option == &number_of(any.shape.relief_px, any)) return &given.fit_relief;
@@ -144,7 +144,7 @@ void add_number_of_touch(CLI::App& app, const TouchNumber& option, GivenParamete
 void add_choice_of_touch(CLI::App& app, const TouchChoice& choice, GivenParameters& given,
                          const char* otherwise) {
     const std::string name = "--" + std::string(choice.name);
-    if (app.get_option_no_throw(name) != nullptr) return;  // it takes several of the words
+    if (app.get_option_no_throw(name) != nullptr) return;  // it takes several values
     add_choice_option(
         app, name, choice.names(), std::string(choice.help) + ": " + listed(choice.names()),
         [&choice, &given](const std::string& word) { given.words.emplace_back(&choice, word); })
@@ -199,7 +199,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                        "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
                if (request.preset == CleaningPreset::raw) request.raw_depth = true;
                if (request.preset == CleaningPreset::automatic)
-                   request.depth.cleaning.emplace();  // whatever a sidecar says
+                   request.depth.cleaning.emplace();  // overrides a sidecar
            },
            "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
            "sensor (also silhouettes and noise), auto (chosen by the noise of the clip)")
@@ -313,7 +313,7 @@ void GivenParameters::fit(const MediaDescription& media, bool raw,
 DepthRequest TouchRequest::depth_request() const {
     DepthRequest request = raw_depth ? DepthRequest{} : usual_depth_request();
     request.command_line = depth;
-    if (raw_depth) {  // nothing is done to it in any case
+    if (raw_depth) {  // raw depth is never cleaned
         request.command_line.cleaning.reset();
         request.command_line.finger_mm.reset();
     }
@@ -450,7 +450,7 @@ void add_shape_options(CLI::App& app, TouchRequest& request) {
 }
 
 void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise) {
-    // The range is that of the coefficients it stands for.
+    // The range is that of the two coefficients.
     TouchParameters any;
     const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
     add_number_option(

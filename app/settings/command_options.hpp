@@ -30,8 +30,7 @@ class UsageError : public Error {
     using Error::Error;
 };
 
-/// The table's entries and what is laid over the surface, as the command line gave them: they beat
-/// what a settings file or the program's defaults say.
+/// Parameters and material that the command line gives; they override settings and defaults.
 struct GivenParameters {
     std::optional<Material> material{};  ///< --material; numbers given by themselves win
     std::string bump{};                  ///< --bump IMAGE, instead of the material's; empty: none
@@ -42,18 +41,18 @@ struct GivenParameters {
     bool fit_relief{false};            ///< --relief auto
     bool fit_pitch{false};             ///< --pixel-pitch auto
 
-    /// What was given for that entry of touch_numbers(); null: nothing.
+    /// The value given for that entry of touch_numbers(); null: none.
     [[nodiscard]] const double* value_of(const TouchNumber& number) const;
-    /// A damping of its own, instead of what the device needs.
+    /// Whether a damping is given, in place of the one that the device needs.
     [[nodiscard]] bool gives_damping() const;
     /// The file of --bump or of the material; empty: none.
     [[nodiscard]] std::filesystem::path bump_file() const;
-    /// What it holds; null: none. Throws InputError.
+    /// The bump map of bump_file(); null: none. Throws InputError.
     [[nodiscard]] std::shared_ptr<const BumpMap> read_bumps() const;
     /// Throws UsageError when --dynamic-friction ends above the static coefficient.
     void apply(TouchParameters& parameters) const;
-    /// The relief and the pitch that were not given as numbers are the media's. `raw`: only those
-    /// that were given as auto.
+    /// Fits relief and pixel pitch to the media where they are not given as numbers. `raw`: only
+    /// where they are given as auto.
     void fit(const MediaDescription& media, bool raw, TouchParameters& parameters) const;
 
   private:
@@ -61,7 +60,7 @@ struct GivenParameters {
     void apply_texture(TouchParameters& parameters) const;
 };
 
-/// What all commands that compute forces take.
+/// Options of all commands that compute forces.
 struct TouchRequest {
     GivenParameters given{};
     bool raw_depth{false};                    ///< --raw-depth, or --cleaning raw
@@ -72,46 +71,46 @@ struct TouchRequest {
     std::optional<bool> maps{};               ///< --maps
 
     [[nodiscard]] DepthRequest depth_request() const;
-    /// By what is no number of the touch: another bump map, cleaning, fingertip or in-betweens.
+    /// Whether an option changes the surface: bump map, cleaning, fingertip, in-betweens, maps.
     [[nodiscard]] bool asks_for_another_surface() const;
-    /// For a surface of these parameters, in which a finger has its size; of a media where that
-    /// says which finger.
+    /// Cleaning for a surface of these parameters, which give the fingertip's size in pixels. Unset
+    /// options come from the media's sidecar.
     [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters,
                                            const MediaDescription& media = {}) const;
-    /// What was painted on the recording is felt.
+    /// Whether the touch maps beside the recording are used.
     [[nodiscard]] bool feels_maps() const noexcept { return maps.value_or(true); }
-    /// The maps beside a media that are to be felt; null: none. Throws InputError.
+    /// The maps beside the media that are used; null: none. Throws InputError.
     [[nodiscard]] std::shared_ptr<const TouchMaps> read_maps(const MediaDescription& media) const;
 };
 
 /// A finger of that radius on a surface of these parameters.
 [[nodiscard]] Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters);
 
-/// So rough that it is felt: of a bump map that nobody gave a roughness.
+/// Sets a perceptible roughness where a bump map has none.
 void make_felt(TouchParameters& parameters);
 
-/// That a roughness is given, but no bump map that it could scale, as a sentence; or empty.
+/// Warning that a roughness is given without a bump map to scale; empty: no warning.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
 
-/// --NAME: a finite decimal number in [lowest, highest], which is added to `help`, and nothing
-/// else, given to `take`.
+/// --NAME: passes a finite decimal number in [lowest, highest] to `take`, and refuses all else.
+/// The range is added to `help`.
 CLI::Option* add_number_option(CLI::App& app, const std::string& name, double lowest,
                                double highest, const std::string& help,
                                const std::function<void(double)>& take);
 
-/// --NAME on|off, which is given to `take`.
+/// --NAME on|off: passes the value to `take`.
 CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
                                const std::function<void(bool)>& take);
 /// The same into `on`, which must outlive the parsing of `app`.
 CLI::Option* add_on_off_option(CLI::App& app, const std::string& name, const std::string& help,
                                std::optional<bool>& on);
 
-/// --NAME with one of the names, the first unless it is given; another is refused.
+/// --NAME with one of `names`; the first is the default.
 CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
                                const std::vector<std::string>& names, const std::string& help,
                                const std::function<void(const std::string&)>& take);
 
-/// The same of an enumeration's own.
+/// The same with the names of an enumeration.
 template <HasWords Enum>
 CLI::Option* add_words_option(CLI::App& app, const std::string& name, const std::string& help,
                               const std::function<void(Enum)>& take) {
@@ -133,8 +132,8 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms);
 /// none is given.
 CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& formats);
 
-/// --near, --depth-unit, --depth-scale, --depth-range and --no-data: what levels are, wherever they
-/// stand. `depth` must outlive the parsing of `app`.
+/// --near, --depth-unit, --depth-scale, --depth-range and --no-data: what depth levels mean.
+/// `depth` must outlive the parsing of `app`.
 void add_level_options(CLI::App& app, DepthStatement& depth);
 
 /// The same, --packing, --depth-code, --geometry, --intrinsics and --registration. `depth` must
@@ -146,8 +145,8 @@ void add_depth_options(CLI::App& app, DepthStatement& depth);
 /// `app`.
 void add_shape_options(CLI::App& app, TouchRequest& request);
 
-/// The same, --friction and the other entries of the table, but those whose option the command has
-/// already. `otherwise`: what words and switches are that are not given; null: their defaults.
+/// The same, --friction and the other entries of the table, except options that the command already
+/// has. The last argument: default shown for choices and switches; null: their own defaults.
 void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise = nullptr);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// What protects the hand less than usual, and the record of what was agreed to: a line each.
+// Finds values that protect the hand less than the defaults; the record of consent, a line each.
 #include "app/settings/consent.hpp"
 
 #include <fcntl.h>
@@ -39,7 +39,7 @@ std::string key_of_command(const std::string& command) {
     return "run " + escaped_text(command);
 }
 
-/// It, or a value that protects less still.
+/// Whether the record has consent to this value, or to one that protects even less.
 bool was_agreed(const std::set<std::string>& lines, const Setting& setting, Less less) {
     const std::string key = key_of(setting);
     if (lines.contains(key + text_of(setting))) return true;
@@ -51,7 +51,7 @@ bool was_agreed(const std::set<std::string>& lines, const Setting& setting, Less
     });
 }
 
-/// For a person: on, off, a word, a number.
+/// The value as text for the user: on, off, a name, a number.
 std::string value_in_words(const Setting& setting) {
     if (const bool* const* on = std::get_if<bool*>(&setting.value)) return **on ? "on" : "off";
     std::string text = text_of(setting);
@@ -63,7 +63,7 @@ bool is_of(const Doubt& doubt, const Setting& setting) {
     return doubt.table == setting.table && doubt.name == setting.name;
 }
 
-/// Threads and programs that change a file of it take turns; without one where it cannot be locked.
+/// Locks a folder against other threads and programs; no lock where the folder cannot be opened.
 class FolderLock {
   public:
     explicit FolderLock(const fs::path& folder)
@@ -144,7 +144,7 @@ std::set<std::string> Consent::agreed() const {
 
 void Consent::add(const std::vector<std::string>& lines) const {
     constexpr std::string_view kHead = "# Agreed to on this machine. Delete a line to be asked.";
-    std::error_code failed;  // is told when the file is opened
+    std::error_code failed;  // reported when the file is opened
     make_folders(record_.parent_path(), failed);
     const FolderLock alone(record_.parent_path());
     std::set<std::string> all = agreed();

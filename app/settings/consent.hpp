@@ -1,5 +1,5 @@
-// What files of others get only when a person here agrees to it: values that protect the hand less,
-// and commands that are run. What was agreed to is kept in this installation's own record.
+// Consent to what a file of others can request: values that protect the hand less than the
+// defaults, and commands to run. It is recorded for this installation.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@
 
 namespace dibhr {
 
-/// A setting that protects the hand less than usual, to which nobody has agreed.
+/// A setting that protects the hand less than its default, without the user's consent.
 struct Doubt {
-    std::string_view table{}, name{};  ///< of the Setting
-    std::string_view what{};           ///< "Max force [N]"
-    std::string usual{}, asked{};      ///< "4" and "8"
-    std::string record{};              ///< its line in the record
+    std::string_view table{}, name{};  ///< names of the Setting
+    std::string_view what{};           ///< for the user: "Max force [N]"
+    std::string usual{}, asked{};      ///< default and requested value: "4" and "8"
+    std::string record{};              ///< line that consent adds to the record
 };
 
 /// $XDG_STATE_HOME/dibhr/agreed, or ~/.local/state/dibhr/agreed.
@@ -28,16 +28,16 @@ class Consent {
   public:
     explicit Consent(std::filesystem::path record = consent_path()) : record_(std::move(record)) {}
 
-    /// The usual value takes the place of each doubted one. Those.
+    /// Replaces every value without consent by its default. Returns the replaced values.
     [[nodiscard]] std::vector<Doubt> hold(Settings& settings) const;
-    /// The same where nobody can be asked: a warning on stderr tells it. `file`: theirs.
+    /// The same without a window to ask in: prints a warning. `file`: where the settings come from.
     void hold_and_warn(Settings& settings, const std::filesystem::path& file) const;
     [[nodiscard]] bool knows(const std::string& command) const;
 
-    // A person's word. These throw InputError where it cannot be kept.
+    // Record the user's consent. Throw InputError where the record cannot be written.
     void agree(const std::vector<Doubt>& doubts) const;
     void agree(const std::string& command) const;
-    /// By the panels: every value that differs between the two.
+    /// Consent by use of the panels: to every value that differs between the two.
     void agree_to_changes(Settings before, Settings now) const;
 
   private:
@@ -47,13 +47,13 @@ class Consent {
     std::filesystem::path record_;
 };
 
-/// The values of these settings alone.
+/// Copies the values of these settings only.
 void copy_doubted(const std::vector<Doubt>& doubts, Settings from, Settings& to);
 
-/// Those that a person has changed meanwhile are none any more. `now`: since hold().
+/// Removes the settings that the user has changed from their default since the replacement.
 void drop_changed(std::vector<Doubt>& doubts, Settings now);
 
-/// For a warning.
+/// The text of a warning about these settings of `file`; empty: there are none.
 [[nodiscard]] std::string in_words(const std::vector<Doubt>& doubts,
                                    const std::filesystem::path& file);
 

@@ -1,4 +1,4 @@
-// The depth estimators that a person has installed, as the settings file has them.
+// The depth estimators that the user has entered in the settings file.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,8 @@
 
 namespace dibhr {
 
-/// A line of the table [estimators]: midas = "python run.py --input_path {frames} ...", or with
-/// what its numbers mean: depth-pro = { command = "...", unit = "m" }.
+/// A line of the table [estimators]: midas = "python run.py --input_path {frames} ...", or with the
+/// meaning of its numbers: depth-pro = { command = "...", unit = "m" }.
 struct Estimator {
     std::string name{};
     std::string command{};
@@ -20,17 +20,17 @@ struct Estimator {
     bool operator==(const Estimator&) const = default;
 };
 
-/// The one of that name; null: there is none.
+/// The estimator of that name; null: there is none.
 [[nodiscard]] const Estimator* estimator_called(std::span<const Estimator> estimators,
                                                 const std::string& name);
 
-/// As the settings file has it: a line. A name that is no bare key is none of its.
+/// The estimator as a line of the settings file. Its name must be a bare TOML key.
 [[nodiscard]] std::string toml_of(const Estimator& estimator);
 
-/// How a person gets one, as a sentence.
+/// A sentence that says how to add an estimator.
 [[nodiscard]] std::string how_to_have_an_estimator();
 
-/// Where estimated depth is kept: $XDG_CACHE_HOME/dibhr/depth, or ~/.cache/dibhr/depth.
+/// The cache of estimated depth: $XDG_CACHE_HOME/dibhr/depth, or ~/.cache/dibhr/depth.
 [[nodiscard]] std::filesystem::path depth_cache_path();
 
 }  // namespace dibhr

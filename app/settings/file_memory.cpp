@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Nothing: the file has no number of that name in the range.
+/// The number of that name; nothing: missing or out of range.
 std::optional<double> number_within(const toml::table& table, const char* name, double lowest,
                                     double highest) {
     const auto read = table[name].value<double>();
@@ -49,7 +49,7 @@ FileMemory read_memory(const fs::path& folder, const fs::path& media) try {
 
 void keep_memory(const fs::path& folder, const fs::path& media, const FileMemory& memory) {
     const fs::path file = kept_choice_of(folder, media);
-    std::error_code failed;  // is told when the file is opened
+    std::error_code failed;  // reported when the file is opened
     if (memory == FileMemory{}) {
         fs::remove(file, failed);
         return;

@@ -1,4 +1,4 @@
-// What is remembered of a file that was shown, for the next time: its relief, the view, the moment.
+// What is saved about a shown file for the next time: relief, view, position.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace dibhr {
 
-/// Nothing of what nobody changed.
+/// Only values that the user changed.
 struct FileMemory {
-    std::optional<double> relief_px{};  ///< a person's own, instead of the one that fits
+    std::optional<double> relief_px{};  ///< the user's; nothing: fitted to the media
     std::string view{};  ///< as text_of(Camera::View) has it; empty: the whole relief
-    double at_s{0.0};    ///< where it was left [s]
+    double at_s{0.0};    ///< playing position when it was closed [s]
 
     bool operator==(const FileMemory&) const = default;
 };
@@ -19,12 +19,12 @@ struct FileMemory {
 /// $XDG_STATE_HOME/dibhr/files, or ~/.local/state/dibhr/files.
 [[nodiscard]] std::filesystem::path file_memories_path();
 
-/// Of that media, from the folder; nothing where there is none or it cannot be understood.
+/// The memory of that media from the folder; empty where there is none or it cannot be parsed.
 [[nodiscard]] FileMemory read_memory(const std::filesystem::path& folder,
                                      const std::filesystem::path& media);
 
-/// Whole or not at all; of a memory of nothing no file remains. Throws InputError when the folder
-/// cannot be written.
+/// Writes the file whole or not at all; removes it for an empty memory. Throws InputError when the
+/// folder cannot be written.
 void keep_memory(const std::filesystem::path& folder, const std::filesystem::path& media,
                  const FileMemory& memory);
 

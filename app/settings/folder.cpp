@@ -28,7 +28,7 @@ bool is_hidden(const fs::path& file) {
 constexpr std::string_view kSessionEnding = ".dibhr";
 constexpr std::array<std::string_view, 3> kBagEndings{".mcap", ".db3", ".bag"};
 
-/// Of ROS.
+/// Whether it is a ROS bag.
 bool is_bag(const fs::path& file) {
     const std::string ending = lower_case(file.extension().string());
     return std::ranges::find(kBagEndings, ending) != kBagEndings.end();
@@ -40,7 +40,7 @@ FileKind kind_of(const fs::directory_entry& entry) {
     const fs::path& file = entry.path();
     if (lower_case(file.extension().string()) == kSessionEnding) return FileKind::session;
     if (named_video(file) || is_bag(file)) return FileKind::video;
-    if (names_touch_map(file)) return FileKind::other;  // painted on a recording
+    if (names_touch_map(file)) return FileKind::other;  // a touch map painted on a recording
     return named_picture(file) ? FileKind::picture : FileKind::other;
 }
 
@@ -68,7 +68,7 @@ bool is_film(const FolderEntry& entry) {
     return entry.kind == FileKind::video || entry.kind == FileKind::picture;
 }
 
-/// Depth goes into the row of its colour: of the same subject, of the same kind if there is one.
+/// Moves each depth file into the entry of its colour file: same subject and same kind.
 void join_pairs(std::vector<FolderEntry>& entries) {
     std::map<std::string, std::vector<FolderEntry*>> colours;
     for (FolderEntry& entry : entries) {

@@ -1,4 +1,4 @@
-// The table of what a grip's buttons can do.
+// The table of the actions of device buttons.
 #include "app/settings/grip_buttons.hpp"
 
 #include <array>

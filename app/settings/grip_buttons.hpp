@@ -1,4 +1,4 @@
-// What the jobs of a grip's buttons are called, and what they ask of the program.
+// Names of the actions of device buttons, and the program's actions that they perform.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,9 @@
 
 namespace dibhr {
 
-/// One thing that a button can do.
+/// An action that a button can have.
 struct ButtonJob : Word<ButtonAction> {
-    std::optional<Action> perform{};  ///< nothing: the device itself does it, or nobody
+    std::optional<Action> perform{};  ///< nothing: the device does it, or there is no action
 };
 
 /// All of them, in the order of the enumeration.

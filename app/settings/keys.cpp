@@ -1,4 +1,4 @@
-// The table of keys, a person's own in it, and looking things up there.
+// The table of keys, the user's own keys in it, and look-up.
 #include "app/settings/keys.hpp"
 
 #define GLFW_INCLUDE_NONE
@@ -15,7 +15,7 @@ namespace dibhr {
 
 namespace {
 
-/// Acts once at a press, and not while something is typed; `keys`: the standard ones.
+/// Acts once at a press, and not while text is typed. `keys`: the default keys.
 template <typename... Keys>
 constexpr KeyJob job(Action action, std::string_view name, std::string_view group,
                      std::string_view help, Keys... keys) {
@@ -118,7 +118,7 @@ constexpr KeyJob kJobs[] = {
 
 static_assert(std::size(kJobs) == kActions);
 
-/// A key that types nothing, or a blank.
+/// A key that types no character.
 struct NamedKey {
     std::string_view name;
     int code;
@@ -163,7 +163,7 @@ bool is_letter(int c) {
     return lower_case(c) >= 'a' && lower_case(c) <= 'z';
 }
 
-/// "pageup", of whatever way to write it.
+/// A name in lower case without blanks: "pageup".
 std::string plain(std::string_view name) {
     std::string letters;
     for (const char c : name)
@@ -171,14 +171,14 @@ std::string plain(std::string_view name) {
     return letters;
 }
 
-/// Takes `prefix` away from what is already plain(); false: it does not begin so.
+/// Removes `prefix` from a text made by plain(); false: the text does not begin with it.
 bool takes_away(std::string_view& text, std::string_view prefix) {
     if (text.size() <= prefix.size() || !text.starts_with(plain(prefix))) return false;
     text.remove_prefix(prefix.size());
     return true;
 }
 
-/// The only character of a text in UTF-8 that can be typed and seen; nothing: it is none, or more.
+/// The character of a UTF-8 text of one visible character; nothing: another text.
 std::optional<int> only_character(std::string_view text) {
     constexpr int kFirstSeen = 0x21;
     constexpr int kDelete = 0x7F;
@@ -186,7 +186,7 @@ std::optional<int> only_character(std::string_view text) {
     if (text.empty()) return std::nullopt;
     const auto first = static_cast<std::uint8_t>(text.front());
     const std::size_t bytes = first < 0x80 ? 1 : first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    const bool amid = (first & 0xC0) == 0x80;  // of a character
+    const bool amid = (first & 0xC0) == 0x80;  // a continuation byte
     if (amid || text.size() != bytes) return std::nullopt;
     int code = bytes == 1 ? first : first & (0xFF >> (bytes + 1));
     for (const char next : text.substr(1))
@@ -208,7 +208,7 @@ std::string in_utf8(int code) {
     return text;
 }
 
-/// GLFW's key that types a character by itself, on a keyboard from the United States; 0: none does.
+/// GLFW's key that types a character by itself on a US keyboard; 0: none does.
 int key_typing(int character) {
     constexpr std::string_view kOthers = " ',-./0123456789;=[\\]`";
     const bool other = character > 0 && character < 0x80 &&
@@ -216,24 +216,24 @@ int key_typing(int character) {
     return is_letter(character) || other ? upper_case(character) : 0;
 }
 
-/// With Ctrl a key types nothing.
+/// The key of a character. With Ctrl it is GLFW's key, as nothing is typed then.
 std::optional<Key> character_key(int character, bool control, bool shift) {
     if (control) {
         const int code = key_typing(character);
         return code != 0 ? std::optional(Key{code, false, true, shift}) : std::nullopt;
     }
-    // With Shift, others type another character.
+    // With Shift, keys of other characters type another character.
     const bool one = !shift || is_letter(character) || character == ' ';
     return one ? std::optional(Key{character, true, false, shift}) : std::nullopt;
 }
 
-/// GLFW's key to be looked at while it is down; 0: that cannot be.
+/// GLFW's key code to check whether the key is held; 0: it cannot be checked.
 int held_code(const Key& key) {
     if (key.control || key.shift) return 0;
     return key.typed ? key_typing(key.code) : key.code;
 }
 
-/// A text field that has the keyboard takes it.
+/// Whether a text field with the keyboard uses this key itself.
 bool edits_text(const Key& key) {
     constexpr int kEditing[] = {GLFW_KEY_ENTER,  GLFW_KEY_TAB,  GLFW_KEY_BACKSPACE, GLFW_KEY_INSERT,
                                 GLFW_KEY_DELETE, GLFW_KEY_LEFT, GLFW_KEY_RIGHT,     GLFW_KEY_UP,
@@ -255,15 +255,15 @@ const KeyJob* job_called(std::string_view name) {
     return found == std::end(kJobs) ? nullptr : found;
 }
 
-/// Takes the force off whatever else is wished for, also with Shift.
+/// F8, which always takes the force off, also with Shift.
 bool is_kept_for_force_off(const Key& key) {
     return !key.typed && key.code == GLFW_KEY_F8 && !key.control;
 }
 
-/// Entries of a person's own that can be.
+/// The valid entries of the user's own keys.
 class Wishes {
   public:
-    /// What the entry lacks; empty: nothing, and it is taken.
+    /// What is wrong with the entry; empty: valid, and added.
     std::string take(const OwnKeys& entry) {
         const KeyJob* const job = job_called(entry.action);
         if (job == nullptr) return "is not an action: dibhr help keys lists them";
@@ -281,7 +281,7 @@ class Wishes {
         return {};
     }
 
-    /// Of an action, for good.
+    /// The final keys of an action.
     [[nodiscard]] std::vector<Key> keys_for(const KeyJob& job) const {
         const auto& own = own_[static_cast<std::size_t>(job.action)];
         std::vector<Key> keys;
@@ -308,7 +308,7 @@ class Wishes {
         return {};
     }
 
-    /// Whose own it is; null: nobody's.
+    /// The action for which the user has chosen this key; null: none.
     [[nodiscard]] const KeyJob* owner_of(const Key& key) const {
         for (const KeyJob& job : kJobs) {
             const auto& own = own_[static_cast<std::size_t>(job.action)];
@@ -383,7 +383,7 @@ std::string KeyTable::in_brackets(Action action) const {
     const std::string name = name_for(action);
     if (name.empty()) return {};
     const bool sign = name.size() == 1 && !is_letter(name.front());
-    const char* const gap = sign ? " " : "";  // a lone "." would be lost
+    const char* const gap = sign ? " " : "";  // a "." alone is hard to see
     return " (" + (gap + name) + gap + ")";
 }
 

@@ -1,5 +1,5 @@
-// The one table of keys: it drives what a key does, the help sheet, and every word that names a
-// key; and a person's own keys for the same actions.
+// The table of keys, for key actions, the help sheet and every text that names a key; and the
+// user's own keys for the same actions.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace dibhr {
 
-/// What a key can ask for.
+/// What a key can do.
 enum class Action {
     play_or_pause,
     step_forward,
@@ -71,8 +71,8 @@ inline constexpr std::size_t kActions = static_cast<std::size_t>(Action::quit) +
 
 /// One key, alone or with others that are held down.
 struct Key {
-    /// Of a typed one its character (Unicode; of Latin letters the small one), which is where the
-    /// person's layout has it; else GLFW's.
+    /// `typed`: the character (Unicode; Latin letters in lower case), wherever the layout has it.
+    /// Else GLFW's key code.
     int code{0};
     bool typed{false};
     bool control{false};
@@ -81,44 +81,44 @@ struct Key {
     bool operator==(const Key&) const = default;
 };
 
-/// As the help sheet writes it: "Space", "Ctrl+Shift+F12", "Page up", "[", "G"; capital or small,
-/// with or without blanks. Nothing: no key is called so.
+/// The key of a name as on the help sheet: "Space", "Ctrl+Shift+F12", "Page up", "[", "G"; in any
+/// case, with or without blanks. Nothing: no key has that name.
 [[nodiscard]] std::optional<Key> key_called(std::string_view name);
 [[nodiscard]] std::string name_of(const Key& key);
 
-/// What a key can do, and the keys for it where a person has none of his own.
+/// An action of keys, and its default keys.
 struct KeyJob {
     Action action;
     std::string_view name;   ///< "play-or-pause", in the settings file
     std::string_view group;  ///< heading on the help sheet
     std::string_view help;
-    std::array<std::string_view, 3> standard{};  ///< as for key_called(); empty: no more
+    std::array<std::string_view, 3> standard{};  ///< default keys, as key_called() takes them
     bool while_typing{
         false};           ///< also while a text field has the keyboard, unless it is typed there
-    bool repeats{false};  ///< acts again and again while its key is down
-    bool held{false};     ///< lasts as long as its key is down
+    bool repeats{false};  ///< repeats while its key is down
+    bool held{false};     ///< active as long as its key is down
 };
 
-/// One for each action, as the help sheet has them: a group's are neighbours.
+/// One row for each action, in the help sheet's order: the actions of a group are neighbours.
 [[nodiscard]] std::span<const KeyJob> key_jobs();
 [[nodiscard]] const KeyJob& job_of(Action action);
 
-/// What a person wants for one action, as it was written.
+/// The user's keys for one action, as written in the settings file.
 struct OwnKeys {
     std::string action{};             ///< KeyJob::name
-    std::vector<std::string> keys{};  ///< none: no key is to do it
+    std::vector<std::string> keys{};  ///< empty: no key for this action
 
     bool operator==(const OwnKeys&) const = default;
 };
 
-/// What the keys do: a person's own, which are lost to the actions that had them, else the usual
-/// ones. F8 always takes the force off, with and without Shift.
+/// The keys of all actions: the user's own, which are taken from the actions that had them, else
+/// the defaults. F8 always takes the force off, with and without Shift.
 class KeyTable {
   public:
     KeyTable() : KeyTable(std::span<const OwnKeys>{}) {}
-    /// Of two entries for one key the first one holds. An entry that says what cannot be leaves its
-    /// action as it was, with a word to `complaints`, one for each entry: what it lacks and what to
-    /// do, or nothing.
+    /// Of two entries for one key the first one counts. An invalid entry leaves its action with the
+    /// default keys. `complaints` gets a text for each entry: what is wrong and what to do; empty:
+    /// valid.
     explicit KeyTable(std::span<const OwnKeys> own, std::vector<std::string>* complaints = nullptr);
 
     [[nodiscard]] const std::vector<Key>& keys_for(Action action) const {
@@ -127,15 +127,15 @@ class KeyTable {
 
     /// "Space or P", for the help sheet; "no key".
     [[nodiscard]] std::string names_for(Action action) const;
-    /// The first of them, to be told elsewhere.
+    /// The first of them, for other texts.
     [[nodiscard]] std::string name_for(Action action) const;
-    /// " (Space)", to follow what a button does; empty: it has no key.
+    /// " (Space)", to append to a button's label; empty: the action has no key.
     [[nodiscard]] std::string in_brackets(Action action) const;
 
-    /// ": Ctrl+R begins", to end a sentence with; empty: it has no key.
+    /// ": Ctrl+R begins", to append to a sentence; empty: the action has no key.
     [[nodiscard]] std::string told(Action action, std::string_view does) const;
 
-    /// GLFW's keys of an action that lasts while one of them is held.
+    /// GLFW's key codes of an action that is active while one of them is held.
     [[nodiscard]] std::vector<int> held_keys(Action action) const;
 
     /// The action of a typed character, a Unicode code point; `repeated`: its key is being held
@@ -150,16 +150,16 @@ class KeyTable {
                                                       bool shift = false) const;
 
   private:
-    /// With Shift, too, unless that is another action's.
+    /// A key also acts with Shift, unless that is the key of another action.
     [[nodiscard]] std::optional<Action> action_of(const Key& key) const;
 
     std::array<std::vector<Key>, kActions> keys_{};
 };
 
-/// What a key does in a list to choose from.
+/// What a key does in a list of choices.
 enum class ListKey { up, down, take };
 
-/// Nothing: it is for something else.
+/// Nothing: the key has no meaning in a list.
 [[nodiscard]] std::optional<ListKey> list_key(int key);
 
 }  // namespace dibhr

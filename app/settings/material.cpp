@@ -1,4 +1,4 @@
-// Reads, finds and keeps materials.
+// Reads, finds and saves materials.
 #include "app/settings/material.hpp"
 
 #include <toml++/toml.h>
@@ -30,7 +30,7 @@ namespace {
 constexpr const char* kEnding = ".toml";
 constexpr std::size_t kLongestName = 60;
 
-/// A number of the file, and what it is of the material.
+/// A number of the file, and its place in the material.
 struct Property {
     std::string_view name;
     double lowest;
@@ -244,7 +244,7 @@ MaterialNames material_names() {
     MaterialNames names{.own = toml_names_in(own_materials_folder())};
     try {
         names.shipped = toml_names_in(shipped_materials_folder());
-    } catch (const InputError&) {  // whoever asks for one of them is told
+    } catch (const InputError&) {  // reported when one of them is requested
     }
     return names;
 }

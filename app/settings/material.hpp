@@ -1,5 +1,5 @@
-// What a surface is made of, as it is felt and heard: a small TOML file beside the bump map it
-// names. Some come with the program, others a person saved.
+// Materials: friction, stiffness, texture and sound of a surface, in a small TOML file beside its
+// bump map. Some come with the program, others are the user's.
 #pragma once
 
 #include <filesystem>
@@ -14,11 +14,11 @@
 
 namespace dibhr {
 
-/// Lengths in millimetres, so that it feels the same on pictures of all sizes.
+/// Lengths are millimetres, so that a material feels the same on pictures of all sizes.
 struct Material {
-    std::string name{};                      ///< "bark"; empty: as recorded, nothing is laid over
-    std::filesystem::path map{};             ///< a grey picture; empty: as smooth as the surface
-    std::shared_ptr<const BumpMap> bumps{};  ///< what it holds
+    std::string name{};                      ///< "bark"; empty: the surface as recorded
+    std::filesystem::path map{};             ///< the bump map's file, a grey picture; empty: none
+    std::shared_ptr<const BumpMap> bumps{};  ///< content of `map`
     double width_mm{20.0};                   ///< of the map, which repeats
     double height_mm{0.0};                   ///< of its highest point over its lowest
     Friction friction{};
@@ -27,37 +27,37 @@ struct Material {
     SoundMaterial sound{};
 };
 
-/// What `--material` and the panel call the surface as it is.
+/// The name of "no material" for `--material` and the panel.
 inline constexpr std::string_view kAsRecorded = "as-recorded";
 
-/// Roughness and size of the map [px] on a surface of parameters.coupling.pixel_pitch_mm. Where
-/// that is coarser than half the map, the map is laid larger than it is: its bumps would fall
-/// between the pixels.
+/// Sets roughness and size of the bump map [px] for parameters.coupling.pixel_pitch_mm. Where that
+/// is coarser than two pixels of the map, the map is laid larger, so that no bump falls between
+/// the pixels.
 void lay_texture(const Material& material, TouchParameters& parameters);
 
-/// All that a material says of a touch.
+/// Sets all parameters that the material defines.
 void lay(const Material& material, TouchParameters& parameters);
 
-/// Whether roughness and size are as lay_texture() has them.
+/// Whether roughness and size are those of lay_texture().
 [[nodiscard]] bool has_texture(const Material& material, const TouchParameters& parameters);
 
-/// Whether all is as lay() has it.
+/// Whether all parameters of the material are unchanged.
 [[nodiscard]] bool is_made_of(const Material& material, const TouchParameters& parameters);
 
-/// What these parameters and a bump map (a file, or none) are together on a surface of so many
-/// columns, to be kept.
+/// The material, to be saved, of these parameters and a bump map (a file, or none) on a surface of
+/// that many columns.
 [[nodiscard]] Material material_of(const TouchParameters& parameters,
                                    const std::filesystem::path& map,
                                    std::shared_ptr<const BumpMap> bumps, int columns);
 
-/// With its map. Throws InputError that names the file and, where it can, the line.
+/// Reads a material and its map. Throws InputError that names the file and, where known, the line.
 [[nodiscard]] Material read_material(const std::filesystem::path& file);
 
-/// One of a person's own or, if none has the name, of those that come with the program; a file
-/// that ends in .toml; or kAsRecorded. Throws InputError that names those there are.
+/// The user's material of that name, else the program's; or a file that ends in .toml; or
+/// kAsRecorded. Throws InputError that lists the existing ones.
 [[nodiscard]] Material material_called(const std::string& name);
 
-/// Of those that come with the program, and of a person's own.
+/// Names of the program's materials and of the user's own.
 struct MaterialNames {
     std::vector<std::string> shipped{};
     std::vector<std::string> own{};
@@ -66,12 +66,11 @@ struct MaterialNames {
 /// "as-recorded, bark, ice": all that material_called() knows.
 [[nodiscard]] std::string list_of_materials();
 
-/// The folder materials/ beside the settings file, of a person's own.
+/// The folder of the user's own materials: materials/ beside the settings file.
 [[nodiscard]] std::filesystem::path own_materials_folder();
 
-/// Writes the material and, beside it, its map, in place of what had its name. Gives the file.
-/// Throws InputError when that is no name for a file or one that comes with the program, or it
-/// cannot be written.
+/// Writes the material and, beside it, its map; replaces one of the same name. Returns the file.
+/// Throws InputError when the name is no file name or is one of the program's, or writing fails.
 std::filesystem::path save_material(const Material& material);
 
 }  // namespace dibhr

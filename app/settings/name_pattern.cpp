@@ -34,7 +34,7 @@ std::string time_part(double media_s) {
            "s";
 }
 
-/// A folder's separator in it would name a folder.
+/// Replaces '/', which would name a folder.
 std::string without_separators(std::string text) {
     std::replace(text.begin(), text.end(), '/', '-');
     return text;
@@ -44,8 +44,8 @@ constexpr std::string_view kFile = "{file}";
 constexpr std::string_view kTime = "{time}";
 constexpr std::string_view kFrame = "{frame}";
 
-/// The pattern's part at that place, a placeholder or a letter, and what it stands for; empty: it
-/// is no placeholder, though it looks like one.
+/// A part of the pattern, a placeholder or one character, and its text; empty text: not a known
+/// placeholder, though it looks like one.
 struct Part {
     std::size_t length{1};
     std::string text{};

@@ -1,4 +1,4 @@
-// How pictures and clips are called: a pattern of date, file, time and frame.
+// Names of pictures and clips: a pattern with date, file, time and frame.
 #pragma once
 
 #include <cstdint>
@@ -14,19 +14,19 @@ struct NamePattern {
     bool operator==(const NamePattern&) const = default;
 };
 
-/// What goes into a name.
+/// The values of the placeholders.
 struct NameFacts {
     std::tm now{};          ///< local time
-    std::string file{};     ///< name without ending of what is shown
-    double media_s{0.0};    ///< where that is, 0 or more
-    std::int64_t frame{0};  ///< the same, from 1 on
+    std::string file{};     ///< name of the shown file, without extension
+    double media_s{0.0};    ///< playing position, 0 or more
+    std::int64_t frame{0};  ///< shown frame, from 1 on
 };
 
-/// What a pattern lacks to be one, as the end of a sentence; empty: nothing.
+/// What is wrong with a pattern, as the end of a sentence; empty: valid.
 [[nodiscard]] std::string lacking_of(const NamePattern& pattern);
 
-/// A path without ending: "dibhr-20261120-060742", "hand-00m04.631s-000139". Of a pattern that
-/// lacks nothing.
+/// A path without extension: "dibhr-20261120-060742", "hand-00m04.631s-000139". The pattern must be
+/// valid.
 [[nodiscard]] std::string name_from(const NamePattern& pattern, const NameFacts& facts);
 
 }  // namespace dibhr

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMostKept = 12;
 constexpr std::size_t kLongestLine = 16384;  // two paths and more
-constexpr const char* kOwnBytes = "\t\n";    // which end a path and a line here
+constexpr const char* kOwnBytes = "\t\n";    // end of a path, end of a line
 
 fs::path whole(const fs::path& file) {
     return file.empty() || is_live(file) ? file : fs::absolute(file).lexically_normal();
@@ -56,7 +56,7 @@ void remember(const RecentFile& opened, const fs::path& file) {
     const std::vector<RecentFile> before = read_recent_files(file);
     const std::vector<RecentFile> files = with_first(opened, before);
     if (files == before) return;
-    std::error_code failed;  // is told when the file is opened
+    std::error_code failed;  // reported when the file is opened
     make_folders(file.parent_path(), failed);
     OutputFile out(file);
     for (const RecentFile& kept : files)

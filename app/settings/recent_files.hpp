@@ -7,7 +7,7 @@
 
 namespace dibhr {
 
-/// A colour file or a session, and the depth file that was named with it; empty: none was.
+/// A colour file or a session, and the depth file that was named with it; empty: none.
 struct RecentFile {
     std::filesystem::path colour{};
     std::filesystem::path depth{};
@@ -18,19 +18,17 @@ struct RecentFile {
 /// $XDG_STATE_HOME/dibhr/recent, or ~/.local/state/dibhr/recent.
 [[nodiscard]] std::filesystem::path recent_files_path();
 
-/// The last one opened first, at most twelve; none where the file is not there or holds nothing
-/// that can be understood.
+/// At most twelve, the last opened first; empty where the file is missing or has no valid line.
 [[nodiscard]] std::vector<RecentFile> read_recent_files(const std::filesystem::path& file);
 
-/// With it first, with absolute paths, and nowhere else.
+/// The list with `opened` moved or added to its front, with absolute paths.
 [[nodiscard]] std::vector<RecentFile> with_first(const RecentFile& opened,
                                                  std::vector<RecentFile> files);
 
-/// The same in the file. Throws InputError when the file
-/// cannot be written.
+/// The same in the file. Throws InputError when the file cannot be written.
 void remember(const RecentFile& opened, const std::filesystem::path& file);
 
-/// A path as people type it: ~ and ~/... are in their home folder.
+/// A typed path: ~ and ~/... are replaced by the home folder.
 [[nodiscard]] std::filesystem::path typed_path(const std::string& text);
 
 }  // namespace dibhr

@@ -37,7 +37,7 @@ constexpr std::int64_t kVersion = 1;
 constexpr std::string_view kKeys = "keys";
 constexpr std::string_view kEstimators = "estimators";
 
-// What a value of the file lacks to be that setting; empty: nothing, and it is taken.
+// Each returns what is wrong with a value of the file; empty: valid, and stored.
 
 template <typename T>
 std::string take_exact(const toml::node& node, T& value, const char* lacking) {
@@ -116,7 +116,7 @@ std::string take_at(const toml::node& node, const Setting& setting, T* value) {
     return take(node, setting, *value);
 }
 
-/// "Space", ["F8", "Ctrl+R"], or "" for none; nothing: it is not that.
+/// "Space", ["F8", "Ctrl+R"], or "" for none; nothing: another kind of value.
 std::optional<std::vector<std::string>> key_names(const toml::node& node) {
     std::vector<std::string> names;
     if (const auto* const one = node.as_string()) {
@@ -132,8 +132,8 @@ std::optional<std::vector<std::string>> key_names(const toml::node& node) {
     return names;
 }
 
-/// A command, or a table of one and of what is said of its depth. What it lacks to be an
-/// estimator; empty: nothing.
+/// A command, or a table with a command and facts of its depth. Returns what is wrong; empty:
+/// valid, and stored.
 std::string take(const toml::node& node, Estimator& estimator) {
     constexpr const char* kLacking = "is neither a command in quotes nor a table with one";
     if (const auto command = node.value_exact<std::string>()) {
@@ -167,8 +167,8 @@ std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::tabl
     return entries;
 }
 
-/// Takes values out of a parsed file; what does not fit is told with its line and left at its
-/// default.
+/// Reads values from a parsed file. An invalid value keeps its default, with a warning that names
+/// the line.
 class Reading {
   public:
     Reading(const toml::table& root, const fs::path& file, std::vector<std::string>& warnings)
@@ -226,7 +226,7 @@ class Reading {
         warnings_.push_back(one_line(text.str()));  // a name may hold anything
     }
 
-    /// In the order of the file, where of two wishes the first one holds. Their places in it.
+    /// Reads the keys in the file's order, as the first of two entries counts. Returns their nodes.
     std::vector<const toml::node*> take_key_names(const toml::table& table,
                                                   std::vector<OwnKeys>& keys) {
         std::vector<const toml::node*> taken;
@@ -246,7 +246,7 @@ class Reading {
 
     void tell_unknown() {
         for (const auto& [table, node] : root_) {
-            const bool has_names = table == kKeys || table == kEstimators;  // of a person's own
+            const bool has_names = table == kKeys || table == kEstimators;  // chosen by the user
             if (table == "version" || (has_names && node.is_table())) continue;
             const auto known = known_.find(table.str());
             if (!node.is_table() || known == known_.end()) {
@@ -266,7 +266,7 @@ class Reading {
     std::map<std::string_view, std::set<std::string_view>> known_{};
 };
 
-// As TOML, numbers as short as they come back the same.
+// Values as TOML; numbers as short as possible without loss.
 
 std::string toml_text(bool value) {
     return value ? "true" : "false";
@@ -314,7 +314,7 @@ std::string toml_text(const OwnKeys& own) {
     return own.action + " = " + (is_list ? "[" + keys + "]" : keys) + "\n";
 }
 
-/// The whole file but its head, a heading before each table.
+/// The file without its head; a heading before each table.
 std::string toml_text(Settings settings) {
     std::string text;
     std::string_view table;
@@ -445,7 +445,7 @@ std::vector<Setting> list_of(Settings& s) {
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
-    // In this table since that was the only force device.
+    // In this table for compatibility: the Falcon was once the only force device.
     list.push_back(
         {.table = "falcon",
          .name = "force-in-front-only",

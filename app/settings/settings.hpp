@@ -1,5 +1,5 @@
-// What the viewer remembers from one run to the next: a TOML file in the user's configuration
-// folder; and the one list of all settings, which reading, writing and comparing share.
+// The viewer's settings: a TOML file in the user's configuration folder; and the one list of all
+// settings, which reading, writing and comparing share.
 #pragma once
 
 #include <array>
@@ -28,18 +28,18 @@
 
 namespace dibhr {
 
-/// Least width and height of a window; on the command line, in the settings and by hand.
+/// Bounds of a window's width and height, by command line, settings and hand [screen units].
 inline constexpr int kSmallestWindow = 160;
 inline constexpr int kLargestWindow = 16384;
 
-/// Of text and panels; 0 stands for what the display says.
+/// Bounds of the scale of text and panels; 0 means the display's scale.
 inline constexpr double kSmallestUi = 0.5;
 inline constexpr double kLargestUi = 4.0;
 
 /// Which dialog opens files.
 enum class OpenWith : std::uint8_t {
     automatic,  ///< the desktop's where there is a desktop, else the window's own
-    desktop,    ///< the desktop's, also by what is found without one
+    desktop,    ///< the desktop's, also where no desktop is detected
     window      ///< the window's own, with pairs and previews
 };
 
@@ -53,7 +53,7 @@ static_assert(has_all_in_order(kOpenWithWords, OpenWith::window));
     return kOpenWithWords;
 }
 
-/// Which panels stand open.
+/// Which panels are open.
 struct PanelsOpen {
     bool video{true};
     bool surface{false};
@@ -77,64 +77,63 @@ struct ChartsShown {
     bool operator==(const ChartsShown&) const = default;
 };
 
-/// Everything that lasts. A value that the command line gives beats it, and does not get into the
-/// file.
+/// All values of the settings file. The command line's values override them and are not saved.
 struct Settings {
     int width{1280};  ///< of the window [screen units]
     int height{800};
-    double ui_scale{0.0};  ///< of text and panels; 0: as the display says
+    double ui_scale{0.0};  ///< of text and panels; 0: the display's scale
     Theme theme{Theme::dark};
     PanelsOpen panels{};
     bool panels_visible{true};
     ChartsShown charts{};
     TouchParameters touch{};
-    std::string material{};        ///< what material_called() is asked for; empty: as recorded
-    bool stability{true};          ///< energy that rendering creates is taken out
-    bool damping_as_needed{true};  ///< with stability: not that of `touch`, but what the hand needs
-    CleaningOptions cleaning{};    ///< but for the finger
+    std::string material{};        ///< for material_called(); empty: as recorded
+    bool stability{true};          ///< stability control: removes energy that rendering creates
+    bool damping_as_needed{true};  ///< with stability: the device's need, not `touch`
+    CleaningOptions cleaning{};    ///< without the fingertip
     double finger_mm{0.0};         ///< radius of the fingertip
     InBetweens in_betweens{};
     ReliefLook look{};
     bool straight_view{false};
-    bool others{false};             ///< the proxies of the algorithms that do not run are shown
-    bool panes{false};              ///< the colour picture and the depth above the relief
+    bool others{false};             ///< show the proxies of the other algorithms
+    bool panes{false};              ///< show colour and depth above the relief
     NamePattern screenshot_name{};  ///< of pictures and clips
     OpenWith open_with{OpenWith::automatic};
-    bool resume{false};     ///< a video goes on where it was left
-    bool fit_relief{true};  ///< to the media, whenever one is opened
+    bool resume{false};     ///< a video begins where it was left
+    bool fit_relief{true};  ///< fit the relief to each opened media
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
-    bool force_in_front_only{true};  ///< of every device: none while people work in another window
+    bool force_in_front_only{true};  ///< no force while another window is in front
     double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
-    bool mute{false};                           ///< no sound of touch
-    bool game_pad{true};                        ///< rumbles, when there is one
+    bool mute{false};                           ///< sound off
+    bool game_pad{true};                        ///< game pads rumble
     AllDeviceSettings devices{};
-    std::vector<OwnKeys> keys{};          ///< as written, in that order, also what cannot be
+    std::vector<OwnKeys> keys{};          ///< as written, in that order, also invalid ones
     std::vector<Estimator> estimators{};  ///< as written, in that order
 };
 
 /// $XDG_CONFIG_HOME/dibhr/settings.toml, or ~/.config/dibhr/settings.toml.
 [[nodiscard]] std::filesystem::path settings_path();
 
-/// The folder depth/ beside it, of what was chosen on the panel of each file's depth.
+/// The folder depth/ beside it: the panel's depth choices of each file.
 [[nodiscard]] std::filesystem::path depth_choices_path();
 
-/// What nobody says of depth is found out, and what was chosen on the panel before is heard.
+/// Unknown facts of depth are guessed; saved choices of the panel apply.
 [[nodiscard]] DepthRequest usual_depth_request();
 
-/// The defaults when the file does not exist. An unknown or out-of-range setting keeps its default
-/// and is told once on stderr with file and line, and so is a key that cannot be; a file that
-/// cannot be read or understood throws InputError.
+/// The defaults when the file does not exist. An unknown or out-of-range setting keeps its default,
+/// with a warning on stderr that names file and line; likewise an invalid key. Throws InputError
+/// for a file that cannot be read or parsed.
 [[nodiscard]] Settings load_settings(const std::filesystem::path& file);
 
-/// As load_settings, the warnings (one line each) given back instead of told.
+/// The same, but returns the warnings (one line each) instead of printing them.
 [[nodiscard]] Settings load_settings(const std::filesystem::path& file,
                                      std::vector<std::string>& warnings);
 
 /// Writes the file whole or not at all. Throws InputError.
 void save_settings(const Settings& settings, const std::filesystem::path& file);
 
-/// `type` has the alternatives of a variant, and more.
+/// `type` is a variant with the alternatives of `Variant` and of `More`.
 template <typename Variant, typename... More>
 struct Widened;
 template <typename... Some, typename... More>
@@ -142,7 +141,7 @@ struct Widened<std::variant<Some...>, More...> {
     using type = std::variant<Some..., More...>;
 };
 
-/// One value of the settings file, and where it is held.
+/// One value of the settings file, and the place of the value in Settings.
 struct Setting {
     std::string_view table;
     std::string_view name;
@@ -150,16 +149,16 @@ struct Setting {
             ButtonAction*, ReliefPaint*, Theme*, OpenWith*, DeviceWord, InBetweens*>::type value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};
-    std::optional<Protection> protection{};  ///< that it is of the hand
+    std::optional<Protection> protection{};  ///< set where the value protects the hand
 };
 
-/// All of them but the keys, in the order of the file; to read or change what `settings` holds.
+/// All values except keys and estimators, in the file's order, to read or change `settings`.
 [[nodiscard]] std::vector<Setting> list_of(Settings& settings);
 
 [[nodiscard]] bool same(const Setting& a, const Setting& b);
-/// Of the same place in two lists.
+/// For values at the same place of two lists.
 void assign(const Setting& to, const Setting& from);
-/// The value as the file has it.
+/// The value as written in the file.
 [[nodiscard]] std::string text_of(const Setting& setting);
 
 /// `in_file`, with every value that differs between `started` and `now` taken from `now`.

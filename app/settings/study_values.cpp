@@ -1,4 +1,4 @@
-// Takes a condition's values by their names.
+// Converts a condition's values by their names.
 #include "app/settings/study_values.hpp"
 
 #include <string>
@@ -14,14 +14,14 @@ namespace dibhr {
 
 namespace {
 
-/// The command line's words about its options, as a page has them: without "--".
+/// A message about options with the names used on a study's page: without "--".
 std::string as_on_a_page(std::string words) {
     for (auto at = words.find("--"); at != std::string::npos; at = words.find("--", at))
         words.erase(at, 2);
     return words;
 }
 
-/// Static friction that is given alone is not to lower the dynamic one unseen.
+/// Static friction given alone must not lower the dynamic friction unseen.
 void require_dynamic_below(const GivenParameters& given) {
     TouchParameters any;
     const double* const fixed = given.value_of(number_of(any.friction.static_coefficient, any));

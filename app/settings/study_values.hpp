@@ -1,4 +1,4 @@
-// What a condition of a study is felt with, as the command line would have said it.
+// The values of a study's condition, as options of the command line.
 #pragma once
 
 #include <vector>
@@ -9,19 +9,19 @@
 
 namespace dibhr {
 
-/// Algorithm, numbers, material, bump, cleaning and finger; the media and the stability are
-/// TouchValues' own words. Throws InputError for a material that is not there.
+/// Algorithm, numbers, material, bump map, cleaning and finger, but not media and stability. Throws
+/// InputError for a material that does not exist.
 [[nodiscard]] TouchRequest request_of(const TouchValues& values);
 
-/// Stability control and the damping that the hand needs, unless the condition has them off.
+/// Sets stability control and damping as needed on, unless the condition has them off.
 void take_protections(const TouchValues& values, Settings& settings);
 
-/// What protects the hand less in any interval, to which nobody has agreed here.
+/// The settings of any interval that protect the hand less, without consent here.
 [[nodiscard]] std::vector<Doubt> doubts_of(const Protocol& protocol, const Consent& consent);
 
-/// That a surface of these values can be felt, and as they say: throws InputError, in the names of
-/// a study's page, where friction contradicts itself, one coefficient would take the other along,
-/// or a texture has no bump map. Reads the material.
+/// Validates the values; reads the material. Throws InputError, with the names used on a study's
+/// page, where dynamic friction is above static friction, one coefficient would change the other
+/// unseen, or a texture has no bump map.
 void require_felt(const TouchValues& values);
 
 }  // namespace dibhr

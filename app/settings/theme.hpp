@@ -1,4 +1,4 @@
-// What colours the window has.
+// The window's colour theme.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Measures first, then draws: no page jumps in its second picture.
+// Measures first, then draws, so that no page jumps in its second picture.
 #include "app/study/page_layout.hpp"
 
 #include <algorithm>
@@ -17,8 +17,8 @@ namespace {
 constexpr float kLineHeight = 1.3F;   // of the text's
 constexpr float kMargin = 1.4F;       // above and below a page [em]
 constexpr float kBetween = 1.1F;      // two parts of it [em]
-constexpr float kWidestText = 36.0F;  // that is read well [em]
-constexpr float kWidest = 0.94F;      // what is used of the window
+constexpr float kWidestText = 36.0F;  // for easy reading [em]
+constexpr float kWidest = 0.94F;      // used share of the window's width
 constexpr float kTallestPicture = 0.42F;
 
 const char* next_character(const char* at, const char* end) {
@@ -50,7 +50,7 @@ float window_width() {
     return ImGui::GetWindowWidth();
 }
 
-/// A button of a group: where it is in it, and what is written on it.
+/// A button of a group: its place in the group, and its label.
 struct ButtonPlace {
     ImVec2 at{0.0F, 0.0F}, size{0.0F, 0.0F};
     TextBlock label{};
@@ -61,7 +61,7 @@ struct ButtonPlaces {
     float height{0.0F};
 };
 
-/// From left to right, row after row, each row in the middle; all as high as the highest of a row.
+/// Row after row, each centred; all buttons of a row get the height of its highest.
 void put_in_rows(ButtonPlaces& all, std::size_t columns, float between) {
     for (std::size_t first = 0; first < all.places.size(); first += columns) {
         const std::span<ButtonPlace> row =
@@ -140,7 +140,7 @@ float height_of(std::span<const FootPart> foot) {
     return std::max(0.0F, height - kBetween * em());
 }
 
-/// At the cursor, one below the other.
+/// Draws the parts from the cursor down.
 std::optional<StudyPress> draw_foot(std::span<const FootPart> foot) {
     std::optional<StudyPress> press;
     float top = ImGui::GetCursorPosY();
@@ -163,7 +163,7 @@ ImVec2 picture_size(const PageBody& body) {
     return {factor * columns, factor * rows};
 }
 
-/// A body that was measured.
+/// A body with its measured sizes.
 struct MeasuredBody {
     ImVec2 picture{0.0F, 0.0F};
     std::vector<TextBlock> blocks{};
@@ -185,7 +185,7 @@ MeasuredBody measured(const PageBody& body) {
     return whole;
 }
 
-/// At the cursor. Each text is a column in the middle, its lines flush left.
+/// Draws at the cursor. Each text is a centred column, its lines flush left.
 void draw_body(const PageBody& body, const MeasuredBody& whole, float width) {
     float top = ImGui::GetCursorPosY();
     const auto place = [&](ImVec2 size) {
@@ -217,7 +217,7 @@ struct Pane {
     }
 };
 
-/// Scrolled where its content is higher than it.
+/// Draws a pane, which scrolls where its content is higher.
 template <typename Draw>
 void draw_pane(const Pane& pane, bool first_picture, float scroll, const Draw& draw) {
     if (pane.shown <= 0.0F) return;
@@ -255,7 +255,7 @@ TextBlock text_block(const std::string& text, float most_width, float times) {
         break_lines(line, most_width, times, block.lines);
     for (const std::string& line : block.lines)
         block.size.x = std::max(block.size.x, width_of(line, times));
-    // Without the space below the last line, so that what is one line high is in its middle.
+    // Without the space below the last line, so that a single line is centred vertically.
     const auto count = static_cast<float>(block.lines.size());
     block.size.y =
         block.lines.empty() ? 0.0F : times * em() * (1.0F + kLineHeight * (count - 1.0F));
@@ -297,7 +297,7 @@ std::optional<StudyPress> draw_page(const PageBody& body, std::span<const FootPa
     const float width = window_width();
     const float margin = kMargin * em();
     const MeasuredBody whole = measured(body);
-    // The buttons have all the room that they need, but for a part of the text.
+    // The buttons get all the room that they need, except for a part of the text.
     const float room = high - 3.0F * margin;
     const float foot_height = height_of(foot);
     const float foot_shown = std::min(foot_height, room - std::min(whole.height, 0.3F * high));

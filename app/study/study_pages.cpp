@@ -45,7 +45,7 @@ Press draw_text_page(const StudyPage& page, const StudyShown& view, const char* 
     return draw_page(body, foot);
 }
 
-/// How far the study is, and what is left of a limit.
+/// Progress of the study, and the rest of a time limit.
 void draw_bars(const StudyRun& run, const StudyShown& view) {
     ImDrawList& list = *ImGui::GetForegroundDrawList();
     const float width = ImGui::GetWindowWidth();
@@ -60,14 +60,14 @@ void draw_bars(const StudyRun& run, const StudyShown& view) {
         bar(ImGui::GetWindowHeight() - high, view.left_share, ImGuiCol_SliderGrabActive);
 }
 
-/// Over the relief, from the upper edge down.
+/// Labels over the relief, from the upper edge down.
 void draw_labels(const std::vector<std::string>& texts) {
     float top = 1.0F * em();
     for (const std::string& text : texts)
         if (!text.empty()) top = draw_label(text, top) + 0.4F * em();
 }
 
-/// In the middle, large where it announces.
+/// A label in the middle; `times` larger for announcements.
 void draw_in_the_middle(const std::string& text, float times = 1.0F) {
     if (!text.empty()) draw_label(text, 0.42F * ImGui::GetWindowHeight(), times);
 }
@@ -86,7 +86,7 @@ Press draw_interval(const StudyRun& run, const StudyShown& view) {
         go_on_part(run.block().interval_s > 0.0 ? "Enough  (Enter)" : "Go on  (Enter)")});
 }
 
-/// What the ends of a scale are called, each under its own end; `left` and `wide` in the window.
+/// The labels of a scale's two ends, each under its end. `left`, `wide`: of the scale [px].
 FootPart ends_part(const std::string& lowest, const std::string& highest, float left, float wide) {
     const TextBlock low = text_block(lowest, 0.46F * wide);
     const TextBlock high = text_block(highest, 0.46F * wide);
@@ -98,7 +98,7 @@ FootPart ends_part(const std::string& lowest, const std::string& highest, float 
             }};
 }
 
-/// A line from `at` on, with its number over the mark; without a mark nothing was chosen yet.
+/// A scale as a line from `at` on, with the value over the mark; no mark: not set yet.
 Press draw_line(const Question& question, const StudyShown& view, ImVec2 at, float wide) {
     const float knob = 0.5F * em();
     const float middle = at.y + 2.0F * em();
@@ -205,7 +205,7 @@ Press draw_question(const StudyRun& run, const StudyShown& view) {
     return draw_page(body_of(view, {{block.question.text, 1.25F}}, 0.3F), foot);
 }
 
-/// The first of the two at an adjustment is the one to match, felt once before there is a choice.
+/// Of an adjustment's two intervals the first is the one to match; it is felt first, once.
 Press draw_adjustment(const StudyRun& run, const StudyShown& view) {
     const bool own = run.interval() == 1;
     const bool begun = run.step() == StudyStep::adjust;
@@ -255,7 +255,7 @@ Press draw_feedback(const StudyRun& run, const StudyShown& view) {
     return draw_page(body_of(view, {{words, 1.6F}}, 0.36F), std::array{go_on_part()});
 }
 
-/// Before all else, of whoever leads the study.
+/// Asks the experimenter for consent, before all else.
 Press draw_question_of_safety(const StudyShown& view) {
     const PageBody body =
         body_of(view,
@@ -268,7 +268,7 @@ Press draw_question_of_safety(const StudyShown& view) {
         })});
 }
 
-/// Before a trial that nobody has called for yet.
+/// Before the first trial after the program's start.
 Press draw_start(const StudyRun& run, const StudyShown& view) {
     const std::string text = run.answered().empty()
                                  ? "Begin whenever you like."

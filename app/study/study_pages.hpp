@@ -1,5 +1,4 @@
-// What a participant sees of a study beside the relief: pages, questions, and what is pressed
-// there.
+// The pages and questions that a participant sees beside the relief, and the presses there.
 #pragma once
 
 #include <chrono>
@@ -12,18 +11,18 @@
 
 namespace dibhr {
 
-/// What a person does at a step, by key, mouse or the grip's buttons.
+/// What a participant does at a step, by key, mouse or device buttons.
 struct StudyPress {
     enum class Kind : std::uint8_t {
-        go_on,   ///< leaves a page, an interval, feedback, a break; "equal" of an adjustment
+        go_on,   ///< leaves a page, an interval, feedback, a break; at an adjustment: "equal"
         choose,  ///< answer `which`
         rate,    ///< `value`
         mark,    ///< moves the mark of a scale to `value`, without answering
-        feel,    ///< interval `which`: once more at a question; at an adjustment the other one
-        turn,    ///< the parameter, by `value` of its range
-        scroll,  ///< a page, down by `value` lines
+        feel,    ///< feel interval `which` again (question), or the other one (adjustment)
+        turn,    ///< changes the parameter by `value` of its range
+        scroll,  ///< scrolls a page down by `value` lines
         agree,   ///< to StudyShown::to_agree
-        early,   ///< would answer, but came before the question was on the screen
+        early,   ///< an answer before the question was on the screen
         ask_to_leave,
         stay,
         leave
@@ -34,73 +33,72 @@ struct StudyPress {
     double value{0.0};
 };
 
-/// What the pages show beside the run's own step.
+/// What the pages show in addition to the run's step.
 struct StudyShown {
-    bool waits{false};          ///< an interval whose surface is not there yet
+    bool waits{false};          ///< the interval's surface is not ready yet
     bool asks_to_leave{false};  ///< the participant pressed Escape
-    bool before_start{false};   ///< the program has begun, and nobody has called for the step yet
-    std::string to_agree{};     ///< what the study takes away, before its start; empty: nothing
-    bool first_picture{false};  ///< of the page that is shown
-    float scroll{0.0F};         ///< of it since the last picture, down by so many lines
-    double left_share{1.0};     ///< of the time of an interval or an answer; 1 without a limit
+    bool before_start{false};   ///< the program has started; the participant has not begun
+    std::string to_agree{};     ///< protections that the study weakens; empty: none
+    bool first_picture{false};  ///< the shown page is new
+    float scroll{0.0F};         ///< lines to scroll down since the last picture
+    double left_share{1.0};     ///< remaining share of a time limit; 1 without a limit
     bool has_limit{false};
-    std::optional<double> mark{};  ///< on a scale; nothing: not chosen yet
+    std::optional<double> mark{};  ///< mark on a scale; nothing: not set yet
     bool by_mouse{false};          ///< no force device touches
-    std::string device_words{};    ///< what the device needs; empty: nothing
+    std::string device_words{};    ///< message about the device; empty: none
     std::uintptr_t picture{0};     ///< texture of the page's picture; 0: none
     int picture_columns{1}, picture_rows{1};
 };
 
-/// Whether the question is answered on a line instead of by one button each.
+/// Whether a rating is given on a line instead of by one button for each number.
 [[nodiscard]] bool has_wide_scale(const Question& question) noexcept;
 
-/// Into ImGui's picture, over all of it. What was clicked.
+/// Draws over the whole window. Returns what was clicked.
 [[nodiscard]] std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view);
 
-/// Whether the mouse is over something to click: elsewhere it touches the relief.
+/// Whether the mouse is over a control: elsewhere it touches the relief.
 [[nodiscard]] bool mouse_is_over_button();
 
 /// A key that went down.
 struct StudyKey {
-    std::string name{};  ///< as name_of(Key) has it, or the character typed
+    std::string name{};  ///< name_of(Key), or the typed character
     bool shift{false};
-    bool early{false};  ///< before what is asked now was on the screen
+    bool early{false};  ///< pressed before the current question was on the screen
 };
 
-/// What it does; nothing: nothing.
+/// What the key does; nothing: no effect.
 [[nodiscard]] std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& view,
                                                      const StudyKey& key);
 
-/// The button whose long press does something else than its press, at an adjustment.
+/// At an adjustment, a long press of this button differs from a short one.
 inline constexpr int kLongPressButton = 2;
 
-/// A button of the grip that went down.
+/// A press of a device button.
 struct StudyButton {
     int number{0};      ///< from 0
     bool held{false};   ///< for a second
     bool early{false};  ///< as StudyKey::early
 };
 
-/// What it does: the answers by number; the first one also goes on. On a scale
-/// the first two put the mark there, then move it, and the third one answers; at an adjustment the
-/// first two turn, the third one feels the other or, held, says equal.
+/// What the button does. Button n gives answer n; the first one also goes on. On a scale the first
+/// two set and move the mark, and the third one answers. At an adjustment the first two change the
+/// parameter; the third one feels the other interval or, held, answers "equal".
 [[nodiscard]] std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
                                                         const StudyButton& button);
 
 struct EndedPress {
     bool held{false};                            ///< long
-    std::chrono::steady_clock::time_point at{};  ///< it began, or had been held for long enough
+    std::chrono::steady_clock::time_point at{};  ///< begin of the press, or a second later if long
 };
 
-/// Tells a long press of that button from a short one, when it is let go of or has been held for a
-/// second.
+/// Tells a long press of kLongPressButton from a short one: on release, or after one second.
 class LongPress {
   public:
     using Clock = std::chrono::steady_clock;
 
     void begin(Clock::time_point now) noexcept { since_ = now; }
     void forget() noexcept { since_.reset(); }
-    /// Once it is known whether it was long; then it is forgotten.
+    /// The press, once it is known whether it is long; then it is reset.
     [[nodiscard]] std::optional<EndedPress> ended(Clock::time_point now, bool down) noexcept;
 
   private:

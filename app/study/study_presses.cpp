@@ -1,4 +1,4 @@
-// What keys and the grip's buttons do at each step.
+// What keys and device buttons do at each step.
 #include <cmath>
 #include <cstdint>
 #include <utility>
@@ -12,7 +12,7 @@ namespace {
 using Press = std::optional<StudyPress>;
 using Kind = StudyPress::Kind;
 
-/// By how many lines a page's text goes down; those of a question leave Up and Down to its answers.
+/// Keys that scroll a page's text. At a question Up and Down belong to the answers.
 Press scroll_key(const StudyRun& run, std::string_view key) {
     constexpr double kLine = 2.0;
     constexpr double kPage = 12.0;
@@ -24,7 +24,7 @@ Press scroll_key(const StudyRun& run, std::string_view key) {
     return std::nullopt;
 }
 
-/// "3" of a digit.
+/// The value of a digit key.
 std::optional<int> digit_of(std::string_view key) {
     if (key.size() != 1 || key[0] < '0' || key[0] > '9') return std::nullopt;
     return key[0] - '0';
@@ -43,13 +43,13 @@ Press answer_by_digit(const StudyRun& run, int digit) {
                                                 : std::nullopt;
 }
 
-/// The first press puts the mark into the middle, whichever way it points.
+/// The first press puts the mark into the middle, in either direction.
 StudyPress moved_mark(const Question& question, const StudyShown& view, double by) {
     const double middle = std::round(0.5 * (question.lowest + question.highest));
     return {Kind::mark, 0, view.mark ? *view.mark + by : middle};
 }
 
-/// Nobody answers what they have not chosen.
+/// No answer without a mark.
 Press rate(const StudyShown& view) {
     return view.mark ? Press(StudyPress{Kind::rate, 0, *view.mark}) : std::nullopt;
 }
@@ -97,7 +97,7 @@ Press question_button(const StudyRun& run, const StudyShown& view, int button) {
     return moved_mark(run.block().question, view, button == 0 ? -1.0 : 1.0);
 }
 
-/// Where a trial is: nowhere, in what is felt before its question, or where it is answered.
+/// Part of a trial: none (a page), an interval before the question, or the question.
 enum class Place : std::uint8_t { page, interval, question };
 
 Place place_of(const StudyRun& run, const StudyShown& view) {
@@ -107,7 +107,7 @@ Place place_of(const StudyRun& run, const StudyShown& view) {
     return answers ? Place::question : Place::page;
 }
 
-/// `goes_on`: leads on where nothing is answered; `answer`: what it is at the question.
+/// `goes_on`: the key continues outside a question; `answer`: its meaning at the question.
 Press pressed(Place place, bool early, bool goes_on, const Press& answer) {
     if (place == Place::question && !early) return answer;
     if (place != Place::question && goes_on)
@@ -129,7 +129,7 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
     if (!view.to_agree.empty())
         return !key.early && (key.name == "a" || key.name == "A") ? Press(StudyPress{Kind::agree})
                                                                   : std::nullopt;
-    const bool early = key.early || view.waits;  // for the surface, or the next step
+    const bool early = key.early || view.waits;  // waits for the surface or the next step
     const Place place = place_of(run, view);
     Press answer;
     if (place != Place::page)

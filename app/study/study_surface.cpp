@@ -1,4 +1,4 @@
-// Wears a condition's values, plays its media, and records.
+// Applies a condition's values, plays its media, and records.
 #include "app/study/study_surface.hpp"
 
 #include <cstddef>
@@ -21,13 +21,13 @@ const std::string& word_of(const TouchValues& values, const char* name) {
     return found == values.words.end() ? none : found->second;
 }
 
-/// All buttons of the grip are answers, but those that take the force off: these stay.
+/// All device buttons are answers, except those for *force off*.
 void free_buttons(ButtonActions& buttons) {
     for (ButtonAction& action : buttons)
         if (action != ButtonAction::force_off) action = ButtonAction::none;
 }
 
-/// Of a person's settings: no button, game pad or other algorithm comes between.
+/// The user's settings without button actions, game pads and other algorithms.
 Settings usable_in_study(Settings settings) {
     for (std::size_t k = 0; k < settings.devices.size(); ++k)
         free_buttons(settings.devices[k].buttons);
@@ -85,7 +85,7 @@ void StudySurface::show(const Protocol& protocol, const StudyInterval& interval)
     session_.start();
 }
 
-/// What a recording says of itself needs the media.
+/// Starts the trial's recording, once the loop allows it; its facts need the open media.
 void StudySurface::record_if_possible() {
     if (!trial_file_.empty() && session_.runs() && session_.may_record())
         session_.recording().start(std::exchange(trial_file_, {}));
@@ -119,7 +119,7 @@ void StudySurface::turn(const std::string& parameter, double value) {
 
 void StudySurface::end_trial() {
     rest();
-    publish();  // while it is recorded
+    publish();  // while still recording
     static_cast<void>(session_.recording().stop());
     if (!touch_.recording_trouble.empty()) throw InputError(touch_.recording_trouble);
 }

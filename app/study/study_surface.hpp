@@ -1,4 +1,4 @@
-// What a participant touches: the surface of an interval, its force on or off, recorded trial by
+// The surface that a participant touches: an interval's surface, force on or off, one recording a
 // trial.
 #pragma once
 
@@ -15,49 +15,49 @@
 
 namespace dibhr {
 
-/// The window thread's. What is felt is what the command line would make of the values: nothing of
-/// a person's own settings but those of the device, the limit of force and the sound's loudness.
+/// For the window's thread. An interval uses its values and defaults, as the command line would. Of
+/// the user's settings only device, force limit and loudness are used.
 class StudySurface {
   public:
     StudySurface(HandDevice hand, const Settings& settings, const TouchTies& ties);
 
-    /// A trial's ticks go into that file, from the next interval on.
+    /// Records the trial's ticks into that file, from the next interval on.
     void begin_trial(const std::filesystem::path& file);
-    /// Puts the interval's surface there, from the media's first frame, without force. Throws
+    /// Loads the interval's surface, from the media's first frame, with the force off. Throws
     /// InputError for media that cannot be opened.
     void show(const Protocol& protocol, const StudyInterval& interval);
-    /// Its first frame can be touched and seen, and is recorded.
+    /// Whether the first frame can be touched and seen, and the recording has begun.
     [[nodiscard]] bool is_there() const;
-    /// From here on it is felt: the force rises from zero. `number`: of the interval, from 1.
+    /// Begins the interval: the force rises from zero. `number`: of the interval, from 1.
     void begin_interval(int number);
-    /// The force goes to zero; the session has the mark "rest" where it was on.
+    /// Takes the force off. Where it was on, the session gets the mark "rest".
     void rest();
-    /// Turns one parameter of what is felt.
+    /// Changes one parameter of the interval.
     void turn(const std::string& parameter, double value);
-    /// Ends the session, whole. Throws InputError when it could not be written.
+    /// Ends the recording. Throws InputError when it could not be written.
     void end_trial();
 
-    /// Once a picture: what the hand and the recorder did. Throws InputError when the recording
-    /// broke off.
+    /// Once a picture: polls the session and the recording. Throws InputError when one of them
+    /// failed.
     void poll(bool window_in_front);
-    /// Once a picture, after all that was changed: to the next tick.
+    /// Once a picture, after all changes: publishes to the next tick.
     void publish();
-    /// Those since the last call, but for what takes the force off, which is done here.
+    /// The presses since the last call; *force off* is done here and left out.
     [[nodiscard]] std::vector<GripPress> take_presses();
     [[nodiscard]] bool is_down(int button) const noexcept {
         return (touch_.haptic.hand.buttons >> button & 1) != 0;
     }
-    /// Where the mouse points, for the virtual hand.
+    /// Moves the virtual hand to where the mouse points.
     void point(const Camera::Ray& ray, const PointerUse& use) { session_.point(ray, shown_, use); }
 
     [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
     [[nodiscard]] const TouchState& touch() const noexcept { return touch_; }
     [[nodiscard]] const MediaState& media() const noexcept { return media_; }
     [[nodiscard]] const DepthBlend& shown() const noexcept { return shown_; }
-    /// Whether the mouse is all that touches now.
+    /// Whether the mouse is the hand: no device touches.
     [[nodiscard]] bool by_mouse() const noexcept { return session_.by_mouse(); }
 
-    /// Sends no force any more. Nothing is to be shown after it.
+    /// Ends the haptic loop for good.
     void stop() noexcept { session_.stop(); }
 
   private:
@@ -65,15 +65,15 @@ class StudySurface {
     void open(const Protocol& protocol, const std::string& media);
     void record_if_possible();
 
-    Settings own_;       // a person's
+    Settings own_;       // the user's
     Settings settings_;  // of the interval
     TouchState touch_{.force_enabled = false};
     MediaState media_{};
-    std::string media_name_{};            // of what is open
-    std::filesystem::path trial_file_{};  // of a trial whose recording has not begun
-    bool rests_{false};                   // from the next publish() on, to be marked
+    std::string media_name_{};            // of the open media
+    std::filesystem::path trial_file_{};  // until the trial's recording begins; else empty
+    bool rests_{false};                   // the mark "rest" is due after the next publish()
     DepthBlend shown_{};
-    TouchSession session_;  // last: it goes first
+    TouchSession session_;  // last member: destroyed first
 };
 
 }  // namespace dibhr

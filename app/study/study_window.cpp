@@ -1,4 +1,4 @@
-// Steps through a study with a person.
+// Guides a participant through the steps of a study.
 #include "app/study/study_window.hpp"
 
 #include <algorithm>
@@ -22,8 +22,8 @@ namespace {
 
 constexpr bool kInSync = true;      // with the display
 constexpr float kTextTimes = 1.7F;  // as large as in the viewer
-/// Each interval begins after so long at the least, whatever it takes to make its surface: else the
-/// wait would tell a condition.
+/// Least time before each interval, however fast its surface is ready: else the wait would reveal a
+/// condition.
 constexpr double kPreparing_s = 0.9;
 constexpr double kLongestPreparing_s = 30.0;
 
@@ -36,7 +36,7 @@ WindowSize size_of(const StudyWindowOptions& options) {
     return {options.settings.width, options.settings.height, std::nullopt};
 }
 
-/// Nothing of texture and force is drawn. (The height of the relief is seen, where it is felt.)
+/// Draws neither texture nor force. (The relief's height is visible, also where it is felt.)
 void hide_condition(SceneContent& content) {
     content.bump = nullptr;
     content.maps = nullptr;
@@ -50,21 +50,21 @@ void hide_condition(SceneContent& content) {
                .normal = markers.normal};
 }
 
-/// Whether it goes on while its key is held.
+/// Whether the press repeats while its key is held.
 bool may_repeat(StudyPress::Kind kind) {
     using enum StudyPress::Kind;
     return kind == mark || kind == turn || kind == scroll;
 }
 
-/// `hand`, on the surface where it is below it.
+/// `hand`, raised onto the surface where it is below.
 Vec3 lifted(Vec3 hand, const DepthSurface& surface) {
     const bool over_it = is_finite(hand) && surface.clamped_to_frame(hand) == hand;
     if (over_it) hand.z = std::max(hand.z, surface.elevation_at(hand.x, hand.y));
     return hand;
 }
 
-/// Where the mouse points: on the surface, over it while the button is up. The virtual hand itself
-/// is held back by what it feels.
+/// Where the mouse points: on the surface, or above it while the button is up. (The virtual hand
+/// itself does not reach this place: the force holds it back.)
 Vec3 place_of(const MouseTarget& mouse, const DepthSurface& surface) {
     const Vec2 at = mouse.cursor_in_grid;
     const double above_px = mouse.pressed ? 0.0 : MouseHandOptions{}.hover_px;
@@ -117,7 +117,7 @@ bool StudyWindow::over() const {
            window_.wants_to_close();
 }
 
-/// The display is gone: what was answered is in the file already.
+/// The display is lost: all answers are in the file already.
 void StudyWindow::leave_without_display() {
     surface_.stop();
 }
@@ -156,7 +156,7 @@ void StudyWindow::show_one_picture() {
     if (after_picture_) report_picture();
 }
 
-/// What is pressed counts from here on, and so does the time of a question.
+/// From now on presses count, and the time of a question runs.
 void StudyWindow::note_on_screen() {
     const bool asks =
         view_.asks_to_leave || view_.before_start || (entered_.has_value() && !view_.waits);
@@ -182,7 +182,7 @@ void StudyWindow::report_picture() const {
                     .study = &place});
 }
 
-/// What is felt next is entered with the next picture: the loop has then seen the end of this one.
+/// The next interval is entered with the next picture: by then the loop has seen the force off.
 void StudyWindow::leave_step() {
     surface_.rest();
     long_press_.forget();
@@ -192,13 +192,13 @@ void StudyWindow::leave_step() {
     view_.mark.reset();
 }
 
-/// A page is entered with the picture that shows it first.
+/// A page is entered in the picture that shows it first.
 void StudyWindow::enter_page() {
     const bool felt = run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust;
     if (!entered_ && !felt && !view_.before_start) enter_step();
 }
 
-/// What the step that the run has come to needs, once.
+/// Prepares the run's current step, once.
 void StudyWindow::enter_step() {
     entered_ = Clock::now();
     since_.reset();
@@ -249,7 +249,7 @@ void StudyWindow::enter_interval() {
     view_.waits = true;
 }
 
-/// From here on it is felt and seen.
+/// Begins the interval once its surface is ready.
 void StudyWindow::begin_if_there() {
     if (!view_.waits || view_.asks_to_leave || !entered_) return;
     const double waited_s = seconds(Clock::now() - *entered_);
@@ -269,7 +269,7 @@ void StudyWindow::begin_if_there() {
     surface_.begin_interval(run_.interval() + 1);
 }
 
-/// Whatever is limited ends by itself, when it is over at `now`.
+/// Ends the interval or question whose time limit is over at `now`.
 void StudyWindow::look_at_time(Clock::time_point now) {
     if (view_.waits || view_.asks_to_leave || view_.before_start || !since_) return;
     const bool question = run_.step() == StudyStep::question;
@@ -301,7 +301,7 @@ void StudyWindow::take_buttons() {
     if (ended) take_button({.number = kLongPressButton, .held = ended->held}, ended->at);
 }
 
-/// In the order in which they went down: of two answers the first one counts.
+/// Handles keys in the order of their presses: of two answers the first one counts.
 void StudyWindow::take_keys(const WindowInput& input) {
     struct Pressed {
         std::string name{};
@@ -317,7 +317,7 @@ void StudyWindow::take_keys(const WindowInput& input) {
             all.push_back({std::string(1, static_cast<char>(typed.code)), typed.shift,
                            typed.repeated, true, typed.at});
     std::ranges::stable_sort(all, {}, &Pressed::at);
-    std::optional<Clock::time_point> taken;  // by a key: what it types is no second press
+    std::optional<Clock::time_point> taken;  // by a key: its character is no second press
     for (const Pressed& one : all) {
         if (one.typed && taken == one.at) continue;
         look_at_time(one.at);
@@ -334,7 +334,7 @@ void StudyWindow::take(const WindowInput& input) {
     take_keys(input);
 }
 
-/// As of when the mouse's button went down.
+/// A click counts at the time when the mouse's button went down.
 void StudyWindow::take_click(const StudyPress& press) {
     if (!is_early(clicked_at_)) return act(press, clicked_at_);
     const bool answers = run_.step() == StudyStep::question || run_.step() == StudyStep::adjust;
@@ -355,7 +355,7 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
             seen_since_.reset();
             if (since_) *since_ += Clock::now() - asked_;
             if (turned_since_) *turned_since_ += Clock::now() - asked_;
-            // An interval that was broken off begins anew.
+            // The interrupted interval begins again.
             if (felt()) leave_step();
             return;
         case leave:
@@ -425,7 +425,7 @@ void StudyWindow::act_at_adjustment(const StudyPress& press, Clock::time_point a
     }
 }
 
-/// The session first, then both in one transaction, then the next page.
+/// Ends the session, then stores answer and session in one transaction, then shows the next page.
 void StudyWindow::answer(const StudyAnswer& given, Clock::time_point at) {
     StudyAnswer whole = given;
     whole.reaction_s =
@@ -467,14 +467,14 @@ void StudyWindow::point(const Camera::Ray& ray, PointerUse use) {
     if (surface_.shown().makes_surface()) mouse_at_ = pointer_.target(ray, seen_surface(), use);
 }
 
-/// What is drawn, without what is only felt.
+/// The drawn surface, without bumps that are only felt.
 DepthSurface StudyWindow::seen_surface() const {
     SurfaceShape shape = surface_.touch().shape(surface_.settings().touch);
     shape.roughness_px = 0.0;
     return surface_.shown().drawn_surface(shape);
 }
 
-/// One point, which neither friction nor stiffness moves.
+/// Shows one point, which does not depend on friction or stiffness.
 void StudyWindow::show_hand_only(TouchMarkers& markers) const {
     const DepthSurface surface = seen_surface();
     const bool by_mouse = surface_.by_mouse();
@@ -484,7 +484,7 @@ void StudyWindow::show_hand_only(TouchMarkers& markers) const {
                .proxy = hand};
 }
 
-/// Nothing where there is nothing to be felt, or nothing to be seen.
+/// Draws the relief only in an interval, and only where the block shows it.
 void StudyWindow::draw_relief() {
     const StudyView view = run_.block().view;
     const bool seen = felt() && !view_.waits && view != StudyView::blank;

@@ -28,25 +28,25 @@ namespace dibhr {
 
 struct StudyWindowOptions {
     std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
-    Settings settings{};  ///< of which the device's, the limit of force and the loudness count
-    std::vector<Doubt> doubts{};  ///< of the study: somebody agrees to them first, or it ends
+    Settings settings{};  ///< used: device, force limit, loudness, appearance
+    std::vector<Doubt> doubts{};  ///< of the study: consent is asked before it begins
     PictureHook after_picture{};
 };
 
-/// Shows no number, no name of a condition, file or parameter; no force while nothing is to be
-/// felt. Each answer is in the file, with its trial's session, before the next page is shown.
+/// Shows no number and no name of a condition, file or parameter. Force only
+/// in intervals. Each answer is in the file, with its trial's session, before the next page shows.
 class StudyWindow {
   public:
-    /// Opens the window. `run` and `file` are of the same study; they and `ending` outlive it.
-    /// Throws Error.
+    /// Opens the window. `run` and `file` belong to the same study. All references must outlive the
+    /// object. Throws Error.
     StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file, HandDevice hand,
                 Ending& ending);
     ~StudyWindow();
     StudyWindow(const StudyWindow&) = delete;
     StudyWindow& operator=(const StudyWindow&) = delete;
 
-    /// Until the study is finished, or left: a trial that is not answered is then forgotten. Throws
-    /// InputError when something cannot be opened or kept.
+    /// Runs until the study is finished or left; an unanswered trial is then dropped. Throws
+    /// InputError when a file cannot be opened or written.
     void lead();
 
   private:
@@ -96,24 +96,24 @@ class StudyWindow {
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
-    HandPointer pointer_{};   // over what is drawn,
-    MouseTarget mouse_at_{};  // and where it points
+    HandPointer pointer_{};   // over the drawn surface
+    MouseTarget mouse_at_{};  // where pointer_ points
     ColourTexture page_picture_{};
     StudyShown view_{};
     StudySurface surface_;
-    std::optional<Clock::time_point> entered_{};  // the step that the run is at
-    /// What is asked now is on the screen: what was pressed before is not meant for it.
+    std::optional<Clock::time_point> entered_{};  // begin of the current step
+    /// Since when the current question is on the screen; earlier presses do not answer it.
     std::optional<Clock::time_point> seen_since_{};
-    Clock::time_point clicked_at_{};   // the mouse's button went down last
-    int early_{0};                     // answers that were pressed before their question was seen
-    bool in_trial_{false};             // its session has begun,
+    Clock::time_point clicked_at_{};   // last press of the mouse's button
+    int early_{0};                     // presses before their question was on the screen
+    bool in_trial_{false};             // the trial's session has begun,
     std::filesystem::path session_{};  // in this file
     bool left_{false};
-    bool hand_seen_{false};                     // a mouse beside the relief is no hand
-    double turned_{0.0};                        // the value an adjustment is at
-    std::optional<Clock::time_point> since_{};  // what is limited in time began,
-    Clock::time_point asked_{};  // and stood still from here on, while leaving was asked about
-    std::optional<Clock::time_point> turned_since_{};  // an adjustment was first felt
+    bool hand_seen_{false};                     // false: the mouse is beside the relief
+    double turned_{0.0};                        // current value of an adjustment
+    std::optional<Clock::time_point> since_{};  // begin of the time limit
+    Clock::time_point asked_{};  // when the question about leaving stopped that time
+    std::optional<Clock::time_point> turned_since_{};  // begin of an adjustment's first interval
     LongPress long_press_{};
 };
 

@@ -1,4 +1,4 @@
-// The window thread's ends of the force devices: their state, their buttons, their tuning.
+// How the window's thread uses the force devices: reads state and buttons, publishes tuning.
 #pragma once
 
 #include <chrono>
@@ -16,18 +16,18 @@
 
 namespace dibhr {
 
-/// A button of a grip that went down since it was asked for last.
+/// Presses of one device button since the last take_presses().
 struct GripPress {
-    int button{0};  ///< of the device, from 0
+    int button{0};  ///< number on the device, from 0
     ButtonAction action{ButtonAction::none};
     std::uint32_t times{1};
-    std::chrono::steady_clock::time_point at{};  ///< the last time
+    std::chrono::steady_clock::time_point at{};  ///< of the last press
 };
 
 class DeviceEnd {
   public:
-    /// Publishes the tuning, and adds the device to those of the state. `kind`: its place in
-    /// force_device_kinds(). `device` outlives this.
+    /// Publishes the tuning, and adds the device to touch.devices. `kind`: index in
+    /// force_device_kinds(). `device` must outlive this object.
     DeviceEnd(std::size_t kind, ForceDevice& device, const Settings& settings, TouchState& touch)
         : kind_(kind), place_(touch.devices.size()), device_(device) {
         touch.devices.push_back({.kind = kind});
@@ -37,15 +37,15 @@ class DeviceEnd {
     [[nodiscard]] std::size_t kind() const noexcept { return kind_; }
     [[nodiscard]] ForceDevice& device() const noexcept { return device_; }
 
-    /// Once a picture: its state into that of the window. Says once for each need that it needs its
-    /// person. A short notice when it begins to touch.
+    /// Once a picture: copies the device's state into `touch`. Sets touch.needs_person when the
+    /// device begins to need help. Returns a notice when the device becomes ready.
     [[nodiscard]] std::optional<std::string> poll(TouchState& touch) {
         DeviceNews& news = touch.devices[place_];
         news.state = device_.state();
         news.asked = true;
         const int stage = news.state.stage;
         if (std::exchange(stage_, stage) == stage) return {};
-        // One that comes again and again must not keep moving the panels.
+        // A stage that comes again and again must not scroll the panels each time.
         if (news.state.needs_person && shown_ != stage) {
             touch.needs_person = true;
             shown_ = stage;
@@ -57,7 +57,7 @@ class DeviceEnd {
                (again ? " again" : "");
     }
 
-    /// Adds the buttons that went down since the last call, the lowest first.
+    /// Appends the presses since the last call, in the order of the buttons' numbers.
     void take_presses(const Settings& settings, const TouchState& touch,
                       std::vector<GripPress>& into) {
         const DeviceState& state = touch.devices[place_].state;
@@ -70,12 +70,12 @@ class DeviceEnd {
         taken_ = state.presses;
     }
 
-    /// Whether publish() has something new.
+    /// Whether publish() would change the device's tuning.
     [[nodiscard]] bool is_retuned(const Settings& settings, const TouchState& touch) const {
         return device_.is_retuned(settings.devices[kind_],
                                   {settings.max_force_newton, touch.centred});
     }
-    /// The settings to the next tick; to be called after the haptic loop was told to ramp.
+    /// Publishes the tuning to the next tick. Call it after the loop got the settings that ramp.
     void publish(const Settings& settings, const TouchState& touch) {
         device_.publish(settings.devices[kind_], {settings.max_force_newton, touch.centred});
     }
@@ -85,8 +85,8 @@ class DeviceEnd {
     std::size_t place_;  // in TouchState::devices
     ForceDevice& device_;
     ButtonPresses taken_{};
-    int stage_{0};  // as told
-    int shown_{0};  // for which the panel came into sight
+    int stage_{0};  // of the last poll()
+    int shown_{0};  // the stage for which the panel was last scrolled into view
 };
 
 }  // namespace dibhr

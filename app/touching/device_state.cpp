@@ -16,7 +16,7 @@ const DeviceNews* touching_device(const TouchState& touch) {
     return found == touch.devices.end() ? nullptr : &*found;
 }
 
-// In a replay no device is there.
+// In a replay no device is read.
 
 bool a_device_touches(const TouchState& touch) {
     const DeviceNews* const device = touching_device(touch);

@@ -1,4 +1,4 @@
-// What the state of the force devices means, and how it is said.
+// What the state of the force devices means, as conditions and as texts.
 #pragma once
 
 #include <string>
@@ -7,24 +7,23 @@
 
 namespace dibhr {
 
-/// What touched in the last tick that is known of; null: none of those that are looked for.
+/// The device that gave the goal of the last known tick; null: none of touch.devices.
 [[nodiscard]] const DeviceNews* touching_device(const TouchState& touch);
 
-/// A device touched in the last tick that is known of.
+/// Whether a ready device gave the goal of the last known tick.
 [[nodiscard]] bool a_device_touches(const TouchState& touch);
 
-/// A device touches, or may begin to before the next picture: that can be a slow one, as the first
-/// is. One that was lost comes back without a word.
+/// Whether a device touches, or may begin to before the next picture. (A picture can take long, as
+/// the first one does; and a lost device returns without notice.)
 [[nodiscard]] bool may_touch(const TouchState& touch);
 
-/// It is attached, was so in this run, or is waited for by name: else the mouse is all there is.
+/// Whether the device is attached, was attached in this run, or was requested by name.
 [[nodiscard]] bool in_sight(const DeviceNews& news);
 
 /// "the mouse, meanwhile", "the Falcon".
 [[nodiscard]] std::string touching_text(const TouchState& touch);
 
-/// What a device that is there, or was lost, lacks to touch; empty: nothing, or another one
-/// touches.
+/// Why an attached or lost device cannot touch; empty: it can, or another device touches.
 [[nodiscard]] std::string lacking_text(const TouchState& touch);
 
 }  // namespace dibhr

@@ -9,7 +9,7 @@ namespace dibhr {
 
 namespace {
 
-/// Of the device that touched last, or of the first one. At least one is looked for.
+/// Workspace scale of the touching device, else of the first one (touch.devices is not empty).
 double scale_of_hand(const Settings& settings, const TouchState& touch) {
     const DeviceNews* const device = touching_device(touch);
     return settings.devices[(device == nullptr ? touch.devices.front() : *device).kind].scale();
@@ -33,7 +33,7 @@ Coupling asked_coupling(const Settings& settings, const TouchState& touch) {
 Coupling felt_coupling(const Settings& settings, const TouchState& touch) {
     const Coupling asked = asked_coupling(settings, touch);
     if (!may_touch(touch)) return asked;
-    // The loop knows the device's delay, too.
+    // The loop's limits also contain the device's measured delay.
     if (a_device_touches(touch)) return held_coupling(asked, limits_of_hand(touch));
     return held_coupling(asked, at_scale(touch.device.limits, scale_of_hand(settings, touch)));
 }

@@ -1,5 +1,5 @@
-// The force law: what of a person's settings, of the devices and of the window reaches the tick.
-// (The tick holds all of it to what the hand it reads can stand.)
+// The force law: which values the tick gets, from the settings, the devices and the window. (The
+// tick then limits them to what the device it reads can render.)
 #pragma once
 
 #include <string>
@@ -9,29 +9,29 @@
 
 namespace dibhr {
 
-/// What the hand of the last tick can stand.
+/// The limits of the device that the last tick read.
 [[nodiscard]] const DeviceLimits& limits_of_hand(const TouchState& touch);
 
-/// The coupling that the loop is asked for: the chosen one, with the damping that the hand needs
-/// where a person leaves it at that.
+/// The coupling that the window requests of the loop: the user's, with the damping that the device
+/// needs where the user has left *damping as needed* on.
 [[nodiscard]] Coupling asked_coupling(const Settings& settings, const TouchState& touch);
 
-/// To say what is felt of the coupling that is asked for, where a device touches or may begin to
-/// before the next picture.
+/// For panels: the requested coupling after the limits of the device that touches, or that may
+/// begin to before the next picture.
 [[nodiscard]] Coupling felt_coupling(const Settings& settings, const TouchState& touch);
 
-/// What the loop is asked for, but for recording, followers and the version.
+/// All settings that the window requests of the loop, except recording, followed and version.
 [[nodiscard]] HapticSettings asked_settings(const Settings& settings, const TouchState& touch);
 
-/// No force until the window is in front again: people work in another one while a device touches
-/// or may begin to.
+/// Whether the force is off because another window is in front while a device touches, or may
+/// begin to.
 [[nodiscard]] bool waits_for_front(const Settings& settings, const TouchState& touch);
 
-/// The hand moves under a held point: no force, and nothing is wrong.
+/// Whether the clutch button is held: the hand moves, the goal does not, and there is no force.
 [[nodiscard]] bool clutched(const Settings& settings, const TouchState& touch);
 
-/// What to say over the relief of a device that is there and does not touch, was lost, or waits for
-/// the window; empty: nothing.
+/// The text over the relief about a device that cannot touch, was lost, or waits for the window to
+/// be in front; empty: none.
 [[nodiscard]] std::string device_banner(const Settings& settings, const TouchState& touch);
 
 }  // namespace dibhr

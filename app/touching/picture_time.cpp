@@ -9,7 +9,7 @@ namespace {
 
 constexpr auto kPictureTime = std::chrono::nanoseconds(1'000'000'000 / 60);
 constexpr auto kSoftwarePictureTime = std::chrono::nanoseconds(1'000'000'000 / 30);
-/// A software drawer that takes longer for a picture stands still.
+/// Software that takes longer for one picture counts as hung.
 constexpr auto kLongestDrawing = std::chrono::seconds(1);
 
 }  // namespace

@@ -1,4 +1,4 @@
-// How long a picture may take: at the least, so that others have time, and to be drawn.
+// Timing of pictures: the least time from one to the next, and heartbeats while one is drawn.
 #pragma once
 
 #include <chrono>
@@ -6,11 +6,11 @@
 
 namespace dibhr {
 
-/// Least time from picture to picture; zero, not in sync: do not wait. `software`: draws.
+/// Least time between two pictures; zero without `sync`. `software`: the processor draws.
 [[nodiscard]] std::chrono::nanoseconds shortest_picture(bool sync, bool software);
 
-/// On a busy machine software takes long, and goes on: the processor's threads draw, for a second
-/// at most, while this one hears of keys only with the next picture.
+/// Calls `beat` while the processor's threads draw, for a second at most. Software drawing can take
+/// long on a busy machine; the window handles no keys meanwhile, but it is not hung.
 void beat_while_drawing(const std::function<void()>& beat);
 
 }  // namespace dibhr

@@ -19,8 +19,8 @@ bool inside(glm::dvec2 p, glm::ivec2 size) {
 
 constexpr double kWheelStep_px = 4.0;
 
-/// Shortens [begin, end] of p = from + s * way to where `axis` of p is in [low, high]; false:
-/// nowhere.
+/// Clips the range [begin, end] of s to where `axis` of from + s * way is in [low, high]; false:
+/// nothing is left.
 bool clip(const Vec3& from, const Vec3& way, int axis, double low, double high, double& begin,
           double& end) {
     if (std::abs(way[axis]) < 1e-12) return from[axis] >= low && from[axis] <= high;
@@ -43,7 +43,7 @@ PointerUse ReliefMouse::use(const Pointer& pointer, double wheel_steps, bool ove
                 : pointer.left                                       ? Drag::touch
                 : pointer.middle || (pointer.right && pointer.shift) ? Drag::pan
                                                                      : Drag::orbit;
-        last_px_ = pointer.position_px;  // how the pointer came here turns nothing
+        last_px_ = pointer.position_px;  // movement before the press does not turn the view
     }
     const glm::dvec2 moved = pointer.position_px - last_px_;
     last_px_ = pointer.position_px;

@@ -21,8 +21,8 @@ struct PointerUse {
 /// Follows the buttons from picture to picture: a press belongs to where it began.
 class ReliefMouse {
   public:
-    /// Turns, shifts and zooms the camera; gives back what is left for the hand. `over_panel`: the
-    /// panels have the pointer. `viewport` is the relief's part of the window, from its upper left.
+    /// Turns, shifts and zooms the camera; returns the input that is left for the virtual hand.
+    /// `over_panel`: the panels use the pointer. `viewport`: size of the relief, at the upper left.
     PointerUse use(const Pointer& pointer, double wheel_steps, bool over_panel, glm::ivec2 viewport,
                    Camera& camera);
 
@@ -36,8 +36,8 @@ class ReliefMouse {
 /// Turns the ray under the cursor into the virtual hand's target, on the surface that is seen.
 class HandPointer {
   public:
-    /// Beside the relief the target slides on in the height last met, so that a stroke over the
-    /// edge goes on.
+    /// Beside the relief the target keeps the last height on the surface, so that a stroke over the
+    /// edge continues.
     [[nodiscard]] MouseTarget target(const Camera::Ray& ray, const DepthSurface& surface,
                                      const PointerUse& use);
 
@@ -46,8 +46,8 @@ class HandPointer {
     double height_px_{0.0};
 };
 
-/// The point of the surface, in the grid, that a ray meets first, entering the image's rectangle
-/// through its side or from above; nothing when it passes by.
+/// The first point of the surface (grid space) that a ray meets, entering the image's rectangle
+/// through its side or from above; nothing when the ray misses it.
 [[nodiscard]] std::optional<Vec3> surface_under(const Camera::Ray& ray,
                                                 const DepthSurface& surface);
 

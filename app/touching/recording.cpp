@@ -1,4 +1,4 @@
-// The window thread's end of the recorder.
+// The window thread's control of the recorder.
 #include "app/touching/recording.hpp"
 
 #include <map>
@@ -22,17 +22,17 @@ namespace {
 constexpr const char* kPlainTag = "mark";
 constexpr const char* kParticipant = "participant";
 constexpr const char* kNote = "note";
-/// For the loop to see that it is over: until then ticks may touch what comes.
+/// Time for the loop to see the recording's end: until then ticks may refer to newer frames.
 constexpr std::chrono::milliseconds kLastTicks{100};
 
-/// The one that touches, by its full name where it has one; else the one that was asked for.
+/// Full name of the touching device where it has one; else the requested device's name.
 std::string device_name(const TouchState& touch) {
     const DeviceNews* const device = touching_device(touch);
     return device == nullptr || device->state.full_name.empty() ? touch.device.name
                                                                 : device->state.full_name;
 }
 
-/// What the names of its facts begin with.
+/// Prefix of the names of the device's facts.
 std::string prefix_of(const DeviceNews& device) {
     return std::string(force_device_kinds()[device.kind]->name) + "-";
 }
@@ -49,7 +49,7 @@ std::string fact_of(std::string_view word) {
     return std::string(word);
 }
 
-/// What is kept with a recording: versions of program and libraries, files, parameters, device.
+/// The facts of a recording: versions of program and libraries, files, parameters, device.
 std::map<std::string, std::string> session_facts(const TouchedState& state) {
     const Settings& settings = state.settings;
     const MediaDescription& media = state.media;
@@ -86,7 +86,7 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
     return facts;
 }
 
-/// The video first, whose content the session keeps.
+/// Finishes the video first: the session stores the hash of its content.
 RecorderStatus finish_both(Recorder& recorder, LiveRecorder& live,
                            std::chrono::milliseconds for_sums) {
     live.finish();
@@ -119,7 +119,7 @@ void TouchRecording::start_live(const std::filesystem::path& file) {
     live_ = std::make_shared<LiveRecorder>(files);
     kept.colour_path = files.colour;
     kept.depth_path = files.depth;
-    if (kept.meaning) {  // halves and hues are told apart before they are kept
+    if (kept.meaning) {  // the video is saved after unpacking and decoding
         kept.meaning->packing.value = DepthPacking::separate;
         kept.meaning->code.value = DepthCode::grey;
     }
@@ -129,7 +129,7 @@ void TouchRecording::start_live(const std::filesystem::path& file) {
                         [live = live_](const LiveRecord& record) { live->add(record); });
 }
 
-/// All that is touched from here on is in the video.
+/// From the first saved frame on, every touched frame is in the video.
 void TouchRecording::begin_if_there() {
     const auto& live = state_.media.playback.live;
     if (!waiting_ || !live || live->media != waiting_->number) return;
@@ -137,7 +137,7 @@ void TouchRecording::begin_if_there() {
 }
 
 void TouchRecording::start(const std::filesystem::path& file) {
-    TickRecord left_behind;  // of a recording that was stopped
+    TickRecord left_behind;  // ticks of a recording that was stopped
     while (ticks_.pop(left_behind)) continue;
     participant_ = state_.touch.session_fields.participant.data();
     note_ = state_.touch.session_fields.note.data();
@@ -160,7 +160,7 @@ void TouchRecording::start(const std::filesystem::path& file) {
 }
 
 std::string TouchRecording::stop(const std::string& reason) {
-    poll();  // with what was typed last
+    poll();  // records what was typed last
     if (std::exchange(waiting_, {})) {
         live_->discard();
         leave();
@@ -184,7 +184,7 @@ std::string TouchRecording::stop(const std::string& reason) {
     return told(recorder_->finish());
 }
 
-/// Of one that is over.
+/// Updates the state after the end of a recording. Returns the notice about it.
 std::string TouchRecording::told(const RecorderStatus& recorded) {
     if (!recorded.failure.empty()) {
         break_off(recorded.failure);
@@ -193,7 +193,7 @@ std::string TouchRecording::told(const RecorderStatus& recorded) {
     state_.touch.recorded_file = finishing_file_;
     leave();
     state_.touch.recording.reset();
-    state_.touch.session_fields.note = {};  // it was about this one
+    state_.touch.session_fields.note = {};  // the note was about this recording
     return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
            state_.touch.recorded_file.string();
 }
@@ -207,7 +207,7 @@ std::optional<std::string> TouchRecording::take_finished() {
 
 void TouchRecording::break_off(const std::string& failure) {
     state_.touch.recording_trouble = failure;
-    // What is felt from here on nobody could look up: whoever relies on it is to notice.
+    // What is felt from here on is in no file. The user must notice that, so the force goes off.
     state_.touch.force_enabled = false;
     trouble_ = failure;
     if (failure_.empty()) failure_ = failure;
@@ -260,7 +260,7 @@ void TouchRecording::poll() {
     const TouchState& touch = state_.touch;
     tell_changed(kParticipant, touch.session_fields.participant, participant_);
     tell_changed(kNote, touch.session_fields.note, note_);
-    // As the last one that touched, which may not be the one that was asked for.
+    // The device that touched last need not be the requested one.
     if (const std::string device = device_name(touch);
         device != device_ && device != touch.device.name) {
         device_ = device;
@@ -276,7 +276,7 @@ void TouchRecording::poll() {
     if (!failure.empty()) break_off(failure);
 }
 
-/// What was found of the devices, and how old the poses were that the recorded ticks used.
+/// Facts of devices found meanwhile, and the ages of the poses that the recorded ticks used.
 void TouchRecording::tell_devices() {
     for (std::size_t k = 0; k < told_devices_.size(); ++k) {
         const DeviceNews& one = state_.touch.devices[k];

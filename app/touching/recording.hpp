@@ -1,4 +1,4 @@
-// Recording what is touched: start, stop, marks, and what is told of it.
+// The window thread's control of a recording: start, stop, marks, facts, status.
 #pragma once
 
 #include <chrono>
@@ -25,70 +25,70 @@ namespace dibhr {
 
 class TouchRecording {
   public:
-    /// All outlive it; `ticks` is the haptic loop's end.
+    /// All arguments must outlive the object. The haptic loop writes `ticks`.
     TouchRecording(TickRing& ticks, LastWords& words, Player& player, const TouchedState& state)
         : ticks_(ticks), words_(words), player_(player), state_(state) {}
 
-    /// A video that ticks will refer to by the number given back.
+    /// Registers a video. Returns the number by which ticks refer to it.
     [[nodiscard]] std::uint32_t opened(const MediaDescription& media);
 
     /// Throws InputError when the file cannot be made.
     void start(const std::filesystem::path& file);
-    /// Of what is live: its video is kept beside the file, and ticks are recorded from the first
-    /// frame of that on. Throws InputError.
+    /// Records a live source: its video is saved beside the file, and ticks are recorded from its
+    /// first saved frame on. Throws InputError.
     void start_live(const std::filesystem::path& file);
-    /// Closes the file. A short notice, with the reason where nobody asked for it; empty when
-    /// writing had broken off. With a video it is finished meanwhile: take_finished() tells.
+    /// Closes the file. Returns a notice, with `reason` where the user did not request the end;
+    /// empty after a failure. A live video is finished by a thread: see take_finished().
     std::string stop(const std::string& reason = {});
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
-    /// It is, or waits for the first frame of a video.
+    /// A recording is active, or waits for the first frame of a live video.
     [[nodiscard]] bool asked_for() const { return active() || waiting_; }
-    /// The file of one that waits; else empty.
+    /// The file of a recording that waits for its first frame; else empty.
     [[nodiscard]] std::filesystem::path waits_with() const {
         return waiting_ ? waiting_->file : std::filesystem::path{};
     }
     [[nodiscard]] bool finishing() const { return finishing_.valid(); }
     [[nodiscard]] std::optional<std::string> take_finished();
 
-    /// Parameters that the next tick will have; to be called before it gets them.
+    /// Records parameters. Call it before they are published to the tick.
     void hand_over(const HapticSettings& settings);
 
-    /// The touch maps that ticks refer to by that version; to be called once they are known, also
-    /// after the ticks.
+    /// Records the touch maps that ticks refer to by `version`. May be called after those ticks,
+    /// once the maps are encoded.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
 
-    /// Marks `moment` with the tag that was typed. A short notice, which names a key of `keys`.
+    /// Marks `moment` with the typed tag. Returns a notice, which may name a key of `keys`.
     std::string mark(const KeyTable& keys, std::chrono::steady_clock::time_point moment =
                                                std::chrono::steady_clock::now());
 
-    /// Marks this moment. Nothing is recorded: does nothing.
+    /// Marks this moment. Does nothing without a recording.
     void mark(const std::string& tag);
 
-    /// Once a picture: how it goes, into the state; what a person typed, into the file. A recording
-    /// that broke off ends, and takes the force off.
+    /// Once a picture: copies the recorder's status into the state and changed facts into the file.
+    /// Ends a recording that failed, and switches the force off.
     void poll();
-    /// Why one has broken off since the last call; empty: none has.
+    /// Why a recording has failed since the last call; empty: none has.
     [[nodiscard]] std::string take_trouble() { return std::exchange(trouble_, {}); }
 
-    /// At the end of the program; waits so long for sums of large files. Throws InputError when a
-    /// recording broke off, or still waits.
+    /// At the end of the program. Waits at most `for_sums` for the hashes of large files. Throws
+    /// InputError when a recording failed, or still waits for its first frame.
     void finish(std::chrono::milliseconds for_sums = Recorder::kPatience);
 
-    /// Of the thread that writes: silent while that waits for the disk.
+    /// Heartbeat of the thread that writes the file; no beats while that thread waits for the disk.
     [[nodiscard]] const Heartbeat& heart() const noexcept { return heart_; }
 
   private:
     struct Opened {
         MediaDescription media{};
-        bool grows{false};  ///< it is a video that is being recorded
+        bool grows{false};  ///< the video file is still being written
     };
-    /// Of a force device, in the file.
+    /// What the file has so far of a force device.
     struct ToldDevice {
         PoseAges ages_before{};      ///< when the recording began
-        std::uint64_t ages_told{0};  ///< how many since then
-        std::string id{};            ///< known only when it has been found
+        std::uint64_t ages_told{0};  ///< number of poses in the ages last recorded
+        std::string id{};            ///< empty until the device was found
     };
-    /// Until its first frame is there.
+    /// A live recording until its first frame comes.
     struct Waiting {
         std::filesystem::path file{};
         std::uint32_t number{0};
@@ -101,30 +101,30 @@ class TouchRecording {
     void break_off(const std::string& failure);
     [[nodiscard]] double now_s() const;
 
-    /// Lets the recorder go.
+    /// Ends the connection to recorder and live video.
     void leave();
 
     TickRing& ticks_;
     LastWords& words_;
     Player& player_;
     TouchedState state_;
-    Heartbeat heart_{};                     // before the recorder, which beats it
-    std::vector<Opened> opened_{};          // what the frames' media numbers mean, from 1 on
+    Heartbeat heart_{};                     // before recorder_, whose thread beats it
+    std::vector<Opened> opened_{};          // by media number - 1
     std::unique_ptr<Recorder> recorder_{};  // null: not recording
-    std::shared_ptr<LiveRecorder> live_{};  // null: what is touched is not live
+    std::shared_ptr<LiveRecorder> live_{};  // null: the source is not live
     std::optional<Waiting> waiting_{};
     std::future<RecorderStatus> finishing_{};
     std::filesystem::path finishing_file_{};
-    /// The last touch maps that were felt; a recording may begin with them.
+    /// The last touch maps that were in use; a recording may begin with them.
     std::uint32_t maps_version_{0};
     std::vector<SessionMap> maps_{};
-    std::uint64_t told_version_{0};           // of the parameters
-    std::string participant_{}, note_{};      // as told
-    std::vector<ToldDevice> told_devices_{};  // one a device that is looked for
-    std::string device_{};                    // told of the session, where not the one asked for
+    std::uint64_t told_version_{0};           // of the last recorded parameters
+    std::string participant_{}, note_{};      // as recorded
+    std::vector<ToldDevice> told_devices_{};  // one for each of touch.devices
+    std::string device_{};                    // as recorded, where it is not the requested one
     std::chrono::steady_clock::time_point start_{};
-    std::string failure_{};  // of the first recording that broke off,
-    std::string trouble_{};  // and of the last one, to be told
+    std::string failure_{};  // of the first recording that failed, for finish()
+    std::string trouble_{};  // of the last one, for take_trouble()
 };
 
 }  // namespace dibhr

@@ -20,13 +20,13 @@ Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
     return glm::normalize(Vec3{-facet.slope_x(), -facet.slope_y(), 1.0});
 }
 
-/// As in every plot.
+/// The algorithm's colour, as in every plot.
 glm::vec3 tint_of(Algorithm algorithm) {
     const Ink ink = look_of(algorithm).stroke.ink;
     return glm::vec3(ink.red, ink.green, ink.blue) / 255.0F;
 }
 
-/// Of a fingertip, whose ball rests on what is drawn.
+/// Adds the ball of a fingertip, which rests on the drawn surface.
 void add_finger(const DepthBlend& shown, const SurfaceShape& shape, TouchMarkers& markers) {
     const Fingertip& finger = shown.nearest().cleaning.finger;
     if (!markers.visible || shown.nearest().beneath == nullptr) return;
@@ -57,10 +57,10 @@ TouchMarkers markers_of(const Settings& settings, const TouchState& state,
     return markers;
 }
 
-/// Softly, as deep as the goal is pressed in, up to a ball as large as the proxy's.
+/// A soft dent, deeper the deeper the goal is pressed in, up to a share of the ball's radius.
 Dent dent_under(const TouchMarkers& markers, const DepthImage& image) {
     constexpr double kRadiusPerColumn = 0.02;
-    constexpr double kDeepest = 0.45;  // of the radius: nothing is hidden
+    constexpr double kDeepest = 0.45;  // of the radius, so that the dent hides nothing
     constexpr double kShadow = 0.45;
     if (!markers.contact || !is_finite(markers.proxy)) return {};
     const double radius_px = kRadiusPerColumn * image.columns;

@@ -1,4 +1,4 @@
-// What a picture of the relief shows: the surface of now, and what the hand does.
+// Content of a picture of the relief: the current surface, and the markers of the hand.
 #pragma once
 
 #include "app/settings/settings.hpp"
@@ -8,7 +8,7 @@
 
 namespace dibhr {
 
-/// The markers are those of the last tick.
+/// The markers show the last tick that is known.
 [[nodiscard]] SceneContent scene_content(const Settings& settings, const TouchState& touch,
                                          const DepthBlend& shown);
 

@@ -1,4 +1,4 @@
-// Touching: what is polled and published once a picture, and the loop's beginning and end.
+// Touching: poll and publish once a picture; start and stop of the loop.
 #include "app/touching/touch_session.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-/// Also of a single tick: else it would flicker.
+/// The sign stays so long, also after a single tick: else it would flicker.
 constexpr std::chrono::milliseconds kCatchingUpTime{300};
 
 std::string text_of(const Standstill& last) {
@@ -28,7 +28,7 @@ std::string text_of(const Standstill& last) {
            " s: the force was off";
 }
 
-/// As the settings say; as recorded while the key for it is held.
+/// Cleaning of the settings; raw while the key *Depth as recorded* is held.
 CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& media) {
     if (media.as_recorded) return {.preset = CleaningPreset::raw};
     CleaningOptions cleaning = cleaning_on(media, settings.cleaning);
@@ -91,7 +91,7 @@ void TouchSession::follow_others() {
     state_.touch.others = others_.proxies();
 }
 
-/// Also what happened in the ticks between two pictures.
+/// Counts also what happened in the ticks between two pictures.
 void TouchSession::notice_catching_up() {
     const HapticState& haptic = state_.touch.haptic;
     const auto now = steady_clock::now();
@@ -122,7 +122,7 @@ void TouchSession::publish() {
     const Settings& settings = state_.settings;
     const MediaDescription& media = state_.media;
     stretch(touch.bump, media.depth_columns, media.depth_rows, settings.touch.shape.bump_size_px);
-    // As they are wished: the loop holds them to what the hand it reads can stand.
+    // Requested values: the loop limits them to what the device it reads can render.
     HapticSettings asked = asked_settings(settings, touch);
     const bool retuned =
         std::any_of(devices_.begin(), devices_.end(),
@@ -136,16 +136,16 @@ void TouchSession::publish() {
         published_ = asked;
         recording_.hand_over(published_);
         haptic_settings_.publish(published_);
-        // The tick after that one may have begun before.
+        // The next tick may have begun before this publish.
         if (recording_ends) recording_ended_at_ = haptic_state_.front().ticks;
     }
-    // After the above, so that the force is already rising from zero when the goal moves elsewhere.
+    // After the settings: a new tuning moves the goal, and the force must then rise from zero.
     for (DeviceEnd& device : devices_)
         if (device.is_retuned(settings, touch)) device.publish(settings, touch);
     publish_to_player();
 }
 
-/// To the ear, and to the hands that hold a game pad. A replay is not touched.
+/// Publishes to sound and game pads; both are off in a replay.
 void TouchSession::publish_to_outputs() {
     const Settings& settings = state_.settings;
     const TouchState& touch = state_.touch;
@@ -166,7 +166,7 @@ void TouchSession::publish_to_player() {
 void TouchSession::start() {
     if (loop_) return;
     publish();
-    // What the loop before it did is past: ticks are counted anew.
+    // Forget the state of the last loop: a new loop counts ticks from 0.
     state_.touch.haptic = {.hand = hand_.device->unread()};
     haptic_state_.publish(state_.touch.haptic);
     standstills_ = 0;

@@ -1,5 +1,5 @@
-// Touching: the device, what is played, the haptic loop, the recorder, the outputs to ear and game
-// pad, and what is published to the next tick. Each window has one. See README.md.
+// Touching: device, player, haptic loop, recorder, sound, game pads, and what is published to the
+// next tick. Each window has one TouchSession. See README.md.
 #pragma once
 
 #include <atomic>
@@ -30,54 +30,54 @@
 
 namespace dibhr {
 
-/// Whom the loop listens to, and who is told of recordings; all outlive the session.
+/// What a session uses of its window and program; all must outlive the session.
 struct TouchTies {
     const Heartbeat& window;
     const std::atomic<bool>& without_force;
     LastWords& words;
 };
 
-/// The window thread's. No force is sent but between start() and stop().
+/// For the window's thread only. Force is sent only between start() and stop().
 class TouchSession {
   public:
-    /// `state` is the window's, and outlives it.
+    /// `state` belongs to the window and must outlive the session.
     TouchSession(HandDevice hand, const TouchTies& ties, const TouchedState& state);
 
-    // Once a picture, in this order; of a recording also TouchRecording::poll(), after the presses.
+    // Once a picture, in this order, with TouchRecording::poll() after take_presses().
 
-    /// What the loop and the devices did, into the state: as of the last tick. Notices for a
-    /// person.
+    /// Copies the newest state of loop and devices into the window's state. Returns notices to show
+    /// to the user.
     [[nodiscard]] std::vector<std::string> poll(bool window_in_front);
-    /// The buttons of the grips that went down since the last call.
+    /// The presses of device buttons since the last call.
     [[nodiscard]] std::vector<GripPress> take_presses();
-    /// After all that was changed: to the next tick, the devices, the player and the outputs.
+    /// Publishes all changes of this picture: to the next tick, the devices, player and outputs.
     void publish();
 
-    /// Publishes, and begins the loop. Does nothing while it runs.
+    /// Publishes, and starts the loop. Does nothing while the loop runs.
     void start();
-    /// Sends zero force; the loop ends. How it kept its time, where one ran.
+    /// Sends zero force and ends the loop. Returns the loop's timing; nothing when none ran.
     std::optional<TickSchedule> stop() noexcept;
     [[nodiscard]] bool runs() const noexcept { return loop_ != nullptr; }
-    /// Stops; the device is let go of, for good.
+    /// Stops, and closes the device for good.
     void close_device();
 
-    /// Plays it from its first frame; the state gets its description.
+    /// Plays `media` from its first frame, and puts its description into the state.
     void play(std::unique_ptr<Media> media, std::shared_ptr<const TouchMaps> maps = nullptr);
-    /// That its frames and the ticks over them carry.
+    /// The number that the frames of the current media, and ticks over them, carry.
     [[nodiscard]] std::uint32_t media_number() const noexcept { return media_number_; }
-    /// The frames that are played now, which the ticks touch, too.
+    /// The frames of this moment: the same that the ticks touch.
     [[nodiscard]] DepthBlend frames_now();
 
-    /// Where the mouse points, for the virtual hand. It presses only where no device touches.
+    /// Moves the virtual hand to where the mouse points. It presses only while no device touches.
     void point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use);
-    /// Whether the mouse is all that touches now.
+    /// Whether the mouse is the hand: no device touches.
     [[nodiscard]] bool by_mouse() const noexcept;
 
-    /// The loop has seen the end of the last recording: a next one gets none of its ticks.
+    /// Whether the loop has seen the end of the last recording: the next gets none of its ticks.
     [[nodiscard]] bool may_record() const noexcept;
 
-    /// Checks and keeps a firmware file, and gives it to the device of that kind. What came of it,
-    /// for a notice. Throws InputError.
+    /// Checks and stores a firmware file, and passes it to the device of that kind. Returns a
+    /// notice. Throws InputError.
     std::string use_firmware(const std::filesystem::path& file);
 
     [[nodiscard]] Player& player() noexcept { return player_; }
@@ -92,12 +92,12 @@ class TouchSession {
     TouchTies ties_;
     TouchedState state_;
     HandDevice hand_;
-    std::vector<DeviceEnd> devices_{};  // that are looked for
+    std::vector<DeviceEnd> devices_{};  // in the order of touch.devices
     HandPointer pointer_{};
     std::uint32_t media_number_{0};
     HapticSettings published_{};
-    std::uint64_t recording_ended_at_{0};  // the running loop's ticks, when that was published
-    std::uint64_t standstills_{0};         // as told
+    std::uint64_t recording_ended_at_{0};  // count of the loop's ticks when the end was published
+    std::uint64_t standstills_{0};         // as of the last notice
     std::uint64_t bounds_met_{0};          // as of the last picture
     std::chrono::steady_clock::time_point catching_up_until_{};
     Player player_{};
@@ -111,7 +111,7 @@ class TouchSession {
     SoundOutput sound_{touch_source_};
     PadOutput pads_{touch_source_};
     TouchRecording recording_;
-    std::unique_ptr<HapticLoop> loop_{};  // last: it goes first
+    std::unique_ptr<HapticLoop> loop_{};  // last member: destroyed first
 };
 
 }  // namespace dibhr

@@ -1,5 +1,5 @@
-// What touches, what is touched, and what came of it: plain data of a window, which a TouchSession
-// fills, and panels show and edit.
+// State of touching and of the media: plain data of a window. A TouchSession fills it, panels show
+// and edit it.
 #pragma once
 
 #include <array>
@@ -33,7 +33,7 @@
 
 namespace dibhr {
 
-/// What the strip charts can show, and what of the last seconds they do show.
+/// The values that strip charts can show.
 enum class Strip { force, penetration, speed, energy, lateness };
 inline constexpr std::size_t kStrips = 5;
 
@@ -63,9 +63,9 @@ struct StripHistory {
 /// A line to type into.
 using TextField = std::array<char, 1024>;
 
-/// What a person types of a recording.
+/// What a person types about a recording.
 struct SessionFields {
-    TextField participant{};  ///< kept with it
+    TextField participant{};  ///< stored as a fact of the recording
     TextField note{};
     TextField tag{};  ///< of the next mark
 };
@@ -85,38 +85,38 @@ struct ReplayNews {
     std::vector<SessionMark> marks{};  ///< times as the ticks'
     SessionPlayback playback{};
     TickRecord tick{};                     ///< as recorded
-    std::int64_t tick_count{0};            ///< its number as people count: from 0
+    std::int64_t tick_count{0};            ///< number of the tick in the file, from 0
     bool computes{false};                  ///< other parameters were chosen
-    bool computed{false};                  ///< what is shown was computed through them
-    const ContactBand* contacts{nullptr};  ///< null: not yet summed up
+    bool computed{false};                  ///< the shown tick was computed with them
+    const ContactBand* contacts{nullptr};  ///< null: not yet computed
 };
 
 /// What the window shows of a force device that is looked for.
 struct DeviceNews {
-    std::size_t kind{0};  ///< its place in force_device_kinds()
+    std::size_t kind{0};  ///< index in force_device_kinds()
     DeviceState state{};
-    bool asked{false};               ///< the state is the device's answer; before, anything may be
-    bool was_ready{false};           ///< in this run: when it is not now, it was lost
-    std::vector<DeviceLine> kept{};  ///< what a service keeps of it for all programs
+    bool asked{false};               ///< `state` came from the device; before, its state is unknown
+    bool was_ready{false};           ///< at some time in this run; not ready now: lost
+    std::vector<DeviceLine> kept{};  ///< settings that a service stores for all programs
 };
 
 struct TouchState {
     // What a person chooses.
     bool force_enabled{true};
-    std::uint32_t centred{0};  ///< counts the wishes to forget the clutch's shift
+    std::uint32_t centred{0};  ///< counts requests to centre the workspace
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
-    Material material{};  ///< chosen last; numbers and bump map may have been changed since
+    Material material{};  ///< last choice; its values may have been changed since
     SessionFields session_fields{};
 
     // Shown only.
-    bool in_front{true};  ///< the window; false: people work in another one
+    bool in_front{true};  ///< the window is; false: another window is in front
     DeviceSpecification device{};
-    std::vector<DeviceNews> devices{};  ///< that are looked for, in the order of their kinds
-    bool needs_person{false};           ///< a device: until the Device panel is in sight
+    std::vector<DeviceNews> devices{};  ///< the devices in use, in the order of their kinds
+    bool needs_person{false};           ///< a device does; reset when its panel is visible
     HapticState haptic{};
-    bool catching_up{false};  ///< the proxy is, or was a moment ago: long enough to be read
-    std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: not asked for, or unknown
+    bool catching_up{false};  ///< the proxy is, or was within the last 0.3 s
+    std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: off, or unknown
     StripHistory strips{};
     std::optional<RealtimeGrants> grants{};
     std::optional<RecordingNews> recording{};
@@ -127,36 +127,36 @@ struct TouchState {
     bool moves_coils{false};  ///< of a game pad
     PadNews pads{};
 
-    /// What is seen is what is felt: a changed one is on its way. `chosen`: of the settings.
+    /// The last tick's shape, so that the picture shows what is felt. `chosen`: the settings.
     [[nodiscard]] const SurfaceShape& shape(const TouchParameters& chosen) const noexcept {
         return haptic.touchable ? haptic.shape : chosen.shape;
     }
 };
 
-/// Files a person wants to see; an empty depth is found beside the colour file.
+/// Files to open; an empty depth is searched beside the colour file.
 struct OpenRequest {
     std::filesystem::path colour{};
     std::filesystem::path depth{};
-    bool in_any_order{false};  ///< dropped together: which is which is found out
+    bool in_any_order{false};  ///< dropped together: colour and depth are told apart
     DepthRequest request{usual_depth_request()};
-    bool chosen{false};  ///< other words on the panel, to be kept once they have opened it
-    double at_s{0.0};    ///< where to go on [s]
-    bool paused{false};  ///< and to stand still there
-    bool again{false};   ///< what is live has changed: it is tried until it comes
+    bool chosen{false};  ///< depth statements of the panel, saved once the file is open
+    double at_s{0.0};    ///< where to begin [s]
+    bool paused{false};  ///< begin paused
+    bool again{false};   ///< a live source changed its form: retry until it opens
 };
 
-/// What is opened, and how it plays.
+/// The open media, and how it plays.
 struct MediaState : MediaDescription {
     PlaybackStatus playback{};
-    OpenRequest opened{};  ///< how it was opened
+    OpenRequest opened{};  ///< the request that opened it
     std::vector<RecentFile> recent{};
     bool opening{false};
-    bool as_recorded{false};  ///< the depth, while its key is held
+    bool as_recorded{false};  ///< raw depth is shown, while its key is held
 
     void describe(const MediaDescription& now) { static_cast<MediaDescription&>(*this) = now; }
 };
 
-/// What a TouchSession works on; it is the window's, and outlives the session.
+/// References to the window's state that a TouchSession uses; it must outlive the session.
 struct TouchedState {
     const Settings& settings;
     TouchState& touch;

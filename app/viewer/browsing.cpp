@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kMostPreview_px = 640;
 
-/// The file that is shown: of a pair the one that was named.
+/// The shown file; of a pair the one that was named.
 fs::path shown_file(const ViewerState& state) {
     if (state.touch.replay) return state.touch.replay->file;
     return state.media.colour_path.empty() ? state.media.depth_path : state.media.colour_path;
@@ -52,7 +52,7 @@ void Browsing::toggle(ViewerState& state) {
 fs::path Browsing::first_folder(const ViewerState& state) const {
     const fs::path file = shown_file(state);
     const fs::path folder = whole_path(file).parent_path();
-    // Nobody keeps recordings beside the program's own.
+    // The sample's folder is no place for a user's recordings.
     return file.empty() || folder == sample_folder_ ? whole_path(".") : folder;
 }
 
@@ -150,7 +150,7 @@ Browsing::Read Browsing::read_preview(const FolderEntry& entry) {
         const MediaDescription& about = media->description();
         if (first) read.picture = std::make_shared<const ColourImage>(first->colour);
         read.words = std::to_string(about.depth_columns) + " x " + std::to_string(about.depth_rows);
-    } catch (const std::exception&) {  // whoever opens it is told why
+    } catch (const std::exception&) {  // the reason is shown when the file is opened
         read.words = "No depth was found for it.";
     }
     return read;

@@ -1,4 +1,4 @@
-// What the Open dialog shows, read away from the window's thread; and the next file of a folder.
+// Reads folders and previews for the Open dialog on other threads; opens a folder's next file.
 #pragma once
 
 #include <filesystem>
@@ -16,30 +16,30 @@ namespace dibhr {
 
 class Browsing {
   public:
-    /// `errands` outlive it.
+    /// The task group must outlive it.
     explicit Browsing(Errands& errands);
 
-    /// Shows the dialog, or puts it away.
+    /// Shows or hides the dialog.
     void toggle(ViewerState& state);
 
-    /// Where whoever opens files begins to look: the folder of what is shown.
+    /// The folder in which a dialog begins: that of the shown file.
     [[nodiscard]] std::filesystem::path first_folder(const ViewerState& state) const;
 
-    /// Shows the dialog with what that folder holds.
+    /// Shows the dialog with the content of that folder.
     void show(const std::filesystem::path& folder, ViewerState& state);
 
-    /// The file after the one that is shown, or before it, in its folder: asked for when the folder
-    /// has been read. False while it is still being read for the last one.
+    /// Opens the file that is `entries` after the shown one (before it: < 0), once its folder was
+    /// read. False while the folder is still being read for the last call.
     [[nodiscard]] bool go_by(int entries, const ViewerState& state);
 
     /// Reads another folder for the dialog.
     void go_to(const std::filesystem::path& folder, OpenDialog& dialog);
-    /// Finds what Tab makes of what is typed.
+    /// Computes the completion of the typed path (Tab).
     void complete(const std::string& typed, const OpenDialog& dialog);
-    /// Finds what was entered, which is then opened.
+    /// Looks up the entered file, which advance() then opens.
     void enter(const TypedFile& entered, const OpenDialog& dialog);
 
-    /// Once a picture: takes what was read and found. What there is to tell a person.
+    /// Once a picture: takes the results of the other threads. Returns a notice, if any.
     [[nodiscard]] std::optional<std::string> advance(ViewerState& state);
 
   private:
@@ -59,7 +59,7 @@ class Browsing {
     std::shared_ptr<const ColourImage> picture_{};
     ColourTexture texture_{};
     int by_{0};
-    int entered_in_{0};  // OpenDialog::line: another one asks for nothing any more
+    int entered_in_{0};  // OpenDialog::line at enter(); a result for another line is dropped
     Errand<Folder> folder_;
     Errand<Completion> completion_;
     Errand<FolderEntry> typed_;

@@ -1,4 +1,4 @@
-// The window thread's end of a clip.
+// The window thread's control of a clip.
 #include "app/viewer/clip.hpp"
 
 #include <exception>
@@ -12,10 +12,10 @@ namespace dibhr {
 
 namespace {
 
-/// Thirty pictures a second, also of a window that shows sixty, and not quite as often.
+/// For 30 pictures a second; a little less than 1/30 s, as a window's pictures come unevenly.
 constexpr auto kLeastBetweenPictures = std::chrono::milliseconds(29);
 
-/// Of an hour's clip the copy takes some seconds; a disk that stands still takes for ever.
+/// Copying an hour's clip takes some seconds; a disk that hangs takes for ever.
 constexpr std::chrono::seconds kPatience{60};
 constexpr std::chrono::seconds kPatienceAtOnce{5};
 
@@ -28,7 +28,7 @@ double seconds_between(ViewerClip::Clock::time_point begin, ViewerClip::Clock::t
 ViewerClip::~ViewerClip() {
     try {
         finish(ClipEnd::at_once);
-    } catch (const std::exception&) {  // the error that ends the program is told, not this one
+    } catch (const std::exception&) {  // the error that ends the program is reported, not this one
         recorder_.reset();
     }
 }
@@ -95,7 +95,7 @@ void ViewerClip::wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how) {
         static_cast<void>(over->result());
         return;
     }
-    static_cast<void>(over.release());  // its thread, which nothing can end, still uses it
+    static_cast<void>(over.release());  // its thread cannot be ended and still uses it
     errands_.give_one_up();
     throw InputError(file_.string() + ": the clip is not finished after " +
                      std::to_string(patience.count()) +

@@ -1,4 +1,4 @@
-// A clip of the view: start, stop, and what is told of it.
+// The window thread's control of a clip of the view: start, stop, status.
 #pragma once
 
 #include <chrono>
@@ -18,32 +18,32 @@ class ViewerClip {
   public:
     using Clock = ClipRecorder::Clock;
 
-    /// Both outlive it. `words` keep what there is of a clip when the program hangs at its end.
+    /// Both must outlive it. The crash note names an unfinished clip if the program hangs at exit.
     ViewerClip(Errands& errands, LastWords& words) : errands_(errands), words_(words) {}
-    /// What there is of a clip is kept when an error ends the program.
+    /// Finishes the clip if an error ends the program.
     ~ViewerClip();
     ViewerClip(const ViewerClip&) = delete;
     ViewerClip& operator=(const ViewerClip&) = delete;
 
     /// Throws InputError when the file cannot be made.
     void start(const std::filesystem::path& file, ClipName name, PictureOf of);
-    /// The clip ends now, its file a little later.
+    /// Ends the clip now; the file is finished a little later.
     void stop();
-    /// One goes on or is being finished.
+    /// A clip is recorded, or its file is being finished.
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
-    /// It is being finished.
+    /// The file is being finished.
     [[nodiscard]] bool stopped() const { return recorder_ && end_; }
 
-    /// Whether it wants a picture of that part of the window that is drawn now.
+    /// Whether the clip needs the picture of now of this part of the window.
     [[nodiscard]] bool wants(PictureOf of, Clock::time_point now) const;
     void add(ColourImage picture, Clock::time_point now);
 
-    /// Once a picture: how it goes, into `state`; a notice once it is finished. Throws InputError,
-    /// once, when it broke off.
+    /// Once a picture: copies the clip's status into `state`. Returns a notice once the clip is
+    /// finished. Throws InputError, once, when it failed.
     [[nodiscard]] std::optional<std::string> take_news(ViewerState& state);
 
-    /// At the end of the program: waits for the file, not for ever. Throws InputError when a clip
-    /// broke off, or is not finished after that.
+    /// At the end of the program: waits for the file with a timeout. Throws InputError when a clip
+    /// failed, or is not finished in time.
     void finish(ClipEnd how);
 
   private:
@@ -58,10 +58,10 @@ class ViewerClip {
     ClipName name_{ClipName::replaces};
     bool in_words_{false};
     PictureOf of_{PictureOf::window};
-    std::optional<Clock::time_point> begin_{};  // of the first picture
+    std::optional<Clock::time_point> begin_{};  // time of the first picture
     std::optional<Clock::time_point> end_{};
     Clock::time_point last_{};
-    std::string failure_{};  // of the first clip that broke off
+    std::string failure_{};  // of the first clip that failed
 };
 
 }  // namespace dibhr

@@ -1,5 +1,5 @@
-// What the viewer shows: a video to touch or a session to replay, the files that go with it, and
-// the scene made of them.
+// The viewer's media: opening and showing a video or session, the files saved beside it, and the
+// scene.
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -31,7 +31,7 @@ std::string desktop_words(const ViewerState& state) {
     return kDesktopAsks + state.keys.told(Action::open_file_in_window, " opens one in this window");
 }
 
-/// What a person gives to be opened; false: not so many.
+/// Pushes a command to open the files; false: too many, or none.
 bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& state) {
     const bool one = files.size() == 1;
     if (one && named_firmware(files.front())) {
@@ -46,12 +46,12 @@ bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& st
     return true;
 }
 
-/// Whose levels are meant.
+/// The file whose levels are depth.
 const std::filesystem::path& depth_file(const MediaDescription& media) {
     return media.depth_path.empty() ? media.colour_path : media.depth_path;
 }
 
-/// The pixel at a place of the grid; nothing beside the picture.
+/// The pixel at a place in grid space; nothing beside the picture.
 std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const DepthBlend& shown) {
     if (!shown.makes_surface()) return {};
     const DepthImage& depth = *shown.shown().from->drawn();
@@ -79,7 +79,7 @@ void Viewer::take_opened() {
             show_depth_words(state_);
         } else if (!opened->failure.empty() && !opened->request.again) {
             state_.ui.message = opened->failure;
-            show_depth_words(state_);  // those that are in force
+            show_depth_words(state_);  // the ones in use
         }
     }
     state_.media.opening = opening_.under_way();
@@ -87,7 +87,7 @@ void Viewer::take_opened() {
 
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
     if (files.empty()) return;
-    // On the relief a picture is a recording, on the panels it is laid over the relief.
+    // A picture dropped on the relief is a recording; dropped on the panels, a bump map.
     const bool over_panels = window_.pointer().position_px.x >= relief_viewport().x;
     if (over_panels && files.size() == 1 && named_picture(files.front())) {
         state_.commands.push(LoadBump{files.front()});
@@ -110,7 +110,7 @@ Answer Viewer::open_by_dialog() {
     return {desktop_words(state_)};
 }
 
-/// Says for as long as it is open why nothing happens here.
+/// While the desktop's dialog is open, a notice says so.
 void Viewer::take_desktop_answer() {
     const auto answer = desktop_.take();
     UiState& ui = state_.ui;
@@ -130,14 +130,14 @@ void Viewer::take_desktop_answer() {
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                         const FileMemory& memory, FoundMaps maps) {
     explaining_.end(state_, camera_);
-    // Ticks would touch what no file holds. Where nothing is recorded yet, what comes now is.
+    // A recording's video would lack these frames: end it. A waiting one goes on below.
     const bool live = media->description().live;
     const std::filesystem::path waits =
         live && request.again ? touch_.recording().waits_with() : std::filesystem::path{};
     if (live && touch_.recording().asked_for()) {
         const std::string ended =
             touch_.recording().stop(request.again ? "the live source changed its form" : "");
-        if (waits.empty()) tell(ended);  // one that waits goes on to wait
+        if (waits.empty()) tell(ended);  // a waiting recording starts again below
     }
     if (!request.chosen) keep_memory();
     replay_.end(state_);
@@ -153,12 +153,12 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
     fit_to_media();
-    // A person who says else looks on from where they are.
+    // After a change of the depth options the view stays.
     const bool same_size =
         now.depth_columns == before.depth_columns && now.depth_rows == before.depth_rows;
     if (!request.chosen || !same_size) frame_relief();
     show_title(now.colour_path.empty() ? now.depth_path : now.colour_path);
-    // As it was named, or, dropped, as it was told apart.
+    // As named; dropped files in the order found: colour, depth.
     keep_recent(request.in_any_order && !request.depth.empty()
                     ? RecentFile{now.colour_path, now.depth_path}
                     : RecentFile{request.colour, request.depth});
@@ -181,14 +181,14 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     touch_.start();
 }
 
-/// Of the file that is shown, when another one comes or the program ends. What cannot be kept is
-/// missed by nobody at once: it is not told.
+/// Saves view, relief and position of the shown file, before another one or the program's end.
+/// Errors are ignored: nothing important is lost.
 void Viewer::keep_memory() try {
     if (remembered_.empty()) return;
     FileMemory memory;
     const Settings& settings = state_.settings;
     const OwnRelief relief{settings.fit_relief, settings.touch.shape.relief_px};
-    if (relief == relief_shown_) {  // also where the command line gave it
+    if (relief == relief_shown_) {  // unchanged, also a value of the command line
         memory.relief_px = read_memory(file_memories_path(), remembered_).relief_px;
     } else if (!relief.fits) {
         memory.relief_px = relief.relief_px;
@@ -196,7 +196,7 @@ void Viewer::keep_memory() try {
     Camera whole = camera_;
     whole.reset();
     if (!(camera_.view() == whole.view())) memory.view = text_of(camera_.view());
-    constexpr double kNearEnd_s = 2.0;  // what was seen to its end begins anew
+    constexpr double kNearEnd_s = 2.0;  // a video watched to its end begins anew
     const PlaybackStatus playback = touch_.player().status();
     const double at_s = playback.media_s;
     const bool goes_on = at_s > 0.0 && at_s < playback.duration_s - kNearEnd_s;
@@ -228,7 +228,7 @@ void Viewer::take_memory(const FileMemory& memory, const OpenRequest& request) {
     }
 }
 
-/// A file's own relief is not that of the next one.
+/// Restores the relief settings of before the file that has its own.
 void Viewer::forget_relief() {
     if (!relief_before_) return;
     state_.settings.fit_relief = relief_before_->fits;
@@ -244,7 +244,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     painting_.end(state_);
     keep_memory();
     remembered_.clear();
-    touch_.stop();  // the force goes to zero, and nobody touches
+    touch_.stop();  // the force goes to zero; no device is read
     trace_.clear();
     touch_.player().pause();
     show_title(session->session.file());
@@ -253,7 +253,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     frame_relief();
 }
 
-/// A history that cannot be kept is none: whoever has such a home is told of the settings.
+/// Errors are ignored: in such a home folder, saving the settings reports the error.
 void Viewer::keep_recent(const RecentFile& opened) {
     const SampleFiles sample = sample_files();
     const std::filesystem::path history = recent_files_path();
@@ -273,7 +273,7 @@ void Viewer::show_title(const std::filesystem::path& file) {
     window_.set_title(name + " - dibhr");
 }
 
-/// What the panel says stays with the file that it made the depth.
+/// Saves the panel's depth choices for the file that they made the depth.
 void Viewer::keep_panel(const std::filesystem::path& depth_before) {
     lasting_.add([folder = depth_choices_path(), depth_before, depth = depth_file(state_.media),
                   panel = state_.media.opened.request.panel] {
@@ -282,8 +282,7 @@ void Viewer::keep_panel(const std::filesystem::path& depth_before) {
     });
 }
 
-/// The same files, with what the panel says of the depth and nothing that it said before, at the
-/// same moment.
+/// Opens the same files at the same moment, with the panel's new depth choices in place of the old.
 void Viewer::open_again(const DepthStatement& panel) {
     OpenRequest request = state_.media.opened;
     request.request.find_out = true;
@@ -295,7 +294,7 @@ void Viewer::open_again(const DepthStatement& panel) {
     open(request);
 }
 
-/// What sends now sends another form: all that was known of it is found out anew.
+/// Reopens a live source that now sends another size or kind of picture.
 void Viewer::follow_live() {
     const auto& live = state_.media.playback.live;
     if (!live || state_.touch.replay) return;
@@ -307,7 +306,7 @@ void Viewer::follow_live() {
     open(request);
 }
 
-/// When what is remembered of files is written.
+/// Opens after the writes so far, so that the file's memory is read as saved.
 void Viewer::open(const OpenRequest& request) {
     const bool begun = opening_.start([request, remembered = lasting_.done_so_far()] {
         if (remembered.valid()) remembered.wait();
@@ -328,7 +327,7 @@ std::string Viewer::save_sidecar() {
     all.finger_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
     DepthRequest& request = state_.media.opened.request;
     write_sidecar(file, all);
-    request.panel = {};  // the sidecar says it now
+    request.panel = {};  // these are in the sidecar now
     hear({{Origin::command_line, request.command_line}, {Origin::sidecar, all}},
          *state_.media.meaning);
     show_depth_words(state_);
@@ -345,7 +344,7 @@ Settings Viewer::lasting_settings() const {
     }
     if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
     const Material& material = state_.touch.material;
-    if (material.bumps && has_texture(material, settings.touch)) {  // as its file has it
+    if (material.bumps && has_texture(material, settings.touch)) {  // its file has them
         settings.touch.shape.roughness_px = before.shape.roughness_px;
         settings.touch.shape.bump_size_px = before.shape.bump_size_px;
     }
@@ -359,7 +358,7 @@ void Viewer::fit_to_media() {
     const Fit fit = fit_of(state_.media);
     if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
     if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
-    // A pixel is of another size.
+    // The pixel pitch may have changed.
     if (keeps_texture) lay_texture(state_.touch.material, settings.touch);
     keep_in_range(settings.touch);
 }
@@ -383,7 +382,7 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
                 state_.ui.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_.settings, state_.touch, shown_);
-    if (state_.ui.explained) {  // nothing else is drawn of the touch
+    if (state_.ui.explained) {  // hide the markers of the touch
         content.markers.visible = false;
         content.dent = {};
     }
@@ -391,7 +390,7 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
     if (state_.ui.brush.on) {
         content.look.paint = ReliefPaint::video;
         content.colour = painting_.tinted(content.colour, state_);
-        content.markers.visible = false;  // the hand does not touch, it paints
+        content.markers.visible = false;  // the mouse paints and does not touch
     }
     leave_trace(content.markers);
     scene_.draw(content, camera_, viewport);

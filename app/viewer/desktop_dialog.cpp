@@ -1,4 +1,4 @@
-// Asks the desktop on an errand, which outlives whoever sent it until the dialog is gone.
+// Opens the dialog on a thread that may outlive the window, until the dialog is closed.
 #include "app/viewer/desktop_dialog.hpp"
 
 #include <utility>
@@ -9,7 +9,7 @@ namespace dibhr {
 
 namespace {
 
-/// Portals and helpers mind capitals.
+/// Portals and helpers compare case-sensitively.
 std::vector<std::string> patterns_of_recordings() {
     std::vector<std::string> patterns;
     for (const std::string& ending : endings_that_open()) {

@@ -1,5 +1,4 @@
-// The desktop's dialog for opening files, beside the window: one at a time, waited for by a thread
-// of its own.
+// The desktop's dialog for opening files: one at a time; a thread of its own waits for it.
 #pragma once
 
 #include <memory>
@@ -11,28 +10,28 @@
 
 namespace dibhr {
 
-/// For the window's thread, which never waits here.
+/// For the window's thread; no function waits.
 class DesktopDialog {
   public:
-    /// `errands` outlive it.
+    /// The task group must outlive it.
     explicit DesktopDialog(Errands& errands) : asking_(errands) {}
-    /// Nobody wants to know any more: the dialog goes away.
+    /// Closes an open dialog.
     ~DesktopDialog() { call_off(); }
     DesktopDialog(const DesktopDialog&) = delete;
     DesktopDialog& operator=(const DesktopDialog&) = delete;
 
     [[nodiscard]] bool open() const { return off_ != nullptr; }
 
-    /// Only while none is open. What it begins with and lists is that of the window's own.
+    /// Opens the dialog; only while none is open. Same folder and file types as the window's own.
     void ask(const std::filesystem::path& folder, unsigned long x11_window);
 
-    /// The answer, once; nothing while there is none. None comes after call_off().
+    /// The answer, once; nothing before it comes, and nothing after call_off().
     [[nodiscard]] std::optional<FileAnswer> take();
 
     void call_off();
 
   private:
-    std::shared_ptr<CallOff> off_{};  // also the asking thread's; null: none is open
+    std::shared_ptr<CallOff> off_{};  // shared with the thread that waits; null: none is open
     Errand<FileAnswer> asking_;
 };
 

@@ -1,4 +1,4 @@
-// Work away from the window's thread, which never waits for it.
+// Work on other threads, for which the window's thread never waits.
 #pragma once
 
 #include <algorithm>
@@ -14,15 +14,15 @@
 
 namespace dibhr {
 
-/// All who are on an errand, also those that nobody hears of any more: the end of the program must
-/// not take away what they still use. For one thread.
+/// All threads of background tasks, also of tasks whose result is no longer needed: at the end of
+/// the program nothing that they still use may be destroyed. For use by one thread.
 class Errands {
   public:
     Errands() = default;
     Errands(const Errands&) = delete;
     Errands& operator=(const Errands&) = delete;
 
-    /// To be kept by somebody's thread, which sets it at its exit.
+    /// Registers a thread, which must own the promise and set it at its exit.
     [[nodiscard]] std::promise<void> one_leaves() {
         std::erase_if(abroad_, [](const auto& one) { return is_home(one, {}); });
         std::promise<void> end;
@@ -30,11 +30,11 @@ class Errands {
         return end;
     }
 
-    /// Somebody who was waited for long enough, and is not coming.
+    /// A registered or other thread hangs: wait for none any more.
     void give_one_up() { given_up_ = true; }
 
-    /// Waits at most so long. Whether all have ended, with their threads: else the program may only
-    /// end without destructors and handlers of exit(), by _exit().
+    /// Waits for all threads, at most so long. False: some run on, and the program must end by
+    /// _exit(), without destructors and handlers of exit().
     [[nodiscard]] bool come_home(std::chrono::milliseconds patience) const {
         const auto until = std::chrono::steady_clock::now() + patience;
         return !given_up_ && std::all_of(abroad_.begin(), abroad_.end(),
@@ -50,20 +50,20 @@ class Errands {
     bool given_up_{false};
 };
 
-/// One piece of work at a time, on a thread of its own, which nobody waits for but Errands: a disk
-/// that answers no more does not keep the program from leaving.
+/// One task at a time, on a thread of its own. Only the group waits for it, with a timeout, so that
+/// a disk that hangs does not keep the program from ending.
 template <typename Result>
 class Errand {
   public:
-    /// `all` outlives it.
+    /// The task group must outlive it.
     explicit Errand(Errands& all) : all_(all) {}
     Errand(const Errand&) = delete;
     Errand& operator=(const Errand&) = delete;
 
     [[nodiscard]] bool under_way() const { return result_.valid(); }
 
-    /// Begins, unless one is under way: then false. `work` holds all that it needs: it may live
-    /// longer than whoever sent it.
+    /// Starts `work`; false while a task is running. `work` must own all that it uses: it may
+    /// outlive this object.
     template <typename Work>
     bool start(Work work) {
         if (under_way()) return false;
@@ -71,7 +71,7 @@ class Errand {
         return true;
     }
 
-    /// The same, and what is under way is left to itself: nobody hears of it any more.
+    /// Starts `work` in any case. A running task runs on, but its result is dropped.
     template <typename Work>
     void start_anew(Work work) {
         std::packaged_task<Result()> task(std::move(work));
@@ -83,7 +83,7 @@ class Errand {
         result_ = std::move(result);
     }
 
-    /// What came of it, once. Throws what the work threw.
+    /// The result, once it is there, once. Throws what `work` threw.
     [[nodiscard]] std::optional<Result> take() {
         if (!under_way() || result_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
             return std::nullopt;
@@ -99,21 +99,20 @@ class Errand {
     std::future<Result> result_{};
 };
 
-/// Pieces of work away from the window's thread, one after the other: what is to last, and waits
-/// for a disk.
+/// Tasks on other threads, one after the other: for writing files, which may wait for a disk.
 class ErrandsInOrder {
   public:
-    /// `all` outlives it.
+    /// The task group must outlive it.
     explicit ErrandsInOrder(Errands& all) : all_(all) {}
     ErrandsInOrder(const ErrandsInOrder&) = delete;
     ErrandsInOrder& operator=(const ErrandsInOrder&) = delete;
 
-    /// `work` holds all that it needs.
+    /// `work` must own all that it uses.
     template <typename Work>
     void add(Work work) {
         std::packaged_task<void()> task([before = last_, work = std::move(work)]() mutable {
             if (before.valid()) before.wait();
-            before = {};  // and with it what that one held
+            before = {};  // frees what the last task owned
             work();
         });
         last_ = task.get_future().share();
@@ -124,7 +123,7 @@ class ErrandsInOrder {
         }).detach();
     }
 
-    /// Throws what the work has thrown, once.
+    /// Throws what a finished task has thrown, once.
     void look() {
         while (!results_.empty() &&
                results_.front().wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
@@ -134,7 +133,7 @@ class ErrandsInOrder {
         }
     }
 
-    /// The same, after waiting for it. Throws InputError, too, where it takes longer than
+    /// The same for all tasks, after waiting. Throws InputError, too, where that takes longer than
     /// `patience`.
     void finish(std::chrono::milliseconds patience) {
         const bool late = last_.valid() && last_.wait_for(patience) != std::future_status::ready;
@@ -145,7 +144,7 @@ class ErrandsInOrder {
                 "disk still works");
     }
 
-    /// When all that was added until now is done; not valid: nothing was. For a thread that waits.
+    /// Ready when all tasks added so far are done; not valid: none was added.
     [[nodiscard]] std::shared_future<void> done_so_far() const { return last_; }
 
   private:

@@ -1,4 +1,4 @@
-// An errand, and what is seen of it.
+// A background task for the estimator, and its state on the panel.
 #include "app/viewer/estimating.hpp"
 
 #include <cstddef>

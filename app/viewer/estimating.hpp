@@ -1,4 +1,4 @@
-// Depth that is made for a video of colour alone while the window goes on.
+// Runs a depth estimator for a video without depth, while the window goes on.
 #pragma once
 
 #include <filesystem>
@@ -13,32 +13,32 @@
 
 namespace dibhr {
 
-/// What came of one.
+/// Result of an estimator.
 struct EstimateMade {
-    std::optional<DepthEstimate> depth{};  ///< nothing: it was cancelled, or failed
+    std::optional<DepthEstimate> depth{};  ///< nothing: cancelled or failed
     std::string failure{};
 };
 
 class ViewerEstimating {
   public:
-    /// `errands` outlives it.
+    /// The task group must outlive it.
     explicit ViewerEstimating(Errands& errands) : making_(errands) {}
 
-    /// For a video that could not be opened. False while depth is made for another one.
+    /// Offers to make depth for a video that has none. False while an estimator runs.
     bool offer(const std::filesystem::path& colour, ViewerState& state);
 
-    /// Whoever has opened something else wants no more of an offer that was not taken.
+    /// Withdraws an offer that was not used, as other files were opened.
     void something_opened(ViewerState& state) const;
 
-    /// What a person wants of it. What is to be opened then, if anything. A command to which nobody
-    /// has agreed here is asked about before it runs. Throws InputError where that cannot be kept.
+    /// Does what the user chose. Returns what to open then, if anything. Asks for consent before a
+    /// new command runs. Throws InputError where the consent cannot be saved.
     [[nodiscard]] std::optional<OpenRequest> perform(DepthWish wish, ViewerState& state);
 
-    /// Once a picture: how it goes. What is to be opened, once it is made and nothing else was
-    /// opened meanwhile.
+    /// Once a picture: updates the progress. Returns what to open, once the depth is made and no
+    /// other file was opened meanwhile.
     [[nodiscard]] std::optional<OpenRequest> take_news(ViewerState& state);
 
-    /// At the end of the program: no estimator is left behind.
+    /// At the end of the program: ends the estimator.
     void end();
 
   private:
@@ -47,7 +47,7 @@ class ViewerEstimating {
 
     Errand<EstimateMade> making_;
     std::shared_ptr<EstimateWatch> watch_{};
-    std::filesystem::path open_before_{};  ///< what was shown when it began
+    std::filesystem::path open_before_{};  ///< the file that was shown when the estimator started
 };
 
 }  // namespace dibhr

@@ -11,7 +11,7 @@ namespace dibhr {
 
 namespace {
 
-/// Before the hand has said where to: some cells around the proxy.
+/// View before the hand has chosen a goal: some cells around the proxy.
 constexpr double kAround_px = 9.0;
 constexpr double kStepTime_s = 1.0;
 constexpr double kLongestRun_s = 20.0;
@@ -42,7 +42,7 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
         case Action::step_back:
             news.runs = false;
             if (news.taken > 0) --news.taken;
-            // Where it begins a hand may say another goal.
+            // Before the first step a hand may choose another goal.
             if (news.taken == 0) news.held = replay != nullptr;
             return Answer{};
         case Action::play_or_pause:
@@ -74,7 +74,7 @@ void ViewerExplaining::begin(ViewerState& state, Player& player) {
     seen_held_.reset();
 }
 
-/// The tick shown has been: the update is that of the one after it.
+/// The shown tick is done: explain the tick after it.
 void ViewerExplaining::take_next_tick(ViewerState& state, SessionPlayer& replay) {
     proxy_ = state.touch.haptic.touch.proxy;
     left_tick_ = state.touch.replay->tick.tick;
@@ -96,7 +96,7 @@ Answer ViewerExplaining::step_on(ExplainedNews& news, SessionPlayer* replay, Vie
 
 void ViewerExplaining::follow_hand(const ViewerState& state) {
     const Touch& touch = state.touch.haptic.touch;
-    if (pressed_ && !touch.proxy.contact) return;  // lifted: it stays where it was pressed
+    if (pressed_ && !touch.proxy.contact) return;  // lifted: goal_ stays at the last press
     pressed_ = touch.proxy.contact;
     goal_ = touch.goal;
 }
@@ -115,7 +115,7 @@ void ViewerExplaining::end(ViewerState& state, Camera& camera) {
     if (before_) camera = *std::exchange(before_, {});
 }
 
-/// Another surface, or a replay that someone played on or moved elsewhere.
+/// The surface has another size, or the replay was moved or plays on.
 bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& state) const {
     if (!shown.makes_surface() || shown.from->depth->columns != columns_ ||
         shown.from->depth->rows != rows_)
@@ -126,7 +126,7 @@ bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& stat
     return state.touch.replay->playback.playing || tick != tick_;
 }
 
-/// Only when it depends on something that changed: a long walk costs its square.
+/// Computes the update only when its input changed: the cost grows with the walk's square.
 void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
     const DepthBlend pair = shown.shown();
     Asked asked{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
@@ -161,7 +161,7 @@ void ViewerExplaining::advance(const DepthBlend& shown, ViewerState& state, Came
     move_camera(news, camera);
 }
 
-/// All of the walk in view; before its goal stands, with room to move it.
+/// Shows the whole walk; with room to move the goal until it is fixed.
 void ViewerExplaining::move_camera(const ExplainedNews& news, Camera& camera) {
     if (!before_) before_ = camera;
     const PathBox walked = box_of(news.update);

@@ -1,4 +1,4 @@
-// An update in slow motion: from where the proxy was when it was asked for to where the hand is.
+// An update of the algorithm in slow motion, from the proxy's place at the key press to the goal.
 #pragma once
 
 #include <cstdint>
@@ -14,25 +14,25 @@
 
 namespace dibhr {
 
-/// Nothing of it is felt. Of a hand's update the goal is where the hand pressed last, until the
-/// first step is taken; of a replay's, that of the tick after the one that was shown.
+/// The explained update renders no force. With a hand, its goal is where the hand pressed last,
+/// until the first step; in a replay, the goal of the tick after the shown one.
 class ViewerExplaining {
   public:
-    /// The key that begins and ends it, and the keys that step meanwhile; nothing when the action
-    /// is none of them. `replay` null: a hand touches.
+    /// Handles the key that begins and ends the explanation, and the keys that step through it.
+    /// Nothing: the action is none of them. `replay` null: a hand touches.
     std::optional<Answer> perform(Action action, ViewerState& state, Player& player,
                                   SessionPlayer* replay);
 
-    /// Once a picture: the update over the surface of now. The camera goes where it is, and back at
-    /// its end, which is also when a replay moves on or there is a surface of another size.
+    /// Once a picture: explains the update over the current surface, with the camera near it. Ends,
+    /// with the camera moved back, when a replay moves on or the surface's size changes.
     void advance(const DepthBlend& shown, ViewerState& state, Camera& camera, double now_s);
-    /// Other files are shown.
+    /// Ends the explanation, as other files are shown.
     void end(ViewerState& state, Camera& camera);
-    /// A person chose where to look from: that stays.
+    /// The user chose the view: do not move the camera back at the end.
     void leave_camera() { before_.reset(); }
 
   private:
-    /// All that an update depends on. The images are held: another one never has their address.
+    /// All that an update depends on. Owns the images, so that a new one never has their address.
     struct Asked {
         std::shared_ptr<const DepthImage> from{}, to{};
         double blend{0.0};
@@ -56,13 +56,13 @@ class ViewerExplaining {
 
     Proxy proxy_{};                    // before the update
     Vec3 goal_{0.0};                   // of the update
-    bool pressed_{false};              // that goal was on or under the surface
-    std::int64_t left_tick_{-1};       // of a replay: the tick before the update
-    std::int64_t tick_{-1};            // and its own; -1: it is still being read
-    int columns_{0}, rows_{0};         // of the surface it began on
-    std::optional<Camera> before_{};   // to go back to
-    std::optional<Asked> asked_{};     // of the update that is shown
-    std::optional<bool> seen_held_{};  // of the update that the camera shows
+    bool pressed_{false};              // goal_ was on or under the surface
+    std::int64_t left_tick_{-1};       // in a replay: the tick before the update
+    std::int64_t tick_{-1};            // and the update's tick; -1: still being read
+    int columns_{0}, rows_{0};         // of the surface at begin()
+    std::optional<Camera> before_{};   // view to go back to
+    std::optional<Asked> asked_{};     // input of the shown update
+    std::optional<bool> seen_held_{};  // state of the update that the camera shows
     std::int64_t seen_tick_{-1};
     double next_step_s_{0.0};
 };

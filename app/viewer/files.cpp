@@ -1,5 +1,5 @@
-// Opening files in the background, telling colour from depth; pictures in the current folder, and
-// when settings are written.
+// Opening files on other threads, telling colour from depth; saving pictures; when settings are
+// written.
 #include "app/viewer/files.hpp"
 
 #include <algorithm>
@@ -127,7 +127,7 @@ void SettingsKeeper::save(const Settings& now) {
         written_ = wanted_;
         writing_.add([settings = wanted_, file = file_] { save_settings(settings, file); });
     }
-    // Also of a value that the file has.
+    // Also for a value that the file already has.
     if (same_settings(now, agreed_)) return;
     agreed_ = now;
     writing_.add([before = started_, now] { Consent().agree_to_changes(before, now); });
@@ -162,7 +162,7 @@ std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {
 fs::path remembered_file(const MediaDescription& media) try {
     const fs::path& file = media.colour_path.empty() ? media.depth_path : media.colour_path;
     return file == sample_files().colour ? fs::path{} : file;
-} catch (const InputError&) {  // without its sample it has none to leave as it is
+} catch (const InputError&) {  // the sample is not installed
     return media.colour_path;
 }
 

@@ -1,5 +1,5 @@
-// The viewer's files: those a person opens, away from the window's thread; pictures of the window;
-// and the settings a person changed.
+// The viewer's files: opening files on other threads; pictures of the window; saving the changed
+// settings.
 #pragma once
 
 #include <filesystem>
@@ -25,20 +25,20 @@ namespace dibhr {
 /// files share a name.
 [[nodiscard]] std::string new_file_name(const char* ending);
 
-/// What a picture or clip of now is called after the settings' pattern, without its ending.
+/// Name of a new picture or clip by the settings' pattern, without its extension.
 [[nodiscard]] std::string picture_name(const ViewerState& state);
 
-/// Writes pictures away from the window's thread.
+/// Writes pictures on other threads.
 class Screenshots {
   public:
-    /// The next picture that is drawn is to be saved.
+    /// Requests that the next drawn picture is saved.
     void ask(PictureOf of) { asked_.insert(of); }
     [[nodiscard]] bool wants(PictureOf of) const { return asked_.contains(of); }
 
-    /// Begins to write what was asked for into a new file of that name, or with a number after it.
+    /// Starts writing a requested picture into a new file; adds a number where `name` exists.
     void save(PictureOf of, ColourImage picture, const std::string& name);
 
-    /// What came of one that is done, for a notice. Throws InputError, once a picture.
+    /// A notice about a finished picture. Throws InputError, once a picture, when it failed.
     [[nodiscard]] std::optional<std::string> take();
 
     /// Waits for all. Throws InputError for the first that could not be written.
@@ -49,22 +49,22 @@ class Screenshots {
     std::vector<std::future<std::string>> writing_{};
 };
 
-/// Saves the settings a person changed in the window, a little after each change and at the end,
-/// and that they agree to them.
+/// Saves the settings changed in the window, a little after each change and at the end. A change
+/// that protects the hand less is recorded as the user's consent.
 class SettingsKeeper {
   public:
-    /// `in_file`: as read; `started`: as the window started, the command line's values on top. A
-    /// value that still is what it started as stays in the file as it was.
+    /// `in_file`: as read; `started`: at the window's start, with the command line's values. A
+    /// value that was not changed since the start stays in the file as it was.
     SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file,
                    ErrandsInOrder& writing);
 
-    /// Once a picture. Writes when a change is two seconds old; `writing` tells of a failure.
+    /// Once a picture. Writes when a change is two seconds old; the task queue throws on failure.
     void look(const Settings& now, double now_s);
 
     /// At the end: writes what is not yet written.
     void finish(const Settings& now);
 
-    /// Nobody agrees to these: the file is to have the usual values.
+    /// The user refused these values: the file gets the defaults instead.
     void forget(const std::vector<Doubt>& doubts) { copy_doubted(doubts, {}, in_file_); }
 
   private:
@@ -72,7 +72,7 @@ class SettingsKeeper {
 
     Settings in_file_;
     Settings started_;
-    Settings agreed_;  // so far, by changing them
+    Settings agreed_;  // consent is recorded up to here
     Settings wanted_;  // for the file
     Settings written_;
     std::filesystem::path file_;
@@ -80,7 +80,7 @@ class SettingsKeeper {
     double changed_s_{0.0};
 };
 
-/// What came of opening files: media, a session, or a plain sentence.
+/// Result of opening files: media, a session, or a failure as a sentence.
 struct Opened {
     OpenRequest request{};
     std::unique_ptr<Media> media{};
@@ -88,27 +88,27 @@ struct Opened {
     FoundMaps maps{};     ///< likewise
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
-    bool is_folder{false};    ///< what failed is one: of recordings, not of pictures
-    bool lacks_depth{false};  ///< what failed is colour alone
+    bool is_folder{false};    ///< the failed path is a folder of recordings
+    bool lacks_depth{false};  ///< the failed file has colour only
 };
 
-/// The file whose memory is kept: colour, where there is a pair; empty for the program's own
-/// sample, which everybody finds as it is.
+/// The file for which view and relief are saved: colour, where there is a pair; empty for the
+/// built-in sample, which always opens unchanged.
 [[nodiscard]] std::filesystem::path remembered_file(const MediaDescription& media);
 [[nodiscard]] FileMemory memory_of(const Media& media);
 
-/// Opens what a person dropped or typed. Dropped pairs are told apart by name, else by which one is
-/// grey. Throws InputError.
+/// Opens dropped or typed files. In a dropped pair, colour and depth are told apart by name, else
+/// by which one is grey. Throws InputError.
 [[nodiscard]] std::unique_ptr<Media> open_request(const OpenRequest& request);
 
-/// The file is for a Falcon, not to be looked at.
+/// Whether the name is that of Falcon firmware, not of media.
 [[nodiscard]] bool named_firmware(const std::filesystem::path& file);
 
 /// One or two dropped files as a request; nothing for none or more than two.
 [[nodiscard]] std::optional<OpenRequest> dropped_request(
     const std::vector<std::filesystem::path>& files);
 
-/// Opens what is asked for: media, or a session. For a thread that may wait.
+/// Opens media or a session. May wait for disk and network: not for the window's thread.
 [[nodiscard]] Opened try_open(const OpenRequest& request);
 
 }  // namespace dibhr

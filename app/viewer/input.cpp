@@ -23,7 +23,7 @@ constexpr double kFarStep_s = 60.0;
 constexpr double kBeforeEnd_s = 1.0;
 constexpr double kFaster = 1.1;
 
-/// Held to what can be played; on the way past the normal speed it stops there.
+/// Clamped to the playable range; a step across the normal speed stops at it.
 double times_speed(double speed, double factor) {
     constexpr double kRounding = 1e-6;
     const double wanted = speed * factor;
@@ -32,7 +32,7 @@ double times_speed(double speed, double factor) {
     return passes ? 1.0 : std::clamp(wanted, kSlowestSpeed, kFastestSpeed);
 }
 
-/// What the viewer does after the picture.
+/// Actions that the viewer performs after the picture.
 constexpr std::array kAfterPicture{Action::record,
                                    Action::reset_view,
                                    Action::toggle_full_screen,
@@ -54,7 +54,7 @@ void close_topmost(ViewerState& state) {
     } else if (state.ui.dialog.shown) {
         state.ui.dialog.shown = false;
     } else if (!state.ui.doubts.empty() && !state.touch.replay) {
-        state.ui.doubts.clear();  // asked again by the next window
+        state.ui.doubts.clear();  // the next start asks again
     } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
         state.commands.push(DepthWish::close);
     } else {
@@ -62,7 +62,7 @@ void close_topmost(ViewerState& state) {
     }
 }
 
-/// How far an action seeks, forward or back [s]; 0: it does not.
+/// How far an action seeks, forward or back [s]; 0: it does not seek.
 double seek_step_s(Action action) {
     switch (action) {
         case Action::seek_forward:
@@ -82,7 +82,7 @@ double seek_step_s(Action action) {
     }
 }
 
-/// The speed after an action; nothing: it is not about that.
+/// The speed after an action; nothing: the action does not change the speed.
 std::optional<double> speed_after(Action action, double speed) {
     switch (action) {
         case Action::faster:
@@ -100,7 +100,7 @@ std::optional<double> speed_after(Action action, double speed) {
     }
 }
 
-/// The key for a part says where it begins, then where it ends, then that all is played again.
+/// The key's 1st press sets the part's start, the 2nd its end, the 3rd plays all again.
 std::optional<MediaPart> next_part(const Course& course) {
     constexpr double kForEver_s = std::numeric_limits<double>::infinity();
     constexpr double kShortest_s = 0.04;  // a frame
@@ -120,7 +120,7 @@ std::string said_of(const std::optional<MediaPart>& part, const Course& course,
     return "Loop from " + at(part->from_s) + " to " + at(part->to_s);
 }
 
-/// What moves a video or a session; nothing when the action is not about that.
+/// Actions that move a video or session; nothing: the action does not.
 std::optional<Answer> move(Action action, const Course& course, Transport& player,
                            const KeyTable& keys) {
     const double end_s = std::max(course.begin_s, course.end_s);
@@ -162,7 +162,7 @@ std::optional<Answer> move(Action action, const Course& course, Transport& playe
     }
 }
 
-/// What moves a video moves nothing that comes as it happens, but holds it.
+/// The same for a live source, which can only be paused and continued.
 std::optional<Answer> move_live(Action action, bool playing, Transport& player) {
     switch (action) {
         case Action::play_or_pause:

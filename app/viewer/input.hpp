@@ -11,17 +11,17 @@
 
 namespace dibhr {
 
-/// What a person reads at the bottom of the picture after a key: nothing where what happens is
-/// seen, or told by who does it.
+/// The notice at the bottom of the picture after a key; empty where the effect is visible, or where
+/// another function shows the notice.
 struct Answer {
     std::string words{};
-    bool place{false};  ///< instead: where playing is then
+    bool place{false};  ///< show the playing position instead
 };
 
-/// What an action does, to what plays or to the window.
+/// Performs an action on the player or the window's state.
 Answer perform(Action action, ViewerState& state, Transport& transport);
 
-/// A view as text for the clipboard, and back; nothing: that text is no view.
+/// A view as text for the clipboard, and back; nothing: the text is not a view.
 [[nodiscard]] std::string text_of(const Camera::View& view);
 [[nodiscard]] std::optional<Camera::View> view_in(const std::string& text);
 

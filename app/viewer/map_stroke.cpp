@@ -1,4 +1,4 @@
-// Dabs of a brush, and what becomes of the pixels under them.
+// A stroke is a row of dabs; each dab changes the pixels under it.
 #include "app/viewer/map_stroke.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr double kSoftFrom = 0.7;       // of the radius
 constexpr double kDabsPerRadius = 4.0;  // along a stroke
 
-/// Of the brush, at a distance in radii from its middle.
+/// Strength of the brush at a distance from its middle [radii].
 double softness(double distance) {
     if (distance >= 1.0) return 0.0;
     const double t = std::clamp((1.0 - distance) / (1.0 - kSoftFrom), 0.0, 1.0);
@@ -37,7 +37,7 @@ TouchMap resized(const TouchMap& map, TouchMapKind kind, int columns, int rows) 
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const double share = felt_value(cover, i, j, columns, rows, 0.0);
-            // Of a value that is 0 where nothing covers, the cover's part is taken out again.
+            // `value` is weighted by the cover (0 where nothing covers): divide by it.
             const double value = felt_value(map, i, j, columns, rows, 0.0);
             if (share > 0.0)
                 other.at(i, j) = {other.level_of(value / share), level_of_share(share)};

@@ -1,4 +1,4 @@
-// What a brush does to touch maps.
+// A brush stroke over touch maps.
 #pragma once
 
 #include <functional>
@@ -10,28 +10,28 @@
 
 namespace dibhr {
 
-/// A round brush, whole in its middle and soft towards its edge.
+/// A round brush: full strength in its middle, soft towards its edge.
 struct BrushTip {
     double radius_px{16.0};
-    double strength{1.0};  ///< how much of it a stroke lays at most, 0 .. 1
+    double strength{1.0};  ///< greatest share that one stroke lays, 0 .. 1
 };
 
-/// What is laid on a map: its value at a pixel; nothing: the map is taken away.
+/// What a brush lays on one map: a value at each pixel, or it erases the map.
 struct Lay {
     TouchMapKind kind{TouchMapKind::stiffness};
-    std::function<double(int i, int j)> value{};  ///< empty: takes away
+    std::function<double(int i, int j)> value{};  ///< empty: erases
 };
 
 /// From a press to its release. Passing over a place twice lays no more than passing once.
 class MapStroke {
   public:
-    /// Over an image of columns x rows; maps of another size are brought to that first.
+    /// Over an image of columns x rows; maps of another size are resized first.
     MapStroke(const TouchMaps& before, std::vector<Lay> lays, BrushTip tip, int columns, int rows);
 
-    /// The brush goes on to there, touching all between.
+    /// Moves the brush to `place` in a straight line, painting on the way.
     void go_to(const Vec3& place);
 
-    /// The maps as they are now; heights laid over the image.
+    /// The maps after the stroke so far, with heights resampled to the image.
     [[nodiscard]] const TouchMaps& maps() const noexcept { return maps_; }
 
   private:
@@ -44,11 +44,11 @@ class MapStroke {
     BrushTip tip_;
     int columns_;
     int rows_;
-    std::vector<float> laid_;  // the most share of each pixel so far
+    std::vector<float> laid_;  // greatest share laid on each pixel so far
     std::optional<Vec3> last_{};
 };
 
-/// The map in another resolution, sampled as it is felt; one without pixels becomes bare.
+/// The map in another resolution, sampled as the tick does; a map without pixels becomes bare.
 [[nodiscard]] TouchMap resized(const TouchMap& map, TouchMapKind kind, int columns, int rows);
 
 }  // namespace dibhr

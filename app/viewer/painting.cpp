@@ -1,4 +1,4 @@
-// Strokes, what is undone, and who gets the maps: the player, the folder, the recording.
+// Strokes, undo and redo, and passing the maps to player, files and recording.
 #include "app/viewer/painting.hpp"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace dibhr {
 
 namespace {
 
-/// What can be undone takes no more memory than that, but for the last stroke.
+/// Memory limit of the undo list; the last stroke can always be undone.
 constexpr std::size_t kMostUndo_bytes = std::size_t{256} << 20;
 
 std::size_t bytes_of(const TouchMaps* maps) {
@@ -28,7 +28,7 @@ std::size_t bytes_of(const TouchMaps* maps) {
     return bytes;
 }
 
-/// The maps that are worth a file.
+/// The maps that are not empty, as PNG.
 std::vector<SessionMap> encoded(const TouchMaps& maps) {
     std::vector<SessionMap> all;
     for (const TouchMapKind kind : all_touch_map_kinds()) {
@@ -57,7 +57,7 @@ std::function<double(int, int)> everywhere(double value) {
     return [value](int, int) { return value; };
 }
 
-/// Throws InputError for a material that there is not any more.
+/// Throws InputError for a material that does not exist any more.
 std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const DepthImage& image) {
     switch (brush.lays) {
         case BrushLays::stiffness:
@@ -80,7 +80,7 @@ std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const 
         {TouchMapKind::height, material.bumps ? bumps_of(material, laid, image) : everywhere(0.0)}};
 }
 
-/// The map whose values are shown; none: where anything lies.
+/// The map whose values are shown; none: show where any paint lies.
 std::optional<TouchMapKind> shown_kind(BrushLays lays) {
     switch (lays) {
         case BrushLays::stiffness:
@@ -96,7 +96,7 @@ std::optional<TouchMapKind> shown_kind(BrushLays lays) {
     return std::nullopt;
 }
 
-/// Colours over a picture: of the map's values, or one where anything lies.
+/// Colours a picture by a map's values, or with one colour where any paint lies.
 class Tint {
   public:
     Tint(const TouchMaps& maps, BrushLays lays)
@@ -215,7 +215,7 @@ void ViewerPainting::use(bool pressed, const std::optional<Vec3>& under, const D
 void ViewerPainting::start_stroke(const DepthBlend& shown, ViewerState& state, Player& player) {
     if (state.media.playback.playing) player.pause();
     const DepthImage& image = *shown.from->depth;
-    if (image.columns != columns_ || image.rows != rows_) return;  // of the media before
+    if (image.columns != columns_ || image.rows != rows_) return;  // a frame of the last media
     const Brush& brush = state.ui.brush;
     try {
         stroke_.emplace(maps_ ? *maps_ : TouchMaps{}, lays_of(brush, state.settings.touch, image),
@@ -277,8 +277,8 @@ void ViewerPainting::remove_all(ViewerState& state, Player& player) {
     become(nullptr, state, player);
 }
 
-/// One after the other. Of those that nobody can have felt for long only the last one's files
-/// count, but a recording refers to each.
+/// Writes one version at a time. A recording may refer to every version; for files only the last
+/// one matters.
 void ViewerPainting::start_writing() {
     if (to_write_.empty() || writing_.under_way()) return;
     const ToWrite next = to_write_.front();

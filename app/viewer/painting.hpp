@@ -1,5 +1,4 @@
-// A brush on the relief: strokes over the touch maps of the recording that is open, undone and
-// kept.
+// A brush on the relief: strokes over the touch maps of the open recording; undo; saving.
 #pragma once
 
 #include <chrono>
@@ -18,56 +17,56 @@
 
 namespace dibhr {
 
-/// The maps beside a recording, or why they cannot be had: then nothing is painted over them.
+/// The maps beside a recording, or why they cannot be read: then painting is refused.
 struct FoundMaps {
     std::shared_ptr<const TouchMaps> maps{};  ///< null: there are none
     std::string refusal{};
 };
 
-/// For a thread that may wait.
+/// Reads files: not for the window's thread.
 [[nodiscard]] FoundMaps find_maps(const MediaDescription& media);
 
 class ViewerPainting {
   public:
-    /// `errands` outlive it.
+    /// The task group must outlive it.
     explicit ViewerPainting(Errands& errands) : writing_(errands) {}
     ViewerPainting(const ViewerPainting&) = delete;
     ViewerPainting& operator=(const ViewerPainting&) = delete;
 
-    /// A recording was opened. Gives the maps that are to lie on it; those of the same recording,
-    /// opened with other words, are the ones that are painted already.
+    /// A recording was opened. Returns the maps to lay on it. For the same recording, reopened with
+    /// other depth options, these are the maps painted so far.
     [[nodiscard]] std::shared_ptr<const TouchMaps> begin(FoundMaps found,
                                                          const MediaDescription& media,
                                                          bool is_sample);
-    /// A session is replayed: nothing can be painted.
+    /// A session is replayed: painting ends.
     void end(ViewerState& state);
 
-    /// Once a picture, while the brush is on. `under`: nothing: the pointer is beside the relief.
+    /// Once a picture, while the brush is on. `under` empty: the pointer is beside the relief.
     void use(bool pressed, const std::optional<Vec3>& under, const DepthBlend& shown,
              ViewerState& state, Player& player);
 
     void undo(ViewerState& state, Player& player);
     void redo(ViewerState& state, Player& player);
-    /// All maps; can be undone.
+    /// Removes all maps; can be undone.
     void remove_all(ViewerState& state, Player& player);
 
-    /// Once a picture: how it is, into `state`; what is felt, into the recording. Throws InputError
-    /// when the maps could not be saved, once.
+    /// Once a picture: updates the brush in `state`, and passes new maps to the recording. Throws
+    /// InputError, once, when the maps could not be saved.
     void take_news(ViewerState& state, TouchRecording& recording);
-    /// Before a recording ends: it gets the maps that it refers to. Waits for the disk so long.
+    /// Before a recording ends: passes it all maps of its ticks. Waits at most `patience`.
     void hand_over(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
-    /// At the end of the program: saves what is not saved. Throws InputError.
+    /// At the end of the program: saves the unsaved maps. Throws InputError.
     void finish(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
 
-    /// What is drawn: also a stroke that has not ended. Null: nothing is painted.
+    /// The maps to draw, with an unfinished stroke. Null: nothing is painted.
     [[nodiscard]] std::shared_ptr<const TouchMaps> drawn() const;
-    /// The colour picture of a frame with what is painted over it; null: as it is.
+    /// The frame's colour picture with the paint over it; `frame` itself where there is none.
     [[nodiscard]] const Frame* tinted(const Frame* frame, const ViewerState& state);
 
   private:
     static constexpr std::chrono::milliseconds kPatience{10'000};
 
-    /// Maps as a recorder and the folder take them.
+    /// Maps encoded for the recorder, and the result of writing their files.
     struct Written {
         std::uint32_t version{0};
         std::vector<SessionMap> encoded{};
@@ -82,16 +81,16 @@ class ViewerPainting {
     void take_written(TouchRecording& recording);
     [[nodiscard]] std::shared_ptr<const TouchMaps> numbered(TouchMaps maps);
 
-    std::filesystem::path depth_{};  // of the recording that is open; empty: none
+    std::filesystem::path depth_{};  // depth file of the open recording; empty: none
     int columns_{0}, rows_{0};
     bool is_sample_{false};
     std::string refusal_{};
-    std::shared_ptr<const TouchMaps> maps_{};  // as they are felt; null: nothing is painted
+    std::shared_ptr<const TouchMaps> maps_{};  // as the tick uses them; null: nothing is painted
     std::vector<std::shared_ptr<const TouchMaps>> before_{}, undone_{};
     std::optional<MapStroke> stroke_{};
     std::shared_ptr<const TouchMaps> drawn_{};
     std::uint32_t versions_{0};
-    // What is still to be written, the oldest first: every version that a tick may have felt.
+    // Versions to write, the oldest first: every version that a tick may have used.
     struct ToWrite {
         std::filesystem::path depth{};
         std::shared_ptr<const TouchMaps> maps{};
@@ -99,8 +98,8 @@ class ViewerPainting {
     };
     std::vector<ToWrite> to_write_{};
     Errand<Written> writing_;
-    std::string failure_{};  // to be told
-    // What the tint was made of.
+    std::string failure_{};  // for the next take_news()
+    // What tinted_ was made of.
     Frame tinted_{};
     std::shared_ptr<const ColourImage> tinted_colour_{};
     std::shared_ptr<const TouchMaps> tinted_maps_{};

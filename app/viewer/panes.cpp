@@ -7,7 +7,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostOfPane_px = 1024;  // of a texture's side: a pane is not much larger
+constexpr int kMostOfPane_px = 1024;  // side of a texture: a pane is not much larger
 
 }  // namespace
 

@@ -10,13 +10,13 @@ namespace dibhr {
 
 class ViewerPanes {
   public:
-    /// Once a picture, before the panels: what they show of the moment, into `state`.
+    /// Once a picture, before the panels: puts the textures to show into `state`.
     void show(const DepthBlend& shown, ViewerState& state);
 
   private:
     ColourTexture colour_{};
     ColourTexture depth_{};
-    // What depth_picture_ is of.
+    // What depth_picture_ was made of.
     UploadedFrom<DepthImage> painted_{};
     ReliefPaint paint_{};
     std::shared_ptr<const ColourImage> depth_picture_{};

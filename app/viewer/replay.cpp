@@ -10,7 +10,7 @@ namespace dibhr {
 
 namespace {
 
-/// A session names the cell; where in it the proxy was says which TRIANGLE or EDGE.
+/// A session stores the cell; the proxy's place in it gives the TRIANGLE or EDGE.
 Primitive recorded_primitive(const TickRecord& tick) {
     Primitive primitive{
         .kind = static_cast<PrimitiveKind>(tick.primitive), .i = tick.i, .j = tick.j};
@@ -57,7 +57,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
         bump_file_ = state.touch.bump_file;
     }
     const Session& session = opened->session;
-    // Of what moves: pairs that stand still have none.
+    // On if any moving source had them; still pairs have none.
     const bool moves = std::any_of(session.sources().begin(), session.sources().end(),
                                    [](const SessionSource& one) { return one.source.in_betweens; });
     state.settings.in_betweens = moves ? InBetweens::on : InBetweens::off;

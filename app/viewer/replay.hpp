@@ -1,5 +1,4 @@
-// A session in the window: what it felt, in place of a hand, and what other parameters would have
-// given.
+// Replay of a session in the window, as recorded or computed with other parameters.
 #pragma once
 
 #include <cstdint>
@@ -15,25 +14,25 @@ namespace dibhr {
 
 class ViewerReplay {
   public:
-    /// Begins to play. `given` beats what was recorded from the start.
+    /// Begins to play. The parameters in `given` replace the recorded ones from the start.
     void begin(std::unique_ptr<OpenedSession> opened, const GivenParameters& given,
                ViewerState& state);
-    /// Gives back the settings of before.
+    /// Ends the replay, and restores the settings of before.
     void end(ViewerState& state);
-    /// Null: nothing is replayed.
+    /// Null: no replay.
     [[nodiscard]] SessionPlayer* player() const { return player_.get(); }
 
-    /// Once a picture, before the panels: the moment that is due then, into `state`.
+    /// Once a picture, before the panels: puts the moment that is due into `state`.
     void advance(ViewerState& state, SessionPlayer::Time now);
-    /// After the panels: whether a person chose other parameters.
+    /// After the panels: computes with other parameters if the user has changed them.
     void follow_panels(const ViewerState& state);
-    /// Those of the recording again.
+    /// Shows the recorded parameters again.
     void put_back(ViewerState& state);
 
-    /// The frames of the moment that is shown.
+    /// The frames of the shown moment.
     [[nodiscard]] DepthBlend shown() const;
 
-    /// What is to last of the window's settings: not those that show the recording.
+    /// The settings to save: without the values that only show the recording.
     [[nodiscard]] Settings lasting(const ViewerState& state) const;
 
   private:
@@ -41,12 +40,12 @@ class ViewerReplay {
 
     std::unique_ptr<SessionPlayer> player_{};
     std::unique_ptr<SessionOutline> outline_{};
-    TouchParameters recorded_{};               // of the moment shown
+    TouchParameters recorded_{};               // of the shown moment
     std::optional<TouchParameters> chosen_{};  // instead of them
-    Touch passed_{};                           // in the last tick that was passed
+    Touch passed_{};                           // of the last tick that was played
     std::int64_t passed_tick_{-1};
 
-    // Of before.
+    // Values before the replay, for end().
     TouchParameters touch_{};
     CleaningOptions cleaning_{};
     InBetweens in_betweens_{};

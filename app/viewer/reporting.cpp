@@ -23,7 +23,7 @@ namespace {
 
 constexpr int kPolitely = 10;  // nice(2): the hand's and the window's threads come first
 
-/// "dibhr: what went wrong": what, without the program's name.
+/// The first line of the errors, without "dibhr: ".
 std::string sentence_in(const std::string& errors) {
     constexpr std::string_view kName = "dibhr: ";
     const std::string line = one_line(errors.substr(0, errors.find('\n')));
@@ -69,7 +69,7 @@ void Reporting::take_what_is_said() {
 
 std::optional<fs::path> Reporting::take() {
     if (child_ == 0) return {};
-    take_what_is_said();  // or it would wait for room
+    take_what_is_said();  // else the child could block on a full pipe
     int status = 0;
     if (::waitpid(child_, &status, WNOHANG) != child_) return {};
     take_what_is_said();
@@ -86,7 +86,7 @@ Reporting::~Reporting() {
 }
 
 void show_in_browser(const fs::path& page) {
-    // The shell ends at once, whenever the browser does.
+    // The shell ends at once and leaves the browser running.
     const pid_t shell = start_program(
         {"sh", "-c", "command -v xdg-open > /dev/null && xdg-open \"$1\" 2> /dev/null &", "sh",
          page.string()},

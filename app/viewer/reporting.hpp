@@ -9,8 +9,8 @@
 
 namespace dibhr {
 
-/// Runs `dibhr report` as a program of its own, at low priority: its hours of ticks and its memory
-/// are none of the hand's. One at a time; it ends its work also when the window is closed.
+/// Runs `dibhr report` as a program of its own, at low priority, so that its time and memory do not
+/// disturb the haptic loop. One at a time. It goes on when the window is closed.
 class Reporting {
   public:
     Reporting() = default;
@@ -18,23 +18,23 @@ class Reporting {
     Reporting(const Reporting&) = delete;
     Reporting& operator=(const Reporting&) = delete;
 
-    /// Into the folder SESSION-report beside the session. Gives back whether it could: one that is
-    /// under way is not disturbed. Throws InputError when no program can be started.
+    /// Makes a report in the folder SESSION-report beside the session. False while another one is
+    /// being made. Throws InputError when the program cannot be started.
     bool start(const std::filesystem::path& session);
 
-    /// The page of one that is done, without waiting. Throws InputError, once, when it failed.
+    /// The page of a finished report, without waiting. Throws InputError, once, when it failed.
     [[nodiscard]] std::optional<std::filesystem::path> take();
 
   private:
     void take_what_is_said();
 
     std::filesystem::path page_{};
-    std::string said_{};  // on its stderr
-    pid_t child_{0};      // 0: none is under way
-    int said_end_{-1};    // of the pipe
+    std::string said_{};  // from the child's stderr
+    pid_t child_{0};      // 0: none is running
+    int said_end_{-1};    // read end of the pipe
 };
 
-/// Shows a page in the browser, where the desktop has one; says nothing where it has not.
+/// Opens a page in the desktop's browser; does nothing where there is none.
 void show_in_browser(const std::filesystem::path& page);
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Asking the services of force devices.
+// Requests to the services of force devices.
 #include "app/viewer/service_settings.hpp"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// What the services of force devices keep of them.
+// The settings that the services of force devices store for them.
 #pragma once
 
 #include <chrono>
@@ -13,19 +13,19 @@
 
 namespace dibhr {
 
-/// Asked when a device comes, a few times while nothing is answered, away from the window's thread.
+/// Requested when a device is found, again a few times while no answer comes, on other threads.
 class ServiceSettings {
   public:
     explicit ServiceSettings(Errands& errands) : errands_(errands) {}
 
-    /// Once a picture, after the session's poll(): what is kept, into the news.
+    /// Once a picture, after the session's poll(): copies the answers into `devices`.
     void follow(const Settings& settings, std::vector<DeviceNews>& devices);
 
   private:
     struct Asking {
         explicit Asking(Errands& errands) : answer(errands) {}
 
-        std::string device{};  ///< that was asked of last
+        std::string device{};  ///< id of the device of the last request
         int tries{0};
         std::chrono::steady_clock::time_point at{};
         Errand<std::vector<DeviceLine>> answer;

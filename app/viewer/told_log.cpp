@@ -1,4 +1,4 @@
-// Lines on their way into a file.
+// Collects lines and appends them to the file.
 #include "app/viewer/told_log.hpp"
 
 #include <fcntl.h>
@@ -35,7 +35,7 @@ std::string time_now() {
     return std::string(date.data()) + part.data();
 }
 
-/// Not a video, which would be lost: empty, or it begins with a year.
+/// Whether the file is empty or begins with a year: guards against damaging a video.
 bool may_be_log(const std::filesystem::path& file) {
     std::array<char, 5> begin{};
     std::ifstream in(file, std::ios::binary);
@@ -44,7 +44,7 @@ bool may_be_log(const std::filesystem::path& file) {
     return std::isdigit(static_cast<unsigned char>(begin[0])) != 0 && begin[4] == '-';
 }
 
-/// Behind what is there, or nothing of it. Why not; empty: it is written.
+/// Appends all lines or none. Returns why that failed; empty: written.
 std::string appended(const std::filesystem::path& file, std::string_view lines) {
     const int log = ::open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (log < 0) return std::strerror(errno);

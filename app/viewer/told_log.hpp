@@ -1,4 +1,4 @@
-// Keeps in a file, with their time, the lines that a person is told.
+// A log file of the messages that the window shows, with their times.
 #pragma once
 
 #include <chrono>
@@ -12,32 +12,31 @@
 
 namespace dibhr {
 
-/// Written away from the window's thread, whole lines, behind those that the file has. For one
-/// thread.
+/// Appends whole lines, written on another thread. For use by one thread.
 class ToldLog {
   public:
-    /// `errands` outlive it. Empty: nothing is kept. Throws InputError where the file cannot be
-    /// written, or is something else than such lines.
+    /// The task group must outlive it. Empty `file`: nothing is logged. Throws InputError where the
+    /// file cannot be written, or is not such a log.
     ToldLog(std::filesystem::path file, Errands& errands);
 
-    /// One line: "2026-11-24 21:07:31.250 KIND: words".
+    /// Adds one line: "2026-11-24 21:07:31.250 KIND: words".
     void keep(std::string_view kind, std::string_view words);
 
-    /// The same, unless those words were kept last of that kind.
+    /// The same, unless the last line of that kind has the same words.
     void keep_change(const std::string& kind, const std::string& words);
 
-    /// Once a picture: has written what was kept since. Throws InputError, once.
+    /// Once a picture: starts writing the new lines. Throws InputError, once, when that failed.
     void write();
 
-    /// Waits, at most so long, until all is written. What cannot be is missed by nobody.
+    /// Waits, at most so long, until all lines are written. Ignores failures.
     void finish(std::chrono::milliseconds patience);
 
   private:
     std::filesystem::path file_;
     std::string waiting_{};
-    std::map<std::string, std::string> last_{};  ///< of a kind whose changes are kept
+    std::map<std::string, std::string> last_{};  ///< by kind: the last words of keep_change()
     bool failed_{false};
-    Errand<std::string> writing_;  // why it could not; empty: it could
+    Errand<std::string> writing_;  // why writing failed; empty: it did not
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// Where one has touched in the last seconds.
+// The trace of touch.
 #include "app/viewer/trace.hpp"
 
 #include <cmath>
@@ -8,7 +8,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kMostDots = 400;  // of a stroke as fast as it may be
+constexpr std::size_t kMostDots = 400;  // enough for the fastest stroke
 
 }  // namespace
 

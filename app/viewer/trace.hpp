@@ -1,4 +1,4 @@
-// Where one has touched in the last seconds.
+// The trace of touch: where the proxy was in contact in the last seconds.
 #pragma once
 
 #include <deque>
@@ -10,16 +10,16 @@
 
 namespace dibhr {
 
-/// Dots a little apart, kept by their place in the picture: they stay on a surface that moves.
+/// Dots a little apart, stored by column and row, so that they stay on a surface that moves.
 class TouchTrace {
   public:
     static constexpr double kLasts_s = 4.0;
     static constexpr double kApart_px = 5.0;  ///< in the grid
 
-    /// A proxy in contact at `now_s`, which never goes back.
+    /// Adds a proxy in contact. `now_s` must not decrease.
     void add(const Vec3& proxy, double now_s);
 
-    /// What is left at `now_s`, on the surface of then.
+    /// The dots that remain at `now_s`, on `surface`.
     [[nodiscard]] std::vector<TracePoint> points(const DepthSurface& surface, double now_s);
 
     void clear() noexcept { dots_.clear(); }

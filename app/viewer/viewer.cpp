@@ -1,4 +1,4 @@
-// The viewer's window thread: input, scene, panels, and the hand-over to the other threads.
+// The viewer's window thread: input, scene, panels, and publishing to the other threads.
 #include "app/viewer/viewer.hpp"
 
 #include <algorithm>
@@ -24,10 +24,10 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kNoticeTime_s = 4.0;
-/// For the sums of large files, when the end is asked for by a signal or there is no display.
+/// Timeout for the hashes of large files at an end by a signal or a lost display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 
-/// `begin_s`: of what is played, on its own clock.
+/// `begin_s`: begin of the media, on its own clock.
 void play_as_asked(const ViewOptions& options, double begin_s, Transport& player) {
     if (options.end_s)
         player.set_part(MediaPart{begin_s + options.open.at_s, begin_s + *options.end_s});
@@ -35,7 +35,7 @@ void play_as_asked(const ViewOptions& options, double begin_s, Transport& player
     if (options.looping) player.set_looping(*options.looping);
 }
 
-/// As a person left it, or asks for; else one that grows with its text.
+/// The saved or requested size; else the default, which grows with the text.
 WindowSize asked_size(const ViewOptions& options) {
     const Settings& settings = options.settings;
     const Settings standard;
@@ -99,7 +99,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     state_.media.describe(parts.media->description());
     const bool live = state_.media.live;
     if (!options.record.empty() && !live) {
-        fit_to_media();  // what is told of a session is what is touched with
+        fit_to_media();  // before start(): a session's facts contain it
         touch_.recording().start(options.record);
     }
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
@@ -122,13 +122,13 @@ void Viewer::run() {
     finish();
 }
 
-/// Each time the display has answered: a beat is never younger than the last sign of it.
+/// Beats once the display has answered, so that a hung display stops the heartbeat, too.
 void Viewer::beat() {
     window_.meet_display();
     heart_.beat();
 }
 
-/// Without the window.
+/// The display is lost: saves all without the window.
 void Viewer::close_without_display() {
     ending_.words().doing("closing without a display");
     desktop_.call_off();
@@ -151,7 +151,7 @@ void Viewer::finish() {
             if (failure.empty()) failure = error.what();
         }
     };
-    // No force is sent any more when files are written.
+    // First the force: no force is sent while files are written.
     try_to("taking the force off", [this] {
         if (const auto schedule = touch_.stop()) keep_lateness(*schedule);
         estimating_.end();
@@ -163,7 +163,7 @@ void Viewer::finish() {
     if (!failure.empty()) throw InputError(failure);
 }
 
-/// Each step by `try_to`, which is told what it is. `at_once`: from then on nothing waits for long.
+/// Calls `try_to` with name and function of each step. `at_once`, once true, shortens the timeouts.
 template <typename Try>
 void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to) {
     ending_.words().doing("saving the settings");
@@ -182,7 +182,7 @@ void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_t
            [&] { recording.finish(at_once ? kPatienceAtAnEnd : Recorder::kPatience); });
 }
 
-/// Also when the window was moved to a display of another scale.
+/// Once a picture: the window may have moved to a display of another scale.
 void Viewer::wear_look() {
     const Settings& settings = state_.settings;
     gui_.wear({window_.scale(settings.ui_scale), settings.theme});
@@ -215,7 +215,7 @@ void Viewer::show_one_picture() {
         options_.after_picture({state_.settings, state_.touch, state_.media, shown_, &state_.ui});
 }
 
-/// The relief and all that is over it, for whoever wants to save it, too.
+/// Draws relief and panels, and passes pictures on to screenshot and clip.
 void Viewer::draw_picture(const WindowInput& input) {
     const glm::ivec2 viewport = relief_viewport();
     draw_scene(viewport);
@@ -249,7 +249,7 @@ void Viewer::poll() {
     if (const auto made = estimating_.take_news(state_)) open(*made);
 }
 
-/// What was felt since the last picture, by whom, and what was recorded of it.
+/// Polls replay, touching, device buttons and recording.
 void Viewer::poll_touch() {
     if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
     for (const std::string& notice : touch_.poll(window_.in_front())) tell(notice);
@@ -300,7 +300,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
-    // What is drawn after that is seen, and not in pictures.
+    // What is drawn after `read` is on the screen, but not in saved pictures.
     ColourImage picture;
     const bool wanted = wants_picture(PictureOf::window);
     const std::function<void()> read = [&] {
@@ -343,7 +343,7 @@ bool Viewer::wants_picture(PictureOf of) const {
            (shown_.makes_surface() && clip_.wants(of, steady_clock::now()));
 }
 
-/// Of what was drawn up to now, to whoever wants it.
+/// Passes a picture to screenshot and clip where they need it.
 void Viewer::hand_out(PictureOf of, ColourImage picture) {
     const auto now = steady_clock::now();
     if (screenshots_.wants(of)) screenshots_.save(of, picture, picture_name(state_));
@@ -352,7 +352,7 @@ void Viewer::hand_out(PictureOf of, ColourImage picture) {
 
 void Viewer::write_last_picture() {
     if (options_.screenshot.empty()) return;
-    // Drawn again: what a buffer holds after it was shown is up to the driver.
+    // Draw again: after a swap the content of the buffer is undefined.
     const glm::ivec2 relief = relief_viewport();
     draw_scene(relief);
     const bool whole = options_.pictures_of == PictureOf::window;
@@ -360,13 +360,13 @@ void Viewer::write_last_picture() {
     write_png(read_framebuffer(whole ? window_.framebuffer_size() : relief), options_.screenshot);
 }
 
-/// Asked for in the picture in which the end was.
+/// For a screenshot requested in the last picture.
 void Viewer::take_last_screenshot() {
     if (screenshots_.wants(PictureOf::window) || screenshots_.wants(PictureOf::relief))
         draw_picture();
 }
 
-/// Messages are set wherever something goes wrong; a banner is what a device lacks.
+/// Logs new messages and device banners, wherever they were set.
 void Viewer::keep_told() {
     log_.keep_change("message", state_.ui.message);
     log_.keep_change("device", device_banner(state_.settings, state_.touch));
@@ -404,7 +404,7 @@ bool Viewer::over() {
            (!options_.clip.empty() && played_to_the_end());
 }
 
-/// And does not begin again.
+/// Whether playing has ended and does not loop.
 bool Viewer::played_to_the_end() const {
     const Course at = state_.course();
     if (at.playing || at.looping) return false;

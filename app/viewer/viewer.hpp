@@ -46,7 +46,7 @@
 
 namespace dibhr {
 
-/// What `dibhr view` was asked for.
+/// The options of `dibhr view`.
 struct ViewOptions {
     OpenRequest open{};                ///< its colour may be a session; empty: the built-in sample
     std::string device{"auto"};        ///< as make_hand_device() has it
@@ -54,41 +54,41 @@ struct ViewOptions {
     std::filesystem::path record{};
     std::filesystem::path screenshot{};        ///< the last picture, as PNG
     std::filesystem::path clip{};              ///< of all pictures, as MP4
-    PictureOf pictures_of{PictureOf::window};  ///< of those two; --no-panels: the relief
-    std::optional<double> seconds{};           ///< leave after so long
+    PictureOf pictures_of{PictureOf::window};  ///< of screenshot and clip; --no-panels: the relief
+    std::optional<double> seconds{};           ///< end the program after so long
     bool sync{true};                           ///< --no-sync: do not wait for the display
     std::optional<double> speed{};             ///< kSlowestSpeed .. kFastestSpeed
-    std::optional<bool> looping{};             ///< else a video begins again, a session stops
-    std::optional<double> end_s{};             ///< where what is played ends, from its begin
-    bool start_given{false};                   ///< by --start: nothing that is remembered
+    std::optional<bool> looping{};             ///< default: a video loops, a session stops
+    std::optional<double> end_s{};             ///< end of playing, from the media's begin
+    bool start_given{false};                   ///< by --start: the saved position is not used
     bool full_screen{false};
-    bool stays{false};       ///< also where what was named cannot be opened
-    bool size_given{false};  ///< by --size: exactly so large
+    bool stays{false};       ///< also where the named files cannot be opened
+    bool size_given{false};  ///< by --size: the window has exactly this size
     bool any_media{false};   ///< replay: also over files that have changed
-    TouchRequest touch{};    ///< the command line's alone: its parameters beat a session's
-    std::filesystem::path settings_file{settings_path()};  ///< where they are kept
-    Settings in_file{};           ///< as read; the window saves only what a person changed in it
-    std::vector<Doubt> doubts{};  ///< of it: the usual values hold until a person agrees
-    Settings settings{};          ///< the same, the command line's values on top
+    TouchRequest touch{};    ///< the command line's; it overrides a session's
+    std::filesystem::path settings_file{settings_path()};  ///< where settings are saved
+    Settings in_file{};           ///< as read; the window saves only changes of it
+    std::vector<Doubt> doubts{};  ///< of it: defaults are used until the user agrees
+    Settings settings{};          ///< in_file with the command line's values
     PictureHook after_picture{};
 };
 
-/// What was opened before there was a window.
+/// What is opened before the window.
 struct ViewerParts {
     std::unique_ptr<Media> media{};
     FileMemory memory{};                       ///< of the media
     FoundMaps maps{};                          ///< likewise
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
-    std::string trouble{};                     ///< why there is neither
-    bool lacks_depth{false};                   ///< it is that there is colour alone
-    std::string damage{};                      ///< of the settings file, and what became of it
+    std::string trouble{};                     ///< why there is neither media nor session
+    bool lacks_depth{false};                   ///< the trouble is that the file has colour only
+    std::string damage{};                      ///< message about a damaged settings file
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
 };
 
-/// The relief of whatever is opened.
+/// The relief settings of the open file.
 struct OwnRelief {
     bool fits{true};
     double relief_px{0.0};
@@ -98,16 +98,15 @@ struct OwnRelief {
 
 class Viewer {
   public:
-    /// Opens the window and starts the loop. `ending`, `errands` and `log` must outlive it. Throws
-    /// Error.
+    /// Opens the window and starts the loop. All references must outlive the viewer. Throws Error.
     Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
            ToldLog& log);
-    /// From here on a display that goes away finds nothing left to close.
+    /// Removes the handler for a lost display.
     ~Viewer();
     Viewer(const Viewer&) = delete;
     Viewer& operator=(const Viewer&) = delete;
 
-    /// Until the window is closed or the asked time is over. Throws InputError when the last
+    /// Runs until the window is closed or options.seconds are over. Throws InputError when the last
     /// picture or the settings cannot be written.
     void run();
 
@@ -147,7 +146,7 @@ class Viewer {
     void replay_session(std::unique_ptr<OpenedSession> session);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
-    /// What a person chose, not what a media or a replay did.
+    /// The user's choices, without values that media or a replay have set.
     [[nodiscard]] Settings lasting_settings() const;
     void fit_to_media();
     void keep_panel(const std::filesystem::path& depth_before);
@@ -169,14 +168,14 @@ class Viewer {
     void write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to);
     void write_last_picture();
     void take_last_screenshot();
-    /// Says so where the last files are still being opened.
+    /// Shows a notice instead while the last files are still being opened.
     void open(const OpenRequest& request);
     void make_report(const std::filesystem::path& session);
     void take_report();
     void tell(const std::string& notice);
     void keep_told();
     void keep_lateness(const TickSchedule& schedule);
-    /// Takes a step; its failure goes into the message box, and the program goes on.
+    /// Calls `step`; shows its error in the message box.
     template <typename Step>
     void attempt(const Step& step) {
         try {
@@ -185,14 +184,14 @@ class Viewer {
             state_.ui.message = error.what();
         }
     }
-    /// Of what plays.
+    /// The player of the replay, else of the media.
     [[nodiscard]] Transport& transport();
     [[nodiscard]] double now_s() const;
     [[nodiscard]] bool over();
     [[nodiscard]] bool played_to_the_end() const;
     [[nodiscard]] glm::ivec2 relief_viewport() const;
 
-    // In order of making; touching goes first, so that no force is sent while the rest ends.
+    // touch_ is last: it is destroyed first, so that no force is sent while the rest is destroyed.
     ViewOptions options_;
     Ending& ending_;
     ToldLog& log_;
@@ -200,11 +199,11 @@ class Viewer {
     Window window_;
     Gui gui_;
     SceneView scene_{};
-    bool software_;  // draws
+    bool software_;  // the processor draws
     PicturePace pace_;
     Camera camera_{};
     ReliefMouse mouse_{};
-    std::optional<Vec3> pointed_at_{};  // on what is drawn
+    std::optional<Vec3> pointed_at_{};  // on the drawn surface
     ViewerState state_{};
     ServiceSettings service_settings_;
     Errand<Opened> opening_;
@@ -217,20 +216,20 @@ class Viewer {
     DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
-    ErrandsInOrder lasting_;  // what is remembered
+    ErrandsInOrder lasting_;  // writes settings, file memories, recent files
     SettingsKeeper keeper_;
-    DepthBlend shown_{};  // of the picture being made
+    DepthBlend shown_{};  // the frames of this picture
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};
-    bool pressed_deeper_{false};  // with the wheel, at least once
+    bool pressed_deeper_{false};  // the wheel was used so at least once
     TouchTrace trace_{};
-    std::filesystem::path remembered_{};        // the file that is shown; empty: none is to be
-    OwnRelief relief_shown_{};                  // that it was shown with
-    std::optional<OwnRelief> relief_before_{};  // when the file remembers its own
-    std::string playback_failure_{};            // as told
+    std::filesystem::path remembered_{};        // the shown file; empty: save nothing about it
+    OwnRelief relief_shown_{};                  // when the file was opened
+    std::optional<OwnRelief> relief_before_{};  // settings before, where the file has its own
+    std::string playback_failure_{};            // last shown
     std::chrono::steady_clock::time_point start_{};
     ViewerReplay replay_{};
-    TouchSession touch_;  // stopped in a replay: no hand is read, no force is sent
+    TouchSession touch_;  // stopped in a replay: no device is read, no force is sent
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// What the viewer does after the picture: what panels and keys asked for.
+// The commands of panels and keys, which the viewer performs after the picture.
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -44,7 +44,7 @@ void Viewer::carry_out_commands() {
     for (const WindowCommand& command : state_.commands.take()) std::visit(carry_out, command);
 }
 
-/// What its key does, and what that leaves for now.
+/// Performs an action, with the part that perform() leaves for after the picture.
 void Viewer::perform_after_picture(Action action) {
     switch (action) {
         case Action::record:
@@ -69,7 +69,7 @@ void Viewer::perform_after_picture(Action action) {
     }
 }
 
-/// On what the settings file takes away from what protects the hand.
+/// The user's answer about settings that protect the hand less.
 void Viewer::take_word(bool agreed) {
     const std::vector<Doubt> doubts = std::exchange(state_.ui.doubts, {});
     if (!agreed) return keeper_.forget(doubts);
@@ -87,7 +87,7 @@ void Viewer::start_or_stop_recording() {
     } else if (recording.finishing()) {
         tell("Still finishing the last recording");
     } else if (!touch_.may_record()) {
-        state_.commands.push(Action::record);  // with the next picture
+        state_.commands.push(Action::record);  // try again after the next picture
     } else {
         attempt([&] {
             const std::string file = new_file_name("dibhr");
@@ -107,7 +107,7 @@ void Viewer::start_or_stop_clip(PictureOf of) {
     } else {
         attempt([&] {
             clip_.start(picture_name(state_) + ".mp4", ClipName::stands_beside, of);
-            state_.ui.notice_until_s = 0.0;  // the sign tells it, which is not in the clip
+            state_.ui.notice_until_s = 0.0;  // no notice: it would be in the clip
         });
     }
 }

@@ -1,4 +1,4 @@
-// What the viewer does at once with keys and mouse.
+// Keys and mouse: what the viewer does at once.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@
 namespace dibhr {
 
 void Viewer::take_keys(const WindowInput& input) {
-    // A name typed right after the key that opens is none, even before the field has the keyboard.
+    // With the dialog open keys are text, even before its field has the keyboard.
     const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown;
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
@@ -107,7 +107,7 @@ void Viewer::perform(Action action) {
     if (!answer) answer = perform_with_brush(action);
     if (!answer) answer = explaining_.perform(action, state_, player, replay);
     if (!answer) answer = dibhr::perform(action, state_, transport());
-    // The next key of this picture goes on from here.
+    // For the next key in the same picture.
     state_.media.playback = player.status();
     if (replay != nullptr) state_.touch.replay->playback = replay->playback();
     if (!answer->place && answer->words.empty()) return;
@@ -119,7 +119,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
     Pointer pointer = window_.pointer();
     const auto on_panes = place_on_panes(state_, pointer.position_px);
-    pointer.position_px.y -= panes_height(state_);  // the relief is below them
+    pointer.position_px.y -= panes_height(state_);  // the relief is below the panes
     PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
@@ -134,14 +134,14 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     if (paints) {
         paint(use);
         use.pressed = false;
-    } else if (measures) {  // its clicks touch nothing
+    } else if (measures) {  // the ruler's clicks do not touch
         state_.ui.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
     touch_.point(ray, shown_, use);
 }
 
-/// What it paints is not touched meanwhile.
+/// Paints, and computes the ring that shows the brush.
 void Viewer::paint(const PointerUse& use) {
     Brush& brush = state_.ui.brush;
     painting_.use(use.pressed, pointed_at_, shown_, state_, touch_.player());

@@ -1,4 +1,4 @@
-// What settings, estimators and studies of others get only when a person here agrees.
+// Settings, estimators and studies of others: what needs the user's consent.
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
@@ -185,7 +185,7 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     keeper.finish(now);
     writing.finish(std::chrono::seconds(60));
     Settings next = load_settings(file);
-    CHECK_FALSE(next.stability);  // of the file, to be asked about again
+    CHECK_FALSE(next.stability);  // the file's value, to be asked about again
     CHECK(records_of(machine.consent.hold(next)) ==
           std::vector<std::string>{"touch.stability false"});
     CHECK(next.max_force_newton > 6.9);
@@ -268,7 +268,7 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
     SettingsKeeper keeper(in_file, started, file, writing);
     keeper.finish(started);
     writing.finish(std::chrono::seconds(60));
-    CHECK(load_settings(file).max_force_newton > 7.9);  // nobody has said anything
+    CHECK(load_settings(file).max_force_newton > 7.9);  // no answer yet
     keeper.forget(doubts);
     keeper.finish(started);
     writing.finish(std::chrono::seconds(60));

@@ -1,4 +1,4 @@
-// What is kept about the Falcon, and what its buttons are mapped to.
+// The Falcon's settings, and the actions of its buttons.
 #include <cstdint>
 #include <fstream>
 #include <set>
@@ -23,7 +23,7 @@ using falcon::FalconSettings;
 
 namespace {
 
-/// The rows of its numbers.
+/// The settings rows that are numbers.
 std::vector<DeviceRow> numbers_of(FalconSettings& settings) {
     std::vector<DeviceRow> rows = settings.rows();
     std::erase_if(rows,

@@ -1,4 +1,4 @@
-// What is remembered of a file comes back, and nothing else does.
+// The memory of a file is read as it was saved, and nothing else is.
 #include "app/settings/file_memory.hpp"
 
 #include <fstream>

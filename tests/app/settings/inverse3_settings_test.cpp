@@ -1,4 +1,4 @@
-// What is kept about the Inverse3.
+// The Inverse3's settings.
 #include "device/inverse3/settings.hpp"
 
 #include <set>
@@ -49,6 +49,6 @@ TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inve
     const inverse3::Tuning tuning = tuning_of(kept, {2.5, 7});
     CHECK_THAT(tuning.tilt_deg, WithinAbs(30.0, 1e-12));
     CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));
-    CHECK(tuning.clutch_buttons == 3);  // A from the start, and B
+    CHECK(tuning.clutch_buttons == 3);  // A by default, and B
     CHECK(tuning.centred == 7);
 }

@@ -1,5 +1,4 @@
-// Materials: what their files say, how they are laid over a surface, and how a person's own are
-// kept.
+// Materials: their files, how they are laid over a surface, and how the user's own are saved.
 #include "app/settings/material.hpp"
 
 #include <algorithm>
@@ -54,14 +53,14 @@ void write_stroke(const fs::path& file) {
     write_text(file, csv);
 }
 
-/// The rows of `dibhr touch` without what differs from run to run: the time of each update.
+/// The rows of `dibhr touch` without the time of each update, which differs from run to run.
 std::vector<std::string> without_times(const std::string& csv) {
     std::vector<std::string> rows = split(csv, '\n');
     for (std::string& row : rows) row.resize(std::min(row.rfind(','), row.size()));
     return rows;
 }
 
-/// Settings, and so a person's own materials, are kept in this folder for a while.
+/// During its life, settings and the user's own materials are in this folder.
 struct OwnSettings {
     TemporaryFolder folder{};
     Variable home{"XDG_CONFIG_HOME", folder.path().c_str()};
@@ -157,7 +156,7 @@ TEST_CASE("a person's own material is kept with its map, comes back, and can be 
         CHECK(material.sound == mine.sound);
         CHECK(material.bumps->heights == bumps->heights);
     }
-    CHECK_NOTHROW(save_material(material_called("my oak")));  // over itself
+    CHECK_NOTHROW(save_material(material_called("my oak")));  // replaces itself
     CHECK(material_called("my oak").bumps->heights == bumps->heights);
 }
 
@@ -247,7 +246,7 @@ TEST_CASE("--material is its bump map, size, roughness, friction, stiffness and 
     CHECK(same(oak, numbers));
     CHECK_FALSE(same(oak, {}));
     CHECK(same({"--material", "as-recorded"}, {}));
-    // What is given by itself wins, before or after.
+    // A number with its own option wins over the material, in any order.
     auto slippery = numbers;
     slippery[7] = slippery[9] = "0";
     CHECK(same({"--friction", "0", "--material", "oak.toml"}, slippery));

@@ -1,4 +1,4 @@
-// How pictures and clips are called.
+// Names of pictures and clips.
 #include "app/settings/name_pattern.hpp"
 
 #include <string>

@@ -1,4 +1,4 @@
-// Which files were opened before, and how paths are typed.
+// The list of recent files, and typed paths.
 #include "app/settings/recent_files.hpp"
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// The settings file: what it keeps, and what happens to one that is wrong.
+// The settings file: what is saved, and what happens to an invalid one.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -89,7 +89,7 @@ TEST_CASE("settings come back exactly as they were saved", "[settings]") {
     save_settings(unusual_settings(), file);
     std::vector<std::string> warnings;
     CHECK(same_settings(load_settings(file, warnings), unusual_settings()));
-    CHECK(warnings.size() == 2);  // of its keys
+    CHECK(warnings.size() == 2);  // about keys
     CHECK(std::distance(std::filesystem::directory_iterator(file.parent_path()), {}) == 1);
 }
 
@@ -211,7 +211,7 @@ TEST_CASE("what is to last is written in order, and whoever asks for it waits fo
     Errands errands;
     ErrandsInOrder writing(errands);
     std::promise<void> disk;
-    std::vector<int> written;  // by one thread after the other
+    std::vector<int> written;  // by threads that run one after the other
     writing.add([&, answers = disk.get_future().share()] {
         answers.wait();
         written.push_back(1);
@@ -223,7 +223,7 @@ TEST_CASE("what is to last is written in order, and whoever asks for it waits fo
     writing.add([&] { written.push_back(3); });
     writing.look();
     CHECK(writing.done_so_far().wait_for(std::chrono::seconds(0)) == std::future_status::timeout);
-    CHECK_THROWS_AS(writing.finish(std::chrono::seconds(0)), InputError);  // it stands still
+    CHECK_THROWS_AS(writing.finish(std::chrono::seconds(0)), InputError);  // the task hangs
     disk.set_value();
     CHECK_THROWS_AS(writing.finish(std::chrono::seconds(60)), InputError);
     writing.finish(std::chrono::seconds(60));
@@ -354,7 +354,7 @@ TEST_CASE("a wish for a key that cannot be is told with file and line, and the r
     CHECK(keys.names_for(Action::quit) == "F10");
     CHECK(keys.names_for(Action::mark) == "M");
     CHECK(keys.names_for(Action::show_as_recorded) == "B, held");
-    // It stays in the file until it is mended.
+    // The invalid entry stays in the file until it is corrected.
     save_settings(settings, file);
     CHECK(same_settings(load_settings(file, warnings), settings));
 }
@@ -432,7 +432,7 @@ TEST_CASE("a key that changes how it plays, touches or looks says so", "[keys]")
     Player player;
     ViewerState state;
     for (const KeyJob& job : key_jobs()) {
-        const bool of_program = job.group == "Program";  // it opens something that is seen
+        const bool of_program = job.group == "Program";  // the effect is visible: no notice
         const bool told_elsewhere =
             job.action == Action::record || job.action == Action::mark ||
             job.action == Action::toggle_full_screen || job.action == Action::explain ||

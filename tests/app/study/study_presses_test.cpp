@@ -1,5 +1,4 @@
-// What the grip's buttons say at an adjustment, and how a long press of one is told from a short
-// one.
+// What device buttons do at an adjustment, and how a long press is told from a short one.
 #include <chrono>
 #include <optional>
 
@@ -22,7 +21,7 @@ LongPress begun() {
     return press;
 }
 
-/// In its interval, of a trial that is answered yes or no.
+/// A run in the interval of a trial that is answered yes or no.
 StudyRun at_interval() {
     return StudyRun(protocol(page_of_conditions(1, R"([[block]]
 form = "explore"
@@ -31,7 +30,7 @@ question = "Q"
                     1);
 }
 
-/// At what is turned, of an adjustment.
+/// A run at the second interval of an adjustment, whose parameter can be changed.
 StudyRun at_adjustment() {
     StudyRun run(protocol(page_of_conditions(1, R"([[block]]
 form = "adjust"
@@ -135,6 +134,6 @@ TEST_CASE(
     CHECK(kind_of_button(0, false) == Kind::choose);
     view.waits = true;
     CHECK(kind_of("Right", false) == Kind::early);
-    view.before_start = true;  // nothing is asked
+    view.before_start = true;  // no question is shown
     CHECK_FALSE(press_of_key(run, view, {.name = "1", .early = true}));
 }

@@ -1,4 +1,4 @@
-// A participant in front of the study's window: led by keys, by the grip's buttons, interrupted.
+// A participant in front of the study's window: by keys, by device buttons, with interruptions.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -31,7 +31,7 @@ namespace {
 constexpr int kDisplayColumns = 1280;
 constexpr int kDisplayRows = 800;
 
-/// A film, and a picture that stands still, so that two of the window can be compared. Made once.
+/// A film, and a still picture, for which two pictures of the window can be compared. Made once.
 const std::filesystem::path& media_folder() {
     static const TemporaryFolder folder;
     static const bool made = [] {
@@ -47,7 +47,7 @@ const std::filesystem::path& media_folder() {
     return folder.path();
 }
 
-/// `kind`: of the files, "mkv" or "png".
+/// `kind`: extension of the files, "mkv" or "png".
 std::string media(const std::string& kind) {
     const std::string folder = media_folder().string();
     return "[[media]]\nname = \"own\"\ncolour = \"" + folder + "/c." + kind + "\"\ndepth = \"" +
@@ -153,12 +153,12 @@ class Participant {
                 const std::vector<std::string>& host)
         : at_(at), program_(at.desk.start(at.folder, words(device), host)) {}
 
-    /// What is pressed after it counts.
+    /// Waits for the condition. Presses after this call count.
     void wait_until(const std::function<bool(const Seen&)>& is_so) const {
         program_.wait_until(is_so);
         wait_until_asked();
     }
-    /// X stamps whole milliseconds: a key of the one in which something is seen first is early.
+    /// X's times are whole milliseconds: a key in the millisecond of the first picture is early.
     void wait_until_asked() const {
         constexpr double kStamp_s = 0.001;
         program_.wait_until(
@@ -167,7 +167,7 @@ class Participant {
     void wait_for(StudyStep step) const {
         wait_until([step](const Seen& now) { return is_at(now, step) && !now.waits; });
     }
-    /// Until it is felt; trials and intervals are counted from 0.
+    /// Waits until the interval is felt; trials and intervals are counted from 0.
     void wait_for_interval(int trial, int interval) const {
         wait_until([=](const Seen& now) {
             return now.trial == trial && now.interval == interval && now.force_enabled;
@@ -175,7 +175,7 @@ class Participant {
     }
     void press(const std::string& keys) const { program_.act("key " + keys); }
     void act(const std::string& events) const { program_.act(events); }
-    /// The step is left by Enter.
+    /// Leaves the step by Enter.
     void leave(StudyStep step) const {
         wait_for(step);
         press("Return");
@@ -186,7 +186,7 @@ class Participant {
         program_.wait_until([](const Seen& now) { return now.contact && now.sent_newton > 0.05; });
         act("mousemove_relative 30 10 mouseup 1");
     }
-    /// By keys, from its first interval on.
+    /// Answers a trial by keys, from its first interval on.
     void answer_pair(int trial, const std::string& key) const {
         for (const int interval : {0, 1}) {
             wait_for_interval(trial, interval);
@@ -211,11 +211,11 @@ class Participant {
         program_.send(signal);
         return end();
     }
-    /// The exit code, once it has ended.
+    /// Waits for the end; returns the exit code.
     [[nodiscard]] int end() { return program_.wait(); }
-    /// One thing that leads on, whatever is shown.
+    /// One press that continues, whatever is shown.
     void go_on() const { press(is_at(program_.seen(), StudyStep::question) ? "1" : "Return"); }
-    /// Of the display, while it does not change.
+    /// A picture of the display, once it does not change.
     [[nodiscard]] std::string picture() const {
         std::string last;
         std::string now = at_.desk.picture();
@@ -227,7 +227,7 @@ class Participant {
         return now;
     }
     [[nodiscard]] Seen seen() const { return program_.seen(); }
-    /// The window stands still from a picture on, soon after one in which that is so; and goes on.
+    /// Stops the window soon after a picture in which the condition holds.
     void hang_window_when(const std::function<bool(const Seen&)>& is_so) const {
         program_.wait_until(is_so);
         program_.hang();
@@ -261,7 +261,7 @@ void require_intervals_and_rests(const std::vector<SessionMark>& marks) {
     CHECK(marks.front().tag == "interval 1");
 }
 
-/// Whether no interval is felt then.
+/// Whether no interval is felt at that time.
 bool rests_at(const std::vector<SessionMark>& marks, double t_s) {
     bool rests = true;
     for (const SessionMark& mark : marks)
@@ -276,7 +276,7 @@ bool check_felt_in_intervals_only(const Session& session, const std::vector<Row>
     for (std::size_t k = 0; k + 1 < rows.size(); ++k) {
         const bool felt = glm::length(rows[k].sent_newton) > 0.0;
         touched = touched || (rows[k].contact && glm::length(rows[k].sent_newton) > 0.05);
-        // A tick that has begun when an interval is marked may have its force already.
+        // A tick that began before the mark of its interval may already have force.
         const bool rests =
             rests_at(session.marks(), rows[k].t_s) && rests_at(session.marks(), rows[k + 1].t_s);
         beside += felt && rests ? 1 : 0;
@@ -291,13 +291,13 @@ void check_same_bits(const Sitting& at, const std::string& session) {
     CHECK(contains(result.output, "identical, bit for bit"));
 }
 
-/// A key that was struck between the two.
+/// A key that was struck between two times.
 struct Struck {
     char key{'1'};
     double after_s{0.0}, before_s{0.0};  // by the steady clock
 };
 
-/// Strikes keys at random, among them Return, until the last question was answered.
+/// Strikes random keys, among them Return, until the last question was answered.
 class Hammer {
   public:
     Hammer(const Sitting& at, const Participant& person) : at_(at), person_(person) {}
@@ -313,7 +313,7 @@ class Hammer {
         }
     }
     [[nodiscard]] const std::vector<Struck>& struck() const { return struck_; }
-    /// By trial: when its question was on the screen.
+    /// For each trial: when its question was on the screen.
     [[nodiscard]] const std::map<int, double>& asked_s() const { return asked_s_; }
 
   private:
@@ -323,7 +323,7 @@ class Hammer {
         struck_.push_back({key, after_s, now_s()});
         at_.desk.press(std::string("keyup ") + key);
     }
-    /// A random while; GLFW drops a key that comes twice in a millisecond.
+    /// Waits a random time; GLFW drops a key that comes twice in a millisecond.
     Seen look() {
         constexpr double kShortest_s = 0.003;
         constexpr double kLongest_s = 0.03;
@@ -358,7 +358,7 @@ void check_first_since(const AnsweredTrial& one, double asked_s, const std::vect
     CHECK(missed == by);
 }
 
-/// How many values of two pictures of the display differ, from one row to another.
+/// How many values of two pictures of the display differ between two rows.
 std::size_t different(const std::string& first, const std::string& second, std::size_t from_row,
                       std::size_t to_row) {
     REQUIRE(first.size() == kDisplayColumns * kDisplayRows * 3);
@@ -437,7 +437,7 @@ TEST_CASE("a newcomer is led from the first page to the thanks by keys alone", "
         person.touch_interval(0, number);
         person.press("Return");
     }
-    person.leave(question);  // or tries to
+    person.leave(question);  // tries to leave
     CHECK(Participant::is_at(person.seen(), question));
     person.press("1");
     person.leave(feedback);
@@ -624,7 +624,7 @@ TEST_CASE("of keys that are hammered none answers before its question is on the 
         check_first_since(one, hammer.asked_s().at(one.trial.number), hammer.struck());
         used += 1 + static_cast<std::size_t>(one.answer.early.value());
     }
-    // Of those after the last answer nobody is asked.
+    // Keys after the last answer have no question.
     const double last_s = hammer.asked_s().at(kTrials - 1) + answered.back().answer.reaction_s;
     const auto counts = [&](double margin_s) {
         return static_cast<std::size_t>(std::count_if(
@@ -712,7 +712,7 @@ TEST_CASE("the button that takes the force off counts in the picture that begins
     const Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"},
                              falcon.host());
     person.leave(StudyStep::instructions);
-    // All is there, and it is felt 0.9 s after it was asked for.
+    // The surface is ready; the interval begins 0.9 s after the press.
     const auto is_about_to_begin = [](int interval) {
         return [interval](const Seen& now) {
             return Participant::is_at(now, StudyStep::interval) && now.interval == interval &&
@@ -742,8 +742,8 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     const FalconOnUsb falcon(at.folder.path(), {"firmware", "home", "place 0 0 140"});
     Participant person(at, {"--device", "falcon", "--firmware", "firmware.bin"}, falcon.host());
     falcon.move_hand({0.0, 0.0, 105.0}, 0.3);
-    // Numbers as the grip has them, from 0; until the study has gone on. Its window must have met
-    // the release before, else there is no new press.
+    // Presses buttons (numbers from 0) until the study continues. The window must have seen the
+    // release before, else there is no new press.
     const auto press = [&](int button, const std::function<bool(const Seen&)>& has_gone_on) {
         person.wait_until([](const Seen& now) { return now.buttons == 0; });
         falcon.tell("press " + std::to_string(1 << button));

@@ -19,7 +19,7 @@ using namespace dibhr::test;
 
 namespace {
 
-/// Rests a little below the middle of the surface.
+/// A device whose goal stays a little below the middle of the surface.
 class RestingHand final : public Device {
   public:
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override {
@@ -49,7 +49,7 @@ HandDevice resting_hand() {
     return hand;
 }
 
-/// What a window holds, and its pictures.
+/// The state of a window, and the calls of a picture.
 struct Touched {
     Touched() {
         std::vector<DepthImage> frames(2, image_of(32, 24, 255.0, [](int, int) { return 100.0; }));
@@ -118,7 +118,7 @@ TEST_CASE("after a session replay a recording begins, however long the loop befo
     CHECK(window.touch.haptic.ticks == 0);
     CHECK_FALSE(window.session.may_record());
     window.show_until([&] {
-        // Of the ticks of this loop alone: from the second on.
+        // Only ticks of this loop count: from the second one on.
         CHECK(window.session.may_record() == (window.touch.haptic.ticks > 1));
         return window.session.may_record();
     });

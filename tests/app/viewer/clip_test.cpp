@@ -70,7 +70,7 @@ Probed probed(const TemporaryFolder& folder, const std::string& clip) {
     return {std::stoi(words[0]), std::stoi(words[1]), std::stoi(words[2]), std::stod(words[3])};
 }
 
-/// Pictures in the clip that is being written; 0: none plays yet.
+/// Number of pictures in the unfinished clip; 0: it cannot be played yet.
 int pictures_written(const TemporaryFolder& folder) {
     const std::string all =
         said(folder,
@@ -79,7 +79,7 @@ int pictures_written(const TemporaryFolder& folder) {
     return std::atoi(all.c_str());
 }
 
-/// Until there are more than so many; how many there are then.
+/// Waits until there are more pictures than that; returns how many.
 int wait_for_more(const TemporaryFolder& folder, int pictures) {
     int now = 0;
     REQUIRE(eventually([&] { return (now = pictures_written(folder)) > pictures; },
@@ -87,7 +87,7 @@ int wait_for_more(const TemporaryFolder& folder, int pictures) {
     return now;
 }
 
-/// Pixels as red as the sign.
+/// Number of pixels as red as the recording sign.
 int red_pixels(const std::string& rgb) {
     int red = 0;
     for (std::size_t k = 0; k + 2 < rgb.size(); k += 3) {
@@ -97,12 +97,12 @@ int red_pixels(const std::string& rgb) {
     return red;
 }
 
-/// All pictures of it, RGB.
+/// All pictures of the clip, RGB.
 std::string pictures_of(const TemporaryFolder& folder, const std::string& clip) {
     return said(folder, "ffmpeg -nostdin -v error -i '" + clip + "' -f rawvideo -pix_fmt rgb24 -");
 }
 
-/// "Saved clip.mp4, 00:01.250": 1.25 s. Of that notice.
+/// The length in a notice: "Saved clip.mp4, 00:01.250" gives 1.25 s.
 double told_length_s(const std::string& notice) {
     const std::string minutes_and_seconds = notice.substr(notice.rfind(' ') + 1);
     const std::size_t colon = minutes_and_seconds.find(':');
@@ -194,7 +194,7 @@ TEST_CASE(
     const Probed whole = probed(folder, "film_color 000001.mp4");
     CHECK(whole.columns == kColumns);
     CHECK(whole.rows == kRows);
-    CHECK(whole.pictures >= 4);  // so many wait for an encoder, however busy the machine is
+    CHECK(whole.pictures >= 4);  // as many can wait for the encoder, on any machine
     CHECK_THAT(whole.length_s, WithinAbs(told_length_s(told), kRounding_s));
     CHECK(red_pixels(pictures_of(folder, "film_color 000001.mp4")) == 0);
     const Probed relief = probed(folder, "film_color 000001-2.mp4");

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A person's folder, whose settings leave only the Video panel open: its rows stand near the top.
+/// A home folder whose settings open only the Video panel, so that its rows are near the top.
 struct Home {
     TemporaryFolder folder{};
     fs::path file{folder / "slope_depth.png"};
@@ -61,7 +61,7 @@ class DepthRows {
     }
     void save_sidecar() const { click(415, 458); }
 
-    /// Once that is kept, which takes as long as opening the file again.
+    /// Waits until the choice is saved, which takes as long as opening the file again.
     [[nodiscard]] bool come_to_keep(const DepthStatement& wanted) const {
         const bool kept =
             eventually([&] { return home_.kept() == wanted; }, std::chrono::minutes(1));

@@ -103,7 +103,7 @@ TEST_CASE(
         const Portal portal(room.bus(), {.addresses = {room.address("jug_depth.png"),
                                                        room.address("jug_rgb.png")}});
         viewer.act("key ctrl+o");
-        wait_for(viewer, "jug");  // with the depth that was chosen together
+        wait_for(viewer, "jug");  // with the depth file that was chosen with it
         const PortalAsked asked = portal.asked();
         CHECK(asked.times == 1);
         CHECK(asked.folder == room.file("").parent_path());
@@ -115,7 +115,7 @@ TEST_CASE(
         viewer.act("key ctrl+o");
         wait_until_asked(portal);
         CHECK(eventually([&] {
-            viewer.act("key ctrl+o");  // nothing before the window knows that it was cancelled
+            viewer.act("key ctrl+o");  // no effect before the window knows of the cancel
             return portal.asked().times >= 2;
         }));
         CHECK(viewer.seen().file.str().ends_with("jug_rgb.png"));
@@ -139,7 +139,7 @@ TEST_CASE(
         const Portal portal(room.bus(), {.replies = false});
         viewer.act("key ctrl+o");
         wait_until_asked(portal);
-        open_by_name(viewer, "jug");  // in the window's own, which comes after two seconds
+        open_by_name(viewer, "jug");  // the window's own dialog, which opens after two seconds
         wait_for(viewer, "jug");
     }
     room.add_zenity("echo '" + room.file("cup_rgb.png").string() + "'\n");
@@ -186,6 +186,6 @@ TEST_CASE("a portal that is still thinking does not keep the program from ending
     const auto begin = std::chrono::steady_clock::now();
     room.press("key q");
     CHECK(viewer.wait() == 0);
-    // Two seconds are given to the portal while a person waits.
+    // The portal has two seconds while a person waits.
     CHECK(std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(1500));
 }

@@ -1,4 +1,4 @@
-// What the state of the force devices means for the force, and how it is said in the window.
+// What the state of the force devices means for the force, and the window's texts about it.
 #include "app/touching/device_state.hpp"
 
 #include <cstddef>
@@ -24,7 +24,7 @@ std::uint8_t bit_of(Button button) {
     return static_cast<std::uint8_t>(button);
 }
 
-// Their places in force_device_kinds().
+// Indices in force_device_kinds().
 constexpr std::size_t kFalcon = 0;
 constexpr std::size_t kInverse3 = 1;
 
@@ -33,7 +33,7 @@ DeviceNews& look_for(ViewerState& state, std::size_t kind) {
     return state.touch.devices.back();
 }
 
-/// It touched in the last tick.
+/// Makes the device the one that touched in the last tick.
 void touch_with(ViewerState& state, std::size_t kind) {
     state.touch.haptic.hand.which = static_cast<std::uint8_t>(kind + 1);
 }
@@ -89,7 +89,7 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     DeviceNews& news = look_for(state, kFalcon);
-    CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before it is known what is there
+    CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before the devices' states are known
     news.asked = true;
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
     news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
@@ -117,7 +117,7 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
     CHECK_FALSE(waits_for_front(state.settings, state.touch));  // the mouse touches
     DeviceNews& news = look_for(state, kFalcon);
     news.asked = true;
-    CHECK_FALSE(waits_for_front(state.settings, state.touch));  // no Falcon is there
+    CHECK_FALSE(waits_for_front(state.settings, state.touch));  // no Falcon is attached
     news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
     CHECK(waits_for_front(state.settings, state.touch));
     CHECK_FALSE(asked_settings(state.settings, state.touch).force_enabled);
@@ -150,7 +150,7 @@ TEST_CASE("the window says over the relief what an attached or lost Falcon needs
     CHECK(banner_of(state).empty());
     DeviceNews& news = look_for(state, kFalcon);
     news.state = state_at(falcon::Stage::looking, "plug it in");
-    CHECK(banner_of(state).empty());  // none has been there: only the panel says so
+    CHECK(banner_of(state).empty());  // never attached: only the panel says so
     news.state.trouble = true;        // one could not be brought up
     CHECK(banner_of(state) == "plug it in");
     news.state.trouble = false;

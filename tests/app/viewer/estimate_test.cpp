@@ -27,8 +27,8 @@ namespace {
 
 constexpr std::chrono::seconds kPatience{60};
 
-/// The folder of a person who has a still picture with depth, a video without, and an estimator,
-/// which waits before the fourth frame until it is let go on.
+/// A home folder with a still picture with depth, a video without, and an estimator that waits
+/// before the fourth frame until the test continues it.
 struct Home {
     TemporaryFolder folder{};
 
@@ -99,7 +99,7 @@ TEST_CASE(
     CHECK(home.keeps("000003.png"));
     viewer.act(kMake);
     REQUIRE(eventually([&] { return home.runs(); }, kPatience));
-    // What was open is touched meanwhile.
+    // The open file is touched meanwhile.
     viewer.act("mousemove 230 300 mousedown 1");
     viewer.wait_until([](const Seen& now) { return now.contact; });
     const std::uint64_t rows = viewer.seen().recorded_rows;

@@ -36,7 +36,7 @@ class ExplainedScene {
             hand_.update(surface(), goal, state_.settings.touch.friction);
     }
 
-    /// What an update to there would give, which is not made.
+    /// The result of an update to that goal, without making it.
     [[nodiscard]] Proxy if_moved(Vec3 goal) const {
         Dibhr other = hand_;
         return other.update(surface(), goal, state_.settings.touch.friction);
@@ -107,7 +107,7 @@ TEST_CASE("from the first step on the goal stays, and steps go forth and back", 
     for (int k = 0; k < 200; ++k) scene.press(Action::step_forward);
     CHECK(scene.show().taken == scene.show().update.steps.size());
     for (int k = 0; k < 200; ++k) scene.press(Action::step_back);
-    CHECK_FALSE(scene.show().held);  // the hand may say another goal
+    CHECK_FALSE(scene.show().held);  // the hand may choose another goal
     CHECK_FALSE(ends_as(scene.show(), expected));
 }
 

@@ -38,8 +38,8 @@ bool is_firm(const Row& row) {
     return glm::length(row.sent_newton) > 0.5;
 }
 
-/// As deep as 0.5 N at the usual 0.5 N/mm: the loop softens the spring of a Falcon that answers
-/// late, as it does on a busy machine.
+/// The depth of 0.5 N at the default 0.5 N/mm: the loop softens the spring of a Falcon that answers
+/// late, as on a busy machine.
 bool is_pressed(const Row& row) {
     return row.contact && glm::length(row.spring_newton) > 0.0 &&
            glm::distance(row.goal, row.proxy) * kSlopePitch_mm > 1.0;
@@ -68,9 +68,9 @@ class OtherWindow {
     WindowProgram program_;
 };
 
-/// The rows of the Falcon in which the goal is so far from the one before [image mm], and which
-/// come a millisecond after it: how far it may be goes by the time, which a busy machine does not
-/// keep.
+/// The Falcon's rows in which the goal is that far from the last one [image mm], a millisecond
+/// after it. Later rows are left out: the allowed distance depends on the time, which a busy
+/// machine does not keep.
 TickRows steps_of(const TickRows& rows, double least_mm, double most_mm) {
     TickRows steps;
     for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -84,17 +84,17 @@ TickRows steps_of(const TickRows& rows, double least_mm, double most_mm) {
     return steps;
 }
 
-/// A fast hand, of which a reply was lost.
+/// Steps of a fast hand after one lost reply.
 TickRows fast_steps(const TickRows& rows) {
     return steps_of(rows, 15.0, 30.0);
 }
 
-/// One that no hand is.
+/// Steps that no hand makes.
 TickRows jumps(const TickRows& rows) {
     return steps_of(rows, 45.0, 75.0);
 }
 
-/// The hand was taken over in contact, the force began from zero, and is firm again.
+/// Whether the Falcon took over in contact, the force began at zero, and is firm again.
 bool rises_anew(const TickRows& rows) {
     const auto anew = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
         return row.lets_go && falcon_touches(row);
@@ -224,7 +224,7 @@ TEST_CASE("the force is off while another window has the keyboard, and rises aga
     const auto lost = std::find_if(rows.begin(), rows.end(), off);
     REQUIRE(lost != rows.end());
     CHECK(std::any_of(rows.begin(), lost, is_firm));
-    // A late tick, which a busy machine has, is told before it.
+    // On a busy machine a notice about a late tick may come first.
     const auto back = std::find_if(lost, rows.end(),
                                    [](const Row& row) { return cut_for(SafetyCut::none, row); });
     CHECK(std::count_if(lost, back, off) > 100);

@@ -41,8 +41,7 @@ struct ManagedDesk {
     }
 };
 
-/// A program that people lock their screen with: it lies over all windows, and has grabbed keyboard
-/// and mouse.
+/// A screen lock: it covers all windows, and has grabbed keyboard and mouse.
 class ScreenLock {
   public:
     explicit ScreenLock(const Desk& desk)
@@ -57,7 +56,7 @@ class ScreenLock {
     Process process_;
 };
 
-/// Does what takes the window from the front; reports how long after it began the force was gone.
+/// Takes the window from the front; reports how long the force lasted after that.
 template <typename Act>
 void check_force_goes(const FalconScene& at, const std::string& what, const Act& act) {
     at.wait_for_force();

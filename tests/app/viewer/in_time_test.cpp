@@ -21,7 +21,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Three times what is promised: other work of the machine is not to fail it.
+/// Three times the promised time, so that other work of the machine does not fail the test.
 constexpr double kSpare = 3.0;
 
 double seconds_since(Clock::time_point moment) {
@@ -100,7 +100,7 @@ TEST_CASE("a second signal ends a program that hangs at once", "[ways out][realt
     at.viewer.hang();
     at.falcon.wait_for_zeros(200.0);
     at.viewer.interrupt();
-    // From 200 ms on it is another request, from 600 ms on there would be no need of one.
+    // From 200 ms on it counts as a second request; from 600 ms on none would be needed.
     const auto moment = Clock::now();
     FalconOnUsb::wait_until([&] { return seconds_since(moment) > 0.25; });
     at.viewer.interrupt();

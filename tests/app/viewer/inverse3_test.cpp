@@ -33,7 +33,7 @@ using TickRows = std::vector<Row>;
 
 constexpr auto kPatience = 60s;  // only reached by a failure
 
-/// What the session says of itself; the test fails when it says nothing.
+/// The value of a fact of the session; the test fails without it.
 std::string fact(const std::filesystem::path& session, const std::string& key) {
     const std::filesystem::path told = session.parent_path() / "fact.txt";
     run_shell("sqlite3 '" + session.string() + "' \"SELECT value FROM session WHERE key = '" + key +
@@ -67,7 +67,7 @@ class ServiceWork {
 /// The program on its display, recording, and the service that it finds.
 class Inverse3Scene {
   public:
-    /// `settings`: more of the file's.
+    /// `settings`: added to the settings file.
     explicit Inverse3Scene(Words arguments, Scene scene = scene_with_grip(),
                            const std::string& settings = {})
         : service(serving(std::move(scene))),
@@ -84,7 +84,7 @@ class Inverse3Scene {
         CHECK(service.not_understood() == 0);
         return rows();
     }
-    /// What has been recorded up to now, or in all.
+    /// The ticks recorded up to now.
     [[nodiscard]] TickRows rows() const { return read_session(folder / "hand.dibhr"); }
     void tell(const std::string& line) { CHECK(script.obey(line).empty()); }
     /// The hand goes there, mm from the middle of its box: right, forward, up; and has arrived.
@@ -176,7 +176,7 @@ TEST_CASE(
     CHECK(strongest(rows) <= SafetyLimits{}.max_force_newton + 1e-9);
     CHECK_THAT(worst_touched_again(rows), WithinAbs(0.0, 1e-12));
     require_same_bits(at.folder, session);
-    // The last word to the service is that there is no force.
+    // The last message to the service has zero force.
     const auto heard = at.service.heard();
     const auto last =
         std::find_if(heard.rbegin(), heard.rend(), [](const Heard& one) { return one.drives; });

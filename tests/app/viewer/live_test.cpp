@@ -1,4 +1,4 @@
-// What is live in the real window: touched, lost and found again, recorded and replayed.
+// Live sources in the real window: touched, lost and found again, recorded and replayed.
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -65,7 +65,7 @@ void write_goals(const fs::path& file) {
     }
 }
 
-/// Whether a session knows what that video holds.
+/// Whether the session has the size and hash of that video.
 bool knows(const SessionMedia& video) {
     return video.bytes == fs::file_size(video.file) && video.head_bytes > 0 &&
            video.head_bytes < 4096 && video.sha256 == sha256_of_file(video.file, video.head_bytes);
@@ -80,7 +80,7 @@ void check_whole(const TemporaryFolder& folder, const fs::path& file) {
     require_same_bits(folder, file);
 }
 
-/// What was recorded by key; empty: nothing.
+/// The session recorded by key; empty: none.
 fs::path recorded_by_key(const TemporaryFolder& folder) {
     for (const std::string& name : names_in(folder.path()))
         if (name.starts_with("dibhr-") && name.ends_with(".dibhr")) return folder / name;
@@ -94,7 +94,7 @@ void wait_for_rows(const WindowProgram& viewer, std::uint64_t more) {
     });
 }
 
-/// Until `words` stand so often in a log.
+/// Waits until `words` are so often in a log.
 void wait_for_words(const fs::path& log, const std::string& words, int times = 1) {
     INFO(words);
     REQUIRE(eventually(
@@ -117,7 +117,7 @@ int carried_ticks(const fs::path& file) {
     return carried;
 }
 
-/// Whether somebody waits for what is sent to that port.
+/// Whether a receiver listens on that port.
 bool is_listened_to(int port) {
     std::array<char, 8> wanted{};
     std::snprintf(wanted.data(), wanted.size(), ":%04X ", static_cast<unsigned>(port));
@@ -166,7 +166,7 @@ TEST_CASE("a live session keeps its video and replays to the same bits, a lost s
     const auto has_force = [](const Row& row) { return glm::length(row.sent_newton) > 0.0; };
     const auto went_on = rows.begin() + static_cast<std::ptrdiff_t>(still_lost);
     const auto lost = std::find_if_not(std::make_reverse_iterator(went_on), rows.rend(), is_cut);
-    // While nothing came there was no force, but for the first ticks in which it faded.
+    // Without frames there was no force, except in the first ticks, in which it faded.
     constexpr std::ptrdiff_t kFading = 50;
     REQUIRE(went_on - lost.base() > 2 * kFading);
     CHECK(std::none_of(lost.base() + kFading, went_on, has_force));

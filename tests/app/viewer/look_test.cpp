@@ -68,8 +68,8 @@ struct Lightnesses {
     int darkest{255}, lightest{0};
 };
 
-/// Of the letters on the button that ends a recording, which is dark red: of what stands between
-/// two pixels of it.
+/// Lightness of the letters on the dark red button that ends a recording: of the pixels between two
+/// red ones.
 Lightnesses on_red_button(const ColourImage& picture) {
     const auto is_red = [&picture](int x, int y) {
         const std::uint8_t* const at =
@@ -197,6 +197,6 @@ TEST_CASE(
     }
     CHECK(dark.columns - panels_begin(dark.picture) == 340);
     CHECK(light.columns - panels_begin(light.picture) == 510);
-    // The command line's theme is for once.
+    // The command line's theme is not saved.
     CHECK(light.kept.theme == Theme::dark);
 }

@@ -1,4 +1,4 @@
-// Painting on the relief: what a stroke lays, that it is felt, replayed, found again and removed.
+// Painting on the relief: a stroke is laid, felt, replayed, found again and removed.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -57,7 +57,7 @@ double pressed_force(const TemporaryFolder& folder, int x, int y,
     return std::stod(split(rows.at(2), ',').at(9));
 }
 
-/// In the middle of what is painted.
+/// The pixel in the middle of the paint.
 glm::ivec2 middle_of_paint(const TouchMap& map) {
     glm::dvec2 sum{0.0};
     double weight = 0.0;
@@ -180,7 +180,7 @@ TEST_CASE(
         most_newton = std::max(most_newton, row.spring_newton.z);
     CHECK(most_newton > 0.0);
 
-    // Over the same files, and over those of somebody who removed the maps: a session has its own.
+    // Over the same files, and over files without the maps: a session has its own maps.
     const glm::ivec2 painted = middle_of_paint(maps->stiffness);
     CAPTURE(painted.x, painted.y);
     CHECK(pressed_force(folder, painted.x, painted.y) > bare_newton + 0.01);

@@ -1,4 +1,4 @@
-// Keys that move a video, typed into the real window; what is recorded tells where it went.
+// Keys that move a video, typed into the real window; the recording shows where it went.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -53,7 +53,7 @@ class FilmWindow {
         : FilmWindow(long_films() / "long_color.mkv", std::make_shared<TemporaryFolder>(),
                      raw(std::move(options)), settings) {}
 
-    /// With what was kept in `home`.
+    /// With the files saved in `home`.
     FilmWindow(const fs::path& film, std::shared_ptr<TemporaryFolder> home,
                std::vector<std::string> options, const std::string& settings = {})
         : home_(std::move(home)),
@@ -82,7 +82,7 @@ class FilmWindow {
         viewer_.send(SIGCONT);
     }
 
-    /// Until the frame of that moment is drawn and touched.
+    /// Waits until the frame of that moment is drawn and touched.
     void comes_to(double media_s, double within_s = 1.5 * kFrame_s) const {
         const auto is_there = [=](const Seen& now) {
             return now.surface && std::abs(now.drawn_s - media_s) <= within_s &&
@@ -90,13 +90,13 @@ class FilmWindow {
         };
         INFO("waits for " << media_s << " s");
         viewer_.wait_until(is_there);
-        // What is drawn was handed to the ticks before.
+        // A drawn frame was published to the ticks before.
         const std::uint64_t ticks = seen().ticks + 2;
         viewer_.wait_until(
             [&](const Seen& now) { return is_there(now) && now.touchable && now.ticks >= ticks; });
     }
 
-    /// Until what plays has begun again so often.
+    /// Waits until the video has looped so often.
     void wait_for_laps(int laps) const {
         double before_s = seen().media_s;
         viewer_.wait_until([&](const Seen& now) {
@@ -106,7 +106,7 @@ class FilmWindow {
         });
     }
 
-    /// What was recorded, of the window that ends now.
+    /// Ends the window; returns its recording.
     [[nodiscard]] std::vector<Row> end() {
         desk_.press("key q");
         REQUIRE(viewer_.wait() == 0);
@@ -150,7 +150,7 @@ class FilmWindow {
     WindowProgram viewer_;
 };
 
-/// One moment of the video after the other was touched.
+/// Checks that these moments of the video were touched, in this order.
 void check_touched(const std::vector<Row>& rows, const std::vector<double>& wanted_s) {
     auto row = rows.begin();
     for (const double media_s : wanted_s) {
@@ -183,7 +183,7 @@ double speed_in(const std::vector<Row>& rows) {
     return *middle;
 }
 
-/// Begins anew at least once, and is never outside.
+/// Checks that playing loops at least once and never leaves the part.
 void check_laps(const std::vector<Row>& rows, double from_s, double to_s) {
     REQUIRE(rows.size() > 100);
     double least_s = rows.front().video_s, most_s = rows.front().video_s;
@@ -526,7 +526,7 @@ TEST_CASE(
     }
     FilmWindow film(film_file, home, {"--pause"});
     film.comes_to(0.0);
-    CHECK(glm::length(touched(film) - zoomed) < 0.5);  // 80 was for once
+    CHECK(glm::length(touched(film) - zoomed) < 0.5);  // 80 was not saved
 }
 
 TEST_CASE("a window that stays shows what cannot be opened, and opens something else",
@@ -541,7 +541,7 @@ TEST_CASE("a window that stays shows what cannot be opened, and opens something 
     viewer.wait_until([](const Seen& now) { return contains(now.message.str(), "no_depth.png"); });
     viewer.act("key Escape");
     CHECK(viewer.seen().message.str().empty());
-    // Keys that want a picture find none.
+    // Keys that need a picture have none.
     for (const std::string key : {"e", "g", "n", "k", "i", "d", "a", "period", "Home", "F"})
         viewer.act("key " + key);
     viewer.act("key n key g mousemove 200 300 mousedown 1 mouseup 1");

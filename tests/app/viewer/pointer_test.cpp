@@ -183,10 +183,10 @@ TEST_CASE("work that never ends is left behind, which whoever ends the program i
         }));
         CHECK_FALSE(errand.start([] { return 2; }));
         CHECK_FALSE(errand.take());
-        errand.start_anew([] { return 2; });  // nobody hears of the first one any more
+        errand.start_anew([] { return 2; });  // the first result is dropped
         CHECK(eventually([&] { return errand.take() == 2; }, std::chrono::minutes(1)));
     }
-    // Whoever waited for it, up to here, would wait for ever.
+    // A wait for the task until here would never end.
     CHECK_FALSE(errands.come_home(std::chrono::milliseconds(1)));
     let_go->set_value();
     CHECK(errands.come_home(std::chrono::minutes(1)));

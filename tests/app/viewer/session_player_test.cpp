@@ -1,4 +1,4 @@
-// Playing a session without a window, and what a recording keeps of what a person typed.
+// Playing a session without a window, and the typed facts of a recording.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -65,7 +65,7 @@ SessionPlayer::Time next_picture() {
     return now += std::chrono::milliseconds(50);
 }
 
-/// Makes pictures until `done`; what passed meanwhile.
+/// Makes pictures until `done`; returns the moments played meanwhile.
 template <typename Done>
 std::vector<SessionMoment> play_until(SessionPlayer& player, Done done) {
     std::vector<SessionMoment> passed;
@@ -84,7 +84,7 @@ std::vector<SessionMoment> play_to_end(SessionPlayer& player) {
     return play_until(player, [&player](const auto&) { return !player.playback().playing; });
 }
 
-/// The moment after a jump, computed if that was asked for.
+/// The moment after a jump, computed if requested.
 SessionMoment arrival(SessionPlayer& player) {
     const auto passed = play_until(
         player, [](const auto& moments) { return !moments.empty() && !moments.back().preview; });
@@ -261,7 +261,7 @@ TEST_CASE("of a replay a part is played again and again, or once", "[player]") {
             if (!moments.empty()) last_s = moments.back().tick.t_s;
             return laps == 3;
         });
-        // From where it began to play until it was sought to the part it was before it.
+        // The moments before the seek to the part are outside of it.
         const auto first = std::find_if(passed.begin(), passed.end(), [&](const auto& moment) {
             return moment.tick.t_s >= part.from_s;
         });

@@ -55,7 +55,7 @@ WindowProgram start_window(const Desk& desk, const TemporaryFolder& folder,
     return desk.start_viewer(folder, arguments);
 }
 
-/// Of all panels only Touch stands open: its rows begin near the top.
+/// Settings with only the Touch panel open, so that its rows begin near the top.
 void open_touch_panel_only(const TemporaryFolder& folder) {
     fs::create_directories(folder / "config/dibhr");
     std::ofstream(folder / "config/dibhr/settings.toml")
@@ -187,7 +187,7 @@ TEST_CASE("a mark has the time at which its key was pressed, not that of the pic
         const double apart_s = marks[2 * k + 1].t_s - marks[2 * k].t_s;
         right += apart_s > least_s[k] && apart_s < most_s[k] ? 1 : 0;
     }
-    // A window that was stopped just before it takes its keys knows no time of theirs.
+    // A window that was stopped just before it reads its keys has no times for them.
     CHECK(right >= 2);
 }
 
@@ -266,7 +266,7 @@ TEST_CASE(
     CHECK(next.fact("material") == "bark");
     CHECK(next.parameters().front().touch == chosen.touch);
     CHECK(next.parameters().front().bump.file == chosen.bump.file);
-    // What is told of it in words is what was touched with, once that is fitted to the picture.
+    // The session's facts are the values in use, after fitting to the picture.
     for (const TouchNumber& number : touch_numbers()) {
         CAPTURE(number.name);
         CHECK(std::stod(next.fact(std::string(number.name))) == number.of(chosen.touch));
@@ -323,7 +323,7 @@ TEST_CASE(
     is_at(1);
     viewer.act("key Home");
     is_at(0);
-    // What a key did to a replay is seen in the picture after it.
+    // The effect of a key on a replay is seen in the next picture.
     viewer.act("key l key bracketright");
     viewer.wait_until([](const Seen& now) { return now.looping && now.speed == 1.1; });
     viewer.act("key space");
@@ -355,7 +355,7 @@ TEST_CASE(
     CHECK(viewer.wait() == 0);
     const fs::path again = recorded_by_key(folder);
     CHECK(contacts_in(again) > 100);
-    // With the parameters of before, not those of the session, which do not last.
+    // With the parameters from before the replay: those of the session are not saved.
     const Fit fit = fit_of(open_depth(folder / "film_depth.mkv")->description());
     CHECK(Session(again).parameters().front().touch.shape == SurfaceShape{fit.relief_px});
     require_same_bits(folder, again);

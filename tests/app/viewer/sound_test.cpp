@@ -1,5 +1,5 @@
-// What the real window sounds like: the samples that it gives a sound device, written into a file;
-// and machines that have none.
+// The sound of the real window: the samples for a sound device, written into a file; and machines
+// without one.
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -39,7 +39,7 @@ using Words = std::vector<std::string>;
 constexpr const char* kPress = "mousemove 250 336 mousedown 1";
 constexpr std::size_t kTenth = 4800;  // samples
 
-/// What follows, in a folder whose settings hide the panels.
+/// The fixture: a folder whose settings hide the panels.
 Words small_window(const TemporaryFolder& folder, Words arguments) {
     fs::create_directories(folder / "config/dibhr");
     write_text(folder / "config/dibhr/settings.toml", "[window]\npanels-visible = false\n");
@@ -47,7 +47,7 @@ Words small_window(const TemporaryFolder& folder, Words arguments) {
     return arguments;
 }
 
-/// Drags to and fro over what is touched, for as long as nobody is satisfied.
+/// Drags to and fro over the surface until the condition holds.
 template <typename Condition>
 bool rub_until(const WindowProgram& viewer, const Condition& is_so) {
     return eventually(
@@ -65,7 +65,7 @@ Words holding_a_pad(Words host) {
     return host;
 }
 
-/// What a pad's motors were told.
+/// The commands to a pad's motors.
 struct Told {
     int low{0};
     int high{0};
@@ -178,7 +178,7 @@ TEST_CASE(
     const std::vector<float> all = samples();
     CHECK(
         std::all_of(all.begin(), all.end(), [](float sample) { return std::abs(sample) <= 1.0F; }));
-    // The command line's word is not kept.
+    // The command line's value is not saved.
     CHECK_FALSE(contains(read_text(folder / "config/dibhr/settings.toml"), "mute = true"));
     // While it was silent the hand went on sliding over what it touched.
     const std::vector<Row> rows = read_session(folder / "hand.dibhr");
@@ -230,7 +230,7 @@ TEST_CASE("a sound server that never answers holds up neither the window nor its
     const auto end = std::chrono::steady_clock::now();
     desk.press("key q");
     CHECK(viewer.wait() == 0);
-    // Whoever waits for the server does so for half a minute.
+    // A wait for the server takes half a minute.
     CHECK(std::chrono::steady_clock::now() - end < std::chrono::seconds(20));
     CHECK(read_text(folder / "errors.txt").empty());
 }

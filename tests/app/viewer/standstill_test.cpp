@@ -47,13 +47,13 @@ bool stands_still(const Row& row) {
     return row.cut == static_cast<int>(SafetyCut::standstill);
 }
 
-/// It would be felt, but for the standstill.
+/// Whether only the standstill keeps the force from the hand.
 bool is_held_back(const Row& row) {
     return stands_still(row) && row.contact && glm::length(row.spring_newton) > 0.5 &&
            glm::length(row.sent_newton) < 1e-12;
 }
 
-/// How often a firm force gave way to a standstill in which nothing was sent.
+/// How often a firm force was followed by a standstill without force.
 int standstills(const Rows& rows) {
     int count = 0;
     auto at = rows.begin();
@@ -141,7 +141,7 @@ TEST_CASE("a disk under the video that stops takes the force off, and a signal e
     REQUIRE(until_signal.size() > kTicks);
     for (std::size_t k = until_signal.size() - kTicks; k < until_signal.size(); ++k) {
         const Row& row = until_signal[k];
-        // A late tick is told first, and happens on a busy machine.
+        // On a busy machine a notice about a late tick comes first.
         const bool is_late = row.t_s - until_signal[k - 1].t_s > SafetyLimits{}.max_tick_s;
         CHECK(row.cut == static_cast<int>(is_late ? SafetyCut::late_tick : SafetyCut::standstill));
         CHECK(row.contact);

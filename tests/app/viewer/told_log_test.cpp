@@ -1,4 +1,4 @@
-// Settings in a file that is named, and the log of what a person is told.
+// Settings in a named file, and the log of the window's messages.
 #include <algorithm>
 #include <filesystem>
 #include <sstream>

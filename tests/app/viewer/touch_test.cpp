@@ -68,7 +68,7 @@ WindowProgram view_plane(const Desk& desk, const TemporaryFolder& home,
     return desk.start_viewer(home, arguments);
 }
 
-/// The plane as it is in the film.
+/// Options for the film's plane, uncleaned.
 std::vector<std::string> raw_with_friction(const std::string& friction) {
     return {"--raw-depth", "--relief", "100", "--friction", friction};
 }
@@ -132,7 +132,7 @@ auto rows_without(const std::vector<Row>& rows, const Property& has) {
     return std::count_if(rows.begin(), rows.end(), std::not_fn(has));
 }
 
-/// Rows in contact, all of them on the plane, and those that slide: by the friction that there is.
+/// Checks the rows in contact: all on the plane, and the sliding ones by the current friction.
 void check_drag(const std::vector<Row>& rows, double friction) {
     std::vector<Row> contacts;
     std::copy_if(rows.begin(), rows.end(), std::back_inserter(contacts),
@@ -167,7 +167,7 @@ void check_drag(const std::vector<Row>& rows, double friction) {
                       [](const Row& row) { return row.sent_newton.z > 0.1; }));
 }
 
-/// The force goes, while what is touched is felt no less, and comes back.
+/// Checks that the force goes to zero while the proxy stays in contact, and comes back.
 void check_force_off(const std::vector<Row>& rows) {
     const auto is_off = [](const Row& row) { return row.cut == static_cast<int>(SafetyCut::off); };
     const auto is_strong = [](const Row& row) { return glm::length(row.sent_newton) > 0.3; };
@@ -181,7 +181,7 @@ void check_force_off(const std::vector<Row>& rows) {
     CHECK(std::any_of(on, rows.end(), is_strong));
 }
 
-/// Whether what was touched had its holes filled, whenever that changed.
+/// Whether the touched surface had its holes filled, at each change of that.
 std::vector<bool> cleaned_in(const fs::path& file) {
     const Session session(file);
     std::vector<bool> cleaned;
@@ -252,7 +252,7 @@ TEST_CASE(
     check_last_picture(home);
 }
 
-// 600 ms after the signal it would be ended at once, which is told by exit code 1.
+// 600 ms after the signal the program would end itself at once, with exit code 1.
 TEST_CASE(
     "Ctrl+C in the middle of a contact ends the viewer in order, its recording and picture whole",
     "[window][realtime]") {

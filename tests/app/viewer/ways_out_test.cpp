@@ -1,5 +1,5 @@
-// However the program ends: one plain line, the status that is due, a recording that is whole, and
-// no force that is left in a device.
+// All ways in which the program ends: one plain line, the right exit status, a complete recording,
+// and no force left in a device.
 #include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/ioctl.h>
@@ -28,7 +28,7 @@ using Words = std::vector<std::string>;
 
 namespace {
 
-/// Takes connections, as an X server that stands still does, and says nothing.
+/// Accepts connections but never answers, like an X server that hangs.
 class SilentDisplay {
   public:
     SilentDisplay() {
@@ -53,7 +53,7 @@ class SilentDisplay {
     [[nodiscard]] Words host() const {
         return {"env", "DISPLAY=127.0.0.1:" + std::to_string(number_)};
     }
-    /// Until the program has said its first word, to which it wants an answer.
+    /// Waits until the program has sent its first request, and waits for the answer.
     void wait_until_asked() {
         client_ = ::accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
         std::array<char, 1> byte{};
@@ -67,7 +67,7 @@ class SilentDisplay {
     int number_{0};
 };
 
-/// A pipe with a name and hardly any room, whose reader takes nothing.
+/// A named pipe with a small buffer, whose reader reads nothing.
 class FullPipe {
   public:
     FullPipe() {
@@ -81,7 +81,7 @@ class FullPipe {
     FullPipe& operator=(const FullPipe&) = delete;
 
     [[nodiscard]] std::string name() const { return (folder_ / "pipe.png").string(); }
-    /// Until something is written into it.
+    /// Waits until something is written into it.
     void wait_until_written() const {
         REQUIRE(eventually(
             [this] {
@@ -108,7 +108,7 @@ void check_session(const TemporaryFolder& folder, const std::string& name = "han
     require_same_bits(folder, folder / name);
 }
 
-/// The name of what was begun by key.
+/// The name of the file that was begun by key.
 std::string only_recording(const TemporaryFolder& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
@@ -139,7 +139,7 @@ struct Recording {
     }
 };
 
-/// What starts a program under a limit of the shell's.
+/// The command that starts a program under a limit of the shell.
 Words limited(const std::string& limit) {
     return {"bash", "-c", "ulimit " + limit + "; exec \"$@\"", "--"};
 }
