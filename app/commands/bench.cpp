@@ -98,11 +98,11 @@ class GeneratedMedia final : public Media {
     std::int64_t next_{0};
 };
 
-/// From the player's thread to the tick.
+/// Hand-over of frames from the player's thread to the tick.
 struct HandoverRun {
     SampleStatistics cleaning_ms{};
-    SampleStatistics cleaned_to_touchable_us{};  ///< until a tick that asks gets the new frame
-    SampleStatistics swap_us{};                  ///< what taking it costs that tick
+    SampleStatistics cleaned_to_touchable_us{};  ///< until a tick can take the frame
+    SampleStatistics swap_us{};                  ///< cost of taking it in that tick
 };
 
 /// Two 1 kHz loops run at the same time on this machine: one that does nothing, and the haptic loop
@@ -273,7 +273,7 @@ int run_bench(CLI::App& app, const Arguments& arguments) {
         "  dibhr bench --json - | jq .loops");
     if (!parse(app, arguments)) return 0;
     std::optional<OutputFile> json;
-    if (!file.empty()) json.emplace(file);  // before the work: an unwritable file is said at once
+    if (!file.empty()) json.emplace(file);  // first: reports an unwritable file at once
     const BenchResults results = measure();
     if (file != "-") std::cout << table_of(results);
     if (json) {

@@ -1,4 +1,4 @@
-// Runs the grounds and writes down what they cost.
+// Times the algorithms on every ground; the results as table and JSON.
 #include "app/commands/bench_updates.hpp"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ double move_ns(const RunFigures& run) {
 
 CatchUpCost cost_of(const Ground& ground, const Jump& jump, Algorithm which) {
     constexpr int kJumps = 50;
-    constexpr int kMostUpdates = 100000;  // one that never catches up is to be seen, not waited for
+    constexpr int kMostUpdates = 100000;  // ends the wait for one that never catches up
     const Friction friction{kExperimentFriction, kExperimentFriction};
     const DepthSurface surface = ground.clip.at(0.0);
     const auto algorithm = make_algorithm(which);
@@ -81,8 +81,8 @@ void measure(const Ground& ground, UpdateCosts& costs) {
     for (const Jump& jump : ground.jumps) costs.jumps.push_back(cost_of(ground, jump));
 }
 
-/// What DIBHR's updates cost more when the hand goes four times as fast over a plane, for each
-/// TRIANGLE that they cross more.
+/// Extra time of DIBHR's updates, for each extra TRIANGLE that they cross, when the hand goes four
+/// times as fast over a plane.
 double coplanar_crossing_ns(const Ground& flat) {
     constexpr Algorithm kDibhr[]{Algorithm::dibhr};
     const auto run_at = [&](double step_px) {

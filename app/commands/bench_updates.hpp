@@ -1,5 +1,5 @@
-// What `dibhr bench` measures of the algorithms: their updates on every ground, and what a goal
-// that jumps costs them.
+// The measurements of `dibhr bench` on algorithms: their updates on every ground, and their updates
+// after a jump of the goal.
 #pragma once
 
 #include <string>
@@ -18,12 +18,12 @@ struct PathCost {
     double depth_px{0.0};
     std::vector<RunFigures> algorithms{};  ///< in the order of all_algorithms()
 
-    /// What DIBHR takes of the time of PGA.
+    /// Time of a DIBHR update divided by that of a PGA update.
     [[nodiscard]] double dibhr_to_pga() const;
 };
 
-/// One algorithm after a goal that jumped. An update does a bounded number of moves, so the proxy
-/// is there some updates later.
+/// One algorithm after a jump of the goal. An update makes a bounded number of moves, so the proxy
+/// arrives some updates later.
 struct CatchUpCost {
     Algorithm algorithm{Algorithm::dibhr};
     SampleStatistics first_us{};    ///< of the updates in which the goal jumps
@@ -49,7 +49,7 @@ struct UpdateCosts {
 /// Throws InputError when the built-in sample cannot be read.
 [[nodiscard]] UpdateCosts measure_updates();
 
-/// For people: a row for each ground and path, a column for each algorithm.
+/// A text table: a row for each ground and path, a column for each algorithm.
 [[nodiscard]] std::string table_of(const UpdateCosts& costs);
 
 /// Adds "coplanar_crossing_ns", "grounds" and "jumps", and, of the flat image alone, "updates" and

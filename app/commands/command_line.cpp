@@ -1,4 +1,4 @@
-// The table of commands; what is no command is shown by the viewer.
+// The table of commands. A word that is no command is a file for the viewer.
 #include "app/commands/command_line.hpp"
 
 #include <unistd.h>
@@ -85,7 +85,7 @@ std::pair<int, int> parse_size(const std::string& text) {
     return {size[0], size[1]};
 }
 
-/// Bold at a terminal: what stands at the begin of a line and ends with a colon.
+/// On a terminal, makes the headings of a help text bold.
 std::string with_bold_headings(const std::string& help) {
     constexpr std::array<std::string_view, 4> kHeadings{
         "Usage:", "Positionals:", "Options:", "Examples:"};
@@ -134,7 +134,7 @@ int run_one(const Command& command, const Arguments& arguments,
     return command.run(app, arguments, after_picture);
 }
 
-/// In place of a help text: takes down what a command declares.
+/// Stores the options that a command declares, in place of making a help text.
 class Documenting : public CLI::Formatter {
   public:
     explicit Documenting(DocumentedCommand& into) : into_(into) {}
@@ -200,8 +200,7 @@ int run_help(const Arguments& about) {
                      meant_command(about.front()) + " (see dibhr --help)");
 }
 
-/// Of the first word that looks like an option and is none: that, and what it may have meant; or
-/// nothing.
+/// Names the first word that looks like an option and is none, with the nearest option. Else empty.
 std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> names;
     for (const CLI::Option* const option : app.get_options())
@@ -287,7 +286,7 @@ int run_command_line(const Arguments& arguments, const PictureHook& after_pictur
         std::cout << "dibhr " << DIBHR_VERSION << '\n';
         return 0;
     }
-    // What is no command is what the viewer, the first of the table, is to show.
+    // A word that is no command is a file for the viewer, the first command of the table.
     if (const Command* const command = command_called(first))
         return run_one(*command, Arguments(arguments.begin() + 1, arguments.end()), after_picture);
     return run_one(kCommands.front(), arguments, after_picture);

@@ -31,13 +31,13 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestPatience_s = 1e6;
-constexpr int kInterrupted = 130;  ///< as of a program that Ctrl+C ended
+constexpr int kInterrupted = 130;  ///< exit code of a program that Ctrl+C ended
 
 struct DepthOptions {
-    EstimateRequest request{};  ///< but for the command
+    EstimateRequest request{};  ///< without the command
     fs::path out{};
     std::string with{};  ///< a command, or the name of an estimator in the settings
-    std::string name{};  ///< to keep the command under
+    std::string name{};  ///< under which the settings keep the command
     bool view{false};
     bool lists{false};
     bool forgets{false};
@@ -47,7 +47,7 @@ bool is_command(const std::string& text) {
     return text.find('{') != std::string::npos;
 }
 
-/// A command of the settings is another's word until a person here agrees to it.
+/// A command of the settings may be another person's: it runs only after consent here.
 Estimator agreed_to(const Estimator& estimator) {
     if (Consent().knows(estimator.command)) return estimator;
     throw InputError("the settings name the estimator " + estimator.name +
@@ -56,7 +56,7 @@ Estimator agreed_to(const Estimator& estimator) {
                      escaped_text(estimator.command));
 }
 
-/// It is typed here.
+/// Typing a command counts as consent.
 void take_word(const std::string& command) try {
     Consent().agree(command);
 } catch (const InputError& error) {
@@ -77,7 +77,7 @@ Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estima
                      (known.empty() ? "" : " (" + listed(all_names(known)) + ")"));
 }
 
-/// Also in place of one of that name.
+/// Replaces an estimator of the same name.
 void keep_estimator(Estimator estimator) {
     if (!is_bare_name(estimator.name))
         throw UsageError("--as " + in_quotes(estimator.name) +
@@ -89,10 +89,10 @@ void keep_estimator(Estimator estimator) {
     save_settings(settings, settings_path());
 }
 
-/// Waits for it, shows how it goes, and ends it when a signal asks for that.
+/// Runs the estimator, shows its progress, and stops it on a signal.
 std::optional<DepthEstimate> watched(const EstimateRequest& request) {
     constexpr std::chrono::milliseconds kPause{50};
-    EndingSignals signals;  // before the thread, which is not to take them
+    EndingSignals signals;  // created first: the thread must not receive them
     EstimateWatch watch;
     auto made = std::async(std::launch::async, [&] { return estimate_depth(request, watch); });
     ProgressBar bar(one_line(request.colour.filename().string()));
@@ -121,7 +121,7 @@ std::string told(const KeptEstimate& kept) {
            megabytes_text(kept.bytes) + ", by " + one_line(record.command);
 }
 
-/// Of that colour, or all of an empty one.
+/// The estimates for `colour`; all where it is empty.
 std::vector<KeptEstimate> kept_of(const fs::path& colour) {
     std::vector<KeptEstimate> all = kept_estimates(depth_cache_path());
     std::erase_if(all, [&colour](const KeptEstimate& kept) {

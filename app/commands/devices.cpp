@@ -1,4 +1,4 @@
-// `dibhr devices`: the mouse, and how far every attached device goes; or the check of one.
+// `dibhr devices`: lists the mouse and the state of every attached device; or checks one.
 #include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
@@ -24,7 +24,7 @@ void tell(const std::string& line) {
     std::cout << line << std::endl;
 }
 
-/// What a person gives for a device is kept before anything else is done with it.
+/// A given firmware file is stored before any device is opened.
 void keep_files(const std::filesystem::path& file) {
     for (const ForceDeviceKind* const kind : force_device_kinds()) {
         if (!file.empty() && kind->keep_firmware != nullptr) kind->keep_firmware(file);
@@ -45,15 +45,15 @@ int survey() {
     return 0;
 }
 
-/// One that can be checked. Where nobody can look for it, it is as if there were none.
+/// A device of this kind is attached and has a check. False where the search for it fails.
 bool can_be_checked(const ForceDeviceKind& kind, const DeviceSettings& settings) try {
     return kind.check != nullptr && kind.attached(settings);
 } catch (const DeviceError&) {
     return false;
 }
 
-/// Of the first kind of which one is attached, whether or not it can be used; where none is, the
-/// check of the first kind says what to do.
+/// The first kind that can be checked, whether or not its device is usable. Where none can: the
+/// first kind, whose check says what to do.
 std::size_t kind_to_check(const AllDeviceSettings& chosen) {
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         if (can_be_checked(*force_device_kinds()[k], chosen[k])) return k;

@@ -14,7 +14,7 @@ namespace dibhr {
 
 namespace {
 
-// Of a person's own keys.
+// How to change keys.
 constexpr std::string_view kOwnKeys =
     "A table [keys] in ~/.config/dibhr/settings.toml gives actions other keys than the usual ones:";
 constexpr std::string_view kOwnKeysExample =
@@ -52,7 +52,7 @@ std::string without_parentheses(std::string text) {
     return text;
 }
 
-/// For troff: no escape, no hyphen that would be broken at, no request at a line's begin.
+/// Escapes text for troff: backslashes, hyphens, and requests at the beginning of a line.
 std::string troff(std::string text) {
     text = replaced(replaced(std::move(text), "\\", "\\e"), "-", "\\-");
     text = replaced(std::move(text), "\n.", "\n\\&.");
@@ -70,7 +70,7 @@ void add_option(std::ostringstream& page, const DocumentedOption& option) {
     page << '\n';
 }
 
-/// The table of keys, and how to have others.
+/// The table of keys, and how to change them.
 void add_keys(std::ostringstream& page) {
     page << ".SH KEYS\n"
          << troff(std::string(kOwnKeys)) << "\n.PP\n.nf\n"
@@ -102,7 +102,7 @@ std::string quoted(const std::string& text) {
     return "'" + replaced(text, "'", "'\\''") + "'";
 }
 
-/// What a word after an option can be, where the option takes one that is no file.
+/// Completes the value after an option, where it is no file.
 void add_bash_values(std::ostringstream& script, const DocumentedCommand& command) {
     for (const DocumentedOption& option : command.options) {
         if (option.is_argument() || option.type.empty() || option.takes_file()) continue;
@@ -159,7 +159,7 @@ std::string bash_completion(const std::vector<DocumentedCommand>& commands) {
     return script.str();
 }
 
-/// For _arguments: no bracket or colon of its own meaning.
+/// Escapes brackets and colons, which mean something to _arguments.
 std::string zsh_text(const std::string& text) {
     std::string safe = text;
     for (const char* special : {"[", "]", ":"})
@@ -204,7 +204,7 @@ std::string zsh_completion(const std::vector<DocumentedCommand>& commands) {
         }
         script << " \\\n                '*:file:_files' ;;\n";
     }
-    // Found by its name in zsh's folders, or read by a person's own settings.
+    // zsh loads the script by its name from its folders, or .zshrc sources it.
     script << "    esac\n}\n"
               "if [[ ${funcstack[1]} == _dibhr ]]; then\n"
               "    _dibhr \"$@\"\n"
@@ -230,7 +230,7 @@ std::string fish_completion(const std::vector<DocumentedCommand>& commands) {
               "complete -c dibhr -f -n '__fish_seen_subcommand_from completion' -a 'bash zsh "
               "fish'\n";
     for (const DocumentedCommand& command : commands) {
-        // What names no command is the viewer's.
+        // Options without a command are the viewer's.
         const std::string when =
             command.name == "view"
                 ? "not __fish_seen_subcommand_from " + replaced(names, "view ", "")
@@ -267,7 +267,7 @@ std::vector<std::string> DocumentedOption::values() const {
     const std::size_t colon = help.find(": ");
     if (colon == std::string::npos) return {};
     const std::string listed = help.substr(colon + 2);
-    // "raw (as --raw-depth), gentle"; what follows a semicolon is said of them.
+    // "raw (as --raw-depth), gentle"; text after a semicolon describes them.
     std::vector<std::string> words =
         split(without_parentheses(listed.substr(0, listed.find(';'))), ", ");
     // "relief: the picture plane; true: the shape: auto, relief, true"

@@ -1,5 +1,5 @@
-// `dibhr experiment`: the paper's evaluation, all algorithms side by side. Runs the paths that were
-// asked for, then reports.
+// `dibhr experiment`: the paper's evaluation, all algorithms side by side. Runs the requested
+// paths, then prints the report.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
@@ -35,7 +35,7 @@ struct ExperimentOptions {
     HumanOptions human{};
 };
 
-/// The outputs, tried before the work: what cannot be written is said at once.
+/// The outputs, opened before the work, so that errors are reported at once.
 class Outputs {
   public:
     explicit Outputs(const ExperimentOptions& options) : with_table_(options.json != "-") {
@@ -43,7 +43,7 @@ class Outputs {
         if (!options.plots.empty()) plots_.emplace(options.plots);
     }
 
-    /// Null where none were asked for.
+    /// Null: none requested.
     OutputFolder* plots() { return plots_ ? &*plots_ : nullptr; }
 
     void write(const std::string& table, const std::string& json) {
@@ -96,7 +96,7 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
     std::vector<PathRun> paths;
     std::optional<SampleClip> sample;
     std::optional<PathRun> human;
-    if (all || options.path == "human") {  // first: an unreadable hand is said at once
+    if (all || options.path == "human") {  // first: reports an unreadable hand at once
         const HandInput hand = read_hand(options.human);
         ProgressBar bar("reading the sample");
         sample = read_sample(options.human, [&bar](double share) { bar.show(share); });

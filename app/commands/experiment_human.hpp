@@ -34,8 +34,8 @@ struct RecordedGoal {
 [[nodiscard]] std::vector<RecordedGoal> read_session_goals(const Session& session, int lead_in,
                                                            int count);
 
-/// What moves the hand, read and checked as far as it can be without the sample: a session, a
-/// trace, or neither.
+/// The input that moves the hand: a session, a trace, or neither. Checked as far as possible
+/// without the sample.
 struct HandInput {
     std::string name{};  ///< the file, for messages; empty: the modelled hand
     std::vector<RecordedGoal> session{};

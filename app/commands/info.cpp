@@ -37,7 +37,7 @@ void print_fact(std::string_view name, std::string_view value) {
               << one_line(value) << '\n';
 }
 
-/// In this order, as far as they are there.
+/// Prints the facts of these names in this order, and removes them from `facts`.
 void print_and_drop(std::initializer_list<std::string_view> names, SessionFacts& facts) {
     for (const std::string_view name : names) {
         const auto fact = facts.find(std::string(name));
@@ -47,7 +47,7 @@ void print_and_drop(std::initializer_list<std::string_view> names, SessionFacts&
     }
 }
 
-/// How long, how many ticks, and what was marked on the way.
+/// Prints duration, ticks and marks.
 void print_extent(const Session& session) {
     print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
     print_fact("ticks", std::to_string(session.rows()));
@@ -58,8 +58,8 @@ void print_extent(const Session& session) {
                                (mark.text.empty() ? "" : ": " + mark.text));
 }
 
-/// What a person wants to know first comes first: what was touched, when and how long, with what
-/// and with which parameters.
+/// The most important facts first: what was touched, when and how long, with which device and which
+/// parameters.
 void describe_session(const fs::path& file) {
     const Session session(file);
     session.check();
@@ -116,7 +116,7 @@ std::string list_text(const std::vector<std::string>& words) {
     return words.empty() ? "nothing" : listed(words);
 }
 
-/// Empty: the colour lies over the depth as it is.
+/// Empty: colour needs no registration to the depth.
 std::string registration_text(const MediaDescription& media) {
     const Registration& moved = media.meaning->registration.value;
     std::string text;
@@ -181,7 +181,7 @@ void describe_pictures(const fs::path& file, const DepthRequest& request) {
     if (is_colour && !has_depth) describe_partner(file);
 }
 
-/// A word, a number or numbers.
+/// A name, a number or numbers.
 template <typename Fact>
 Json json_of(const Fact& fact) {
     if constexpr (std::is_enum_v<Fact>)
@@ -204,7 +204,7 @@ Json json_of(const CleaningChoice& choice) {
     return words_of(choice.own);
 }
 
-/// Each fact, and whose word it is; what is not known is null.
+/// Each fact and its origin; an unknown fact is null.
 void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     const DepthStatement known = meaning ? meaning->statement() : DepthStatement{};
     const DepthMeaning facts = meaning.value_or(DepthMeaning{});
@@ -218,7 +218,7 @@ void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     json["origin"] = origins;
 }
 
-/// What is not known of a place is null.
+/// Unknown values are null.
 Json json_of(const fs::path& file, const MediaDescription& media) {
     const bool has_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
@@ -240,7 +240,7 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
     return json;
 }
 
-/// Of a session what its view gives, by the names of the facts.
+/// A session's extent and facts, by their names in its file.
 Json json_of_session(const fs::path& file) {
     const Session session(file);
     session.check();
@@ -255,7 +255,7 @@ Json json_of_session(const fs::path& file) {
     return json;
 }
 
-/// One object a line, so that what follows a file that cannot be read is read, too.
+/// One object a line, so that a file that cannot be read does not spoil the next one's.
 void print_json(const fs::path& file, const DepthRequest& request) {
     const Json json =
         names_session(file) ? json_of_session(file) : json_of(file, describe_media(file, request));

@@ -1,4 +1,4 @@
-// Formats rows and writes them; draws the bar over itself.
+// Formats and writes rows; redraws the progress bar in its line.
 #include "app/commands/output.hpp"
 
 #include <unistd.h>

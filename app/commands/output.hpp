@@ -1,5 +1,5 @@
-// What commands write while they compute: the rows of a stream of touches, one line an update (a
-// contract that scripts depend on), and a bar on stderr for work of more than a second.
+// Output of commands: rows of touch updates, one line an update (a contract that scripts depend
+// on), and a progress bar on stderr for work of more than a second.
 #pragma once
 
 #include <chrono>
@@ -39,16 +39,16 @@ void append_row(std::string& text, const OutputRow& row);
 void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why);
 
-/// Written in large pieces; appears whole or not at all, at commit().
+/// A file that is written in large pieces and appears at commit(), whole or not at all.
 class RowFile {
   public:
     /// "-" is standard output; an empty name writes nothing. Throws InputError when the target
-    /// cannot be written, or is one of the `inputs`, which `why` says.
+    /// cannot be written, or is one of the `inputs`, with `why`.
     RowFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& inputs,
             const std::string& why);
 
     [[nodiscard]] bool wanted() const noexcept { return file_.has_value(); }
-    /// Rows are appended here; after each, or after a few, `rows_done`.
+    /// Append rows here, and call rows_done() after each or after a few.
     [[nodiscard]] std::string& text() noexcept { return text_; }
     void rows_done();
     void commit();
@@ -58,7 +58,7 @@ class RowFile {
     std::string text_{};
 };
 
-/// Draws only on a terminal, and only once a second has passed; gone when it ends.
+/// Drawn only on a terminal, and only after a second; erased by the destructor.
 class ProgressBar {
   public:
     explicit ProgressBar(std::string title);
@@ -66,7 +66,7 @@ class ProgressBar {
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
 
-    /// `share` of the work that is done, 0 to 1; `beside` the bar in words.
+    /// `share`: of the work that is done, 0 to 1. `beside`: text to the right of the bar.
     void show(double share, const std::string& beside = {});
 
   private:

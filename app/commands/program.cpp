@@ -25,7 +25,7 @@ constexpr int kSuccess = 0;
 constexpr int kFailure = 1;
 constexpr int kBadUsage = 2;
 
-/// errno holds why writing to standard output failed. A reader that went away had enough.
+/// errno holds why writing to standard output failed. EPIPE: the reader ended, no failure.
 int exit_code_of_failed_printing() {
     if (errno == EPIPE) return kSuccess;
     const std::string reason = std::strerror(errno);
@@ -64,18 +64,18 @@ int exit_code_of(const Arguments& arguments, const PictureHook& after_picture) {
 }  // namespace
 
 int run_program(int argc, char** argv, const PictureHook& after_picture) {
-    // One heap for all threads: what one gives back, the others take, and the system can have it.
+    // One heap for all threads: memory that one frees, the others and the system can use.
     mallopt(M_ARENA_MAX, 1);
     // A closed pipe is an ordinary end, not a signal.
     std::signal(SIGPIPE, SIG_IGN);
-    // Where a parent ignores it, and that is inherited, the kernel keeps no exit status of a child.
+    // A parent's SIG_IGN is inherited; the kernel would then keep no exit status of children.
     std::signal(SIGCHLD, SIG_DFL);
     const PlainOutput plain(std::cout);
     std::cout.exceptions(std::ios::badbit);
-    // An error line must not flush, and so throw for, what could not be printed.
+    // Printing an error must not flush std::cout, which would throw for the failed output.
     std::cerr.tie(nullptr);
     const int exit_code = exit_code_of({argv + 1, argv + argc}, after_picture);
-    // What could not be printed has been told; the last flush at exit has nobody to tell.
+    // The failure has been reported; the last flush, at exit, must not throw.
     std::cout.exceptions(std::ios::goodbit);
     return exit_code;
 }

@@ -30,7 +30,7 @@ constexpr std::int64_t kTicksPerStep = 1000;  // of the progress bar
 struct ReplayOptions {
     std::filesystem::path session{};
     std::vector<Algorithm> algorithms{};  ///< empty: as recorded
-    TouchRequest touch{};                 ///< beats what was recorded
+    TouchRequest touch{};                 ///< replaces recorded values
     bool any_media{false};                ///< also over files that have changed
     std::filesystem::path csv{};          ///< rows of the one run, "-": standard output; or empty
 };
@@ -42,7 +42,7 @@ struct Run {
     RunComparison comparison{};
 };
 
-/// What was recorded names these, and numbers of a touch go with them.
+/// Refuses options that would contradict the session's own depth meaning, relief and pitch.
 void refuse_meanings(const TouchRequest& touch) {
     if (touch.depth != DepthStatement{})
         throw UsageError(
@@ -67,7 +67,7 @@ Run make_run(const Session& session, const ReplayOptions& options,
         TouchParameters changed = recorded.touch;
         run.change(changed);
         if (!(changed == recorded.touch)) run.as_recorded = false;
-        // Without an algorithm of its own, the run goes by those of the recording.
+        // Without an algorithm of its own, the run is named after those of the recording.
         const std::string name = name_of(recorded.touch.algorithm);
         if (!algorithm && run.name.find(name) == std::string::npos)
             run.name += (run.name.empty() ? "" : "+") + name;
@@ -94,7 +94,7 @@ bool has_bump(const Session& session, const ReplayOptions& options) {
 
 SessionFramesOptions frames_options(const Session& session, const ReplayOptions& options) {
     const TouchRequest& touch = options.touch;
-    // A ball has one size in a run: that of the pitch and the relief it begins with.
+    // The ball has one size in a run: from the first pitch and relief.
     TouchParameters parameters;
     if (!session.parameters().empty()) parameters = session.parameters().front().touch;
     touch.given.apply(parameters);
@@ -159,8 +159,8 @@ std::string text_of(Vec3 v) {
     return '(' + number_text(v.x) + ", " + number_text(v.y) + ", " + number_text(v.z) + ')';
 }
 
-/// "; it was recorded with libavcodec 59.37.100, this is 61.3.100": what may have decoded other
-/// depth levels. Empty: nothing that is known.
+/// "; it was recorded with libavcodec 59.37.100, this is 61.3.100": libraries that may decode other
+/// depth levels. Empty: no known difference.
 std::string library_changes(const Session& session) {
     std::string text;
     for (const auto& [library, version] : library_versions()) {

@@ -23,7 +23,7 @@ namespace dibhr {
 
 namespace {
 
-/// Files that are gone or have changed are no reason to have no report.
+/// Where files are missing or have changed, the report has no picture.
 RecordedPicture picture_of(const Session& session, const SessionSource& source,
                            double media_s) try {
     SessionMediaFinder finder(session.file(), false);

@@ -70,8 +70,8 @@ struct StudyOptions {
     [[nodiscard]] fs::path folder() const { return out.empty() ? fs::path(".") : out; }
 };
 
-/// `files`: media, pictures and bump maps are opened, too, so that what cannot be is told before
-/// anybody sits down.
+/// `files`: also opens media, pictures and bump maps, so that errors are reported before a
+/// participant sits down.
 StudyNames study_names(bool files) {
     StudyNames names;
     const MaterialNames materials = material_names();
@@ -103,7 +103,7 @@ fs::path protocol_called(const fs::path& name) {
                      listed(shipped) + ")" + did_you_mean(name.string(), shipped));
 }
 
-/// The media that no page has a line for.
+/// Checks the built-in sample, which a page does not list.
 void require_sample() {
     const SampleFiles files = sample_files();
     static_cast<void>(open_media(files.colour, files.depth, usual_depth_request()));
@@ -143,7 +143,7 @@ StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
             .pilot = options.pilot};
 }
 
-/// In a window of their own; until they are through, or leave.
+/// Runs the study in a window until the person finishes or leaves.
 void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
     LastWords words;
     const CrashHandler crash(words, &Guardian::alarm);
@@ -220,7 +220,7 @@ int take_sessions(const StudyOptions& options) {
     return 0;
 }
 
-/// Files as they are given, and of folders the study files in them.
+/// The given files, and for each folder the study files in it.
 std::vector<fs::path> study_files(const std::vector<fs::path>& given) {
     std::vector<fs::path> files;
     for (const fs::path& one : given) {

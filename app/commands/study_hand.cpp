@@ -1,4 +1,4 @@
-// Explores and records.
+// Runs the ticks of the modelled hand and records them.
 #include "app/commands/study_hand.hpp"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ TouchParameters parameters_of(const TouchRequest& request) {
     return parameters;
 }
 
-/// Ticks of a loop without a clock: one a millisecond.
+/// Runs and records ticks without waiting for a clock: one a millisecond.
 class HandTicking {
   public:
     HandTicking(const std::filesystem::path& session, const SessionFacts& facts)
@@ -46,7 +46,7 @@ class HandTicking {
         recorder_.media(kMedia, files.colour, files.depth);
     }
 
-    /// The next interval.
+    /// Runs the ticks of the next interval.
     void explore(const DepthClip& clip, const PathRun& path, int updates,
                  const TouchRequest& request, const TouchParameters& parameters) {
         const std::uint64_t version = ++version_;
@@ -56,7 +56,7 @@ class HandTicking {
                               .touch = parameters,
                               .limits = {},
                               .bump = {request.given.bump_file()}});
-        if (version > 1) runner_.let_go();  // also of a proxy that touches nothing
+        if (version > 1) runner_.let_go();  // also without contact
         std::shared_ptr<const BumpMap> bump = request.given.read_bumps();
         stretch(bump, clip.columns(), clip.rows(), parameters.shape.bump_size_px);
         const auto count = std::min(path.goals.size(), static_cast<std::size_t>(updates));

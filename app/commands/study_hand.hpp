@@ -1,5 +1,5 @@
-// The modelled hand of `dibhr experiment human` in the place of a participant's: explores each
-// interval of a trial on the built-in sample, recorded as the trial's session.
+// The modelled hand of `dibhr experiment human` in place of a participant: explores each interval
+// of a trial on the built-in sample, and is recorded as the trial's session.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ class StudyHand {
     void explore(const Trial& trial, const std::filesystem::path& session);
 
   private:
-    /// The ground of an interval, and where the hand goes on it.
+    /// The surface of an interval, and the hand's path on it.
     struct Ground {
         SampleClip sample;
         PathRun path{};
@@ -29,7 +29,7 @@ class StudyHand {
     const Ground& ground_of(const StudyInterval& interval);
 
     int updates_;
-    std::map<std::string, Ground> grounds_{};  ///< by what shapes a surface
+    std::map<std::string, Ground> grounds_{};  ///< by cleaning and relief
 };
 
 }  // namespace dibhr

@@ -1,4 +1,4 @@
-// A study without a person: run head-less and fast, by the same steps into the same file.
+// A study with a simulated participant: no window, the same steps and the same file.
 #pragma once
 
 #include <string>
@@ -18,11 +18,11 @@ struct Pilot {
     bool has_hand{false};
 };
 
-/// What simulated_participant() takes; "hand", which then guesses; or "hand," and that. Throws
-/// InputError.
+/// Parses what simulated_participant() takes; "hand", which then guesses; or "hand," and such text.
+/// Throws InputError.
 [[nodiscard]] Pilot pilot_called(const std::string& text, const Protocol& protocol);
 
-/// Runs what is left of the study. Throws InputError.
+/// Runs the remaining trials. Throws InputError.
 void run_pilot(StudyRun& run, StudyFile& file, const Pilot& pilot);
 
 }  // namespace dibhr

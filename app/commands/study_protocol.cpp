@@ -1,4 +1,4 @@
-// Says what a study will be.
+// Prints the summary of a study.
 #include "app/commands/study_check.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace dibhr {
 
 namespace {
 
-/// At most; by a rule of thumb where the block sets no time.
+/// Upper bound; with usual times where the block sets none.
 double minutes_of(const Block& block) {
     constexpr double kInterval_s = 6.0;
     constexpr double kAnswer_s = 3.0;
@@ -37,7 +37,7 @@ std::string levels_text(const Variation& vary) {
     return text;
 }
 
-/// Over so many participants (or a multiple) a Latin square is whole.
+/// The number of participants (or a multiple) that completes a Latin square.
 std::string balance_text(const Block& block) {
     if (block.order != TrialOrder::latin) return {};
     const std::size_t levels = std::max<std::size_t>(1, block.variation.levels.size());
@@ -67,7 +67,7 @@ void print_summary(const Protocol& protocol) {
               << " a participant\n";
 }
 
-/// Which may be meant, as what chance alone does.
+/// Equal conditions may be intended, to measure choices by chance.
 void tell_same_conditions(const Protocol& protocol) {
     const auto& all = protocol.conditions;
     for (auto one = all.begin(); one != all.end(); ++one) {
@@ -78,7 +78,7 @@ void tell_same_conditions(const Protocol& protocol) {
     }
 }
 
-/// Yes and no, without trials in which there is nothing.
+/// Blocks of yes and no without level 0, which would measure the guess rate.
 void tell_unknown_guesses(const Block& block) {
     const Variation& vary = block.variation;
     const bool has_nothing = std::ranges::find(vary.levels, 0.0) != vary.levels.end();

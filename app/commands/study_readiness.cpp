@@ -1,4 +1,4 @@
-// Looks after device, clock and stability.
+// Checks device, clock and stability before a study.
 #include "app/commands/study_check.hpp"
 
 #include <chrono>
@@ -49,7 +49,7 @@ void print_rate() {
               << " ticks late, 99 % within " << us.count() << " us\n";
 }
 
-/// On a device as a person has set it up.
+/// For one kind of device with its settings.
 void print_stability(const Protocol& protocol, const ForceDeviceKind& kind,
                      const DeviceLimits& limits) {
     double least = std::numeric_limits<double>::infinity();

@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestMedia_s = 1e6;
-constexpr int kDigits = 5;  ///< of an elevation, as told
+constexpr int kDigits = 5;  ///< of a printed elevation
 
 struct SurfaceOptions {
     fs::path colour{};
@@ -44,8 +44,8 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
     return media;
 }
 
-/// The frame shown at `time_s` of the media and the one after it, if any: the last one stays until
-/// the media ends. Throws InputError when that is before.
+/// The frame shown at `time_s` of the media and the next one, if any. The last frame is shown until
+/// the media ends; InputError for a later time.
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
     const fs::path& file = reader.description().depth_path;
     if (reader.description().live && time_s > 0.0)

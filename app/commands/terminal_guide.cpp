@@ -21,7 +21,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kLineLength = 79;  // of what is said, in characters
+constexpr std::size_t kLineLength = 79;  // of printed text, in characters
 
 /// Breaks long lines at spaces.
 std::string wrapped(const std::string& text) {
@@ -49,7 +49,7 @@ class TerminalGuide final : public CheckGuide {
   public:
     TerminalGuide()
         : typed_in_(isatty(STDIN_FILENO) == 1), shown_live_(isatty(STDOUT_FILENO) == 1) {
-        // A stopped program sends neither force nor zero; who knows how long the motors hold.
+        // A stopped program sends neither a force nor zero: the motors might keep the last force.
         sigset_t stopping;
         sigemptyset(&stopping);
         for (const int signal : {SIGTSTP, SIGTTIN, SIGTTOU}) sigaddset(&stopping, signal);
@@ -67,12 +67,12 @@ class TerminalGuide final : public CheckGuide {
     void show(const std::string& state) override {
         if (!shown_live_) return;
         std::cout.flush();
-        // What std::cout lets nobody do: the line is written over.
+        // Not through std::cout, which removes control characters: this overwrites the line.
         const std::string line = '\r' + one_line(state) + "\x1b[K";
         live_line_open_ = ::write(STDOUT_FILENO, line.data(), line.size()) > 0;
     }
 
-    /// What was typed before a question does not answer it.
+    /// Discards what was typed before the question.
     void ask(const std::string& question) override {
         if (typed_in_) forget_input();
         print(wrapped(question) + "\n> ");
@@ -102,7 +102,7 @@ class TerminalGuide final : public CheckGuide {
         forget_input();
         termios keys = lines_;
         keys.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-        // Ctrl+Z and Ctrl+\ are keys like any other: they must not stop or kill what holds a force.
+        // Ctrl+Z and Ctrl+\ are keys like any other: they must not stop or kill the program now.
         keys.c_cc[VSUSP] = keys.c_cc[VQUIT] = _POSIX_VDISABLE;
         tcsetattr(STDIN_FILENO, TCSANOW, &keys);
     }
@@ -117,11 +117,11 @@ class TerminalGuide final : public CheckGuide {
         if (interrupted()) return Wish::quit;
         take_input();
         if (typed_in_) {
-            // Keys have no end but that of the terminal, which may be seen before its signal comes.
+            // Key input ends only with the terminal, which may be read before the signal arrives.
             if (ended_ || input_.find('q') != std::string::npos) return Wish::quit;
             return input_.empty() ? Wish::none : Wish::let_go;
         }
-        // Of a pipe, what comes next may be the answer to the next question.
+        // Further input of a pipe may be the answer to the next question.
         return input_ == "q" || input_.starts_with("q\n") ? Wish::quit : Wish::none;
     }
 
@@ -148,7 +148,7 @@ class TerminalGuide final : public CheckGuide {
     EndingSignals signals_{};
     sigset_t signals_before_{};
     const bool typed_in_;    // standard input is a terminal
-    const bool shown_live_;  // so is standard output
+    const bool shown_live_;  // standard output is one, too
     termios lines_{};        // the terminal as it was found
     std::string input_{};
     bool ended_{false};

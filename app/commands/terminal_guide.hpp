@@ -1,5 +1,4 @@
-// The terminal as the person beside a device that is checked: plain lines, and any key lets go of a
-// force.
+// The guide of a device check on a terminal: plain lines and answers; any key ends a force.
 #pragma once
 
 #include <memory>
@@ -8,9 +7,9 @@
 
 namespace dibhr {
 
-/// Reads standard input and writes standard output. While it lives, Ctrl+C is a wish to quit, and
-/// Ctrl+Z does not stop the program, which could be holding a force. Made before any thread is
-/// started. Input that is no terminal answers line by line; of it, only a "q" ends a force.
+/// Reads standard input and writes standard output. While the guide exists, Ctrl+C requests to
+/// quit, and Ctrl+Z does not stop the program, which may be applying a force. Create it before any
+/// thread. Input that is no terminal is read line by line; only a "q" in it ends a force.
 [[nodiscard]] std::unique_ptr<CheckGuide> make_terminal_guide();
 
 }  // namespace dibhr

@@ -1,5 +1,5 @@
-// `dibhr touch`: computes first and formats afterwards, block by block, so that the times are the
-// updates' own.
+// `dibhr touch`: computes first and formats afterwards, block by block, so that times include
+// nothing else.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstddef>
@@ -36,7 +36,7 @@ struct TouchOptions {
     TouchParameters parameters{};
 };
 
-/// Keeps all that an update depends on from one block of goals to the next.
+/// The state that updates carry from one block of goals to the next.
 class TouchRun {
   public:
     explicit TouchRun(const TouchOptions& options)
@@ -49,7 +49,7 @@ class TouchRun {
 
     OutputRow update(const TimedGoal& goal) {
         const bool started_again = depth_.advance_to(goal.t_s);
-        // Recorded hands have equal time stamps: still an update, of the usual length.
+        // Recorded goals may have equal times: such an update has the usual length.
         const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
         const TickInput input{.pair = depth_.now(),
                               .bump = bump_.get(),
@@ -112,7 +112,7 @@ void touch_all(const TouchOptions& options) {
     if (bounds_met > 0) print_error_line(bounds_met_text(bounds_met, goals.size()));
 }
 
-/// What is on and needs a video that moves, of which there is none.
+/// Warns of switches that need a moving video, where the media is a still picture.
 void warn_of_motion(const TouchOptions& options) {
     const auto warn = [](std::string_view name) {
         print_warning("--" + std::string(name) +

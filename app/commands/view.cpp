@@ -1,5 +1,5 @@
-// `dibhr view`: puts the settings file and the command line together, and opens everything a viewer
-// needs before there is a window, so that what fails is told in one line.
+// `dibhr view`: combines the settings file with the command line, and opens everything before the
+// window, so that a failure is reported in one line.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -46,8 +46,7 @@ void warn(const std::string& sentence, ToldLog& log) {
     log.keep("warning", sentence);
 }
 
-/// Puts a settings file that cannot be read aside, so that no change is kept in its place. What is
-/// told of it.
+/// Renames an unreadable settings file, so that saving does not overwrite it. The message about it.
 std::string put_aside(const fs::path& file, const std::string& trouble) {
     const auto numbered = [&file](int number) {
         return file.string() + ".damaged" + (number > 1 ? "-" + std::to_string(number) : "");
@@ -62,7 +61,7 @@ std::string put_aside(const fs::path& file, const std::string& trouble) {
            ". The default settings are used.";
 }
 
-/// With --stay the window opens whatever the file is.
+/// With --stay the window opens even where the file cannot be read.
 Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& log) try {
     std::vector<std::string> warnings;
     Settings settings = load_settings(options.settings_file, warnings);
@@ -78,10 +77,10 @@ Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& 
     return {};
 }
 
-/// Settings as the command line gives them, for on top of the settings file.
+/// Settings of the command line, which replace those of the settings file.
 class GivenSettings {
   public:
-    /// Keeps what it is called with, for that setting.
+    /// Returns a function that stores its argument for that setting.
     template <typename Value>
     [[nodiscard]] auto of(Value Settings::*setting) {
         return [this, setting](const Value& value) {
@@ -105,7 +104,7 @@ struct ViewCommand {
     fs::path log_file{};
 };
 
-/// How what is opened begins to play.
+/// Options on how playback begins.
 void add_playing_options(CLI::App& app, ViewCommand& command) {
     ViewOptions& options = command.options;
     add_number_option(app, "--start", 0.0, kLongestRun_s,
@@ -132,13 +131,13 @@ void add_playing_options(CLI::App& app, ViewCommand& command) {
     app.add_flag("--full-screen", options.full_screen, "Fills the screen");
 }
 
-/// Which then beats what is remembered of the file.
+/// Whether the command line sets the relief, which then replaces the remembered one.
 bool gives_relief(const TouchRequest& touch) {
     return touch.raw_depth || touch.given.fit_relief ||
            touch.given.value_of(*touch_number("relief")) != nullptr;
 }
 
-/// A replay is what was recorded: there is nothing to record, and its surface is given.
+/// A replay has its recorded surface and is not recorded again: refuses other options.
 void require_replay_options(const ViewOptions& options) {
     const TouchRequest& touch = options.touch;
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
@@ -186,8 +185,8 @@ void take_sample_for_nothing(OpenRequest& open) {
     open.depth = sample.depth;
 }
 
-/// What the command line says of damping and cleaning, and of the relief and the pitch: raw depth
-/// has the paper's.
+/// Applies damping, cleaning, relief and pitch of the command line. Raw depth has the paper's
+/// relief and pitch.
 void take_surface(const TouchRequest& touch, Settings& settings) {
     if (touch.given.gives_damping()) settings.damping_as_needed = false;
     if (touch.preset) settings.cleaning.preset = *touch.preset;
@@ -206,7 +205,7 @@ void take_surface(const TouchRequest& touch, Settings& settings) {
     take(settings.fit_pitch, touch.given.fit_pitch, parameters.coupling.pixel_pitch_mm);
 }
 
-/// What the surface is made of: as the command line says, else as it was when the window closed.
+/// The material of the command line, else that of the settings.
 Material chosen_material(const GivenParameters& given, Settings& settings, ToldLog& log) try {
     if (!given.material && !given.bump.empty()) settings.material.clear();
     Material material;
@@ -236,8 +235,8 @@ void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& se
     touch.given.apply(settings.touch);
 }
 
-/// What is live may keep whoever opens it waiting, but nobody who asks to end. Null: that was
-/// asked.
+/// A live source may open slowly: a background task opens it, so that the program can end. Null: a
+/// request to end came.
 std::unique_ptr<Media> opened(const OpenRequest& open, Errands& errands, const Ending& ending) {
     if (!is_live(open.colour) && !is_live(open.depth)) return open_request(open);
     constexpr std::chrono::milliseconds kPause{20};
@@ -275,7 +274,7 @@ bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands
     try {
         if (!open_files(options, parts, errands, ending, log)) return false;
     } catch (const InputError& error) {
-        // Whoever named no file did nothing wrong, and can open one.
+        // Without a file on the command line the window opens, and can open one.
         if (!options.stays && !options.open.colour.empty()) throw;
         parts.lacks_depth = dynamic_cast<const DepthMissing*>(&error) != nullptr;
         parts.trouble = error.what();
@@ -285,8 +284,8 @@ bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands
     return true;
 }
 
-/// Whether nobody is left in a disk that stands still, or in a large file that is being opened; by
-/// a signal the program ends before Ending's patience does.
+/// Waits for background tasks. False: one still waits for a disk or opens a large file. After a
+/// signal the wait is shorter than Ending's timeout.
 bool come_home(const Errands& errands, Ending& ending) {
     constexpr std::chrono::milliseconds kPatience{500};
     constexpr std::chrono::milliseconds kPatienceAtSignal{100};
@@ -316,7 +315,7 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
         "--screenshot and --clip show the relief alone");
 }
 
-/// What the window looks and sounds like, and where that is kept.
+/// Options on appearance, sound, settings file and log of the window.
 void add_window_options(CLI::App& app, ViewCommand& command) {
     GivenSettings& given = command.settings;
     add_size_option(app, command.size, "Size of the window");
@@ -398,7 +397,7 @@ void add_view_options(CLI::App& app, ViewCommand& command) {
         "Keys: dibhr help keys");
 }
 
-/// Throws UsageError for what does not go together.
+/// Throws UsageError for options that conflict.
 void check_options(ViewOptions& options) {
     const std::string colour = options.open.colour.string();
     std::error_code unknown;
@@ -414,7 +413,7 @@ void check_options(ViewOptions& options) {
     if (names_session(options.open.colour)) require_replay_options(options);
 }
 
-/// The settings of the file with those of the command line on top.
+/// The settings of the file, replaced by those of the command line.
 void take_settings(ViewCommand& command, ViewerParts& parts, ToldLog& log) {
     ViewOptions& options = command.options;
     options.in_file = options.settings = read_settings(options, parts, log);
@@ -429,7 +428,7 @@ void take_settings(ViewCommand& command, ViewerParts& parts, ToldLog& log) {
     drop_changed(options.doubts, settings);  // by the command line
 }
 
-/// Opens what was named, and the window over it until it is closed.
+/// Opens the named files, and runs the window until it is closed.
 void run_window(ViewCommand& command, Ending& ending, Errands& errands, ToldLog& log) {
     ViewOptions& options = command.options;
     ViewerParts parts;
@@ -471,8 +470,8 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
         _exit(EXIT_FAILURE);
     }
     log.finish(kPatienceWithLog);
-    // No destructor and no handler of exit(): they would take away what an errand still uses. All
-    // that is to last is saved, and the device is closed.
+    // No destructor and no exit() handler: they would free what a background task still uses. All
+    // files are saved, and the device is closed.
     if (!come_home(errands, ending)) _exit(EXIT_SUCCESS);
     return 0;
 }

@@ -1,4 +1,4 @@
-// What grew: bark, skin and wood.
+// The materials that grow: bark, skin and wood.
 #include <array>
 
 #include "assets/materials/textures.hpp"
@@ -21,7 +21,7 @@ double crease(Place at, const Creases& set, int seed) noexcept {
     return set.depth * strength * (1.0 - rise(0.0, 0.26, from));
 }
 
-/// As nothing in a trunk is straight.
+/// Bends a place irregularly, as in a trunk.
 Place crooked(Place at) noexcept {
     return warped(warped(warped(at, 0.05, 3, 2, 101), 0.022, 9, 6, 105), 0.006, 26, 16, 107);
 }

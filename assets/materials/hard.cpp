@@ -1,4 +1,4 @@
-// What was not grown or woven: ice, rubber, sandpaper and stone.
+// The hard materials: ice, rubber, sandpaper and stone.
 #include <array>
 
 #include "assets/materials/textures.hpp"

@@ -78,7 +78,7 @@ inline double rough_noise(Place at, int across, int down, int octaves, double fa
     return sum;
 }
 
-/// `at`, pushed by up to about `by` to wherever noise of `across` x `down` features says.
+/// `at`, moved by up to about `by` by noise of `across` x `down` features.
 inline Place warped(Place at, double by, int across, int down, int seed) noexcept {
     return at + by * Place{noise(at, across, down, seed), noise(at, across, down, seed + 2)};
 }
@@ -92,7 +92,7 @@ void each_near(Place p, Visit&& visit) {
         for (int u = i - 2; u <= i + 2; ++u) visit(u, v);
 }
 
-/// What is known of a place among the irregular cells of a lattice.
+/// The position of a place among the irregular cells of a lattice.
 struct Cell {
     Place from_centre{};  ///< in units of the map
     double to_border{};   ///< likewise

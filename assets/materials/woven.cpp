@@ -1,4 +1,4 @@
-// What is made of yarn: linen and wool.
+// The materials of yarn: linen and wool.
 #include "assets/materials/textures.hpp"
 
 namespace dibhr::materials {

@@ -18,7 +18,7 @@ class VideoFile {
     /// Depth: H.264 without loss, full range: every level comes back through OpenCV.
     [[nodiscard]] static VideoFile depth(const std::filesystem::path& file);
 
-    /// Appends one frame; throws InputError when ffmpeg has gone.
+    /// Appends one frame; throws InputError when ffmpeg has ended.
     void write(const std::vector<std::uint8_t>& frame);
     /// Waits for ffmpeg to finish the file; throws InputError when it could not.
     void finish();

@@ -68,7 +68,7 @@ bool is_number(const std::string& word) {
            word.find_first_not_of("0123456789") == std::string::npos;
 }
 
-/// False when the words make no sense.
+/// False: the arguments are invalid.
 bool make(const std::vector<std::string>& words) {
     if (words.size() == 1 && !words[0].starts_with("-")) {
         make_video(words[0]);
@@ -83,7 +83,7 @@ bool make(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int count, char** arguments) {
-    std::signal(SIGPIPE, SIG_IGN);  // an ffmpeg that ends early is then an error we can explain
+    std::signal(SIGPIPE, SIG_IGN);  // an early end of ffmpeg becomes an error of write()
     try {
         if (make({arguments + 1, arguments + count})) return 0;
         std::cerr << kUsage;

@@ -1,4 +1,4 @@
-// What the parts of the scene look like before light falls on them.
+// The surface colours of the scene's parts, without light.
 #pragma once
 
 #include "assets/sample/scene.hpp"
@@ -14,7 +14,7 @@ struct Paint {
     float gloss{};
     float sharpness{20.0F};
     float sheen{};  ///< soft light at grazing angles, as on wool
-    float glint{};  ///< light added whatever the lamps do: the catch-light in the eye
+    float glint{};  ///< light added without the lamps: the catch-light in the eye
     bool strands{false};
 };
 

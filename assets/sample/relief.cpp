@@ -60,7 +60,7 @@ Hit cast(const Scene& scene, Vec2 place, float from_level, Parts parts) noexcept
     for (int step = 0; step < kMaxSteps && level > wall; ++step) {
         const float d = scene.distance({place.x, place.y, level}, parts);
         if (std::abs(d) < kClose) break;
-        // Close by, the last step tells how fast the distance shrinks along the ray.
+        // Near the surface, the last step shows how fast the distance shrinks along the ray.
         const bool close = std::abs(d) < 1.5F && std::abs(went) > 0.005F;
         const float slope = close ? std::clamp((before - d) / went, 0.3F, 1.25F) : kCareful;
         went = d / slope;

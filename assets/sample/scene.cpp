@@ -1,4 +1,4 @@
-// The whole scene at one frame: places and bounds each part, and asks only those that matter.
+// The whole scene at one frame: bounds each part, and evaluates only those near a point.
 #include "assets/sample/scene.hpp"
 
 #include "assets/sample/body.hpp"

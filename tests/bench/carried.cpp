@@ -1,4 +1,4 @@
-// Fingers over a film and over the truth.
+// Runs fingers over a filmed scene and over the true scene.
 #include "tests/bench/carried.hpp"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int co
     return frames;
 }
 
-/// Frames so close in time that it does not matter what lies between two of them.
+/// Frames so close in time that their in-betweens do not matter.
 std::vector<Frame> truth(const MovingScene& scene, double seconds) {
     constexpr double kFrames_per_s = 60.0;
     const int count = static_cast<int>(std::ceil(seconds * kFrames_per_s)) + 2;
@@ -57,7 +57,7 @@ std::vector<Frame> truth(const MovingScene& scene, double seconds) {
     return frames;
 }
 
-/// One update after the other over a film.
+/// A finger that is updated tick by tick over the frames of a film.
 class Finger {
   public:
     Finger(const std::vector<Frame>& frames, double friction, bool carry) : frames_(frames) {
@@ -96,7 +96,7 @@ double angle_deg(Vec3 a, Vec3 b) {
     return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180.0 / std::numbers::pi;
 }
 
-/// Whether all around it, and it, is of the thing and in the picture.
+/// Whether the place and its surroundings are on the object and in the picture.
 bool is_on_thing(const MovingScene& scene, double t_s, Point at) {
     const auto& what = scene.what();
     if (at.x < kBeside_px || at.y < kBeside_px || at.x > what.columns - 1 - kBeside_px ||
@@ -115,8 +115,8 @@ bool is_too_fast(const MovingScene& scene, Point at) {
            1.05 * scene.what().speed_px_per_s * kMoment_s;
 }
 
-/// Of a grid all over the picture those that stay in it on the thing, and go no faster than it is
-/// to, evenly chosen.
+/// Places of a grid over the picture that stay on the object, inside the picture, and not faster
+/// than the scene's speed; a few, evenly chosen.
 std::vector<Point> places_that_stay(const MovingScene& scene, double seconds) {
     std::vector<Point> found;
     for (double y = 10.3; y < scene.what().rows; y += 17.0)
@@ -139,7 +139,7 @@ Vec3 over(const MovingScene& scene, double t_s, Point at, double up_px) {
     return {at.x, at.y, scene.at(t_s, at).elevation_px + up_px};
 }
 
-/// Pressed deep, with much friction, by a hand that goes along: how far from where it ought to be.
+/// Error of a finger that presses deep, with much friction, and whose hand moves along [px].
 double astray_px(const MovingScene& scene, const std::vector<Frame>& frames, Point begun,
                  const Filming& filming) {
     Finger finger(frames, 5.0, filming.carry);
@@ -161,7 +161,7 @@ struct Resting {
     std::vector<double> turned_deg{}, drag_share{};
 };
 
-/// It stays at its place in the picture, and presses evenly.
+/// A finger that stays at its place in the picture, and presses evenly.
 Resting resting(const MovingScene& scene, const std::vector<Frame>& frames,
                 const std::vector<Frame>& true_frames, Point at, const Filming& filming) {
     constexpr double kLeastDrag_newton = 0.05;

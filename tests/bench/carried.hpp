@@ -1,5 +1,5 @@
-// How a finger is carried by motion that was found in pictures: the whole update over what a camera
-// saw of a moving thing, held against the same update over the truth.
+// How motion that was found in pictures carries a finger: the whole update over a camera's frames
+// of a moving object, compared with the same update over the true scene.
 #pragma once
 
 #include <limits>
@@ -15,25 +15,25 @@ struct Filming {
     double brightness_levels{2.0};  ///< standard deviation of its noise, of 255
     double elevation_px{0.0};       ///< and of the depth's, of 255
     bool coded{true};               ///< the colour, by H.264
-    bool found{true};               ///< the motion, in the pictures; else the true one is taken
-    bool carry{true};               ///< what is measured is carried at all
+    bool found{true};               ///< motion is found in the pictures; false: the true one
+    bool carry{true};               ///< the finger is carried at all
 };
 
-/// NaN: there is nothing that this could be measured of.
+/// NaN: nothing was there to be measured.
 struct CarriedFinger {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-    /// How far a finger that holds on, and goes along, is from its material point at the end [px];
-    /// the median over fingers on the thing that stay in the picture and go no faster than asked,
-    /// and the worst of them.
+    /// Distance at the end between a finger that sticks, and moves along, and its material point
+    /// [px]: the median and the worst over fingers on the object that stay in the picture and are
+    /// not faster than the scene's speed.
     double astray_px{kNone};
     double worst_astray_px{kNone};
-    /// A finger that rests with friction 0.4, 20 px deep, while the thing goes on below it: the
-    /// angle between its force and the one over the truth [deg], medians over its updates, the
-    /// median over fingers.
+    /// A finger that rests with friction 0.4, 20 px deep, while the object moves below it: the
+    /// angle between its force and that over the true scene [deg], median over updates, then over
+    /// fingers.
     double turned_deg{kNone};
-    /// And its drag, the part of the force along the way that the thing goes, as a share of that
-    /// over the truth.
+    /// Its drag, the part of the force along the object's motion, as a share of that over the true
+    /// scene.
     double drag_share{kNone};
     /// Fingers that were carried to the end.
     int fingers{0};

@@ -1,4 +1,4 @@
-// Whether motion that was found in noisy and coded pictures carries a finger as the true one does.
+// Whether motion found in noisy and coded pictures carries a finger like the true motion.
 #include "tests/bench/carried.hpp"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,gentle]
 // [--size 640x480,1920x1080] [--frames N] [PLACE...]. A place is what `dibhr view` takes, in one
 // word; its frames are stretched to the size, with fresh noise. bad, bad16, clean and clean16 are
-// made up.
+// synthetic.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -35,21 +35,21 @@ struct Size {
     int columns{0}, rows{0};
 };
 
-/// Of "640x480"; as recorded where nothing is said.
+/// Of "640x480"; without text, the recorded size.
 Size size_of(const std::string& words) {
     Size size;
     if (std::sscanf(words.c_str(), "%dx%d", &size.columns, &size.rows) != 2) return {};
     return size;
 }
 
-/// Of the process, whose other threads wait: what the libraries start counts, too.
+/// CPU time of the process, whose other threads wait: threads of libraries count, too.
 double cpu_ms() {
     timespec now{};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
     return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
-/// Made up: of 8 bits or of more, with all that is bad or clean.
+/// Synthetic frames of 8 bits or more, with many errors or none.
 struct Made {
     const char* name;
     double highest_level;
@@ -149,7 +149,7 @@ Cost cost_of(std::vector<double> each_ms) {
     return {each_ms.front(), each_ms[each_ms.size() / 2]};
 }
 
-/// Of the finished levels: which change tells from the same.
+/// A checksum of the finished levels, which shows whether they changed.
 std::uint64_t mixed(std::uint64_t sum, const DepthImage& image) {
     for (const float level : image.levels)
         sum = (sum ^ std::bit_cast<std::uint32_t>(level)) * 0x100000001B3ULL;
@@ -187,7 +187,7 @@ Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
     return cleaned;
 }
 
-/// What each step adds, and all of them.
+/// Prints what each step adds, and what all of them cost.
 void print_costs(const Clip& clip, const CleaningSteps& wanted) {
     CleaningSteps steps;
     Cleaned before = clean(clip, {steps, {}, clip.noise});

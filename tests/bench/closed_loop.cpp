@@ -35,7 +35,7 @@ class SimulatedArm final : public Device {
             depth_.rest_m = depth_.place_m + loop.press_newton / loop.grip.spring_newton_per_m;
         specification_.limits.max_stiffness_newton_per_mm = kStandsAll;
         specification_.limits.max_damping_newton_s_per_m = kStandsAll;
-        // What a driver can state of a device it has not weighed.
+        // What a driver can state of a device whose mass it has not measured.
         specification_.limits.dynamics = {
             .mass_kg = kMasses_kg.front(),
             .friction_newton_s_per_m = kFrictions_newton_s_per_m.front(),
@@ -140,14 +140,14 @@ double rms_about_mean(const std::vector<double>& values, std::size_t from) {
     return std::sqrt(squares / count);
 }
 
-/// The tick with its surroundings.
+/// The tick with its device, settings and frames.
 class Bench {
   public:
     explicit Bench(const ClosedLoop& loop) : loop_(loop), arm_(loop) {
         handed_.parameters = loop.parameters;
         handed_.parameters.carry = loop.slide_mm_per_s != 0.0;
         handed_.parameters.shape.relief_px = 255.0;
-        handed_.limits.ramp_s = kTick_s;  // the hand has been there for long
+        handed_.limits.ramp_s = kTick_s;  // no ramp: the hand did not just arrive
         handed_.limits.stability = loop.stability;
         if (loop.stability && loop.damping) {
             const DeviceLimits& device = arm_.specification().limits;
@@ -202,7 +202,7 @@ class Bench {
         ++handed_.version;
         settings_.publish(handed_);
     }
-    /// The frames around now, as the player would have them.
+    /// Publishes the frames around `t_s`, as the player would.
     void show_surface(double t_s) {
         FrameWindow window;
         const double first = std::floor(t_s / kFrame_s) - 1.0;

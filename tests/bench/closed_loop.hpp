@@ -1,5 +1,5 @@
-// A hand on a device on the real haptic tick, simulated: whether it swings, buzzes, and what energy
-// it is given.
+// A simulated hand and device on the real haptic tick: whether the hand oscillates or buzzes, and
+// how much energy it gets.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dibhr::bench {
 
-/// What holds the device: a spring to where the hand rests, a damper, or a constant push alone.
+/// The hand that holds the device: a spring to its rest position and a damper, or a constant push.
 struct Grip {
     const char* name;
     double spring_newton_per_m;  ///< 0: none, the device is pushed
@@ -35,19 +35,19 @@ struct ClosedLoop {
     double resolution_mm{0.05};  ///< steps of the measured position
     int delay_ticks{2};          ///< between reading a pose and its force acting
     int stated_ticks{-1};        ///< the delay that the device states; -1: as it is
-    bool measures_delay{true};   ///< its limits follow one that is longer than stated
+    bool measures_delay{true};   ///< its limits follow a delay longer than stated
     double press_newton{1.0};    ///< at rest
     double tap_newton_s{0.03};   ///< into the surface, after two seconds; 0: none
     double seconds{4.0};
     TouchParameters parameters{};
-    bool stability{false};  ///< as `view` has it: damping as the device needs it, energy watched
-    bool damping{true};     ///< with stability; false: watched only, damping as in `parameters`
+    bool stability{false};  ///< as in `view`: damping as the device needs it, energy observer on
+    bool damping{true};     ///< with stability; false: observer only, damping as in `parameters`
     SurfaceElevation surface_mm{};  ///< none: it is still
     double slide_mm_per_s{0.0};     ///< of the surface in the picture plane, which carries
     std::function<void(double, HapticSettings&)> change{};  ///< settings by the time [s]
 };
 
-/// What came of it. The last second is the one that counts, unless it says otherwise.
+/// The result of a run, of its last second unless stated otherwise.
 struct ClosedLoopResult {
     double swing_mm{0.0};     ///< peak to peak
     double buzz_newton{0.0};  ///< RMS of the force about its mean

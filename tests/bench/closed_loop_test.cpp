@@ -1,4 +1,4 @@
-// Whether a hand on a simulated device stays calm on the program's own tick: the short form of the
+// Whether a hand on a simulated device stays calm on the program's own tick: a short form of the
 // bench's table.
 #include "tests/bench/closed_loop.hpp"
 
@@ -54,8 +54,8 @@ double lowest_oscillating_of(const Grip& grip, const ClosedLoop& loop) {
     return lowest;
 }
 
-/// It slides away under the hand, and carries it. A heavy hand that is pulled aside rings two
-/// seconds longer when it is tapped.
+/// The surface slides away under the hand, and carries it. A heavy hand that is pulled aside swings
+/// two seconds longer after a tap.
 ClosedLoop pulled_aside(ClosedLoop loop) {
     loop.seconds = 6.0;
     loop.slide_mm_per_s = 56.0;

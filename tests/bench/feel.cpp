@@ -1,4 +1,4 @@
-// Where and when a recording is touched, and its frames there.
+// Chooses where and when a recording is touched, and reads its frames there.
 #include "tests/bench/feel.hpp"
 
 #include <algorithm>
@@ -21,8 +21,8 @@ namespace dibhr::bench {
 namespace {
 
 constexpr double kTouched_s = 3.0;
-constexpr double kAfter_s = 0.5;    ///< more, to know what became of what was lost
-constexpr double kBefore_s = 0.25;  ///< more, that its first frames are cleaned with
+constexpr double kAfter_s = 0.5;    ///< more, to know how lost data went on
+constexpr double kBefore_s = 0.25;  ///< more, to clean its first frames with
 constexpr std::size_t kMostMoments = 12;
 
 constexpr double kSlide_mm_per_s = 100.0;
@@ -38,7 +38,7 @@ struct Stretch {
     std::size_t milliseconds{0};    ///< that are touched: the frames go on a little
 };
 
-/// Which pixels change, and when there are frames.
+/// Finds which pixels change, and when there are frames.
 class Survey {
   public:
     explicit Survey(Media& media) {
@@ -115,7 +115,7 @@ class Survey {
     std::vector<std::uint32_t> pairs_{};  ///< of frames in which both had data
 };
 
-/// What is done to a recording, by its first frames.
+/// The cleaning of a recording, chosen by its first frames.
 CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
     NoiseMeter meter;
     media.seek(0.0);

@@ -1,10 +1,8 @@
-// How a recording feels, in numbers: fingers at rest and sliding over what the program would make
-// of it, cleaned and blended in time.
-//
-// Spring 0.5 N/mm, friction 0.4, goal 12 px below the surface smoothed over 250 ms (rest) or 10 ms
-// (slide). Relief 255 px and pitch 101.6/720 mm at any size of picture, so that figures of several
-// recordings and of several ways of cleaning can be compared; `fitted` takes those that the viewer
-// fits to the picture.
+// Measures of how a recording feels: fingers at rest and sliding over its frames as the program
+// cleans and blends them.  Spring 0.5 N/mm, friction 0.4, goal 12 px below the surface smoothed
+// over 250 ms (rest) or 10 ms (slide). Relief 255 px and pitch 101.6/720 mm at any size of picture,
+// so that figures of several recordings and of several ways of cleaning can be compared; `fitted`
+// takes those that the viewer fits to the picture.
 #pragma once
 
 #include <array>
@@ -51,17 +49,17 @@ struct Feel {
     int rows{0};
     std::int64_t frames{0};
     double seconds{0.0};     ///< of the recording
-    std::string cleaning{};  ///< in words: what was done to it
+    std::string cleaning{};  ///< as text: its cleaning
 
     [[nodiscard]] const FeelNumbers& operator[](Way way) const {
         return of[static_cast<std::size_t>(way)];
     }
 };
 
-/// Each finger is there for 3 s, or as long as the recording is, which does not start again. They
-/// begin at up to twelve moments from all over it, where chance (std::mt19937) puts them: the same
-/// seed gives the same places, whatever the cleaning. Where only some pixels change or none is
-/// flat enough there are fewer fingers, or none. Throws InputError.
+/// Each finger touches for 3 s, or until the recording ends. Fingers begin at up to twelve moments
+/// of the recording, at random places (std::mt19937): the same seed gives the same places, whatever
+/// the cleaning. Where few pixels change or none is flat enough there are fewer fingers, or none.
+/// Throws InputError.
 [[nodiscard]] Feel feel_of(std::unique_ptr<Media> media, const FeelOptions& options);
 
 }  // namespace dibhr::bench

@@ -24,7 +24,7 @@ double seconds(std::size_t milliseconds) {
     return 1e-3 * static_cast<double>(milliseconds);
 }
 
-/// The last words of a place that tell it from others.
+/// The end of a place's name, which distinguishes it from others.
 std::string short_name(const std::filesystem::path& place) {
     const std::filesystem::path file = place.has_filename() ? place : place.parent_path();
     return (file.parent_path().filename() / file.filename()).string();
@@ -74,7 +74,7 @@ Json json_of(const std::string& place, const Feel& feel) {
     return json;
 }
 
-/// False when it could not be read, which is said.
+/// False when the place cannot be read; prints the error.
 bool measure(const std::string& place, const std::string& cleaning, FeelOptions options,
              Json& json) {
     options.cleaning.preset = named<CleaningPreset>(cleaning).value();

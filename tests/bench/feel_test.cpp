@@ -1,4 +1,4 @@
-// Whether the measures of how a recording feels say of simple surfaces what is true of them.
+// Whether the measures of how a recording feels are right for simple surfaces.
 #include "tests/bench/feel.hpp"
 
 #include <cmath>
@@ -38,14 +38,14 @@ Feel feel(const Level& level, const FeelOptions& options = {}) {
     return feel_of(std::make_unique<test::ListedMedia>(std::move(frames), kFrame_s), options);
 }
 
-/// As the file has it: what the scene does is not what cleaning makes of it.
+/// Without cleaning, so that the measures show what the scene does.
 const FeelOptions kRaw{.cleaning = {.preset = CleaningPreset::raw}};
 
 double lost_share(const FeelNumbers& numbers, Cause cause) {
     return 1e-3 * static_cast<double>(numbers.lost[cause]) / numbers.seconds;
 }
 
-/// Whether all that is lost has this cause, and as much as contact is missed.
+/// Whether all lost contact has this cause, and equals the missing contact.
 bool all_lost_to(Cause cause, const FeelNumbers& numbers) {
     const double missed = 1.0 - numbers.contact;
     return missed > 0.0 && std::fabs(lost_share(numbers, cause) - missed) < 1e-9;

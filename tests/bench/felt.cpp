@@ -1,4 +1,4 @@
-// The finger on the program's own algorithm, and what is summed up of it.
+// Runs the finger on the program's own algorithm, and sums its numbers.
 #include "tests/bench/felt.hpp"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ using test::kFingerTick_s;
 constexpr double kBandFrom_hz = 30.0;  // to 500 Hz, which is all there is at 1 kHz
 constexpr double kStandsStill_px = 1e-3;
 
-/// What of a force is above kBandFrom_hz: Butterworth's high-pass of second order, through the
-/// bilinear transform. It begins as if the first value had always been there.
+/// The part of a force above kBandFrom_hz: a second-order Butterworth high-pass by the bilinear
+/// transform. It begins as if the first value had always been there.
 class Band {
   public:
     explicit Band(Vec3 first) : in1_(first), in2_(first) {

@@ -1,4 +1,4 @@
-// What a finger feels of a recording: a hand that is moved over it, and what is measured of it.
+// Moves a finger over a recording, and measures what it feels.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace dibhr::bench {
 
-/// What a finger did, an entry a millisecond.
+/// The run of a finger, an entry a millisecond.
 struct Felt {
     std::vector<Vec3> goals{};  ///< grid space
     std::vector<Vec3> proxies{};
@@ -26,7 +26,7 @@ struct Felt {
 using Path = std::function<Vec2(std::size_t)>;
 
 /// Presses into the frames, blended in time, along `path`, from the first frame on. The hand's
-/// position is what is given; no device yields to the force, which so is an upper bound.
+/// position is prescribed; no device yields to the force, which is therefore an upper bound.
 [[nodiscard]] Felt press(std::span<const Frame> frames, std::size_t milliseconds, double follows_s,
                          const Path& path, const TouchParameters& parameters);
 
@@ -41,7 +41,7 @@ struct FeelNumbers {
     LostContact lost{};
 };
 
-/// Gathers them over several fingers.
+/// Sums the numbers over several fingers.
 class FeelSums {
   public:
     /// Without the milliseconds marked in `left_out`; empty: none are.

@@ -1,4 +1,4 @@
-// Surfaces that are known everywhere and at every time, to hold what cameras see of them against.
+// Surfaces that are known everywhere and at every time, to compare a camera's frames with.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ struct KnownScene {
     /// At a time [frames] and a place [px], whole or not.
     std::function<Seen(double frame, double x, double y)> at{};
     bool moves{false};
-    /// What of the elevation is small shape, on a scene that is there for it; else empty.
+    /// The small shape's part of the elevation, in scenes that test it; else empty.
     std::function<double(double x, double y)> bump{};
 };
 
@@ -48,7 +48,7 @@ struct KnownScene {
 /// breath are as large as the picture, elevations too.
 [[nodiscard]] std::vector<KnownScene> known_scenes(int columns, int rows);
 
-/// Of that name, which there must be.
+/// The scene of that name, which must exist.
 [[nodiscard]] KnownScene known_scene(const std::string& name, int columns, int rows);
 
 /// One frame of a scene at every pixel, row-major.

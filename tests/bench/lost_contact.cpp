@@ -1,4 +1,4 @@
-// The second finger, on data alone, and what the data did while it lost its contact.
+// Runs the second finger, on data alone, and finds what the data did during a loss of contact.
 #include "tests/bench/lost_contact.hpp"
 
 #include <algorithm>
@@ -95,7 +95,7 @@ class PixelData {
         return series;
     }
 
-    /// Why another surface than the data's was felt from one time to another.
+    /// The cause, where the felt surface differed from the data between two times.
     [[nodiscard]] Cause other_than_data(double from_s, double to_s) const {
         const std::size_t lowest = lowest_of(felt_px_, from_s, to_s);
         if (!std::isnan(px_[lowest]))

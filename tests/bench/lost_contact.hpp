@@ -1,4 +1,4 @@
-// Why a finger at rest lost its contact: what the pixel under it did in the file.
+// Why a finger at rest lost its contact: by the data of the pixel under it in the file.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace dibhr::bench {
 
-/// What takes a surface away from under a finger.
+/// Why the surface under a finger went away.
 enum class Cause {
-    hole,          ///< what stood in a gap that its data came back from alike within a second
-    unseen,        ///< what was made up where there had been no data for a second
+    hole,          ///< in a gap, after which the data came back alike within a second
+    unseen,        ///< of a filled-in surface, without data for a second
     gone,          ///< the data ended, for more than a second or until it came back elsewhere
-    cleaning,      ///< what was made of data that would have held
+    cleaning,      ///< by cleaning, of data that would have kept contact
     moved,         ///< the data fell and stayed: for most of half a second it is down
     flicker,       ///< it fell and came back, this pixel alone
     flicker_wide,  ///< it fell and came back with most pixels around
@@ -70,9 +70,9 @@ struct Spot {
     int j{0};
 };
 
-/// Each loss as a whole, by what a second finger feels there: one on the pixel's data alone, whose
-/// gaps are bridged by straight lines in time. `raw`, NaN is no data, are `frames` before cleaning;
-/// `contact` is a rest's (felt.hpp), an entry a millisecond from the first frame on.
+/// Gives each loss one cause, by a second finger on the pixel's data alone, whose gaps are bridged
+/// by straight lines in time. `raw`, where NaN is no data, are `frames` before cleaning; `contact`
+/// is that of a finger at rest, an entry a millisecond from the first frame on.
 [[nodiscard]] LostContact why_lost(std::span<const Frame> frames, std::span<const DepthImage> raw,
                                    Spot spot, std::span<const char> contact, double relief_px);
 

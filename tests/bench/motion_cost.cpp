@@ -1,5 +1,5 @@
 // Prints what motion and in-betweens cost: motion_cost [--frames N] [--times N] [PLACE...]. A place
-// is what `dibhr view` takes, in one word; hand, plane and still are made up, of 640x480.
+// is what `dibhr view` takes, in one word; hand, plane and still are synthetic, of 640x480.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace {
 using namespace dibhr;
 using test::MovingScene;
 
-/// Of the process, whose other threads wait.
+/// CPU time of the process, whose other threads wait.
 double cpu_ms() {
     timespec now{};
     ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -75,7 +75,7 @@ struct Cost {
     std::size_t pairs{0}, moving{0}, betweens{0};
 };
 
-/// The least of so many times: what else runs on the machine does not count.
+/// The least of `times` runs, so that other work of the machine does not count.
 template <typename Run>
 double least_ms(int times, const Run& run) {
     double least = 1e9;

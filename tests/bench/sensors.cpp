@@ -88,7 +88,7 @@ std::vector<DepthImage> white(const TrueFrames& truth, std::uint32_t seed) {
     return each_frame(truth, [&](Sight& sight) { add_grain(sight, 0.5, chance); });
 }
 
-/// Within a few pixels of a silhouette another place than the pixel's own is seen.
+/// Near a silhouette a pixel gets the elevation of another place, a few pixels away.
 void shake_silhouettes(Sight& sight, double deviation_px, Chance& chance) {
     constexpr float kReach_px = 4.0F;
     for (int j = 0; j < sight.scene.rows; ++j) {

@@ -1,4 +1,4 @@
-// What cameras, codecs and estimators make of a known surface.
+// Models of cameras, codecs and estimators: their frames of a known surface.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct Sensor {
 /// "8-bit", "h264" and "mono". The same seed gives the same frames.
 [[nodiscard]] std::vector<Sensor> sensors();
 
-/// Of that name, which there must be.
+/// The sensor of that name, which must exist.
 [[nodiscard]] Sensor sensor(const std::string& name);
 
 }  // namespace dibhr::bench

@@ -68,8 +68,7 @@ std::vector<std::size_t> moving_pixels(const TrueFrames& truth) {
     return some;
 }
 
-/// Of the differences between two things in time, each from its own mean: what is off all the time
-/// is not late.
+/// Differences in time, each from its own mean: a constant offset is no lag.
 class Deviations {
   public:
     void add(double difference) {

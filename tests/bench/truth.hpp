@@ -1,5 +1,5 @@
-// How near depth comes to the truth: known surfaces, seen by sensors, cleaned, and held against
-// what they are.
+// How near depth comes to the truth: frames of known surfaces by sensors, cleaned, and compared
+// with the surfaces.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace dibhr::bench {
 
-/// NaN: there is nothing that this could be measured of.
+/// NaN: nothing was there to be measured.
 struct Nearness {
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
@@ -24,12 +24,12 @@ struct Nearness {
     /// and that of the true surface under their middles, there [deg]. Of a scene with objects: on
     /// those alone.
     double normal_deg{kNone};
-    /// Of all places at a silhouette 95 % have so near a step of at least half the height between
-    /// two neighbours, up to the same side [px]; at most kFarthestEdge_px.
+    /// 95 % of all places at a silhouette have a step within this distance: between two neighbours,
+    /// half the height at least, up to the same side [px]. At most kFarthestEdge_px.
     double edge_px{kNone};
-    /// How late what moves is [frames], where the chain sees to both sides; below 0: early.
+    /// How late moving parts are [frames]; below 0: early.
     double lag_frames{kNone};
-    /// What of a bump's height is there at its top [1].
+    /// The share of a bump's height that is kept at its top [1].
     double bump_kept{kNone};
     /// RMS deviation of a pixel from its mean in time, where the scene is still and no silhouette
     /// is within 2 px [px].
@@ -37,7 +37,7 @@ struct Nearness {
 };
 inline constexpr double kFarthestEdge_px = 16.0;
 
-/// Takes in a clip's frames, one after the other.
+/// Measures a clip's frames, one after the other.
 class NearnessMeter {
   public:
     /// The truth must outlive it.
@@ -84,8 +84,8 @@ class NearnessMeter {
     std::vector<double> sums_{}, squares_{};  ///< in time, of each
 };
 
-/// What the program makes of such a recording, frame after frame: read, cleaned as it says, and
-/// held against the truth. `recorded` are of 8 or 16 bits; NaN is no data.
+/// Reads such a recording frame by frame, cleans it as the program does, and compares it with the
+/// truth. `recorded` are of 8 or 16 bits; NaN is no data.
 struct Cleaned {
     Nearness nearness{};
     std::string words{};  ///< what was done

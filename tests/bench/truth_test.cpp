@@ -1,5 +1,5 @@
-// Whether cleaned depth is nearer to the truth than what was recorded; and whether the measures of
-// that say of simple errors what they are.
+// Whether cleaned depth is nearer to the truth than recorded depth, and whether its measures are
+// right for simple errors.
 #include "tests/bench/truth.hpp"
 
 #include <cmath>
@@ -28,7 +28,7 @@ Nearness seen(const std::string& scene, const std::string& by, CleaningPreset cl
     return cleaned_against(truth, sensor(by).see(truth, 1), cleaning).nearness;
 }
 
-/// What the measures say of the truth that something was done to: `change(frames)`.
+/// The measures of the true frames after `change(frames)`.
 template <typename Change>
 Nearness of_changed(const std::string& scene, int frames, const Change& change) {
     const TrueFrames truth(known_scene(scene, kColumns, kRows), frames);

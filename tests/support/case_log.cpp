@@ -1,4 +1,4 @@
-// Keeps how each case ended, one line a case, for the sums and the slowest of tests/run.
+// Logs how each case ended, one line a case, for the sums and the slowest cases of tests/run.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -14,8 +14,8 @@ namespace dibhr::test {
 
 namespace {
 
-/// Appends to the file that DIBHR_CASE_LOG names, each line in one piece: several programs write
-/// there. Seconds are those that were really spent, whatever clock a test simulates.
+/// Appends to the file that DIBHR_CASE_LOG names, each line with one write: several programs share
+/// it. Seconds are real time, whatever clock a test simulates.
 class CaseLog : public Listener {
   public:
     using Listener::Listener;

@@ -1,4 +1,4 @@
-// What is called at the beginnings and ends of runs and cases, by either version of Catch2.
+// The base of listeners to beginnings and ends of runs and cases, for both versions of Catch2.
 #pragma once
 
 #include <string>

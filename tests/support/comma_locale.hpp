@@ -1,5 +1,4 @@
-// A locale whose numbers have a decimal comma, as every program of Qt or GTK sets it for its
-// person.
+// A locale whose numbers have a decimal comma, as programs of Qt or GTK set it for their user.
 #pragma once
 
 #include <clocale>
@@ -11,7 +10,7 @@
 
 namespace dibhr::test {
 
-/// Of this process, while it lives; compiled by the C library's own tool.
+/// Sets the locale of this process until it is destroyed; compiled by the C library's own tool.
 class CommaLocale {
   public:
     CommaLocale() {

@@ -6,7 +6,7 @@
 
 namespace dibhr::test {
 
-/// Asks again every other millisecond until it is so; false when it never was.
+/// Polls every 2 ms until the condition is true; false when it was not in time.
 template <typename Condition>
 [[nodiscard]] bool eventually(const Condition& is_so,
                               std::chrono::milliseconds patience = std::chrono::seconds(20)) {

@@ -1,4 +1,4 @@
-// A recording that a test lists, frame by frame.
+// A recording whose frames a test lists.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace dibhr::test {
 
-/// Frames at equal intervals, which counts what is read.
+/// Frames at equal intervals; counts the frames that are read.
 class ListedMedia : public Media {
   public:
     ListedMedia(std::vector<DepthImage> frames, double frame_s, int* read = nullptr)

@@ -1,5 +1,4 @@
-// No test reads or changes what a person keeps: settings, data and state lie in a folder of the
-// run.
+// No test reads or changes the user's files: settings, data and state are in a folder of the run.
 #include <cstdlib>
 #include <optional>
 
@@ -10,7 +9,7 @@ namespace dibhr::test {
 
 namespace {
 
-/// Not caches: the display's drivers keep theirs where they would, and are quicker with them.
+/// Caches stay where they are: the display's drivers are faster with theirs.
 class OwnHome : public Listener {
   public:
     using Listener::Listener;

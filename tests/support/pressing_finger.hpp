@@ -6,7 +6,7 @@ namespace dibhr::test {
 inline constexpr double kFingerTick_s = 0.001;
 inline constexpr double kPressed_px = 12.0;      ///< below the surface that it follows
 inline constexpr double kRestFollows_s = 0.25;   ///< a hand that lies still
-inline constexpr double kSlideFollows_s = 0.01;  ///< one that feels its way
+inline constexpr double kSlideFollows_s = 0.01;  ///< one that slides and explores
 
 /// kPressed_px below the surface under it, smoothed in time by a first-order low-pass.
 class PressingFinger {
@@ -14,7 +14,7 @@ class PressingFinger {
     PressingFinger(double surface_px, double follows_s)
         : smooth_px_(surface_px), share_(kFingerTick_s / follows_s) {}
 
-    /// Its elevation a millisecond later, when the surface under it is there [px].
+    /// The finger's elevation a millisecond later, over the surface at `surface_px` [px].
     double follow(double surface_px) {
         smooth_px_ += share_ * (surface_px - smooth_px_);
         return smooth_px_ - kPressed_px;

@@ -1,17 +1,17 @@
-// What the sanitizers are to pass over in the program and its tests, with the reasons: libraries of
-// the distribution, built without the thread sanitizer, which sees their memory but not all that
-// orders it.
+// What the sanitizers must ignore in the program and its tests, and why: libraries of the
+// distribution are built without the thread sanitizer, which sees their memory but not all their
+// synchronization.
 
-// libavcodec and its family order their decoding threads with atomics; where libavutil's pool of
-// pictures is not passed over from the start, each 8 bytes of a picture are a report, and a picture
-// takes seconds. libavfilter and libswscale unlock what libavutil has locked for them. libgdal
-// comes with OpenCV's picture readers and writers; it takes two of its own locks in either order
-// while it registers its drivers. libudev's devices are written by libusb's event thread, under a
-// lock, before the thread that lists them reads them. A testbed of libumockdev has a thread of its
-// own, joined with GLib's atomics. Mesa's software driver counts who still needs a fence with
-// atomics, and destroys it when nobody does; it is swrast_dri.so, or in newer ones libgallium.
-// Pango matches fonts on a thread of its own and keeps what Fontconfig found until the program
-// ends. libsrt destroys what its queues still look at when a connection is closed.
+// libavcodec and its family order their decoding threads with atomics; unless libavutil's pool of
+// pictures is ignored from the start, each 8 bytes of a picture give a report, and a picture takes
+// seconds. libavfilter and libswscale unlock what libavutil has locked for them. libgdal comes with
+// OpenCV's picture readers and writers; it takes two of its own locks in either order while it
+// registers its drivers. libudev's devices are written by libusb's event thread, under a lock,
+// before the thread that lists them reads them. A testbed of libumockdev has a thread of its own,
+// joined with GLib's atomics. Mesa's software driver counts who still needs a fence with atomics,
+// and destroys it when nobody does; it is swrast_dri.so, or in newer ones libgallium. Pango matches
+// fonts on a thread of its own and keeps Fontconfig's results until the program ends. libsrt
+// destroys what its queues still read when a connection is closed.
 extern "C" const char* __tsan_default_suppressions();  // NOLINT: the sanitizer's name
 extern "C" const char* __lsan_default_suppressions();  // NOLINT: the sanitizer's name
 

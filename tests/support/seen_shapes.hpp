@@ -1,4 +1,4 @@
-// Shapes of known size as a depth camera sees them, and shapes found again in points.
+// Shapes of known size as a depth camera sees them, and shapes fitted to points.
 #pragma once
 
 #include <algorithm>

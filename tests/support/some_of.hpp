@@ -1,4 +1,4 @@
-// Fewer cases where each takes many times as long.
+// Fewer cases under a sanitizer, where each takes many times as long.
 #pragma once
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 
 namespace dibhr {
 
-/// A generator of all `cases`; under a sanitizer, which looks for what any of them shows, of the
-/// first `few`.
+/// A generator of all `cases`; under a sanitizer, whose errors any case can show, of the first
+/// `few`.
 template <typename Case>
 [[nodiscard]] auto some_of(std::vector<Case> cases, std::size_t few) {
     if (DIBHR_SANITIZED) cases.resize(std::min(few, cases.size()));

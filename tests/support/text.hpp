@@ -1,4 +1,4 @@
-// Texts: in files, and what tests ask of them.
+// Reading, writing and checking text in tests.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ inline void write_text(const std::filesystem::path& file, const std::string& tex
     return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A text that does not contain the part is told with the test's next failure.
+/// A text that does not contain the part is printed with the test's next failure.
 [[nodiscard]] inline bool contains(const std::string& text, const std::string& part) {
     const bool found = text.find(part) != std::string::npos;
     if (!found) UNSCOPED_INFO(text);

@@ -1,4 +1,4 @@
-// A variable of the environment, changed for a while.
+// An environment variable, changed until the end of a scope.
 #pragma once
 
 #include <cstdlib>
@@ -7,7 +7,7 @@
 
 namespace dibhr::test {
 
-/// Until its end. No other thread may look at the environment meanwhile.
+/// Restored by the destructor. No other thread may read the environment meanwhile.
 class Variable {
   public:
     /// `value`: null takes it away.

@@ -48,7 +48,7 @@ std::vector<std::string> algorithms_in(const Json& rows) {
     return names;
 }
 
-/// With spaces as they come, each one alone.
+/// The text with each run of spaces reduced to one space.
 std::string squeezed(const std::string& text) {
     std::string squeezed;
     for (const char letter : text) {
@@ -146,7 +146,7 @@ Named parts_of(const std::string& row) {
             std::stoi(row.substr(size + 1, by - size - 1)), std::stoi(row.substr(by + 1))};
 }
 
-/// As they could have been measured.
+/// Costs with made-up measurements.
 UpdateCosts made_up_costs() {
     UpdateCosts costs{.clock_us = 0.02, .crossing_ns = 3.0};
     for (const std::string& row : kRows) {

@@ -50,7 +50,7 @@ struct Home {
     [[nodiscard]] std::size_t starts() const { return read_text(folder / "starts").size() / 5; }
 };
 
-constexpr std::chrono::seconds kPatience{60};  // of a test; an estimator stands still for longer
+constexpr std::chrono::seconds kPatience{60};  // of a test; a hung estimator waits for longer
 const std::string kWith = "./estimator {frames} {output}";
 
 void check_refused(const ProgramResult& result, int exit_code, const std::string& words) {

@@ -15,7 +15,7 @@ using namespace dibhr::inverse3::simulated;
 
 namespace {
 
-/// A folder whose settings lead to the service.
+/// A folder whose settings name the service's address.
 class Home {
   public:
     explicit Home(const Service& service) {

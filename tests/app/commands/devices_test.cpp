@@ -72,7 +72,7 @@ TEST_CASE("a Falcon that cannot be used is told with its next step, and the comm
         const ProgramResult result = run_with(folder, one.host, one.arguments);
         check_one_line(result, one);
         INFO(result.output);
-        // The mouse, and of each kind that there is one or none.
+        // A line for the mouse, and one for each kind.
         CHECK(static_cast<std::size_t>(lines_of(result.output)) == 1 + force_device_kinds().size());
         CHECK(says(result.output, "mouse: usable"));
         CHECK(says(result.output, one.says));
@@ -146,7 +146,7 @@ TEST_CASE("the serial of the settings chooses among several Falcons", "[falcon][
     const ProgramResult result = run_with(folder, {"--serial", "SIM00001", "--serial", "SIM00002"},
                                           {"view", "--device", "falcon"});
     CHECK(result.exit_code == 1);
-    CHECK(says(result.errors, "display"));  // it got as far as the window
+    CHECK(says(result.errors, "display"));  // the program came to opening the window
 }
 
 TEST_CASE("falcon_host says how it is used: asked for, or after a wrong command line", "[falcon]") {

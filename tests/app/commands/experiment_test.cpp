@@ -16,7 +16,7 @@ using namespace dibhr::test;
 
 namespace {
 
-/// The words a wrong command line is refused with.
+/// The error of a wrong command line.
 std::string usage_error(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "experiment");
     try {

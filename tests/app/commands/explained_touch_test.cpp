@@ -74,8 +74,8 @@ std::vector<OutputLine> output_of(const std::string& csv) {
     return rows;
 }
 
-/// Runs the program over goals on the first image of `depth`, with words for how, and explains
-/// each update from where the one before it ended. How many steps there were.
+/// Runs the program with these options over goals on the first image of `depth`, and explains each
+/// update from the end of the one before. Returns the number of steps.
 std::size_t compare(const TemporaryFolder& folder, const std::filesystem::path& depth,
                     const TouchRequest& request, const Friction& friction,
                     std::vector<std::string> words) {

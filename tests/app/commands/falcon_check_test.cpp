@@ -28,7 +28,7 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// The program with its own terminal, and a person who reads and types.
+/// The program on a pseudo-terminal, with a simulated person who reads and types.
 class AtTerminal {
   public:
     AtTerminal(const TemporaryFolder& folder, std::vector<std::string> words) {
@@ -54,7 +54,7 @@ class AtTerminal {
     AtTerminal(const AtTerminal&) = delete;
     AtTerminal& operator=(const AtTerminal&) = delete;
 
-    /// Reads on until this has been printed since the last call.
+    /// Reads until this text is printed, from where the last call ended.
     void read_until(const std::string& wanted) {
         INFO("waits for: " << wanted);
         const bool read = eventually(
@@ -79,7 +79,7 @@ class AtTerminal {
         close(terminal_);
         terminal_ = -1;
     }
-    /// Its exit code, once it has ended.
+    /// Waits for the end of the program; its exit code.
     int ended() {
         int status = 0;
         const bool ended = eventually(
@@ -108,7 +108,7 @@ class AtTerminal {
     std::size_t read_{0};
 };
 
-/// At the question before the first force on the scale, with a homed Falcon.
+/// The check at its question before the first force on the scale, with a homed Falcon.
 struct BeforeForce {
     TemporaryFolder folder{};
     FalconOnUsb falcon{folder.path(), {"firmware", "home"}};
@@ -123,11 +123,11 @@ struct BeforeForce {
         person.read_until("> ");
     }
 
-    /// Risen: it is held for three seconds, and then falls by itself.
+    /// The force has risen: it is held for three seconds, and then falls by itself.
     void begin_force() {
         person.type("f\n");
         FalconOnUsb::wait_until([this] { return falcon.number("largest") > 499.5; });
-        constexpr double kPackets = 50.0;  // of all its strength
+        constexpr double kPackets = 50.0;  // at full force
         const double risen = falcon.number("with_force");
         FalconOnUsb::wait_until(
             [this, risen] { return falcon.number("with_force") > risen + kPackets; });
@@ -208,7 +208,7 @@ TEST_CASE("a check that cannot be done ends with 1 and one line", "[falcon][chec
 TEST_CASE("any key lets go of a force, and the check goes on", "[falcon][check]") {
     BeforeForce at;
     at.begin_force();
-    at.person.type("x71\nf\n");  // all of it before the next question: none of it answers one
+    at.person.type("x71\nf\n");  // typed before the next question: answers none
     at.wait_for_release();
     at.person.answer("What did the scale show", "70");
     at.person.read_until("1000 counts");
@@ -242,9 +242,9 @@ TEST_CASE("q, Ctrl+C and a terminal that is closed end a force and the check at 
     }
     const auto record = [&at] { return read_text(at.folder / "record.json"); };
     FalconOnUsb::wait_until([&] { return says(record(), "\"end\": \"quit\""); });
-    CHECK_FALSE(says(record(), "\"end\": \"held\""));  // it did not fall by itself
+    CHECK_FALSE(says(record(), "\"end\": \"held\""));  // the force did not end by itself
     const int exit_code = at.person.ended();
-    CHECK((how == "hang up" || exit_code == 0));  // it has nobody left to tell its summary
+    CHECK((how == "hang up" || exit_code == 0));  // nobody is left to print the summary for
 }
 
 TEST_CASE("Ctrl+Z and Ctrl+\\ let go of a force, and do not stop the program that held it",

@@ -1,4 +1,4 @@
-// The table of touch parameters: each entry goes in and comes out again wherever parameters do.
+// The table of touch parameters: each entry is written and read unchanged wherever parameters are.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
@@ -26,7 +26,7 @@ using namespace dibhr::test;
 
 namespace {
 
-/// The usual parameters but for one entry, and its value as it is written.
+/// The default parameters with one entry changed, and that value as text.
 struct Changed {
     TouchParameters parameters{};
     std::string option{};  ///< on the command line
@@ -91,7 +91,7 @@ TouchParameters in_study(const std::string& name, const Changed& change) {
     return parameters;
 }
 
-/// A session in which each of them was felt for some ticks, as version 1, 2 and so on.
+/// A session with some ticks of each of them, as versions 1, 2 and so on.
 void record_all(const std::filesystem::path& file, const std::vector<Changed>& all) {
     constexpr std::int64_t kTicksOfEach = 10;
     const auto ring = std::make_unique<TickRing>();

@@ -125,7 +125,7 @@ TEST_CASE("silhouettes at the colour's edges are replayed with the colour, bit f
     run_shell(
         folder,
         "cp mine.dibhr other.dibhr; sqlite3 other.dibhr 'UPDATE source SET colour_edges = 0'");
-    CHECK_FALSE(contains(replayed("other.dibhr").output, identical));  // or this proved little
+    CHECK_FALSE(contains(replayed("other.dibhr").output, identical));  // else no proof
     fs::remove(folder / "film_color.mkv");
     const ProgramResult without = replayed("mine.dibhr");
     CHECK(without.exit_code == 1);
@@ -399,7 +399,7 @@ TEST_CASE("a video that has changed is refused, unless it is asked for", "[repla
     CHECK(contains(refused.errors, (folder / "film_depth.mkv").string() + ": has changed"));
     const ProgramResult taken = run_dibhr(folder, {"replay", "mine.dibhr", "--any-media"});
     CHECK(contains(taken.errors, "warning"));
-    CHECK(taken.exit_code == 0);  // the frames are the same all the same
+    CHECK(taken.exit_code == 0);  // the file changed, its frames did not
     // The same length, other content.
     std::string other = recorded;
     other[other.size() / 2] = static_cast<char>(~other[other.size() / 2]);
@@ -485,7 +485,7 @@ TEST_CASE("twenty seconds of the sample go through all four algorithms in two se
     REQUIRE(result.exit_code == 0);
     CHECK(contains(result.output, "dibhr, as recorded: all 20000"));
 #if !DIBHR_SANITIZED
-    // Who shares a core and its caches makes it three times as slow at most.
+    // Other work on the same core and caches makes a replay at most three times as slow.
     CHECK(result.cpu_s < 3.0 * 2.0);
 #endif
 }

@@ -110,7 +110,7 @@ TEST_CASE("report keeps the picture of a recording that ended before its files w
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
     const std::string page = read_text(folder / "mine/report.html");
-    CHECK(contains(page, "depth.png is taken for the depth video"));  // both are told
+    CHECK(contains(page, "depth.png is taken for the depth video"));  // both are reported
     CHECK(contains(page, "color.png is taken for the colour video"));
     CHECK(contains(page, "over the frame that was touched longest"));
 }

@@ -143,7 +143,7 @@ TEST_CASE("the same goals over the same video give the same bits by touch, by lo
         carried += replay.touch(0).carried != Vec3(0.0) ? 1 : 0;
     }
     CHECK_FALSE(replay.next());
-    CHECK(contacts > 100);  // or this would prove little
+    CHECK(contacts > 100);  // else the test proves little
     CHECK(contacts < 550);
     CHECK(carried > 50);
 }

@@ -1,5 +1,5 @@
-// What a modelled, a drawn and a recorded hand feel on the built-in sample: in a study, its report
-// and the experiment alike.
+// A modelled, a drawn and a recorded hand on the built-in sample feel the same in a study, in its
+// report and in the experiment.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

@@ -45,19 +45,19 @@ std::vector<std::string> run_arguments(const std::string& label, const std::stri
     return {"study", "run", "study.toml", "--participant", label, "--pilot", pilot};
 }
 
-/// What was answered, without when.
+/// The answers, without their times.
 std::vector<AnsweredTrial> answers_in(const std::filesystem::path& file) {
     std::vector<AnsweredTrial> answered = read_study(file).answered;
     for (AnsweredTrial& one : answered) one.utc_s = 0.0;
     return answered;
 }
 
-/// What kills the program when it would write a file beyond so many bytes.
+/// A limit that kills the program when a file grows beyond so many bytes.
 std::vector<std::string> killer_beyond(std::uintmax_t bytes) {
     return {"/usr/bin/env", "prlimit", "--core=0", "--fsize=" + std::to_string(bytes)};
 }
 
-/// Kills as many runs of a study, each a little farther on, and lets each go on.
+/// Kills `kills` runs of a study, each a little later, and resumes each.
 void check_kills(std::uintmax_t kills) {
     const std::string pilot = "threshold=0.1,slope=20,lapse=0.02,prefer=other-one";
     const TemporaryFolder folder;
@@ -84,7 +84,7 @@ void check_kills(std::uintmax_t kills) {
             stopped_at.insert(std::strtoul(resumed.output.c_str() + at + 6, nullptr, 10));
     }
     CAPTURE(stopped_at);
-    CHECK(stopped_at.size() >= kills / 3);  // or it was always killed in the same trial
+    CHECK(stopped_at.size() >= kills / 3);  // else it was always killed in the same trial
 }
 
 }  // namespace

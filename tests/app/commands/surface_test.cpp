@@ -1,4 +1,4 @@
-// `dibhr surface` as scripts use it: files in, a surface out, the same as is touched.
+// `dibhr surface` as scripts use it: files in, a surface out, equal to the touched one.
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -42,7 +42,7 @@ Elevations read_pfm(const std::filesystem::path& file) {
     return read;
 }
 
-/// Runs `dibhr surface` and gives back what it says.
+/// Runs `dibhr surface` and returns its output.
 std::string surface(const TemporaryFolder& folder, std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "surface");
     const ProgramResult result = run_dibhr(folder, arguments);

@@ -80,8 +80,8 @@ void write_stepping_hand(const TemporaryFolder& folder) {
     write_text(folder / "goals.csv", goals_csv(goals, times_s));
 }
 
-/// From above straight down to `start`, then on a circle around `centre` in the plane of `u` and
-/// `v`.
+/// Goals from above straight down to `start`, then on a circle around `centre` in the plane of `u`
+/// and `v`.
 std::vector<Vec3> circle_goals(Vec3 centre, Vec3 u, Vec3 v, double radius_px, double step_rad,
                                int count) {
     std::vector<Vec3> goals{centre + radius_px * u + Vec3{0.0, 0.0, 100.0}};
@@ -370,7 +370,7 @@ TEST_CASE("with carry a finger that sticks is dragged along by what moves, and f
     const Row carried = last("on");
     CHECK_THAT(carried.number("px") - 120.0, WithinAbs(way_px, 2.0));
     CHECK_THAT(carried.number("py") - 60.0, WithinAbs(0.0, 1.0));
-    // The spring of 0.5 N/mm as long as what took the finger along.
+    // A spring of 0.5 N/mm, stretched by the way that the surface carried the finger.
     const double drag_newton = 0.5 * way_px * 101.6 / 720.0;
     CHECK_THAT(carried.number("fx"), WithinAbs(drag_newton, 0.1 * drag_newton));
     const Row stays = last("off");
@@ -391,7 +391,7 @@ TEST_CASE("with in-betweens an outline passes under a finger as one step, else i
               "ffmpeg -nostdin -v error -f lavfi -i color=0x101010:s=320x160:r=30:d=0.3 -f lavfi "
               "-i color=0xd0d0d0:s=80x80:r=30:d=0.3 -filter_complex "
               "'overlay=x=60+8*n:y=40,format=gray' -c:v ffv1 depth.mkv");
-    // Under x = 160 the square's front comes between frames 2 and 3, at 76 ms.
+    // The square's front passes x = 160 between frames 2 and 3, at 76 ms.
     std::vector<Vec3> goals(100, Vec3{160, 80, 10});
     write_text(folder / "goals.csv", goals_csv(goals));
     const auto updates_between = [&](const std::string& in_betweens) {

@@ -27,7 +27,7 @@ void write_inputs(const TemporaryFolder& folder) {
     write_text(folder / "goals.csv", "t,x,y,z\n0,5,5,120\n0.001,5,5,90\n0.002,8,5,90\n");
 }
 
-/// px of the last row: where friction let the proxy follow the goal to.
+/// Column px of the last row: how far friction let the proxy follow the goal.
 std::string last_column(const ProgramResult& result, std::size_t column) {
     const std::vector<std::string> lines = split(result.output, '\n');
     REQUIRE(lines.size() == 5);
@@ -288,7 +288,7 @@ TEST_CASE("a reader that had enough is no failure", "[usage]") {
     run_shell(folder,
               "{ '" + program +
                   "' touch --depth depth.png --goals goals.csv 2>errors; echo $? >code; } | true");
-    // One that has gone before anything is written.
+    // A reader that ended before anything is written.
     run_shell(folder, "mkfifo gone && exec 3<>gone 4>gone 3<&- && { '" + program +
                           "' --help >&4 2>>errors; echo $? >>code; }");
     CHECK(read_text(folder / "errors").empty());
