@@ -20,8 +20,8 @@ const DeviceSpecification& DeviceOrMouse::specification() const noexcept {
         ->specification();
 }
 
-HandReading DeviceOrMouse::unread() const noexcept {
-    return of_mouse(mouse_.unread());
+HandReading DeviceOrMouse::reading_without_surface() const noexcept {
+    return of_mouse(mouse_.reading_without_surface());
 }
 
 HandReading DeviceOrMouse::read(const HandContext& context) noexcept {
@@ -32,32 +32,33 @@ HandReading DeviceOrMouse::read(const HandContext& context) noexcept {
     const std::size_t before = std::exchange(touching_, next_hand());
     HandReading reading =
         touching_ == kMouse ? of_mouse(mouse_.read(context)) : readings_[touching_ - 1];
-    reading.which = static_cast<std::uint8_t>(touching_);
-    reading.taken_over = reading.taken_over || touching_ != before;
+    reading.device_number = static_cast<std::uint8_t>(touching_);
+    reading.hand_changed = reading.hand_changed || touching_ != before;
     return reading;
 }
 
-bool DeviceOrMouse::in_hand(std::size_t which) const noexcept {
-    return which != kMouse && devices_[which - 1] && devices_[which - 1]->in_hand();
+bool DeviceOrMouse::can_touch(std::size_t device_number) const noexcept {
+    return device_number != kMouse && devices_[device_number - 1] &&
+           devices_[device_number - 1]->can_touch();
 }
 
 /// The device that touches keeps touching while it can.
 std::size_t DeviceOrMouse::next_hand() const noexcept {
-    if (in_hand(touching_)) return touching_;
-    std::size_t which = 1;
-    while (which <= devices_.size() && !in_hand(which)) ++which;
-    return which <= devices_.size() ? which : kMouse;
+    if (can_touch(touching_)) return touching_;
+    std::size_t device_number = 1;
+    while (device_number <= devices_.size() && !can_touch(device_number)) ++device_number;
+    return device_number <= devices_.size() ? device_number : kMouse;
 }
 
 HandReading DeviceOrMouse::of_mouse(HandReading reading) const noexcept {
-    reading.stand_in = true;
+    reading.mouse_fallback = true;
     reading.limits = mouse_.specification().limits;
     return reading;
 }
 
 void DeviceOrMouse::send(Vec3 force_newton) noexcept {
-    const auto for_hand = [&](std::size_t which) {
-        return touching_ == which ? force_newton : Vec3{0.0};
+    const auto for_hand = [&](std::size_t device_number) {
+        return touching_ == device_number ? force_newton : Vec3{0.0};
     };
     for (std::size_t k = 0; k < devices_.size(); ++k) {
         if (devices_[k]) devices_[k]->send(for_hand(k + 1));

@@ -12,7 +12,7 @@ namespace dibhr {
 
 /// One device at a time touches: from when it is ready until it is lost. Then another device that
 /// is ready takes over, else the mouse. All others get no force. At each change the proxy is
-/// released from the surface and the force begins from zero (HandReading::taken_over).
+/// released from the surface and the force begins from zero (HandReading::hand_changed).
 class DeviceOrMouse : public Device {
   public:
     using Devices = std::vector<std::unique_ptr<ForceDevice>>;
@@ -22,7 +22,7 @@ class DeviceOrMouse : public Device {
 
     /// Of the first device that is not null.
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
-    [[nodiscard]] HandReading unread() const noexcept override;
+    [[nodiscard]] HandReading reading_without_surface() const noexcept override;
     HandReading read(const HandContext& context) noexcept override;
     void send(Vec3 force_newton) noexcept override;
 
@@ -30,10 +30,10 @@ class DeviceOrMouse : public Device {
     [[nodiscard]] MouseHand& mouse() noexcept { return mouse_; }
 
   private:
-    static constexpr std::size_t kMouse = 0;  // HandReading::which; devices count from 1
+    static constexpr std::size_t kMouse = 0;  // HandReading::device_number; devices count from 1
 
     [[nodiscard]] HandReading of_mouse(HandReading reading) const noexcept;
-    [[nodiscard]] bool in_hand(std::size_t which) const noexcept;
+    [[nodiscard]] bool can_touch(std::size_t device_number) const noexcept;
     [[nodiscard]] std::size_t next_hand() const noexcept;
 
     Devices devices_;

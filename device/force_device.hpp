@@ -18,7 +18,7 @@
 
 namespace dibhr {
 
-class CheckGuide;
+class CheckConsole;
 struct CheckResult;
 
 /// Names and values that a session and its reports keep: "serial", "SIM00001".
@@ -57,7 +57,7 @@ struct HomedAxis {
 struct DeviceFirmware {
     std::string name{};     ///< of the file that is loaded when it is needed; empty: none
     std::string trouble{};  ///< why the kept file cannot be used
-    bool wanted{false};     ///< the user has to give it now
+    bool needed{false};     ///< the user has to give it now
 };
 
 /// The stage of a device, and what the panel shows of it.
@@ -72,7 +72,7 @@ struct DeviceState : DeviceStatus {
     DeviceFacts facts{};       ///< valid only once the device has been found
 
     // On the panel, in this order:
-    DeviceLine who{};                          ///< "Falcon", and its serial
+    DeviceLine name_line{};                    ///< "Falcon", and its serial
     std::optional<DeviceFirmware> firmware{};  ///< nothing: the device takes none
     std::optional<DeviceProgress> progress{};
     std::vector<HomedAxis> homing{};           ///< empty: no axis needs to be homed
@@ -90,14 +90,14 @@ class ForceDevice : public Device {
   public:
     /// For the haptic thread, as of the last read(): this device can touch, even if it is clutched
     /// now or its pose is too old.
-    [[nodiscard]] virtual bool in_hand() const noexcept = 0;
+    [[nodiscard]] virtual bool can_touch() const noexcept = 0;
 
     // For the window thread; `settings` are of the device's own kind:
 
     [[nodiscard]] virtual DeviceState state() = 0;
     /// Whether the settings differ from the published ones.
-    [[nodiscard]] virtual bool is_retuned(const DeviceSettings& settings,
-                                          const HandTuning& hand) const = 0;
+    [[nodiscard]] virtual bool has_new_tuning(const DeviceSettings& settings,
+                                              const HandTuning& hand) const = 0;
     /// Publishes the settings to the next tick. Call it after the haptic loop was set to ramp.
     virtual void publish(const DeviceSettings& settings, const HandTuning& hand) = 0;
     /// Keeps a copy of the file, and loads it when the device next needs firmware. Returns the name
@@ -106,7 +106,7 @@ class ForceDevice : public Device {
 };
 
 /// What the command line gives for one start of the program.
-struct DeviceGiven {
+struct DeviceArguments {
     std::string which{};           ///< of several: a serial, an ID; empty: as in the settings
     std::filesystem::path file{};  ///< --firmware; empty: the kept file
 };
@@ -118,13 +118,13 @@ struct DevicesFound {
 };
 
 /// Where the record of a check is written, and what its head contains.
-struct CheckPaper {
+struct CheckRecordOptions {
     std::filesystem::path record{};  ///< empty: KIND-check-NAME-DATE.json in the current folder
     DeviceFacts facts{};             ///< more entries, such as the program's version
 };
 
 /// Prints a line for the user; the line has no newline at its end.
-using TellLine = std::function<void(const std::string&)>;
+using PrintLine = std::function<void(const std::string&)>;
 
 /// ForceDeviceKind::make_settings of a kind with these `Settings`.
 template <typename Settings>
@@ -136,44 +136,45 @@ template <typename Settings>
 struct ForceDeviceKind {
     /// On the command line, in the settings file, in facts and in records of a check: "falcon".
     const char* name;
-    const char* title;      ///< "Novint Falcon"
-    const char* called;     ///< behind "the": "Falcon"
-    const char* article;    ///< "a Falcon"
-    const char* which;      ///< placeholder of the ID on the command line: "SERIAL"
-    const char* known{""};  ///< appended to a sentence where its dynamics are assumed; else empty
-    const char* no_pose;    ///< shown while the device touches and has no pose: what to do
+    const char* title;       ///< "Novint Falcon"
+    const char* short_name;  ///< behind "the": "Falcon"
+    const char* article;     ///< "a Falcon"
+    const char* which;       ///< placeholder of the ID on the command line: "SERIAL"
+    const char* known{""};   ///< appended to a sentence where its dynamics are assumed; else empty
+    const char* no_pose_advice;  ///< shown while the device touches and has no pose: what to do
     /// Its check relies on settings that protect a hand: only consented values are used in it.
     bool check_needs_consent{false};
 
     std::unique_ptr<DeviceSettings> (*make_settings)();
-    std::unique_ptr<ForceDevice> (*make)(const DeviceSettings& settings, const DeviceGiven& given);
+    std::unique_ptr<ForceDevice> (*make)(const DeviceSettings& settings,
+                                         const DeviceArguments& given);
     /// Keeps a copy of a firmware file and returns its name. Throws InputError. Null: this kind
     /// takes no firmware.
     std::string (*keep_firmware)(const std::filesystem::path& file) = nullptr;
     /// Settings of the device `id` that its service keeps for all programs. Takes a second or two.
     /// Null: there are none.
-    std::vector<DeviceLine> (*ask_kept)(const DeviceSettings& settings,
-                                        const std::string& id) = nullptr;
+    std::vector<DeviceLine> (*read_kept_settings)(const DeviceSettings& settings,
+                                                  const std::string& id) = nullptr;
 
     // About the devices that are attached now:
 
     /// Why the requested device cannot be opened; empty: it can, though the user may have to do
     /// something before it is ready.
-    std::string (*why_none)(const DeviceSettings& settings, const DeviceGiven& given);
+    std::string (*why_none)(const DeviceSettings& settings, const DeviceArguments& given);
     /// One is attached, whether or not it can be used.
     bool (*attached)(const DeviceSettings& settings);
     /// Prints all of them, and what each lacks.
-    DevicesFound (*survey)(const DeviceSettings& settings, const TellLine& tell);
+    DevicesFound (*survey)(const DeviceSettings& settings, const PrintLine& print);
     /// Prints which devices are attached, without changing their state. True: one can be used, or
     /// may be usable.
-    bool (*glance)(const DeviceSettings& settings, const TellLine& tell);
+    bool (*print_attached)(const DeviceSettings& settings, const PrintLine& print);
     /// Guides the user through the measurements of a check. Throws InputError, too. Null: this kind
     /// has no check.
-    CheckResult (*check)(const DeviceSettings& settings, const CheckPaper& paper,
-                         const TellLine& tell, CheckGuide& guide) = nullptr;
+    CheckResult (*check)(const DeviceSettings& settings, const CheckRecordOptions& record_options,
+                         const PrintLine& print, CheckConsole& console) = nullptr;
     /// Simulates a device, commanded line by line, until the stream ends. Null: no simulation.
-    void (*simulate)(const DeviceSettings& settings, std::istream& orders,
-                     const TellLine& tell) = nullptr;
+    void (*simulate)(const DeviceSettings& settings, std::istream& input,
+                     const PrintLine& print) = nullptr;
 };
 
 }  // namespace dibhr

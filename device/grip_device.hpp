@@ -25,13 +25,13 @@ class GripDevice : public ForceDevice {
     }
 
     /// For the haptic thread, as of the last read(): linked and ready, a Falcon also homed.
-    [[nodiscard]] bool in_hand() const noexcept final { return epoch_ != kNoEpoch; }
+    [[nodiscard]] bool can_touch() const noexcept final { return epoch_ != kNoEpoch; }
 
     // For the window thread:
 
     [[nodiscard]] TripleBuffer<Tuning>& tuning() noexcept { return tuning_; }
-    [[nodiscard]] bool is_retuned(const DeviceSettings& settings,
-                                  const HandTuning& hand) const final {
+    [[nodiscard]] bool has_new_tuning(const DeviceSettings& settings,
+                                      const HandTuning& hand) const final {
         return !(published_ == tuning_of(static_cast<const Settings&>(settings), hand));
     }
     void publish(const DeviceSettings& settings, const HandTuning& hand) final {
@@ -49,7 +49,7 @@ class GripDevice : public ForceDevice {
         feels_other_ = false;
         if (!tuning_.fresh()) return;
         const Tuning& newest = tuning_.front();
-        if (newest.centred != tuned_.centred) workspace_.centre();
+        if (newest.centre_count != tuned_.centre_count) workspace_.centre();
         feels_other_ = !(newest.felt() == tuned_.felt());
         tuned_ = newest;
     }
@@ -81,7 +81,7 @@ class GripDevice : public ForceDevice {
         reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
         reading.buttons = buttons;
         reading.ready = may_push_;
-        reading.taken_over = was_posed_ && (!was_posed || feels_other_);
+        reading.hand_changed = was_posed_ && (!was_posed || feels_other_);
         reading.force_off = (buttons & tuned_.force_off_buttons) != 0;
         reading.limits = at_scale(limits, tuned_.workspace.scale);
         return reading;

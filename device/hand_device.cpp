@@ -43,15 +43,15 @@ Named named(const std::string& name) {
 }
 
 /// The requested devices, with the mouse as fallback.
-HandDevice device_hand(const DeviceChoice& choice, const Named& meant) {
+HandDevice device_hand(const DeviceChoice& choice, const Named& requested) {
     HandDevice hand;
     DeviceOrMouse::Devices devices;
-    const DeviceGiven given{meant.which, choice.firmware};
+    const DeviceArguments given{requested.which, choice.firmware};
     for (std::size_t k = 0; k < force_device_kinds().size(); ++k) {
         const ForceDeviceKind& kind = *force_device_kinds()[k];
         auto& device = devices.emplace_back();
-        if (meant.kind != nullptr && meant.kind != &kind) continue;
-        if (meant.kind != nullptr) {
+        if (requested.kind != nullptr && requested.kind != &kind) continue;
+        if (requested.kind != nullptr) {
             const std::string refusal = kind.why_none(choice.settings[k], given);
             if (!refusal.empty()) throw DeviceError(refusal);
         }

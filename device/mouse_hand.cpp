@@ -60,7 +60,7 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
 
     HandReading reading;
     reading.goal_in_grid = position_in_grid_;
-    reading.buttons = wanted_.pressed ? 1 : 0;
+    reading.buttons = valid_target_.pressed ? 1 : 0;
     // The cursor may leave the surface on a path that no proxy can follow, as from under a chin.
     reading.lifted =
         !pressing_ && position_in_grid_.z >
@@ -74,10 +74,10 @@ void MouseHand::send(Vec3 force_newton) noexcept {
 
 void MouseHand::take_target(const DepthSurface& surface) noexcept {
     const MouseTarget& newest = target_.front();
-    if (sensible(newest)) wanted_ = newest;
-    const Vec2 cursor = within_frame(wanted_.cursor_in_grid, surface, 0.0);
+    if (sensible(newest)) valid_target_ = newest;
+    const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, 0.0);
     const bool reached = glm::distance(cursor, Vec2(position_in_grid_)) <= kReached_px;
-    pressing_ = wanted_.pointing && wanted_.pressed && (pressing_ || reached);
+    pressing_ = valid_target_.pointing && valid_target_.pressed && (pressing_ || reached);
 }
 
 void MouseHand::press(double dt_s) noexcept {
@@ -87,17 +87,17 @@ void MouseHand::press(double dt_s) noexcept {
 }
 
 Vec3 MouseHand::anchor_in_grid(const DepthSurface& surface) const noexcept {
-    if (!wanted_.pointing) {
+    if (!valid_target_.pointing) {
         return {0.5 * (surface.columns() - 1), 0.5 * (surface.rows() - 1),
                 surface.ceiling() + options_.hover_px};
     }
     const Vec2 hand{position_in_grid_};
     if (pressing_) {
-        const Vec2 cursor = within_frame(wanted_.cursor_in_grid, surface, kBeyondFrame_px);
-        const double depth = depth_px_ + std::clamp(wanted_.wheel_px, 0.0, kMostWheel_px);
+        const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, kBeyondFrame_px);
+        const double depth = depth_px_ + std::clamp(valid_target_.wheel_px, 0.0, kMostWheel_px);
         return {cursor, surface.elevation_at(hand.x, hand.y) - depth};
     }
-    const Vec2 cursor = within_frame(wanted_.cursor_in_grid, surface, 0.0);
+    const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, 0.0);
     const double highest = std::max(highest_between(surface, hand, cursor), obstacle_px_);
     return {cursor, highest + options_.hover_px};
 }
@@ -113,8 +113,8 @@ void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     const double damping = 2.0 * options_.damping_ratio * std::sqrt(stiffness * mass);
 
     // Only a pressing hand feels the force: with the button up, it leaves the surface freely.
-    const Vec3 felt_newton = pressing_ ? force_newton_ : Vec3{0.0};
-    const Vec3 push = stiffness * (anchor - position_in_grid_) + felt_newton * px_per_m;
+    const Vec3 rendered_newton = pressing_ ? force_newton_ : Vec3{0.0};
+    const Vec3 push = stiffness * (anchor - position_in_grid_) + rendered_newton * px_per_m;
     velocity_px_per_s_ = (mass * velocity_px_per_s_ + dt_s * push) /
                          (mass + dt_s * damping + dt_s * dt_s * stiffness);
     const double fastest = options_.max_speed_mm_per_s / pixel_pitch_mm;

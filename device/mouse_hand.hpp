@@ -63,7 +63,7 @@ class MouseHand final : public Device {
     TripleBuffer<MouseTarget> target_{};
 
     // Used by the haptic thread only.
-    MouseTarget wanted_{};  // the newest one with finite values
+    MouseTarget valid_target_{};  // the newest one with finite values
     Vec3 position_in_grid_{0.0};
     Vec3 velocity_px_per_s_{0.0};
     Vec3 force_newton_{0.0};

@@ -27,7 +27,7 @@ bool draws(const std::filesystem::path& thread) {
 
 }  // namespace
 
-void let_drawing_give_way() {
+void lower_drawing_priority() {
     const int own = getpriority(PRIO_PROCESS, 0);
     const int niceness = std::min(own + kDrawingNiceness, kLowestNiceness);
     std::error_code none;  // if the threads cannot be listed, they keep their priority

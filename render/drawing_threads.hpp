@@ -12,6 +12,6 @@ inline constexpr int kDrawingNiceness = 5;
 /// the calling thread, which waits for them, get long time slices (core/realtime/time_slice.hpp),
 /// so that they do not delay threads with deadlines, such as a device's service. Of little use
 /// where a graphics card draws.
-void let_drawing_give_way();
+void lower_drawing_priority();
 
 }  // namespace dibhr

@@ -37,10 +37,11 @@ void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
 }
 
 // Shares of the step between two faces. kOnFace: a vertex this near the higher (lower) end is on
-// the near (far) face. kShown: a fragment this near its layer is drawn; no gap is seen straight on.
+// the near (far) face. kLayerTolerance: a fragment this near its layer is drawn; no gap is seen
+// straight on.
 constexpr float kOnFace = 0.3F;
-constexpr float kGoesOn = 0.2F;  // a vertex this near a face's extrapolated slope is on the face
-constexpr float kShown = 0.5F;
+constexpr float kOnSlope = 0.2F;  // a vertex this near a face's extrapolated slope is on the face
+constexpr float kLayerTolerance = 0.5F;
 // Bounds the work for a relief that is steep almost everywhere, where outlines mean little.
 constexpr std::size_t kMostLayerVertices = 120'000;
 
@@ -92,10 +93,10 @@ class Tearing {
         rims_.layers.clear();
         rims_.torn.assign(elevations_.size(), 0.0F);
         each_cell([this](int i, int j) {
-            if (is_steep(i, j)) loosen_and_mark(i, j);
+            if (is_steep(i, j)) mark_torn_and_loose(i, j);
         });
         each_cell([this](int i, int j) {
-            if (is_torn(i, j) || hangs_loose(i, j)) tear(i, j);
+            if (is_torn(i, j) || has_loose_corner(i, j)) tear(i, j);
         });
     }
 
@@ -126,7 +127,7 @@ class Tearing {
 
     [[nodiscard]] bool loose(Corner c) const { return loose_[index(c.i, c.j)]; }
     [[nodiscard]] bool is_torn(int i, int j) const { return rims_.torn[index(i, j)] > 0.0F; }
-    [[nodiscard]] bool hangs_loose(int i, int j) const {
+    [[nodiscard]] bool has_loose_corner(int i, int j) const {
         const auto around = corners(i, j);
         return std::any_of(around.begin(), around.end(),
                            [this](Corner corner) { return loose(corner); });
@@ -180,7 +181,7 @@ class Tearing {
     }
 
     /// Marks the cell as torn. Marks a corner as loose if it continues neither face's slope.
-    void loosen_and_mark(int i, int j) {
+    void mark_torn_and_loose(int i, int j) {
         rims_.torn[index(i, j)] = 1.0F;
         for (const Corner& corner : corners(i, j)) {
             const float z = at(corner.i, corner.j);
@@ -193,16 +194,16 @@ class Tearing {
                     if (at(x, y) < at(down.i, down.j)) down = {x, y};
                 }
             }
-            const float near = kGoesOn * (at(up.i, up.j) - at(down.i, down.j));
-            if (distance(z, gone_on(corner, up)) > near &&
-                distance(z, gone_on(corner, down)) > near) {
+            const float near = kOnSlope * (at(up.i, up.j) - at(down.i, down.j));
+            if (distance(z, extrapolated(corner, up)) > near &&
+                distance(z, extrapolated(corner, down)) > near) {
                 loose_[index(corner.i, corner.j)] = true;
             }
         }
     }
 
     /// The elevation at `end`, extrapolated from the slope behind its neighbour `next`.
-    [[nodiscard]] float gone_on(Corner end, Corner next) const {
+    [[nodiscard]] float extrapolated(Corner end, Corner next) const {
         const float z = at(next.i, next.j);
         const int i = 2 * next.i - end.i;
         const int j = 2 * next.j - end.j;
@@ -223,8 +224,8 @@ class Tearing {
         const Around faces = around(triangle);
         const float range = faces.high - faces.low;
         if (!(range > 0.0F)) return;  // no face around
-        add_layer(triangle, faces, faces.high, kShown * range);
-        add_layer(triangle, faces, faces.low, kShown * range);
+        add_layer(triangle, faces, faces.high, kLayerTolerance * range);
+        add_layer(triangle, faces, faces.low, kLayerTolerance * range);
     }
 
     void add_layer(const Triangle& triangle, const Around& faces, float face, float tolerance) {

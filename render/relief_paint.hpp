@@ -7,23 +7,23 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 
 enum class ReliefPaint : std::uint8_t { video, clay, turbo, viridis, grey };
 
-inline constexpr std::array<Word<ReliefPaint>, 5> kReliefPaintWords{
+inline constexpr std::array<NamedValue<ReliefPaint>, 5> kReliefPaintNames{
     {{ReliefPaint::video, "video", "Colour of the video"},
      {ReliefPaint::clay, "clay", "Clay"},
      {ReliefPaint::turbo, "turbo", "Depth, turbo"},
      {ReliefPaint::viridis, "viridis", "Depth, viridis"},
      {ReliefPaint::grey, "grey", "Depth, grey"}}};
-static_assert(has_all_in_order(kReliefPaintWords, ReliefPaint::grey));
+static_assert(has_all_in_order(kReliefPaintNames, ReliefPaint::grey));
 
-[[nodiscard]] constexpr const auto& words_of(ReliefPaint) noexcept {
-    return kReliefPaintWords;
+[[nodiscard]] constexpr const auto& name_table(ReliefPaint) noexcept {
+    return kReliefPaintNames;
 }
 
 /// Colours for depth, from the farthest to the nearest: one row of 256 pixels. Null for the video's

@@ -56,22 +56,22 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
                                 limits_.software ? kMostVerticesSoftware : kMostVerticesHardware,
                                 limits_.texture_side);
     if (!grid.drawable()) return;
-    if (content.look.coarse) grid.step *= 2;
+    if (content.relief_style.coarse) grid.step *= 2;
     if (grid != grid_) build(grid);
 
     Variant variant;
     variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
     variant.painted = content.maps && content.maps->at_vertices.columns == image.columns &&
                       content.maps->at_vertices.rows == image.rows;
-    variant.textured = content.look.paint == ReliefPaint::video && content.colour &&
+    variant.textured = content.relief_style.paint == ReliefPaint::video && content.colour &&
                        content.colour->colour && !content.colour->colour->rgb.empty();
-    variant.by_depth = depth_colours(content.look.paint) != nullptr;
-    variant.silhouettes = content.look.discard_silhouettes;
+    variant.by_depth = depth_colours(content.relief_style.paint) != nullptr;
+    variant.silhouettes = content.relief_style.discard_silhouettes;
     variant.unseen = content.depth.nearest().unseen != nullptr;
     if (variant.silhouettes) tear(content);
     bind_textures(content, variant);
 
-    prepared(variant, content, clip_from_world);
+    use_program(variant, content, clip_from_world);
     glBindVertexArray(surface_.get());
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 
@@ -79,7 +79,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
         Variant rim = variant;
         rim.rim = true;
         rim.silhouettes = false;
-        prepared(rim, content, clip_from_world);
+        use_program(rim, content, clip_from_world);
         glBindVertexArray(rim_.get());
         glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rims_.layers.size()));
     }
@@ -88,7 +88,7 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     wall.wall = true;
     wall.rough = variant.rough;
     wall.painted = variant.painted;
-    prepared(wall, content, clip_from_world);
+    use_program(wall, content, clip_from_world);
     glBindVertexArray(wall_.get());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, wall_count_);
     glActiveTexture(GL_TEXTURE0);
@@ -118,7 +118,7 @@ void ReliefPass::tear(const SceneContent& content) {
                              std::clamp(content.depth.blend, 0.0, 1.0),
                              content.shape.relief_px / from.highest_level};
     drawn_elevations(depth, grid_, elevations_);
-    tear_rims(depth, grid_, elevations_, content.look.silhouette_slope, rims_);
+    tear_rims(depth, grid_, elevations_, content.relief_style.silhouette_slope, rims_);
     torn_.upload(grid_.columns(), grid_.rows(), rims_.torn.data());
     glBindVertexArray(rim_.get());
     glBindBuffer(GL_ARRAY_BUFFER, rim_vertices_.get());
@@ -152,7 +152,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     if (variant.textured)
         colour = colour_.show(content.colour->colour, most_side, !limits_.software);
     if (variant.by_depth)
-        colour = depth_colours_.show(depth_colours(content.look.paint), most_side, false);
+        colour = depth_colours_.show(depth_colours(content.relief_style.paint), most_side, false);
     bind(kDetailFromUnit, detail.from);
     bind(kDetailToUnit, detail.to);
     bind(kDepthFromUnit, depth.from);
@@ -164,8 +164,8 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     bind(kColourUnit, colour);
 }
 
-const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneContent& content,
-                                          const glm::mat4& clip_from_world) {
+const ShaderProgram& ReliefPass::use_program(const Variant& variant, const SceneContent& content,
+                                             const glm::mat4& clip_from_world) {
     auto& program = programs_[variant];
     if (!program) {
         std::string defines;
@@ -181,7 +181,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
             std::make_unique<ShaderProgram>(shaders::kReliefVert, shaders::kReliefFrag, defines);
     }
     const DepthImage& image = *content.depth.from->drawn();
-    const double limit = content.look.silhouette_slope;
+    const double limit = content.relief_style.silhouette_slope;
     program->use();
     program->set("depth_from", kDepthFromUnit);
     program->set("depth_to", kDepthToUnit);
@@ -207,7 +207,7 @@ const ShaderProgram& ReliefPass::prepared(const Variant& variant, const SceneCon
     program->set("detail_step", detail_grid_.step);
     program->set("drawn", glm::ivec2(grid_.columns(), grid_.rows()));
     program->set("image", glm::ivec2(image.columns, image.rows));
-    program->set("light", static_cast<float>(content.look.light));
+    program->set("light", static_cast<float>(content.relief_style.light));
     program->set("clip_from_world", clip_from_world);
     return *program;
 }

@@ -37,8 +37,8 @@ class ReliefPass {
     void build(const ReliefGrid& grid);
     void tear(const SceneContent& content);
     void bind_textures(const SceneContent& content, const Variant& variant);
-    const ShaderProgram& prepared(const Variant& variant, const SceneContent& content,
-                                  const glm::mat4& clip_from_world);
+    const ShaderProgram& use_program(const Variant& variant, const SceneContent& content,
+                                     const glm::mat4& clip_from_world);
 
     GlLimits limits_{};
     std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};

@@ -16,7 +16,7 @@
 namespace dibhr {
 
 /// How the relief is drawn.
-struct ReliefLook {
+struct ReliefStyle {
     bool discard_silhouettes{true};  ///< tear the relief where it is steeper than this:
     double silhouette_slope{12.0};   ///< elevation change from pixel to pixel [px/px]
     ReliefPaint paint{ReliefPaint::video};
@@ -72,7 +72,7 @@ struct SceneContent {
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
     std::shared_ptr<const TouchMaps> maps{};  ///< whose heights are drawn; null: none
-    ReliefLook look{};
+    ReliefStyle relief_style{};
     bool light_wall{false};  ///< behind the relief; else a dark one
     Dent dent{};
     TouchMarkers markers{};

@@ -20,7 +20,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
 #include "core/files/terminal.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {
@@ -123,7 +123,7 @@ void print_help() {
     std::cout << with_bold_headings(help.str());
 }
 
-const Command* command_called(const std::string& name) {
+const Command* command_named(const std::string& name) {
     const auto* const found = std::ranges::find(kCommands, name, &Command::name);
     return found == kCommands.end() ? nullptr : found;
 }
@@ -135,16 +135,16 @@ int run_one(const Command& command, const Arguments& arguments,
 }
 
 /// Stores the options that a command declares, in place of making a help text.
-class Documenting : public CLI::Formatter {
+class OptionCollector : public CLI::Formatter {
   public:
-    explicit Documenting(DocumentedCommand& into) : into_(into) {}
+    explicit OptionCollector(DocumentedCommand& into) : into_(into) {}
 
     std::string make_help(const CLI::App* app, std::string /*name*/,
                           CLI::AppFormatMode /*mode*/) const override {
         into_.examples = app->get_footer();
         for (const CLI::Option* const option : app->get_options()) {
             DocumentedOption taken{.argument = option->get_positional() ? option->get_name() : "",
-                                   .standard = option->get_default_str(),
+                                   .default_text = option->get_default_str(),
                                    .help = option->get_description(),
                                    .required = option->get_required()};
             for (const std::string& name : option->get_lnames()) taken.names.push_back("--" + name);
@@ -167,7 +167,7 @@ std::vector<DocumentedCommand> documented_commands() {
                        .arguments = std::string(command.arguments),
                        .summary = std::string(command.summary)});
         CLI::App app(std::string(command.summary), "dibhr " + std::string(command.name));
-        app.formatter(std::make_shared<Documenting>(all.back()));
+        app.formatter(std::make_shared<OptionCollector>(all.back()));
         command.run(app, {"--help"}, {});
     }
     return all;
@@ -194,10 +194,10 @@ int run_help(const Arguments& about) {
         std::cout << keys_help(KeyTable(load_settings(settings_path()).keys));
         return 0;
     }
-    if (const Command* const command = command_called(about.front()))
+    if (const Command* const command = command_named(about.front()))
         return run_one(*command, {"--help"});
     throw UsageError("no command is called " + in_quotes(about.front()) +
-                     meant_command(about.front()) + " (see dibhr --help)");
+                     command_suggestion(about.front()) + " (see dibhr --help)");
 }
 
 /// Names the first word that looks like an option and is none, with the nearest option. Else empty.
@@ -216,7 +216,7 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
 
 }  // namespace
 
-std::string meant_command(const std::string& word) {
+std::string command_suggestion(const std::string& word) {
     return did_you_mean(word, all_names(kCommands));
 }
 
@@ -287,7 +287,7 @@ int run_command_line(const Arguments& arguments, const PictureHook& after_pictur
         return 0;
     }
     // A word that is no command is a file for the viewer, the first command of the table.
-    if (const Command* const command = command_called(first))
+    if (const Command* const command = command_named(first))
         return run_one(*command, Arguments(arguments.begin() + 1, arguments.end()), after_picture);
     return run_one(kCommands.front(), arguments, after_picture);
 }

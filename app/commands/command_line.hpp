@@ -28,7 +28,7 @@ int run_command_line(const Arguments& arguments, const PictureHook& after_pictur
 [[nodiscard]] bool parse(CLI::App& app, const Arguments& arguments);
 
 /// "; did you mean touch?" for a word that is nearly a command; else empty.
-[[nodiscard]] std::string meant_command(const std::string& word);
+[[nodiscard]] std::string command_suggestion(const std::string& word);
 
 /// An option, or an argument, that names a file. `file` must outlive the parsing of `app`.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,

@@ -22,7 +22,7 @@
 #include "core/estimate/depth_estimate.hpp"
 #include "core/estimate/estimator_command.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {
@@ -48,8 +48,8 @@ bool is_command(const std::string& text) {
 }
 
 /// A command of the settings may be another person's: it runs only after consent here.
-Estimator agreed_to(const Estimator& estimator) {
-    if (Consent().knows(estimator.command)) return estimator;
+Estimator require_consent(const Estimator& estimator) {
+    if (Consent().has_agreed_to(estimator.command)) return estimator;
     throw InputError("the settings name the estimator " + estimator.name +
                      ", but nobody on this machine has agreed to run its command, so it was not "
                      "run: give the command with --with, or agree in the window; the command is " +
@@ -57,7 +57,7 @@ Estimator agreed_to(const Estimator& estimator) {
 }
 
 /// Typing a command counts as consent.
-void take_word(const std::string& command) try {
+void store_consent(const std::string& command) try {
     Consent().agree(command);
 } catch (const InputError& error) {
     print_warning(std::string(error.what()) + "; dibhr will ask again");
@@ -67,10 +67,11 @@ void take_word(const std::string& command) try {
 Estimator chosen_estimator(const DepthOptions& options, const std::vector<Estimator>& known) {
     if (is_command(options.with)) return {.name = options.name, .command = options.with};
     if (options.with.empty()) {
-        if (!known.empty()) return agreed_to(known.front());
-        throw UsageError("no estimator is known. " + how_to_have_an_estimator());
+        if (!known.empty()) return require_consent(known.front());
+        throw UsageError("no estimator is known. " + estimator_hint());
     }
-    if (const Estimator* const one = estimator_called(known, options.with)) return agreed_to(*one);
+    if (const Estimator* const one = estimator_named(known, options.with))
+        return require_consent(*one);
     throw UsageError("--with " + in_quotes(options.with) +
                      " is neither a command with {input} or {frames} and {output} nor the name of "
                      "an estimator" +
@@ -90,9 +91,9 @@ void keep_estimator(Estimator estimator) {
 }
 
 /// Runs the estimator, shows its progress, and stops it on a signal.
-std::optional<DepthEstimate> watched(const EstimateRequest& request) {
+std::optional<DepthEstimate> run_estimator(const EstimateRequest& request) {
     constexpr std::chrono::milliseconds kPause{50};
-    EndingSignals signals;  // created first: the thread must not receive them
+    ShutdownSignals signals;  // created first: the thread must not receive them
     EstimateWatch watch;
     auto made = std::async(std::launch::async, [&] { return estimate_depth(request, watch); });
     ProgressBar bar(one_line(request.colour.filename().string()));
@@ -108,7 +109,7 @@ std::string megabytes_text(std::uintmax_t bytes) {
     return short_text(static_cast<double>(bytes) / 1e6, 3) + " MB";
 }
 
-std::string told(const KeptEstimate& kept) {
+std::string summary_line(const KeptEstimate& kept) {
     const EstimateRecord& record = kept.record;
     if (record.command.empty())
         return one_line(kept.folder.string()) + ": no depth that can be used, " +
@@ -135,7 +136,7 @@ std::vector<KeptEstimate> kept_of(const fs::path& colour) {
 int list_kept(const fs::path& colour) {
     std::uintmax_t bytes = 0;
     for (const KeptEstimate& kept : kept_of(colour)) {
-        std::cout << told(kept) << '\n';
+        std::cout << summary_line(kept) << '\n';
         bytes += kept.bytes;
     }
     std::cout << megabytes_text(bytes) << " in " << one_line(depth_cache_path().string()) << '\n';
@@ -175,13 +176,13 @@ int make_depth(const DepthOptions& options) {
     request.command = estimator.command;
     request.cache = depth_cache_path();
     request.meaning.fill_in(estimator.meaning);
-    if (is_command(options.with)) take_word(estimator.command);
+    if (is_command(options.with)) store_consent(estimator.command);
     if (!options.name.empty()) {
         Estimator kept = estimator;
         kept.meaning = request.meaning;
         keep_estimator(kept);
     }
-    const auto made = watched(request);
+    const auto made = run_estimator(request);
     if (!made) {
         print_error_line(EstimatorCommand(request.command).takes_frames()
                              ? "cancelled: what is done is kept; run it again to go on from there"
@@ -218,7 +219,7 @@ int run_depth(CLI::App& app, const Arguments& arguments) {
                  "Makes the depth anew, also where it is kept already");
     add_number_option(app, "--patience", 1.0, kLongestPatience_s,
                       "Ends an estimator that writes and prints nothing for so many seconds",
-                      [&options](double seconds) { options.request.patience_s = seconds; })
+                      [&options](double seconds) { options.request.timeout_s = seconds; })
         ->type_name("S")
         ->default_str("600");
     app.add_flag("--list", options.lists, "Lists the depth that is kept: of COLOR, or all");

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/commands/command_line.hpp"
-#include "app/commands/terminal_guide.hpp"
+#include "app/commands/terminal_console.hpp"
 #include "app/settings/consent.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
@@ -15,17 +15,17 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "device/force_devices.hpp"
-#include "device/hand/check/guide.hpp"
+#include "device/hand/check/console.hpp"
 
 namespace dibhr {
 namespace {
 
-void tell(const std::string& line) {
+void print(const std::string& line) {
     std::cout << line << std::endl;
 }
 
 /// A given firmware file is stored before any device is opened.
-void keep_files(const std::filesystem::path& file) {
+void store_firmware(const std::filesystem::path& file) {
     for (const ForceDeviceKind* const kind : force_device_kinds()) {
         if (!file.empty() && kind->keep_firmware != nullptr) kind->keep_firmware(file);
     }
@@ -37,7 +37,7 @@ int survey() {
     bool usable = false;
     std::string refusal;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
-        const DevicesFound found = force_device_kinds()[k]->survey(chosen[k], tell);
+        const DevicesFound found = force_device_kinds()[k]->survey(chosen[k], print);
         usable = usable || found.usable;
         if (refusal.empty()) refusal = found.refusal;
     }
@@ -63,17 +63,18 @@ std::size_t kind_to_check(const AllDeviceSettings& chosen) {
 
 int check(const std::filesystem::path& record) {
     const std::filesystem::path settings_file = settings_path();
-    const auto guide = make_terminal_guide();
-    const CheckPaper paper{record,
-                           {{"program", "dibhr " DIBHR_VERSION},
-                            {"program_sha256", sha256_of_file("/proc/self/exe")},
-                            {"thread_priority", become_realtime("dibhr check").priority.answer}}};
+    const auto console = make_terminal_console();
+    const CheckRecordOptions record_options{
+        record,
+        {{"program", "dibhr " DIBHR_VERSION},
+         {"program_sha256", sha256_of_file("/proc/self/exe")},
+         {"thread_priority", become_realtime("dibhr check").priority.answer}}};
     Settings settings = load_settings(settings_file);
     const AllDeviceSettings& chosen = settings.devices;
     const std::size_t k = kind_to_check(chosen);
     const ForceDeviceKind& kind = *force_device_kinds()[k];
-    if (kind.check_needs_consent) Consent().hold_and_warn(settings, settings_file);
-    const CheckResult result = kind.check(chosen[k], paper, tell, *guide);
+    if (kind.check_needs_consent) Consent().replace_unsafe_and_warn(settings, settings_file);
+    const CheckResult result = kind.check(chosen[k], record_options, print, *console);
     std::cout << "The settings file: " << settings_file.string() << '\n';
     if (!result.fault.empty()) throw DeviceError(result.fault);
     return 0;
@@ -91,7 +92,7 @@ int simulate(const std::string& name) {
     const AllDeviceSettings chosen = load_settings(settings_path()).devices;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const ForceDeviceKind& kind = *force_device_kinds()[k];
-        if (name == kind.name) kind.simulate(chosen[k], std::cin, tell);
+        if (name == kind.name) kind.simulate(chosen[k], std::cin, print);
     }
     return 0;
 }
@@ -127,8 +128,8 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
     if (!parse(app, arguments)) return 0;
     if (!simulated.empty()) return simulate(simulated);
     if (!checks)
-        tell("mouse: usable (point at the relief in the viewer, hold the left button to touch)");
-    keep_files(firmware_file);
+        print("mouse: usable (point at the relief in the viewer, hold the left button to touch)");
+    store_firmware(firmware_file);
     return checks ? check(record) : survey();
 }
 

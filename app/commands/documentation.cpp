@@ -8,7 +8,7 @@
 
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 
 namespace dibhr {
 
@@ -66,7 +66,8 @@ void add_option(std::ostringstream& page, const DocumentedOption& option) {
     if (!option.type.empty()) page << " \\fI" << troff(option.type) << "\\fR";
     page << '\n' << troff(option.help);
     if (option.required) page << " (required)";
-    if (!option.standard.empty()) page << " (" << troff(option.standard) << " unless given)";
+    if (!option.default_text.empty())
+        page << " (" << troff(option.default_text) << " unless given)";
     page << '\n';
 }
 

@@ -14,7 +14,7 @@ struct DocumentedOption {
     std::vector<std::string> names{};  ///< "--mute", "-h"; none: an argument
     std::string argument{};            ///< of an argument: "SESSION"
     std::string type{};                ///< of its value: "FILE", "MU"; empty: it takes none
-    std::string standard{};            ///< the default value; empty: none
+    std::string default_text{};        ///< the default value; empty: none
     std::string help{};
     bool required{false};
 

@@ -20,7 +20,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/replay/frames.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -68,15 +68,15 @@ void describe_session(const fs::path& file) {
     print_fact("kind", "dibhr session");
     const HandTicks hand = hand_ticks(session.reader());
     SessionFacts facts = facts_of_hand(session.facts(), hand, force_device_names());
-    std::set<fs::path> told;
-    const auto tell = [&told](const char* what, const SessionMedia& media) {
-        if (media.file.empty() || !told.insert(media.file).second) return;
+    std::set<fs::path> printed;
+    const auto print_media = [&printed](const char* what, const SessionMedia& media) {
+        if (media.file.empty() || !printed.insert(media.file).second) return;
         print_fact(what,
                    media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
     };
     for (const SessionSource& source : session.sources()) {
-        tell("colour", source.colour);
-        tell("depth", source.depth);
+        print_media("colour", source.colour);
+        print_media("depth", source.depth);
     }
     if (!session.sources().empty())
         for (const char* const name : {"colour", "depth"}) facts.erase(name);
@@ -126,7 +126,7 @@ std::string registration_text(const MediaDescription& media) {
            short_text(moved.down_px) + " px down, " + short_text(moved.scale) + " times as large";
 }
 
-std::vector<std::string> words_of(const CleaningSteps& steps) {
+std::vector<std::string> step_names(const CleaningSteps& steps) {
     std::vector<std::string> names;
     visit_steps(steps, [&names](std::string_view name, bool step) {
         if (step) names.emplace_back(name);
@@ -135,7 +135,7 @@ std::vector<std::string> words_of(const CleaningSteps& steps) {
 }
 
 std::string cleaning_text(const CleaningChoice& choice) {
-    return choice.preset == CleaningPreset::own ? list_text(words_of(choice.own))
+    return choice.preset == CleaningPreset::own ? list_text(step_names(choice.own))
                                                 : std::string(name_of(choice.preset));
 }
 
@@ -201,7 +201,7 @@ Json json_of(const Registration& registration) {
 
 Json json_of(const CleaningChoice& choice) {
     if (choice.preset != CleaningPreset::own) return name_of(choice.preset);
-    return words_of(choice.own);
+    return step_names(choice.own);
 }
 
 /// Each fact and its origin; an unknown fact is null.
@@ -257,13 +257,13 @@ Json json_of_session(const fs::path& file) {
 
 /// One object a line, so that a file that cannot be read does not spoil the next one's.
 void print_json(const fs::path& file, const DepthRequest& request) {
-    const Json json =
-        names_session(file) ? json_of_session(file) : json_of(file, describe_media(file, request));
+    const Json json = is_session_file(file) ? json_of_session(file)
+                                            : json_of(file, describe_media(file, request));
     std::cout << json_line(json) << '\n';
 }
 
 void describe(const fs::path& file, const DepthRequest& request) {
-    if (names_session(file))
+    if (is_session_file(file))
         describe_session(file);
     else
         describe_pictures(file, request);

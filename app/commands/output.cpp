@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
 
-constexpr auto kPatience = std::chrono::seconds(1);
+constexpr auto kShowAfter = std::chrono::seconds(1);
 constexpr int kWidth = 40;
 
 }  // namespace
@@ -90,7 +90,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(double share, const std::string& beside) {
-    if (!on_terminal_ || std::chrono::steady_clock::now() - begin_ < kPatience) return;
+    if (!on_terminal_ || std::chrono::steady_clock::now() - begin_ < kShowAfter) return;
     const int percent = static_cast<int>(100.0 * std::clamp(share, 0.0, 1.0));
     if (percent == shown_percent_ && beside == shown_beside_) return;
     shown_percent_ = percent;

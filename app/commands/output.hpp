@@ -47,7 +47,7 @@ class RowFile {
     RowFile(const std::filesystem::path& target, const std::vector<std::filesystem::path>& inputs,
             const std::string& why);
 
-    [[nodiscard]] bool wanted() const noexcept { return file_.has_value(); }
+    [[nodiscard]] bool has_target() const noexcept { return file_.has_value(); }
     /// Append rows here, and call rows_done() after each or after a few.
     [[nodiscard]] std::string& text() noexcept { return text_; }
     void rows_done();

@@ -43,7 +43,7 @@ struct Run {
 };
 
 /// Refuses options that would contradict the session's own depth meaning, relief and pitch.
-void refuse_meanings(const TouchRequest& touch) {
+void refuse_depth_options(const TouchRequest& touch) {
     if (touch.depth != DepthStatement{})
         throw UsageError(
             "a session is replayed with the meaning that its depth had when it was recorded: leave "
@@ -62,7 +62,7 @@ Run make_run(const Session& session, const ReplayOptions& options,
         given.apply(parameters);
     };
     run.name = algorithm ? name_of(*algorithm) : "";
-    run.as_recorded = !options.touch.asks_for_another_surface();
+    run.as_recorded = !options.touch.changes_surface();
     for (const SessionParameters& recorded : session.parameters()) {
         TouchParameters changed = recorded.touch;
         run.change(changed);
@@ -98,16 +98,16 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     TouchParameters parameters;
     if (!session.parameters().empty()) parameters = session.parameters().front().touch;
     touch.given.apply(parameters);
-    TouchParameters asked_for;  // by the command line alone
-    for (const auto& [entry, on] : touch.given.switches) entry->in(asked_for) = on;
-    const CleaningOptions asked = touch.cleaning(parameters);
+    TouchParameters requested;  // by the command line alone
+    for (const auto& [entry, on] : touch.given.switches) entry->in(requested) = on;
+    const CleaningOptions requested_cleaning = touch.cleaning(parameters);
     SessionFramesOptions frames{.any_media = options.any_media,
-                                .motion = asked_for.carry,
+                                .motion = requested.carry,
                                 .bump = touch.given.bump_file(),
                                 .bump_size_px = parameters.shape.bump_size_px,
-                                .maps = touch.feels_maps()};
-    if (touch.raw_depth || touch.preset) frames.cleaning = asked.preset;
-    if (touch.finger_mm) frames.finger = asked.finger;
+                                .maps = touch.uses_maps()};
+    if (touch.raw_depth || touch.preset) frames.cleaning = requested_cleaning.preset;
+    if (touch.finger_mm) frames.finger = requested_cleaning.finger;
     return frames;
 }
 
@@ -123,7 +123,7 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
         const TickRecord& tick = replay.recorded();
         for (std::size_t k = 0; k < runs.size(); ++k)
             runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
-        if (rows.wanted()) {
+        if (rows.has_target()) {
             append_row(rows.text(), {tick.t_s, replay.touch(0),
                                      static_cast<std::int64_t>(replay.update_us(0) * 1e3)});
             rows.rows_done();
@@ -192,7 +192,7 @@ std::string difference_of(const Session& session, const Run& run) {
 int replay_all(const ReplayOptions& options) {
     if (!options.csv.empty() && options.algorithms.size() > 1)
         throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
-    refuse_meanings(options.touch);
+    refuse_depth_options(options.touch);
     const Session session(options.session);
     session.check();
     if (session.rows() == 0)

@@ -23,14 +23,14 @@
 #include "app/settings/study_values.hpp"
 #include "app/study/study_window.hpp"
 #include "app/window/crash_handler.hpp"
-#include "app/window/ending.hpp"
-#include "app/window/last_words.hpp"
+#include "app/window/crash_note.hpp"
+#include "app/window/shutdown_watchdog.hpp"
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/realtime/now.hpp"
 #include "core/study/protocol.hpp"
 #include "core/study/study_file.hpp"
@@ -72,14 +72,14 @@ struct StudyOptions {
 
 /// `files`: also opens media, pictures and bump maps, so that errors are reported before a
 /// participant sits down.
-StudyNames study_names(bool files) {
-    StudyNames names;
+AllowedNames allowed_names(bool files) {
+    AllowedNames names;
     const MaterialNames materials = material_names();
     names.materials = materials.shipped;
     names.materials->insert(names.materials->end(), materials.own.begin(), materials.own.end());
     names.materials->emplace_back(kAsRecorded);
     names.thickest_finger_mm = kThickestFinger_mm;
-    names.checks.values = require_felt;
+    names.checks.values = validate_values;
     if (!files) return names;
     names.checks.media = [](const StudyMedia& media) {
         static_cast<void>(open_media(media.colour, media.depth, usual_depth_request()));
@@ -92,7 +92,7 @@ StudyNames study_names(bool files) {
 }
 
 /// A file, or a study that comes with the program by its name.
-fs::path protocol_called(const fs::path& name) {
+fs::path protocol_named(const fs::path& name) {
     std::error_code failed;
     if (fs::exists(name, failed)) return name;
     const fs::path folder = shipped_studies_folder();
@@ -110,13 +110,13 @@ void require_sample() {
 }
 
 int check(const StudyOptions& options) {
-    const fs::path file = protocol_called(options.file());
-    const Protocol protocol = read_protocol(file, study_names(true));
+    const fs::path file = protocol_named(options.file());
+    const Protocol protocol = read_protocol(file, allowed_names(true));
     require_sample();
     print_protocol(protocol);
     std::cout << "media, materials and pictures are there\n";
-    for (const Doubt& doubt : doubts_of(protocol, Consent()))
-        std::cout << "protects the hand less: " << doubt.what << ' ' << doubt.asked
+    for (const UnsafeSetting& doubt : unsafe_settings_of(protocol, Consent()))
+        std::cout << "protects the hand less: " << doubt.what << ' ' << doubt.requested
                   << ", to be agreed to before its first page\n";
     print_readiness(protocol);
     return 0;
@@ -144,20 +144,21 @@ StudyIdentity identity_of(const StudyOptions& options, const Protocol& protocol,
 }
 
 /// Runs the study in a window until the person finishes or leaves.
-void lead_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
-    LastWords words;
-    const CrashHandler crash(words, &Guardian::alarm);
-    Ending ending(words);
-    StudyWindowOptions wished{.size = options.size,
-                              .settings = load_settings(settings_path()),
-                              .after_picture = options.after_picture};
+void run_with_person(const StudyOptions& options, StudyRun& run, StudyFile& file) {
+    CrashNote crash_note;
+    const CrashHandler crash(crash_note, &Guardian::alarm);
+    ShutdownWatchdog shutdown(crash_note);
+    StudyWindowOptions window_options{.size = options.size,
+                                      .settings = load_settings(settings_path()),
+                                      .after_picture = options.after_picture};
     if (moves_hand(options.device)) {
-        Consent().hold_and_warn(wished.settings, settings_path());
-        wished.doubts = doubts_of(run.protocol(), Consent());
+        Consent().replace_unsafe_and_warn(window_options.settings, settings_path());
+        window_options.unsafe_settings = unsafe_settings_of(run.protocol(), Consent());
     }
-    if (options.mute) wished.settings.mute = true;
-    HandDevice hand = make_hand_device(options.device, {wished.settings.devices, options.firmware});
-    StudyWindow window(wished, run, file, std::move(hand), ending);
+    if (options.mute) window_options.settings.mute = true;
+    HandDevice hand =
+        make_hand_device(options.device, {window_options.settings.devices, options.firmware});
+    StudyWindow window(window_options, run, file, std::move(hand), shutdown);
     window.lead();
 }
 
@@ -165,14 +166,14 @@ int run(const StudyOptions& options) {
     if (options.participant.empty())
         throw UsageError("run needs --participant LABEL (see dibhr study --help)");
     require_label(options.participant);
-    const fs::path page = protocol_called(options.file());
-    const bool leads = options.pilot.empty();
-    const Protocol protocol = read_protocol(page, study_names(leads));
+    const fs::path page = protocol_named(options.file());
+    const bool with_person = options.pilot.empty();
+    const Protocol protocol = read_protocol(page, allowed_names(with_person));
     std::optional<Pilot> pilot;
-    if (leads)
+    if (with_person)
         require_sample();
     else
-        pilot = pilot_called(options.pilot, protocol);
+        pilot = parse_pilot(options.pilot, protocol);
     std::error_code ignored;
     make_folders(options.folder(), ignored);
     StudyFile file(study_file_of(options.folder(), options.participant),
@@ -184,7 +185,7 @@ int run(const StudyOptions& options) {
         std::cout << file.file().string() << ": is finished\n";
         return 0;
     }
-    const std::vector<std::string> others = others_of_number(options.folder(), file.identity());
+    const std::vector<std::string> others = labels_of_number(options.folder(), file.identity());
     if (file.answered().empty() && !others.empty())
         print_warning("the number " + std::to_string(file.identity().number) +
                       " chooses the order of " + listed(others) +
@@ -192,7 +193,7 @@ int run(const StudyOptions& options) {
                       file.file().string() + " and give another --participant or --number");
     if (!file.answered().empty())
         std::cout << "goes on at trial " << file.answered().size() + 1 << '\n';
-    pilot ? run_pilot(steps, file, *pilot) : lead_person(options, steps, file);
+    pilot ? run_pilot(steps, file, *pilot) : run_with_person(options, steps, file);
     std::cout << file.file().string() << ": " << steps.answered().size() << " trials"
               << (steps.step() == StudyStep::finished
                       ? ""
@@ -201,7 +202,7 @@ int run(const StudyOptions& options) {
     return 0;
 }
 
-int take_sessions(const StudyOptions& options) {
+int extract_sessions(const StudyOptions& options) {
     const StudyRecord study = read_study(options.file());
     std::error_code ignored;
     make_folders(options.folder(), ignored);
@@ -256,12 +257,12 @@ int report(const StudyOptions& options) {
     return 0;
 }
 
-constexpr std::array<Word<Curve>, 3> kCurves{
+constexpr std::array<NamedValue<Curve>, 3> kCurves{
     {{Curve::logistic, "logistic", "Logistic"},
      {Curve::cumulative_gaussian, "gaussian", "Cumulative Gaussian"},
      {Curve::weibull, "weibull", "Weibull"}}};
 
-Curve curve_called(const std::string& name) {
+Curve curve_named(const std::string& name) {
     if (const auto curve = value_named(kCurves, name)) return *curve;
     throw UsageError("--curve is one of " + listed(all_names(kCurves)) + ", not " +
                      in_quotes(name) + did_you_mean(name, all_names(kCurves)));
@@ -272,7 +273,7 @@ int plan(const StudyOptions& options) {
         throw UsageError(
             "plan needs --pilot, the effect that is to be found, as "
             "prefer=CONDITION,share=0.7,spread=0.1 (see dibhr study --help)");
-    const Protocol protocol = read_protocol(protocol_called(options.file()), study_names(false));
+    const Protocol protocol = read_protocol(protocol_named(options.file()), allowed_names(false));
     PlanSettings settings = options.plan;
     settings.effect = simulated_participant(options.pilot);
     require_preferred(protocol, settings.effect);
@@ -343,7 +344,7 @@ void add_options(CLI::App& app, StudyOptions& options) {
         ->type_name("N");
     app.add_option_function<std::string>(
            "--curve",
-           [&options](const std::string& name) { options.analysis.curve = curve_called(name); },
+           [&options](const std::string& name) { options.analysis.curve = curve_named(name); },
            "Psychometric function of a report: " + listed(all_names(kCurves)))
         ->default_str("logistic")
         ->type_name("NAME");
@@ -377,7 +378,7 @@ int run_study(CLI::App& app, const Arguments& arguments, const PictureHook& afte
     if (!parse(app, arguments)) return 0;
     if (options.action == "report") return report(options);
     const std::vector<std::pair<std::string, int (*)(const StudyOptions&)>> of_one_file{
-        {"check", check}, {"plan", plan}, {"run", run}, {"sessions", take_sessions}};
+        {"check", check}, {"plan", plan}, {"run", run}, {"sessions", extract_sessions}};
     for (const auto& [name, act] : of_one_file) {
         if (options.action != name) continue;
         if (options.files.size() > 1)

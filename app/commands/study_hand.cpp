@@ -24,7 +24,7 @@ namespace {
 
 constexpr std::uint32_t kMedia = 1;
 
-void require_sample(const StudyInterval& interval) {
+void require_sample_media(const StudyInterval& interval) {
     const auto media = interval.values.words.find("media");
     if (media != interval.values.words.end() && media->second != kSampleMedia)
         throw InputError("the modelled hand explores the built-in sample, not the media " +
@@ -38,9 +38,9 @@ TouchParameters parameters_of(const TouchRequest& request) {
 }
 
 /// Runs and records ticks without waiting for a clock: one a millisecond.
-class HandTicking {
+class SimulatedHandLoop {
   public:
-    HandTicking(const std::filesystem::path& session, const SessionFacts& facts)
+    SimulatedHandLoop(const std::filesystem::path& session, const SessionFacts& facts)
         : recorder_(session, *ring_, facts) {
         const SampleFiles files = sample_files();
         recorder_.media(kMedia, files.colour, files.depth);
@@ -56,7 +56,7 @@ class HandTicking {
                               .touch = parameters,
                               .limits = {},
                               .bump = {request.given.bump_file()}});
-        if (version > 1) runner_.let_go();  // also without contact
+        if (version > 1) runner_.release_contact();  // also without contact
         std::shared_ptr<const BumpMap> bump = request.given.read_bumps();
         stretch(bump, clip.columns(), clip.rows(), parameters.shape.bump_size_px);
         const auto count = std::min(path.goals.size(), static_cast<std::size_t>(updates));
@@ -66,7 +66,7 @@ class HandTicking {
                                   .bump = bump.get(),
                                   .goal = path.goals[k],
                                   .safety = {.dt_s = kUpdate_s, .from_zero = k == 0},
-                                  .lets_go = k == 0 && version > 1};
+                                  .releases_contact = k == 0 && version > 1};
             const Touch& touch = runner_.run(input, {parameters, SafetyLimits{}});
             TickRecord row = runner_.record_of(input);
             row.tick = ++tick_;
@@ -119,15 +119,15 @@ void StudyHand::explore(const Trial& trial, const std::filesystem::path& session
                        {"device", "modelled hand"},
                        {"surface-version", std::to_string(kSurfaceVersion)}};
     facts.merge(library_versions());
-    HandTicking ticking(session, facts);
+    SimulatedHandLoop hand_loop(session, facts);
     for (const StudyInterval& interval : trial.intervals) {
-        require_sample(interval);
+        require_sample_media(interval);
         const Ground& ground = ground_of(interval);
         const TouchRequest request = request_of(interval.values);
-        ticking.explore(ground.sample.depth, ground.path, updates_, request,
-                        parameters_of(request));
+        hand_loop.explore(ground.sample.depth, ground.path, updates_, request,
+                          parameters_of(request));
     }
-    ticking.finish();
+    hand_loop.finish();
 }
 
 }  // namespace dibhr

@@ -11,7 +11,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/realtime/now.hpp"
 
 namespace dibhr {
@@ -30,7 +30,7 @@ void require_preferred(const Protocol& protocol, const SimulatedParticipant& who
                      did_you_mean(name, all_names(protocol.conditions)));
 }
 
-Pilot pilot_called(const std::string& text, const Protocol& protocol) {
+Pilot parse_pilot(const std::string& text, const Protocol& protocol) {
     Pilot pilot{.has_hand = text == kHand || text.starts_with(std::string(kHand) + ",")};
     const std::string answers =
         pilot.has_hand ? text.substr(std::min(kHand.size() + 1, text.size())) : text;
@@ -47,7 +47,7 @@ void run_pilot(StudyRun& run, StudyFile& file, const Pilot& pilot) {
         if (run.step() == StudyStep::question || run.step() == StudyStep::adjust) {
             const AnsweredTrial answered = run.judged(answer_of(pilot.answers, run), utc_now_s());
             std::filesystem::path session;
-            if (hand) hand->explore(run.trial(), session = file.fresh_session());
+            if (hand) hand->explore(run.trial(), session = file.new_session_file());
             file.add(answered, session);
             run.accept(answered);
             bar.show(run.share_done());

@@ -20,7 +20,7 @@ struct Pilot {
 
 /// Parses what simulated_participant() takes; "hand", which then guesses; or "hand," and such text.
 /// Throws InputError.
-[[nodiscard]] Pilot pilot_called(const std::string& text, const Protocol& protocol);
+[[nodiscard]] Pilot parse_pilot(const std::string& text, const Protocol& protocol);
 
 /// Runs the remaining trials. Throws InputError.
 void run_pilot(StudyRun& run, StudyFile& file, const Pilot& pilot);

@@ -9,7 +9,7 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/psychophysics/staircase.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study/study_run.hpp"
 
 namespace dibhr {
@@ -68,7 +68,7 @@ void print_summary(const Protocol& protocol) {
 }
 
 /// Equal conditions may be intended, to measure choices by chance.
-void tell_same_conditions(const Protocol& protocol) {
+void print_same_conditions(const Protocol& protocol) {
     const auto& all = protocol.conditions;
     for (auto one = all.begin(); one != all.end(); ++one) {
         const auto before = std::ranges::find(all.begin(), one, one->values, &Condition::values);
@@ -79,7 +79,7 @@ void tell_same_conditions(const Protocol& protocol) {
 }
 
 /// Blocks of yes and no without level 0, which would measure the guess rate.
-void tell_unknown_guesses(const Block& block) {
+void print_unknown_guess_rate(const Block& block) {
     const Variation& vary = block.variation;
     const bool has_nothing = std::ranges::find(vary.levels, 0.0) != vary.levels.end();
     if (block.form != TrialForm::explore || !vary.any() || has_nothing) return;
@@ -92,8 +92,8 @@ void tell_unknown_guesses(const Block& block) {
 
 void print_protocol(const Protocol& protocol) {
     print_summary(protocol);
-    tell_same_conditions(protocol);
-    for (const Block& block : protocol.blocks) tell_unknown_guesses(block);
+    print_same_conditions(protocol);
+    for (const Block& block : protocol.blocks) print_unknown_guess_rate(block);
     if (std::ranges::all_of(protocol.blocks, &Block::practice))
         std::cout << "all of it is practice: no answer will count\n";
 }

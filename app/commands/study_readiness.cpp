@@ -30,7 +30,7 @@ void print_devices(const AllDeviceSettings& chosen) {
     const auto kinds = force_device_kinds();
     bool any = false;
     for (std::size_t k = kinds.size(); k-- > 0;) {
-        const bool there = kinds[k]->glance(chosen[k], print_line);
+        const bool there = kinds[k]->print_attached(chosen[k], print_line);
         any = any || there;
     }
     if (any) return;
@@ -57,14 +57,14 @@ void print_stability(const Protocol& protocol, const ForceDeviceKind& kind,
     for (const Condition& condition : protocol.conditions) {
         TouchParameters parameters;
         request_of(condition.values).given.apply(parameters);
-        const double asked = parameters.coupling.stiffness_newton_per_mm;
+        const double requested = parameters.coupling.stiffness_newton_per_mm;
         const Coupling held = held_coupling(parameters.coupling, limits);
-        const double stood = held.stiffness_newton_per_mm;
-        if (stood < asked)
-            std::cout << condition.name << ": asks for " << number_text(asked) << " N/mm, "
-                      << kind.article << " can give " << number_text(stood) << '\n';
-        const Coupling felt = stable_coupling(held, stood, limits.dynamics);
-        const double margin = stability_margin(felt, limits.dynamics);
+        const double supported = held.stiffness_newton_per_mm;
+        if (supported < requested)
+            std::cout << condition.name << ": asks for " << number_text(requested) << " N/mm, "
+                      << kind.article << " can give " << number_text(supported) << '\n';
+        const Coupling effective = stable_coupling(held, supported, limits.dynamics);
+        const double margin = stability_margin(effective, limits.dynamics);
         if (margin >= least) continue;
         least = margin;
         of = condition.name;

@@ -77,19 +77,19 @@ std::string range_text(double lowest, double highest, const std::string& unit) {
     return short_text(lowest, kDigits) + " to " + short_text(highest, kDigits) + ' ' + unit;
 }
 
-std::string told(const FeltSurface& felt, SurfaceFormat format) {
-    const ElevationRange range = elevation_range(felt.surface);
-    const double pitch_mm = felt.pixel_pitch_mm;
-    std::string text = std::to_string(felt.surface.columns()) + " x " +
-                       std::to_string(felt.surface.rows()) + ", elevation " +
+std::string summary_text(const ExportedSurface& exported, SurfaceFormat format) {
+    const ElevationRange range = elevation_range(exported.surface);
+    const double pitch_mm = exported.pixel_pitch_mm;
+    std::string text = std::to_string(exported.surface.columns()) + " x " +
+                       std::to_string(exported.surface.rows()) + ", elevation " +
                        range_text(range.lowest_px, range.highest_px, "px") + ", " +
                        range_text(range.lowest_px * pitch_mm, range.highest_px * pitch_mm, "mm");
     if (format == SurfaceFormat::png)
-        text += ", white is " + short_text(felt.surface.ceiling()) + " px";
+        text += ", white is " + short_text(exported.surface.ceiling()) + " px";
     return text;
 }
 
-SurfaceFormat format_asked(const fs::path& out) {
+SurfaceFormat requested_format(const fs::path& out) {
     if (const auto format = surface_format_of(out)) return *format;
     throw UsageError("--out " + out.string() +
                      ": its ending says how the surface is written; give a name that ends in "
@@ -104,17 +104,18 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
     const DepthBlend blend = depth_at(frames, options.time_s);
-    const FeltSurface felt{blend.surface(parameters.shape, bump.get()),
-                           parameters.coupling.pixel_pitch_mm, blend.coloured().colour.get()};
+    const ExportedSurface exported{blend.surface(parameters.shape, bump.get()),
+                                   parameters.coupling.pixel_pitch_mm,
+                                   blend.colour_frame().colour.get()};
 
     const MediaDescription& media = reader.description();
     refuse_overwriting(options.out,
                        {media.colour_path, media.depth_path, options.touch.given.bump_file()},
                        "is also read by this command; give --out another name");
     OutputFile file(options.out);
-    write_surface(felt, format, file);
+    write_surface(exported, format, file);
     file.commit();
-    std::cout << one_line(options.out.string()) << ": " << told(felt, format) << '\n';
+    std::cout << one_line(options.out.string()) << ": " << summary_text(exported, format) << '\n';
 }
 
 }  // namespace
@@ -140,7 +141,7 @@ int run_surface(CLI::App& app, const Arguments& arguments) {
         "  dibhr surface color.mp4 depth.mp4 --time 2.5 --out hand.ply\n"
         "  dibhr surface depth.png --relief 60 --out plate.stl");
     if (!parse(app, arguments)) return 0;
-    const SurfaceFormat format = format_asked(options.out);
+    const SurfaceFormat format = requested_format(options.out);
     options.touch.given.apply(options.parameters);
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     write_felt_surface(options, format);

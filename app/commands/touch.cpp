@@ -17,7 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/tick_runner.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 #include "device/goal_stream.hpp"
 
 namespace dibhr {
@@ -62,12 +62,12 @@ class TouchRun {
     }
 
   private:
-    static DepthInTime opened(const TouchOptions& options, TouchParameters& parameters) {
+    static DepthTimeline opened(const TouchOptions& options, TouchParameters& parameters) {
         const DepthRequest request = options.touch.depth_request();
         auto media = options.colour.empty() ? open_depth(options.depth, request)
                                             : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
-        const MotionWanted motion = motion_wanted(
+        const MotionRequest motion = motion_request(
             parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
         if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
         options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
@@ -78,13 +78,13 @@ class TouchRun {
                           " asks for silhouettes at the colour's edges, but touch looks at no "
                           "colour without --color: its silhouettes are those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
-        using Wanted = DepthInTime::Wanted;
+        using Wanted = DepthTimeline::Wanted;
         return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
                 std::move(maps)};
     }
 
     TouchParameters parameters_;
-    DepthInTime depth_;
+    DepthTimeline depth_;
     std::shared_ptr<const BumpMap> bump_;
     TickRunner runner_{};
     std::optional<double> last_t_s_{};

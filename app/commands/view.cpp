@@ -19,10 +19,10 @@
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/folder.hpp"
-#include "app/viewer/told_log.hpp"
+#include "app/viewer/message_log.hpp"
 #include "app/viewer/viewer.hpp"
 #include "app/window/crash_handler.hpp"
-#include "app/window/ending.hpp"
+#include "app/window/shutdown_watchdog.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/session_player.hpp"
@@ -38,16 +38,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr double kLongestRun_s = 1e6;
-constexpr std::chrono::milliseconds kPatienceWithLog{50};
+constexpr std::chrono::milliseconds kLogTimeout{50};
 
 /// On stderr and in the log.
-void warn(const std::string& sentence, ToldLog& log) {
+void warn(const std::string& sentence, MessageLog& log) {
     print_warning(sentence);
-    log.keep("warning", sentence);
+    log.append("warning", sentence);
 }
 
 /// Renames an unreadable settings file, so that saving does not overwrite it. The message about it.
-std::string put_aside(const fs::path& file, const std::string& trouble) {
+std::string move_damaged_settings(const fs::path& file, const std::string& trouble) {
     const auto numbered = [&file](int number) {
         return file.string() + ".damaged" + (number > 1 ? "-" + std::to_string(number) : "");
     };
@@ -62,17 +62,17 @@ std::string put_aside(const fs::path& file, const std::string& trouble) {
 }
 
 /// With --stay the window opens even where the file cannot be read.
-Settings read_settings(const ViewOptions& options, ViewerParts& parts, ToldLog& log) try {
+Settings read_settings(const ViewOptions& options, ViewerParts& parts, MessageLog& log) try {
     std::vector<std::string> warnings;
     Settings settings = load_settings(options.settings_file, warnings);
     for (const std::string& warning : warnings) {
         print_error_line(warning);
-        log.keep("warning", warning);
+        log.append("warning", warning);
     }
     return settings;
 } catch (const InputError& error) {
     if (!options.stays) throw;
-    parts.damage = put_aside(options.settings_file, error.what());
+    parts.damage = move_damaged_settings(options.settings_file, error.what());
     warn(parts.damage, log);
     return {};
 }
@@ -141,7 +141,7 @@ bool gives_relief(const TouchRequest& touch) {
 void require_replay_options(const ViewOptions& options) {
     const TouchRequest& touch = options.touch;
     const bool wrong = !options.open.depth.empty() || !options.record.empty() ||
-                       touch.asks_for_another_surface() || touch.depth != DepthStatement{};
+                       touch.changes_surface() || touch.depth != DepthStatement{};
     if (!wrong) return;
     throw UsageError(options.open.colour.string() +
                      " is a session, which is replayed as it was recorded: leave out a depth file, "
@@ -178,7 +178,7 @@ void require_writable_outputs(const ViewOptions& options) {
                          " exists already: move it away or give --record another name");
 }
 
-void take_sample_for_nothing(OpenRequest& open) {
+void use_sample_without_file(OpenRequest& open) {
     if (!open.colour.empty()) return;
     const SampleFiles sample = sample_files();
     open.colour = sample.colour;
@@ -187,7 +187,7 @@ void take_sample_for_nothing(OpenRequest& open) {
 
 /// Applies damping, cleaning, relief and pitch of the command line. Raw depth has the paper's
 /// relief and pitch.
-void take_surface(const TouchRequest& touch, Settings& settings) {
+void apply_surface_options(const TouchRequest& touch, Settings& settings) {
     if (touch.given.gives_damping()) settings.damping_as_needed = false;
     if (touch.preset) settings.cleaning.preset = *touch.preset;
     if (touch.raw_depth) settings.cleaning.preset = CleaningPreset::raw;
@@ -206,14 +206,14 @@ void take_surface(const TouchRequest& touch, Settings& settings) {
 }
 
 /// The material of the command line, else that of the settings.
-Material chosen_material(const GivenParameters& given, Settings& settings, ToldLog& log) try {
+Material chosen_material(const GivenParameters& given, Settings& settings, MessageLog& log) try {
     if (!given.material && !given.bump.empty()) settings.material.clear();
     Material material;
     if (given.material) {
         material = *given.material;
         settings.material = material.name;
     } else if (!settings.material.empty()) {
-        material = material_called(settings.material);
+        material = material_named(settings.material);
         lay_texture(material, settings.touch);
     }
     return material;
@@ -223,8 +223,8 @@ Material chosen_material(const GivenParameters& given, Settings& settings, ToldL
     return {};
 }
 
-void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& settings,
-                     ToldLog& log) {
+void apply_touch_options(const TouchRequest& touch, ViewerParts& parts, Settings& settings,
+                         MessageLog& log) {
     parts.material = chosen_material(touch.given, settings, log);
     parts.bump_file = parts.material.map;
     parts.bump = parts.material.bumps;
@@ -237,12 +237,13 @@ void take_parameters(const TouchRequest& touch, ViewerParts& parts, Settings& se
 
 /// A live source may open slowly: a background task opens it, so that the program can end. Null: a
 /// request to end came.
-std::unique_ptr<Media> opened(const OpenRequest& open, Errands& errands, const Ending& ending) {
+std::unique_ptr<Media> opened(const OpenRequest& open, TaskGroup& tasks,
+                              const ShutdownWatchdog& shutdown) {
     if (!is_live(open.colour) && !is_live(open.depth)) return open_request(open);
     constexpr std::chrono::milliseconds kPause{20};
-    Errand<std::unique_ptr<Media>> opening(errands);
+    BackgroundTask<std::unique_ptr<Media>> opening(tasks);
     opening.start([open] { return open_request(open); });
-    while (!ending.asked()) {
+    while (!shutdown.requested()) {
         opening.wait_until(std::chrono::steady_clock::now() + kPause);
         if (auto media = opening.take()) return std::move(*media);
     }
@@ -250,14 +251,14 @@ std::unique_ptr<Media> opened(const OpenRequest& open, Errands& errands, const E
 }
 
 /// False: it was asked to end meanwhile.
-bool open_files(const ViewOptions& options, ViewerParts& parts, Errands& errands,
-                const Ending& ending, ToldLog& log) {
-    if (names_session(options.open.colour)) {
+bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks,
+                const ShutdownWatchdog& shutdown, MessageLog& log) {
+    if (is_session_file(options.open.colour)) {
         parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
         warn(parts.session->session.warning(), log);
         warn(parts.session->frames.warning(), log);
     } else {
-        parts.media = opened(options.open, errands, ending);
+        parts.media = opened(options.open, tasks, shutdown);
         if (!parts.media) return false;
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
@@ -269,10 +270,10 @@ bool open_files(const ViewOptions& options, ViewerParts& parts, Errands& errands
 }
 
 /// False: it was asked to end meanwhile.
-bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands,
-                const Ending& ending, ToldLog& log) {
+bool open_parts(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks,
+                const ShutdownWatchdog& shutdown, MessageLog& log) {
     try {
-        if (!open_files(options, parts, errands, ending, log)) return false;
+        if (!open_files(options, parts, tasks, shutdown, log)) return false;
     } catch (const InputError& error) {
         // Without a file on the command line the window opens, and can open one.
         if (!options.stays && !options.open.colour.empty()) throw;
@@ -286,11 +287,11 @@ bool open_parts(const ViewOptions& options, ViewerParts& parts, Errands& errands
 
 /// Waits for background tasks. False: one still waits for a disk or opens a large file. After a
 /// signal the wait is shorter than Ending's timeout.
-bool come_home(const Errands& errands, Ending& ending) {
-    constexpr std::chrono::milliseconds kPatience{500};
-    constexpr std::chrono::milliseconds kPatienceAtSignal{100};
-    ending.words().doing("waiting for a file");
-    return errands.come_home(ending.asked() ? kPatienceAtSignal : kPatience);
+bool wait_all(const TaskGroup& tasks, ShutdownWatchdog& shutdown) {
+    constexpr std::chrono::milliseconds kTimeout{500};
+    constexpr std::chrono::milliseconds kTimeoutAtSignal{100};
+    shutdown.crash_note().set_activity("waiting for a file");
+    return tasks.wait_all(shutdown.requested() ? kTimeoutAtSignal : kTimeout);
 }
 
 void add_file_options(CLI::App& app, ViewOptions& options) {
@@ -328,7 +329,7 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
            "--screenshot-name",
            [give = given.of(&Settings::screenshot_name)](const std::string& text) {
                const NamePattern pattern{text};
-               const std::string lacking = lacking_of(pattern);
+               const std::string lacking = problem_of(pattern);
                if (!lacking.empty())
                    throw CLI::ValidationError("--screenshot-name", in_quotes(text) + " " + lacking);
                give(pattern);
@@ -404,42 +405,43 @@ void check_options(ViewOptions& options) {
     if (colour.find_first_of("./") == std::string::npos && !colour.empty() &&
         !fs::exists(colour, unknown) && !is_live(colour)) {
         throw UsageError("neither a command nor a file is called '" + colour + "'" +
-                         meant_command(colour) + " (see dibhr --help)");
+                         command_suggestion(colour) + " (see dibhr --help)");
     }
     if (options.end_s && *options.end_s <= options.open.at_s)
         throw UsageError("--end " + short_text(*options.end_s) + " is not after --start " +
                          short_text(options.open.at_s) + ": give a later one");
     if (!options.clip.empty() && options.end_s && !options.looping) options.looping = false;
-    if (names_session(options.open.colour)) require_replay_options(options);
+    if (is_session_file(options.open.colour)) require_replay_options(options);
 }
 
 /// The settings of the file, replaced by those of the command line.
-void take_settings(ViewCommand& command, ViewerParts& parts, ToldLog& log) {
+void combine_settings(ViewCommand& command, ViewerParts& parts, MessageLog& log) {
     ViewOptions& options = command.options;
     options.in_file = options.settings = read_settings(options, parts, log);
     Settings& settings = options.settings;
-    if (moves_hand(options.device)) options.doubts = Consent().hold(settings);
-    warn(in_words(options.doubts, options.settings_file), log);
-    take_parameters(options.touch, parts, settings, log);
+    if (moves_hand(options.device)) options.unsafe_settings = Consent().replace_unsafe(settings);
+    warn(warning_text(options.unsafe_settings, options.settings_file), log);
+    apply_touch_options(options.touch, parts, settings, log);
     command.settings.apply(settings);
     options.size_given = command.size.has_value();
     if (command.size) std::tie(settings.width, settings.height) = *command.size;
-    take_surface(options.touch, settings);
-    drop_changed(options.doubts, settings);  // by the command line
+    apply_surface_options(options.touch, settings);
+    drop_changed(options.unsafe_settings, settings);  // by the command line
 }
 
 /// Opens the named files, and runs the window until it is closed.
-void run_window(ViewCommand& command, Ending& ending, Errands& errands, ToldLog& log) {
+void run_window(ViewCommand& command, ShutdownWatchdog& shutdown, TaskGroup& tasks,
+                MessageLog& log) {
     ViewOptions& options = command.options;
     ViewerParts parts;
-    take_settings(command, parts, log);
+    combine_settings(command, parts, log);
     options.open.request = options.touch.depth_request();
     require_writable_outputs(options);
-    ending.words().doing("opening the files");
-    if (!names_session(options.open.colour)) take_sample_for_nothing(options.open);
-    if (!open_parts(options, parts, errands, ending, log)) return;
-    ending.words().doing("opening the window");
-    Viewer viewer(options, std::move(parts), ending, errands, log);
+    shutdown.crash_note().set_activity("opening the files");
+    if (!is_session_file(options.open.colour)) use_sample_without_file(options.open);
+    if (!open_parts(options, parts, tasks, shutdown, log)) return;
+    shutdown.crash_note().set_activity("opening the window");
+    Viewer viewer(options, std::move(parts), shutdown, tasks, log);
     viewer.run();
 }
 
@@ -453,26 +455,26 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
     if (!parse(app, arguments)) return 0;
     options.start_given = app.get_option("--start")->count() > 0;
     check_options(options);
-    LastWords words;
-    const CrashHandler crash(words, &Guardian::alarm);
-    Ending ending(words);
+    CrashNote crash_note;
+    const CrashHandler crash(crash_note, &Guardian::alarm);
+    ShutdownWatchdog shutdown(crash_note);
     options.settings_file = whole_path(options.settings_file);
-    Errands errands;
-    ToldLog log(command.log_file.empty() ? fs::path() : whole_path(command.log_file), errands);
-    log.keep("begin", std::string("dibhr ") + DIBHR_VERSION);
+    TaskGroup tasks;
+    MessageLog log(command.log_file.empty() ? fs::path() : whole_path(command.log_file), tasks);
+    log.append("begin", std::string("dibhr ") + DIBHR_VERSION);
     try {
-        run_window(command, ending, errands, log);
+        run_window(command, shutdown, tasks, log);
     } catch (const Error& error) {
-        log.keep("error", error.what());
-        log.finish(kPatienceWithLog);
-        if (come_home(errands, ending)) throw;
+        log.append("error", error.what());
+        log.finish(kLogTimeout);
+        if (wait_all(tasks, shutdown)) throw;
         print_error_line(error.what());
         _exit(EXIT_FAILURE);
     }
-    log.finish(kPatienceWithLog);
+    log.finish(kLogTimeout);
     // No destructor and no exit() handler: they would free what a background task still uses. All
     // files are saved, and the device is closed.
-    if (!come_home(errands, ending)) _exit(EXIT_SUCCESS);
+    if (!wait_all(tasks, shutdown)) _exit(EXIT_SUCCESS);
     return 0;
 }
 

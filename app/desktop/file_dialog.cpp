@@ -28,10 +28,11 @@ bool has_desktop() {
     return has_session_bus() && !from_afar;
 }
 
-FileAnswer ask_desktop(const FileQuestion& question, const CallOff& off) {
+FileAnswer ask_desktop(const FileQuestion& question, const Cancellation& cancellation) {
     FileAnswer answer;
-    if (has_desktop()) answer = ask_portal(question, off);
-    if (answer.of == FileAnswer::Of::nobody) answer = ask_helper(question, off);
+    if (has_desktop()) answer = ask_portal(question, cancellation);
+    if (answer.outcome == FileAnswer::Outcome::unavailable)
+        answer = ask_helper(question, cancellation);
     return answer;
 }
 

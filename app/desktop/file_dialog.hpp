@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/desktop/call_off.hpp"
+#include "app/desktop/cancellation.hpp"
 
 namespace dibhr {
 
@@ -25,41 +25,42 @@ struct FileQuestion {
 };
 
 struct FileAnswer {
-    enum class Of {
-        nobody,     ///< no such dialog, or it was lost or did not answer
-        cancelled,  ///< by the person, or by CallOff
+    enum class Outcome {
+        unavailable,  ///< no such dialog, or it was lost or did not answer
+        cancelled,    ///< by the person, or by Cancellation
         chosen
     };
-    Of of{Of::nobody};
+    Outcome outcome{Outcome::unavailable};
     std::vector<std::filesystem::path> files{};  ///< chosen, at least one; absolute
 };
 
 /// How long to wait for the desktop.
-struct DialogTimes {
+struct DialogTimeouts {
     std::chrono::milliseconds bus{2000};     ///< the session bus, to take the connection
     std::chrono::milliseconds portal{2000};  ///< the portal, to accept the request
     /// No person answers more quickly: a quicker answer is the desktop's refusal.
-    std::chrono::milliseconds quickest_person{300};
+    std::chrono::milliseconds shortest_human_reply{300};
 };
 
 /// Whether there is a desktop: a session bus that belongs to the window's screen. Checks the
 /// environment only.
 [[nodiscard]] bool has_desktop();
 
-/// Waits for the person or for call_off(), so call it on a thread that may wait. Uses the portal,
+/// Waits for the person or for cancel(), so call it on a thread that may wait. Uses the portal,
 /// or else a helper program.
-[[nodiscard]] FileAnswer ask_desktop(const FileQuestion& question, const CallOff& off);
+[[nodiscard]] FileAnswer ask_desktop(const FileQuestion& question,
+                                     const Cancellation& cancellation);
 
 // The two ways of ask_desktop().
 
 /// org.freedesktop.portal.FileChooser on the session bus. Of::nobody within a few seconds if there
-/// is no portal, or it does not reply or refuses; later, if it is lost. call_off() closes the
+/// is no portal, or it does not reply or refuses; later, if it is lost. cancel() closes the
 /// dialog.
-[[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const CallOff& off,
-                                    const DialogTimes& times = {});
+[[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const Cancellation& cancellation,
+                                    const DialogTimeouts& timeouts = {});
 
-/// kdialog on KDE, zenity or qarma elsewhere, found on PATH. call_off() ends the program.
-[[nodiscard]] FileAnswer ask_helper(const FileQuestion& question, const CallOff& off,
-                                    const DialogTimes& times = {});
+/// kdialog on KDE, zenity or qarma elsewhere, found on PATH. cancel() ends the program.
+[[nodiscard]] FileAnswer ask_helper(const FileQuestion& question, const Cancellation& cancellation,
+                                    const DialogTimeouts& timeouts = {});
 
 }  // namespace dibhr

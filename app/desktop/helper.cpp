@@ -24,20 +24,20 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPoliteTime = std::chrono::milliseconds(50);  // after SIGTERM
-constexpr int kLook_ms = 5;
+constexpr auto kTerminateTimeout = std::chrono::milliseconds(50);  // after SIGTERM
+constexpr int kPollInterval_ms = 5;
 
 /// Also for qarma, which takes the same options.
 std::vector<std::string> zenity(const std::string& name, const FileQuestion& question) {
-    std::vector<std::string> words{name,
-                                   "--file-selection",
-                                   "--multiple",
-                                   "--separator=\n",
-                                   "--title=" + question.title,
-                                   "--filename=" + question.folder.string() + "/"};
+    std::vector<std::string> command{name,
+                                     "--file-selection",
+                                     "--multiple",
+                                     "--separator=\n",
+                                     "--title=" + question.title,
+                                     "--filename=" + question.folder.string() + "/"};
     for (const FileFilter& filter : question.filters)
-        words.push_back("--file-filter=" + filter.name + " | " + listed(filter.patterns, " "));
-    return words;
+        command.push_back("--file-filter=" + filter.name + " | " + listed(filter.patterns, " "));
+    return command;
 }
 
 std::vector<std::string> kdialog(const FileQuestion& question) {
@@ -46,14 +46,14 @@ std::vector<std::string> kdialog(const FileQuestion& question) {
         if (!filters.empty()) filters += '\n';
         filters += filter.name + " (" + listed(filter.patterns, " ") + ")";
     }
-    std::vector<std::string> words{"kdialog", "--title", question.title, "--multiple",
-                                   "--separate-output"};
+    std::vector<std::string> command{"kdialog", "--title", question.title, "--multiple",
+                                     "--separate-output"};
     if (question.x11_window != 0) {
-        words.emplace_back("--attach");
-        words.push_back(std::to_string(question.x11_window));
+        command.emplace_back("--attach");
+        command.push_back(std::to_string(question.x11_window));
     }
-    words.insert(words.end(), {"--getopenfilename", question.folder.string(), filters});
-    return words;
+    command.insert(command.end(), {"--getopenfilename", question.folder.string(), filters});
+    return command;
 }
 
 /// The desktop's own helper first.
@@ -80,31 +80,31 @@ std::vector<std::filesystem::path> paths_in(std::string printed) {
 }
 
 /// A running helper program, ended at the latest by the destructor.
-class Asking {
+class HelperProcess {
   public:
-    explicit Asking(std::vector<std::string> words) {
+    explicit HelperProcess(std::vector<std::string> command) {
         std::array<int, 2> ends{};
         if (::pipe2(ends.data(), O_CLOEXEC) != 0) return;
-        child_ = start_program(std::move(words), {.output = ends[1]});
+        child_ = start_program(std::move(command), {.output = ends[1]});
         ::close(ends[1]);
         printed_end_ = ends[0];
     }
-    ~Asking() {
+    ~HelperProcess() {
         if (printed_end_ >= 0) ::close(printed_end_);
         end();
     }
-    Asking(const Asking&) = delete;
-    Asking& operator=(const Asking&) = delete;
+    HelperProcess(const HelperProcess&) = delete;
+    HelperProcess& operator=(const HelperProcess&) = delete;
 
     [[nodiscard]] bool started() const { return child_ != 0; }
 
     /// Reads all its output; false: called off.
-    [[nodiscard]] bool read_all(const CallOff& off, std::string& printed) const {
+    [[nodiscard]] bool read_all(const Cancellation& cancellation, std::string& printed) const {
         std::array<pollfd, 2> events{pollfd{printed_end_, POLLIN, 0},
-                                     pollfd{off.descriptor(), POLLIN, 0}};
+                                     pollfd{cancellation.descriptor(), POLLIN, 0}};
         while (true) {
             if (::poll(events.data(), events.size(), -1) < 0 && errno == EINTR) continue;
-            if (off.called_off()) return false;
+            if (cancellation.is_cancelled()) return false;
             std::array<char, 4096> piece{};
             const ssize_t count = ::read(printed_end_, piece.data(), piece.size());
             if (count == 0) return true;
@@ -113,11 +113,11 @@ class Asking {
     }
 
     /// The status from waitpid(), when the helper has ended; nothing: called off.
-    [[nodiscard]] std::optional<int> status(const CallOff& off) {
-        while (!off.called_off()) {
+    [[nodiscard]] std::optional<int> status(const Cancellation& cancellation) {
+        while (!cancellation.is_cancelled()) {
             if (const auto ended = take_status()) return ended;
-            pollfd event{off.descriptor(), POLLIN, 0};
-            ::poll(&event, 1, kLook_ms);
+            pollfd event{cancellation.descriptor(), POLLIN, 0};
+            ::poll(&event, 1, kPollInterval_ms);
         }
         return std::nullopt;
     }
@@ -134,10 +134,10 @@ class Asking {
     void end() {
         if (child_ == 0) return;
         ::kill(-child_, SIGTERM);
-        const auto latest = Clock::now() + kPoliteTime;
+        const auto latest = Clock::now() + kTerminateTimeout;
         while (Clock::now() < latest) {
             if (take_status()) return;
-            ::poll(nullptr, 0, kLook_ms);
+            ::poll(nullptr, 0, kPollInterval_ms);
         }
         ::kill(-child_, SIGKILL);
         int status = 0;
@@ -149,31 +149,32 @@ class Asking {
     int printed_end_{-1};
 };
 
-FileAnswer ask_one(const std::vector<std::string>& words, const CallOff& off,
-                   const DialogTimes& times) {
+FileAnswer ask_one(const std::vector<std::string>& command, const Cancellation& cancellation,
+                   const DialogTimeouts& timeouts) {
     const auto begin = Clock::now();
-    Asking helper(words);
+    HelperProcess helper(command);
     if (!helper.started()) return {};
     std::string printed;
-    if (!helper.read_all(off, printed)) return {FileAnswer::Of::cancelled};
-    const auto status = helper.status(off);
-    if (!status) return {FileAnswer::Of::cancelled};
+    if (!helper.read_all(cancellation, printed)) return {FileAnswer::Outcome::cancelled};
+    const auto status = helper.status(cancellation);
+    if (!status) return {FileAnswer::Outcome::cancelled};
     if (!WIFEXITED(*status)) return {};
     if (WEXITSTATUS(*status) != 0) {  // 1: cancelled, or the helper cannot open the display
-        const bool person = Clock::now() - begin >= times.quickest_person;
-        return {person ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
+        const bool person = Clock::now() - begin >= timeouts.shortest_human_reply;
+        return {person ? FileAnswer::Outcome::cancelled : FileAnswer::Outcome::unavailable};
     }
-    FileAnswer answer{FileAnswer::Of::chosen, paths_in(printed)};
-    if (answer.files.empty()) answer.of = FileAnswer::Of::cancelled;
+    FileAnswer answer{FileAnswer::Outcome::chosen, paths_in(printed)};
+    if (answer.files.empty()) answer.outcome = FileAnswer::Outcome::cancelled;
     return answer;
 }
 
 }  // namespace
 
-FileAnswer ask_helper(const FileQuestion& question, const CallOff& off, const DialogTimes& times) {
-    for (const std::vector<std::string>& words : helpers_for(question)) {
-        FileAnswer answer = ask_one(words, off, times);
-        if (answer.of != FileAnswer::Of::nobody) return answer;
+FileAnswer ask_helper(const FileQuestion& question, const Cancellation& cancellation,
+                      const DialogTimeouts& timeouts) {
+    for (const std::vector<std::string>& command : helpers_for(question)) {
+        FileAnswer answer = ask_one(command, cancellation, timeouts);
+        if (answer.outcome != FileAnswer::Outcome::unavailable) return answer;
     }
     return {};
 }

@@ -28,18 +28,18 @@ constexpr const char* kPortalPath = "/org/freedesktop/portal/desktop";
 constexpr const char* kChooser = "org.freedesktop.portal.FileChooser";
 constexpr const char* kRequest = "org.freedesktop.portal.Request";
 constexpr const char* kToken = "dibhr";  // the same for all: each has its own connection
-constexpr const char* kPortalGone =
+constexpr const char* kPortalLost =
     "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged',"
     "arg0='org.freedesktop.portal.Desktop',arg2=''";
 
-struct LeaveBus {
+struct CloseBus {
     void operator()(sd_bus* bus) const { sd_bus_close_unref(bus); }
 };
-struct LeaveMessage {
+struct UnrefMessage {
     void operator()(sd_bus_message* message) const { sd_bus_message_unref(message); }
 };
-using Bus = std::unique_ptr<sd_bus, LeaveBus>;
-using Message = std::unique_ptr<sd_bus_message, LeaveMessage>;
+using Bus = std::unique_ptr<sd_bus, CloseBus>;
+using Message = std::unique_ptr<sd_bus_message, UnrefMessage>;
 
 /// From now on, at least 0.
 int milliseconds_to(SteadyClock::time_point time) {
@@ -47,11 +47,11 @@ int milliseconds_to(SteadyClock::time_point time) {
     return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 1'000'000));
 }
 
-/// Waits until the bus has something to do, the deadline, or call_off().
-void wait_for_bus(sd_bus* bus, const CallOff& off, const Deadline& latest) {
+/// Waits until the bus has something to do, the deadline, or cancel().
+void wait_for_bus(sd_bus* bus, const Cancellation& cancellation, const Deadline& latest) {
     const auto events = static_cast<short>(sd_bus_get_events(bus));
     std::array<pollfd, 2> waited{pollfd{sd_bus_get_fd(bus), events, 0},
-                                 pollfd{off.descriptor(), POLLIN, 0}};
+                                 pollfd{cancellation.descriptor(), POLLIN, 0}};
     int wait_ms = latest ? milliseconds_to(*latest) : -1;
     std::uint64_t due_us = UINT64_MAX;  // of the monotonic clock, as that of the deadline
     if (sd_bus_get_timeout(bus, &due_us) >= 0 && due_us != UINT64_MAX) {
@@ -64,13 +64,14 @@ void wait_for_bus(sd_bus* bus, const CallOff& off, const Deadline& latest) {
 
 /// Runs the bus until `done`; false: deadline passed, bus lost, or called off.
 template <typename Done>
-bool run_until(sd_bus* bus, const CallOff& off, const Deadline& latest, const Done& done) {
+bool run_until(sd_bus* bus, const Cancellation& cancellation, const Deadline& latest,
+               const Done& done) {
     while (!done()) {
         const int worked = sd_bus_process(bus, nullptr);
-        if (worked < 0 || off.called_off()) return false;
+        if (worked < 0 || cancellation.is_cancelled()) return false;
         if (worked > 0) continue;
         if (latest && SteadyClock::now() >= *latest) return false;
-        wait_for_bus(bus, off, latest);
+        wait_for_bus(bus, cancellation, latest);
     }
     return true;
 }
@@ -85,14 +86,15 @@ std::filesystem::path path_of(const std::string& address) {
 }
 
 /// The state of one request to the portal; its static members are the bus's callbacks.
-struct PortalQuestion {
-    std::string request{};                                               ///< the path of its object
-    bool accepted{false}, refused{false}, answered{false}, gone{false};  ///< gone: the portal
+struct PortalRequest {
+    std::string request{};  ///< the path of its object
+    bool accepted{false}, refused{false}, answered{false},
+        portal_lost{false};     ///< gone: the portal
     std::uint32_t response{0};  ///< 0: chosen, 1: cancelled, 2: ended in another way
     std::vector<std::filesystem::path> files{};
 
     static int on_reply(sd_bus_message* reply, void* self, sd_bus_error* /*error*/) {
-        auto& question = *static_cast<PortalQuestion*>(self);
+        auto& question = *static_cast<PortalRequest*>(self);
         const char* path = nullptr;
         question.accepted = sd_bus_message_is_method_error(reply, nullptr) == 0 &&
                             sd_bus_message_read(reply, "o", &path) > 0;
@@ -103,8 +105,8 @@ struct PortalQuestion {
         return 0;
     }
 
-    static int on_gone(sd_bus_message* /*signal*/, void* self, sd_bus_error* /*error*/) {
-        static_cast<PortalQuestion*>(self)->gone = true;
+    static int on_portal_lost(sd_bus_message* /*signal*/, void* self, sd_bus_error* /*error*/) {
+        static_cast<PortalRequest*>(self)->portal_lost = true;
         return 0;
     }
 
@@ -115,7 +117,7 @@ struct PortalQuestion {
     }
 
     static int on_response(sd_bus_message* signal, void* self, sd_bus_error* /*error*/) {
-        auto& question = *static_cast<PortalQuestion*>(self);
+        auto& question = *static_cast<PortalRequest*>(self);
         question.answered = true;
         if (sd_bus_message_read(signal, "u", &question.response) < 0) question.response = 2;
         question.read_files(signal);
@@ -209,7 +211,7 @@ std::string parent_of(const FileQuestion& question) {
 
 /// Sends the call; on_reply() gets its reply, or an error after `patience`.
 bool send_question(sd_bus* bus, const FileQuestion& question, std::chrono::microseconds patience,
-                   PortalQuestion& asked) {
+                   PortalRequest& portal_request) {
     sd_bus_message* made = nullptr;
     if (sd_bus_message_new_method_call(bus, &made, kPortal, kPortalPath, kChooser, "OpenFile") < 0)
         return false;
@@ -217,15 +219,16 @@ bool send_question(sd_bus* bus, const FileQuestion& question, std::chrono::micro
     int failed =
         sd_bus_message_append(made, "ss", parent_of(question).c_str(), question.title.c_str());
     failed = std::min(failed, append_options(made, question));
-    return failed >= 0 && sd_bus_call_async(bus, nullptr, made, &PortalQuestion::on_reply, &asked,
-                                            static_cast<std::uint64_t>(patience.count())) >= 0;
+    return failed >= 0 &&
+           sd_bus_call_async(bus, nullptr, made, &PortalRequest::on_reply, &portal_request,
+                             static_cast<std::uint64_t>(patience.count())) >= 0;
 }
 
 /// Also if the portal has not replied: it may only be slow.
-void close_request(sd_bus* bus, const PortalQuestion& asked) {
+void close_request(sd_bus* bus, const PortalRequest& portal_request) {
     sd_bus_message* made = nullptr;
-    if (sd_bus_message_new_method_call(bus, &made, kPortal, asked.request.c_str(), kRequest,
-                                       "Close") < 0)
+    if (sd_bus_message_new_method_call(bus, &made, kPortal, portal_request.request.c_str(),
+                                       kRequest, "Close") < 0)
         return;
     const Message call(made);
     sd_bus_message_set_expect_reply(made, 0);
@@ -233,41 +236,50 @@ void close_request(sd_bus* bus, const PortalQuestion& asked) {
     if (sd_bus_send(bus, made, nullptr) >= 0) sd_bus_flush(bus);
 }
 
-FileAnswer answer_of(PortalQuestion& asked, bool at_once) {
-    if (asked.response == 0 && !asked.files.empty())
-        return {FileAnswer::Of::chosen, std::move(asked.files)};
+FileAnswer answer_of(PortalRequest& portal_request, bool at_once) {
+    if (portal_request.response == 0 && !portal_request.files.empty())
+        return {FileAnswer::Outcome::chosen, std::move(portal_request.files)};
     // A dialog that a person closes may also end "in another way".
-    const bool refused = asked.response != 1 && at_once;
-    return {refused ? FileAnswer::Of::nobody : FileAnswer::Of::cancelled};
+    const bool refused = portal_request.response != 1 && at_once;
+    return {refused ? FileAnswer::Outcome::unavailable : FileAnswer::Outcome::cancelled};
 }
 
 /// Sends the request and waits for the person. False: there is no answer.
-bool hear_answer(sd_bus* bus, const FileQuestion& question, const CallOff& off,
-                 const DialogTimes& times, PortalQuestion& asked) {
+bool wait_for_answer(sd_bus* bus, const FileQuestion& question, const Cancellation& cancellation,
+                     const DialogTimeouts& timeouts, PortalRequest& portal_request) {
     const auto ready = [bus] { return sd_bus_is_ready(bus) > 0; };
-    if (!run_until(bus, off, SteadyClock::now() + times.bus, ready)) return false;
-    asked.request = expected_request(bus);
-    const bool sent = sd_bus_add_match_async(bus, nullptr, kPortalGone, &PortalQuestion::on_gone,
-                                             nullptr, &asked) >= 0 &&
-                      asked.listen(bus) && send_question(bus, question, times.portal, asked);
-    const auto replied = [&asked] { return asked.accepted || asked.refused || asked.answered; };
-    const auto ended = [&asked] { return asked.answered || asked.refused || asked.gone; };
-    return sent && run_until(bus, off, SteadyClock::now() + times.portal, replied) &&
-           run_until(bus, off, {}, ended) && asked.answered;
+    if (!run_until(bus, cancellation, SteadyClock::now() + timeouts.bus, ready)) return false;
+    portal_request.request = expected_request(bus);
+    const bool sent =
+        sd_bus_add_match_async(bus, nullptr, kPortalLost, &PortalRequest::on_portal_lost, nullptr,
+                               &portal_request) >= 0 &&
+        portal_request.listen(bus) && send_question(bus, question, timeouts.portal, portal_request);
+    const auto replied = [&portal_request] {
+        return portal_request.accepted || portal_request.refused || portal_request.answered;
+    };
+    const auto ended = [&portal_request] {
+        return portal_request.answered || portal_request.refused || portal_request.portal_lost;
+    };
+    return sent && run_until(bus, cancellation, SteadyClock::now() + timeouts.portal, replied) &&
+           run_until(bus, cancellation, {}, ended) && portal_request.answered;
 }
 
 }  // namespace
 
-FileAnswer ask_portal(const FileQuestion& question, const CallOff& off, const DialogTimes& times) {
+FileAnswer ask_portal(const FileQuestion& question, const Cancellation& cancellation,
+                      const DialogTimeouts& timeouts) {
     sd_bus* opened = nullptr;
     if (sd_bus_open_user(&opened) < 0) return {};
     const Bus bus(opened);
     const auto begin = SteadyClock::now();
-    PortalQuestion asked;
-    if (hear_answer(bus.get(), question, off, times, asked))
-        return answer_of(asked, SteadyClock::now() - begin < times.quickest_person);
-    if (!asked.request.empty() && !asked.gone) close_request(bus.get(), asked);
-    return {off.called_off() ? FileAnswer::Of::cancelled : FileAnswer::Of::nobody};
+    PortalRequest portal_request;
+    if (wait_for_answer(bus.get(), question, cancellation, timeouts, portal_request))
+        return answer_of(portal_request,
+                         SteadyClock::now() - begin < timeouts.shortest_human_reply);
+    if (!portal_request.request.empty() && !portal_request.portal_lost)
+        close_request(bus.get(), portal_request);
+    return {cancellation.is_cancelled() ? FileAnswer::Outcome::cancelled
+                                        : FileAnswer::Outcome::unavailable};
 }
 
 }  // namespace dibhr

@@ -23,10 +23,10 @@ void add_output(posix_spawn_file_actions_t& files, int from, int stream) {
 
 }  // namespace
 
-pid_t start_program(std::vector<std::string> words, const ProgramOutput& printed) {
+pid_t start_program(std::vector<std::string> command, const ProgramOutput& printed) {
     std::vector<char*> arguments;
-    arguments.reserve(words.size() + 1);
-    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.reserve(command.size() + 1);
+    for (std::string& word : command) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;
     ::posix_spawn_file_actions_init(&files);

@@ -16,6 +16,6 @@ struct ProgramOutput {
 
 /// Starts a program, found on PATH, in a process group of its own, with an empty stdin. 0: it could
 /// not be started.
-[[nodiscard]] pid_t start_program(std::vector<std::string> words, const ProgramOutput& printed);
+[[nodiscard]] pid_t start_program(std::vector<std::string> command, const ProgramOutput& printed);
 
 }  // namespace dibhr

@@ -18,7 +18,7 @@
 namespace dibhr {
 
 /// Commands on the offer to make depth for a video of colour alone.
-enum class DepthWish { make, agree, cancel, open, close };
+enum class DepthOfferCommand { make, agree, cancel, open, close };
 
 /// A text entered in the Open dialog, to be resolved.
 struct TypedFile {
@@ -31,7 +31,7 @@ struct LoadBump {
     std::filesystem::path file{};  ///< empty: no bump map
 };
 struct UseMaterial {
-    std::string name{};  ///< as material_called() takes it
+    std::string name{};  ///< as material_named() takes it
 };
 struct KeepMaterial {
     std::string name{};  ///< for the current material
@@ -39,7 +39,7 @@ struct KeepMaterial {
 struct UseFirmware {
     std::filesystem::path file{};
 };
-struct AnswerDoubts {
+struct AnswerUnsafeSettings {
     bool agreed{false};  ///< to UiState::doubts
 };
 struct RemovePaint {};
@@ -61,9 +61,10 @@ struct MakeReport {
 /// An Action does the same as its key, and also the work that a key defers until after the picture.
 /// A DepthStatement is a person's statement on the open depth.
 using WindowCommand =
-    std::variant<Action, OpenRequest, DepthStatement, DepthWish, TypedFile, SaveSidecar, LoadBump,
-                 UseMaterial, KeepMaterial, UseFirmware, AnswerDoubts, RemovePaint, MarkMoment,
-                 ReplayAsRecorded, LeaveReplay, ReadFolder, CompleteTyped, MakeReport>;
+    std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
+                 LoadBump, UseMaterial, KeepMaterial, UseFirmware, AnswerUnsafeSettings,
+                 RemovePaint, MarkMoment, ReplayAsRecorded, LeaveReplay, ReadFolder, CompleteTyped,
+                 MakeReport>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

@@ -18,8 +18,8 @@ constexpr double kMostShift_px = 10'000.0;
 constexpr double kMostScale = 10.0;
 
 /// Pushes the statement as a command, if it differs from the panel's current one.
-void say(const DepthStatement& said, ViewerState& state) {
-    if (!(said == state.media.opened.request.panel)) state.commands.push(said);
+void push_statement(const DepthStatement& statement, ViewerState& state) {
+    if (!(statement == state.media.opened.request.panel)) state.commands.push(statement);
 }
 
 std::string with_origin(const std::string& text, Origin origin) {
@@ -28,15 +28,16 @@ std::string with_origin(const std::string& text, Origin origin) {
 
 /// Whether the command line states it: then the panel's row is read-only.
 template <typename Fact>
-bool is_given(std::optional<Fact> DepthStatement::*fact, const ViewerState& state) {
+bool is_from_command_line(std::optional<Fact> DepthStatement::*fact, const ViewerState& state) {
     return (state.media.opened.request.command_line.*fact).has_value();
 }
 
 /// A drop-down list. Its first entry is the detected value, and withdraws a person's statement.
 template <typename Values, typename Value>
-void word_row(const char* label, const char* help, const Values& values, const Known<Value>& known,
-              std::optional<Value> DepthStatement::*fact, ViewerState& state) {
-    const bool given = is_given(fact, state);
+void statement_row(const char* label, const char* help, const Values& values,
+                   const Known<Value>& known, std::optional<Value> DepthStatement::*fact,
+                   ViewerState& state) {
+    const bool given = is_from_command_line(fact, state);
     const std::optional<Value>& panel = state.media.opened.request.panel.*fact;
     const bool is_stated = !given && panel.has_value();
     std::array<std::string, Values().size() + 1> names;
@@ -53,10 +54,10 @@ void word_row(const char* label, const char* help, const Values& values, const K
     const bool changed = index_row(label, shown, chosen, help, 0);
     ImGui::EndDisabled();
     if (!changed) return;
-    DepthStatement said = state.media.opened.request.panel;
-    said.*fact =
+    DepthStatement statement = state.media.opened.request.panel;
+    statement.*fact =
         chosen == 0 ? std::nullopt : std::optional(values[static_cast<std::size_t>(chosen) - 1]);
-    say(said, state);
+    push_statement(statement, state);
 }
 
 /// Label, help and current value of a typed row.
@@ -71,18 +72,18 @@ template <typename Fact, typename Read>
 void typed_row(const TypedRow& row, const Read& read, std::optional<Fact> DepthStatement::*fact,
                std::span<char> text, ViewerState& state) {
     const std::string help = capitalised(row.help) + "\nNow: " + row.known;
-    ImGui::BeginDisabled(is_given(fact, state));
+    ImGui::BeginDisabled(is_from_command_line(fact, state));
     const bool done = text_row(row.label, row.known, text, help.c_str());
     ImGui::EndDisabled();
     if (!done) return;
-    DepthStatement said = state.media.opened.request.panel;
+    DepthStatement statement = state.media.opened.request.panel;
     const std::string typed = text.data();
-    said.*fact = typed.empty() ? std::nullopt : read(typed);
-    if (!typed.empty() && !(said.*fact)) {
+    statement.*fact = typed.empty() ? std::nullopt : read(typed);
+    if (!typed.empty() && !(statement.*fact)) {
         state.ui.message = capitalised(in_quotes(typed) + " is not understood: " + row.help);
         return;
     }
-    say(said, state);
+    push_statement(statement, state);
 }
 
 constexpr const char* kNone = "none";
@@ -107,10 +108,10 @@ std::string text_of(double number) {
 
 /// As much of the panel's statement as fits; empty if the command line states it.
 template <typename Fact>
-void show_word(std::optional<Fact> DepthStatement::*fact, const ViewerState& state,
-               std::span<char> field) {
+void fill_field(std::optional<Fact> DepthStatement::*fact, const ViewerState& state,
+                std::span<char> field) {
     const std::optional<Fact>& panel = state.media.opened.request.panel.*fact;
-    const std::string text = panel && !is_given(fact, state) ? text_of(*panel) : "";
+    const std::string text = panel && !is_from_command_line(fact, state) ? text_of(*panel) : "";
     field[text.copy(field.data(), field.size() - 1)] = '\0';
 }
 
@@ -130,7 +131,7 @@ void registration_rows(ViewerState& state) {
     auto& [scale] = fields.colour_size;
     const auto fact = &DepthStatement::registration;
     const bool changed = state.media.opened.request.panel.registration.has_value();
-    ImGui::BeginDisabled(is_given(fact, state));
+    ImGui::BeginDisabled(is_from_command_line(fact, state));
     const Dragged shift = dragged_row(
         {"Colour shift", "%.1f px", -kMostShift_px, kMostShift_px, 0.25F,
          "How far the colour lies to the right and down, in depth pixels (--registration)",
@@ -142,11 +143,11 @@ void registration_rows(ViewerState& state) {
         fields.colour_size);
     ImGui::EndDisabled();
     if (shift == Dragged::nothing && size == Dragged::nothing) return;
-    DepthStatement said = state.media.opened.request.panel;
-    said.registration.reset();
-    if (shift != Dragged::put_back && size != Dragged::put_back)
-        said.registration = Registration{right, down, scale};
-    say(said, state);
+    DepthStatement statement = state.media.opened.request.panel;
+    statement.registration.reset();
+    if (shift != Dragged::restore && size != Dragged::restore)
+        statement.registration = Registration{right, down, scale};
+    push_statement(statement, state);
 }
 
 bool has_assumed(const DepthMeaning& meaning) {
@@ -175,17 +176,17 @@ std::string depth_line(const DepthMeaning& meaning, float room) {
 
 void draw_depth_rows(ViewerState& state) {
     if (!state.media.meaning) {
-        quiet_text("Levels as they are in the file (--raw-depth)");
+        draw_dimmed("Levels as they are in the file (--raw-depth)");
         return;
     }
     ImGui::PushID("depth");
     ImGui::BeginDisabled(state.media.opening);  // with the last statement
     const DepthMeaning& known = *state.media.meaning;
     TextFields& fields = state.ui.fields;
-    word_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
-             &DepthStatement::near, state);
-    word_row("Unit", "Unit of a level times the scale (--depth-unit)", kDepthUnits, known.unit,
-             &DepthStatement::unit, state);
+    statement_row("Near is", "Which levels are near (--near)", kNearLevels, known.near,
+                  &DepthStatement::near, state);
+    statement_row("Unit", "Unit of a level times the scale (--depth-unit)", kDepthUnits, known.unit,
+                  &DepthStatement::unit, state);
     typed_row({"Scale", "one level in that unit, as in 0.001 (--depth-scale)",
                with_origin(short_text(known.scale.value), known.scale.origin)},
               scale_in, &DepthStatement::scale, fields.depth_scale, state);
@@ -198,14 +199,14 @@ void draw_depth_rows(ViewerState& state) {
         {"No data", "levels that stand for missing data, such as 0,65535, or none (--no-data)",
          with_origin(text_of(known.no_data.value), known.no_data.origin)},
         levels_or_none_in, &DepthStatement::no_data, fields.no_data, state);
-    word_row("Packing", "How colour and depth lie in the picture, colour first (--packing)",
-             kDepthPackings, known.packing, &DepthStatement::packing, state);
-    word_row("Code", "How a picture holds depth (--depth-code)", kDepthCodes, known.code,
-             &DepthStatement::code, state);
-    word_row("Geometry",
-             "relief: the picture plane plus elevation; true: the shape in mm, which needs "
-             "distances and intrinsics (--geometry)",
-             kGeometries, known.geometry, &DepthStatement::geometry, state);
+    statement_row("Packing", "How colour and depth lie in the picture, colour first (--packing)",
+                  kDepthPackings, known.packing, &DepthStatement::packing, state);
+    statement_row("Code", "How a picture holds depth (--depth-code)", kDepthCodes, known.code,
+                  &DepthStatement::code, state);
+    statement_row("Geometry",
+                  "relief: the picture plane plus elevation; true: the shape in mm, which needs "
+                  "distances and intrinsics (--geometry)",
+                  kGeometries, known.geometry, &DepthStatement::geometry, state);
     typed_row({"Intrinsics",
                "FX,FY,CX,CY of the camera in depth pixels, or its horizontal field of view, as in "
                "60deg (--intrinsics)",
@@ -213,17 +214,17 @@ void draw_depth_rows(ViewerState& state) {
               intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
     if (!state.media.colour_path.empty()) registration_rows(state);
     if (ImGui::Button("Save as sidecar")) state.commands.push(SaveSidecar{});
-    explain("Writes what the depth means beside its file, for whoever opens it next");
+    add_tooltip("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::EndDisabled();
     ImGui::PopID();
 }
 
-void show_depth_words(ViewerState& state) {
+void fill_depth_fields(ViewerState& state) {
     TextFields& fields = state.ui.fields;
-    show_word(&DepthStatement::scale, state, fields.depth_scale);
-    show_word(&DepthStatement::range, state, fields.depth_range);
-    show_word(&DepthStatement::no_data, state, fields.no_data);
-    show_word(&DepthStatement::intrinsics, state, fields.intrinsics);
+    fill_field(&DepthStatement::scale, state, fields.depth_scale);
+    fill_field(&DepthStatement::range, state, fields.depth_range);
+    fill_field(&DepthStatement::no_data, state, fields.no_data);
+    fill_field(&DepthStatement::intrinsics, state, fields.intrinsics);
     const Registration registration =
         state.media.meaning ? state.media.meaning->registration.value : Registration{};
     fields.colour_shift_px = {registration.right_px, registration.down_px};
@@ -234,7 +235,7 @@ void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
     const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
     ImGui::TextDisabled("%s", line.c_str());
-    explain("What the depth's levels mean; click to change it");
+    add_tooltip("What the depth's levels mean; click to change it");
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (ImGui::IsItemClicked()) ImGui::OpenPopup(kRowsPopup);
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 24.0F, 0.0F});

@@ -12,12 +12,12 @@ namespace dibhr {
 
 namespace {
 
-void ask_for(ViewerState& state, DepthWish wish) {
-    state.commands.push(wish);
+void push_command(ViewerState& state, DepthOfferCommand command) {
+    state.commands.push(command);
 }
 
 /// Each line is reserved from the start, so that the button stays under the pointer.
-void draw_making(ViewerState& state, const DepthOffer& offer) {
+void draw_estimate_progress(ViewerState& state, const DepthOffer& offer) {
     const EstimateProgress& now = *offer.progress;
     const bool measured = now.step != EstimateStep::estimating || now.counted;
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetColorU32(ImGuiCol_SliderGrab));
@@ -28,7 +28,7 @@ void draw_making(ViewerState& state, const DepthOffer& offer) {
     ImGui::TextDisabled("%s", one_line(now.said, 70).c_str());
     ImGui::Spacing();
     ImGui::BeginDisabled(offer.ending);
-    if (ImGui::Button("Cancel")) ask_for(state, DepthWish::cancel);
+    if (ImGui::Button("Cancel")) push_command(state, DepthOfferCommand::cancel);
     ImGui::EndDisabled();
 }
 
@@ -41,35 +41,36 @@ void draw_choice(DepthOffer& offer) {
 }
 
 /// Shows the whole command. A person can agree only after scrolling to its end.
-void draw_question(ViewerState& state, const DepthOffer& offer) {
+void draw_command_consent(ViewerState& state, const DepthOffer& offer) {
     ImGui::TextWrapped(
         "The settings name this command. Nobody on this machine has agreed to run it yet. It can "
         "do everything that you can do:");
     constexpr float kMostLines = 12.0F;
     const float width = ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ScrollbarSize;
-    const float high = ImGui::CalcTextSize(offer.asks.c_str(), nullptr, false, width).y;
+    const float high =
+        ImGui::CalcTextSize(offer.unconfirmed_command.c_str(), nullptr, false, width).y;
     const float line = ImGui::GetTextLineHeight();
     ImGui::BeginChild("command", {0.0F, std::min(high + line, kMostLines * line)});
     ImGui::PushTextWrapPos(width);
-    ImGui::TextUnformatted(offer.asks.c_str());
+    ImGui::TextUnformatted(offer.unconfirmed_command.c_str());
     ImGui::PopTextWrapPos();
     const bool read = ImGui::GetScrollY() >= ImGui::GetScrollMaxY();
     ImGui::EndChild();
     ImGui::BeginDisabled(!read);
-    if (ImGui::Button("Run it, now and later")) ask_for(state, DepthWish::agree);
+    if (ImGui::Button("Run it, now and later")) push_command(state, DepthOfferCommand::agree);
     ImGui::EndDisabled();
     ImGui::SameLine();
 }
 
-void draw_making_button(ViewerState& state, DepthOffer& offer) {
+void draw_make_button(ViewerState& state, DepthOffer& offer) {
     if (offer.estimators.empty()) {
-        quiet_text(how_to_have_an_estimator() + ".");
+        draw_dimmed(estimator_hint() + ".");
         return;
     }
     draw_choice(offer);
     const std::string& name = offer.estimators[static_cast<std::size_t>(offer.chosen)];
     if (ImGui::Button(("Make depth with " + name + "###make").c_str()))
-        ask_for(state, DepthWish::make);
+        push_command(state, DepthOfferCommand::make);
     ImGui::SameLine();
 }
 
@@ -77,7 +78,8 @@ void draw_making_button(ViewerState& state, DepthOffer& offer) {
 
 void draw_depth_offer(ViewerState& state) {
     UiState& ui = state.ui;
-    if (!ui.depth_offer || ui.dialog.shown || !ui.message.empty() || !ui.doubts.empty()) return;
+    if (!ui.depth_offer || ui.dialog.shown || !ui.message.empty() || !ui.unsafe_settings.empty())
+        return;
     DepthOffer& offer = *ui.depth_offer;
     const char* const what = offer.progress        ? "Making depth: "
                              : offer.depth.empty() ? "Colour alone: "
@@ -86,22 +88,22 @@ void draw_depth_offer(ViewerState& state) {
         what + one_line(offer.colour.filename().string(), 40) + "###depth offer";
     begin_card(state, title.c_str(), 30.0F);
     if (offer.progress) {
-        draw_making(state, offer);
+        draw_estimate_progress(state, offer);
         ImGui::End();
         return;
     }
-    if (!offer.words.empty()) ImGui::TextWrapped("%s", capitalised(offer.words).c_str());
+    if (!offer.text.empty()) ImGui::TextWrapped("%s", capitalised(offer.text).c_str());
     ImGui::Spacing();
     if (!offer.depth.empty()) {
-        if (ImGui::Button("Open it")) ask_for(state, DepthWish::open);
+        if (ImGui::Button("Open it")) push_command(state, DepthOfferCommand::open);
         ImGui::SameLine();
-    } else if (!offer.asks.empty()) {
-        draw_question(state, offer);
+    } else if (!offer.unconfirmed_command.empty()) {
+        draw_command_consent(state, offer);
     } else {
-        draw_making_button(state, offer);
+        draw_make_button(state, offer);
     }
     if (ImGui::Button(("Close" + state.keys.in_brackets(Action::close_topmost)).c_str()))
-        ask_for(state, DepthWish::close);
+        push_command(state, DepthOfferCommand::close);
     ImGui::End();
 }
 

@@ -26,7 +26,7 @@ std::string state_text(const ViewerState& state) {
     if (clutched(state.settings, state.touch)) return "held by the clutch: no force";
     if (!haptic.hand.ready) {
         return a_device_touches(state.touch)
-                   ? force_device_kinds()[touching_device(state.touch)->kind]->no_pose
+                   ? force_device_kinds()[touching_device(state.touch)->kind]->no_pose_advice
                    : "not ready: no force";
     }
     return haptic.touch.proxy.contact ? "in contact" : "free";
@@ -67,19 +67,19 @@ void draw_force_switch(ViewerState& state, float width) {
     bool& on = state.touch.force_enabled;
     if (ImGui::Button(shown.text, {width, 0.0F})) on = !on;
     ImGui::PopStyleColor(4);
-    explain(shown.help.c_str());
+    add_tooltip(shown.help.c_str());
 }
 
 void draw_device_panel(ViewerState& state) {
     if (!section(state, "Device", state.settings.panels.device, &state.touch.needs_person)) return;
     ImGui::PushID("device");
-    std::vector<DeviceNews> devices = state.touch.devices;
-    std::erase_if(devices, [](const DeviceNews& news) { return !in_sight(news); });
-    for (const DeviceNews& news : devices) draw_force_device(state, news);
+    std::vector<DeviceInfo> devices = state.touch.devices;
+    std::erase_if(devices, [](const DeviceInfo& info) { return !attached_or_expected(info); });
+    for (const DeviceInfo& info : devices) draw_force_device(state, info);
     if (devices.empty()) {
         const bool looks = !state.touch.devices.empty();
         fact_row("Device", looks ? "mouse" : state.touch.device.name);
-        if (looks) quiet_text("A force device takes over as soon as it is plugged in.");
+        if (looks) draw_dimmed("A force device takes over as soon as it is plugged in.");
     }
     fact_row("State", state_text(state));
     draw_force_switch(state, -1.0F);
@@ -104,7 +104,7 @@ void draw_device_panel(ViewerState& state) {
     fact_row("Force", formatted("%.2f N", glm::length(touch.sent_force_newton)),
              "What is sent to the hand");
     if (touch.cut != SafetyCut::none) fact_row("Cut", name_of(touch.cut), "Why no force is sent");
-    for (const DeviceNews& news : devices) draw_force_device_settings(state, news);
+    for (const DeviceInfo& info : devices) draw_force_device_settings(state, info);
     ImGui::PopID();
 }
 

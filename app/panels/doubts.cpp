@@ -7,9 +7,10 @@
 
 namespace dibhr {
 
-void draw_doubts(ViewerState& state) {
+void draw_unsafe_settings(ViewerState& state) {
     const UiState& ui = state.ui;
-    if (ui.doubts.empty() || state.touch.replay || ui.dialog.shown || !ui.message.empty()) return;
+    if (ui.unsafe_settings.empty() || state.touch.replay || ui.dialog.shown || !ui.message.empty())
+        return;
     begin_card(state, "These settings protect the hand less", 32.0F);
     ImGui::TextWrapped(
         "Nobody on this machine has agreed to these values. Until you agree, dibhr uses the "
@@ -19,19 +20,20 @@ void draw_doubts(ViewerState& state) {
         ImGui::TableSetupColumn("usual", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableSetupColumn("in the file", ImGuiTableColumnFlags_WidthFixed);
         ImGui::TableHeadersRow();
-        for (const Doubt& doubt : state.ui.doubts) {
-            for (const std::string& text : {std::string(doubt.what), doubt.usual, doubt.asked}) {
+        for (const UnsafeSetting& doubt : state.ui.unsafe_settings) {
+            for (const std::string& text :
+                 {std::string(doubt.what), doubt.usual, doubt.requested}) {
                 ImGui::TableNextColumn();
                 ImGui::TextWrapped("%s", text.c_str());
             }
         }
         ImGui::EndTable();
     }
-    if (ImGui::Button("Use the file's values")) state.commands.push(AnswerDoubts{true});
+    if (ImGui::Button("Use the file's values")) state.commands.push(AnswerUnsafeSettings{true});
     constexpr const char* kKeep = "Keep the defaults";
     ImGui::SameLine();
     if (ImGui::GetContentRegionAvail().x < ImGui::CalcTextSize(kKeep).x) ImGui::NewLine();
-    if (ImGui::Button(kKeep)) state.commands.push(AnswerDoubts{false});
+    if (ImGui::Button(kKeep)) state.commands.push(AnswerUnsafeSettings{false});
     ImGui::End();
 }
 

@@ -30,16 +30,16 @@ constexpr ImU32 kGoal = IM_COL32(242, 140, 13, 255);
 constexpr ImU32 kProxy = IM_COL32(64, 148, 245, 255);
 constexpr ImU32 kFoot = IM_COL32(255, 255, 255, 235);
 constexpr ImU32 kCone = IM_COL32(255, 205, 120, 200);
-constexpr ImU32 kWord = IM_COL32(255, 255, 255, 235);
+constexpr ImU32 kLabel = IM_COL32(255, 255, 255, 235);
 constexpr ImU32 kOutline = IM_COL32(0, 0, 0, 190);
 
 constexpr int kNetAround = 4;   // cells on each side of the path
 constexpr int kWidestNet = 90;  // the lines of a wider mesh would cover the relief: not drawn
 
 /// Draws in grid space on top of the relief.
-class Blackboard {
+class ReliefOverlay {
   public:
-    Blackboard(const ViewerState& state, const glm::dmat4& clip_from_grid)
+    ReliefOverlay(const ViewerState& state, const glm::dmat4& clip_from_grid)
         : screen_(state, clip_from_grid), scale_(state.ui.scale) {}
 
     void line(Vec3 from, Vec3 to, ImU32 colour, float thick = 1.0F) const {
@@ -83,12 +83,13 @@ class Blackboard {
     [[nodiscard]] bool are_apart(Vec3 one, Vec3 other) const {
         const auto a = screen_.at(one);
         const auto b = screen_.at(other);
-        const ImVec2 word = ImGui::CalcTextSize("proxy");
-        return !a || !b || std::abs(a->y - b->y) > word.y || std::abs(a->x - b->x) > 1.5F * word.x;
+        const ImVec2 label = ImGui::CalcTextSize("proxy");
+        return !a || !b || std::abs(a->y - b->y) > label.y ||
+               std::abs(a->x - b->x) > 1.5F * label.x;
     }
 
     /// A label beside a place, readable on any picture.
-    void word(Vec3 at, const char* text) const {
+    void label(Vec3 at, const char* text) const {
         const auto p = screen_.at(at);
         if (!p) return;
         const ImVec2 size = ImGui::CalcTextSize(text);
@@ -97,7 +98,7 @@ class Blackboard {
         const float pad = 3.0F * scale_;
         list().AddRectFilled({low.x - pad, low.y}, {low.x + size.x + pad, low.y + size.y},
                              IM_COL32(0, 0, 0, 170), pad);
-        list().AddText(low, kWord, text);
+        list().AddText(low, kLabel, text);
     }
 
   private:
@@ -115,7 +116,8 @@ std::array<Vec3, 3> corners_of(const DepthSurface& surface, const Primitive& tri
             surface.vertex_at(i, j + 1)};
 }
 
-void draw_net(const Blackboard& board, const DepthSurface& surface, const ExplainedUpdate& update) {
+void draw_net(const ReliefOverlay& overlay, const DepthSurface& surface,
+              const ExplainedUpdate& update) {
     const auto [low, high] = box_of(update);
     const int first_i = std::max(static_cast<int>(low.x) - kNetAround, 0);
     const int first_j = std::max(static_cast<int>(low.y) - kNetAround, 0);
@@ -125,35 +127,36 @@ void draw_net(const Blackboard& board, const DepthSurface& surface, const Explai
     for (int j = first_j; j <= last_j; ++j) {
         for (int i = first_i; i <= last_i; ++i) {
             const Vec3 here = surface.vertex_at(i, j);
-            if (i < last_i) board.line(here, surface.vertex_at(i + 1, j), kMesh);
-            if (j < last_j) board.line(here, surface.vertex_at(i, j + 1), kMesh);
+            if (i < last_i) overlay.line(here, surface.vertex_at(i + 1, j), kMesh);
+            if (j < last_j) overlay.line(here, surface.vertex_at(i, j + 1), kMesh);
             if (i < last_i && j < last_j)
-                board.line(surface.vertex_at(i + 1, j), surface.vertex_at(i, j + 1), kMesh);
+                overlay.line(surface.vertex_at(i + 1, j), surface.vertex_at(i, j + 1), kMesh);
         }
     }
 }
 
-void draw_primitive(const Blackboard& board, const DepthSurface& surface,
+void draw_primitive(const ReliefOverlay& overlay, const DepthSurface& surface,
                     const Primitive& primitive, bool now) {
     const ImU32 border = now ? kNowLine : kVisitedLine;
     switch (primitive.kind) {
         case PrimitiveKind::triangle:
-            return board.triangle(corners_of(surface, primitive), now ? kNow : kVisited, border);
+            return overlay.triangle(corners_of(surface, primitive), now ? kNow : kVisited, border);
         case PrimitiveKind::edge: {
             const EdgeEnds ends = ends_of(primitive);
-            return board.line(surface.vertex_at(ends.begin_i, ends.begin_j),
-                              surface.vertex_at(ends.end_i, ends.end_j), border, now ? 5.0F : 3.0F);
+            return overlay.line(surface.vertex_at(ends.begin_i, ends.begin_j),
+                                surface.vertex_at(ends.end_i, ends.end_j), border,
+                                now ? 5.0F : 3.0F);
         }
         case PrimitiveKind::vertex:
-            return board.dot(surface.vertex_at(primitive.i, primitive.j), now ? 7.0F : 4.0F,
-                             border);
+            return overlay.dot(surface.vertex_at(primitive.i, primitive.j), now ? 7.0F : 4.0F,
+                               border);
         case PrimitiveKind::none:
             break;
     }
 }
 
 /// The cone's rim, a circle around the foot across the axis from the goal, and lines from the goal.
-void draw_cone(const Blackboard& board, Vec3 goal, const WalkStep& step) {
+void draw_cone(const ReliefOverlay& overlay, Vec3 goal, const WalkStep& step) {
     constexpr int kSides = 48;
     constexpr int kRays = 6;
     constexpr double kNone_px = 1e-6;
@@ -168,76 +171,76 @@ void draw_cone(const Blackboard& board, Vec3 goal, const WalkStep& step) {
         return step.foot + step.cone_px * (std::cos(turn) * one + std::sin(turn) * other);
     };
     for (int k = 0; k < kSides; ++k) {
-        board.line(rim(k), rim(k + 1), kCone, 2.0F);
-        if (k % (kSides / kRays) == 0) board.line(goal, rim(k), kCone);
+        overlay.line(rim(k), rim(k + 1), kCone, 2.0F);
+        if (k % (kSides / kRays) == 0) overlay.line(goal, rim(k), kCone);
     }
 }
 
-void draw_path(const Blackboard& board, const ExplainedNews& news) {
-    for (std::size_t k = 0; k < news.taken; ++k) {
-        const WalkStep& step = news.update.steps[k];
-        board.line(step.before.position, step.after.position, kOutline, 5.0F);
-        board.line(step.before.position, step.after.position, kProxy, 3.0F);
+void draw_path(const ReliefOverlay& overlay, const ExplainedInfo& info) {
+    for (std::size_t k = 0; k < info.taken; ++k) {
+        const WalkStep& step = info.update.steps[k];
+        overlay.line(step.before.position, step.after.position, kOutline, 5.0F);
+        overlay.line(step.before.position, step.after.position, kProxy, 3.0F);
     }
 }
 
-void draw_on_relief(const Blackboard& board, const DepthSurface& surface,
-                    const ExplainedNews& news) {
-    const ExplainedUpdate& update = news.update;
-    draw_net(board, surface, update);
-    for (std::size_t k = 0; k < news.taken; ++k) {
+void draw_on_relief(const ReliefOverlay& overlay, const DepthSurface& surface,
+                    const ExplainedInfo& info) {
+    const ExplainedUpdate& update = info.update;
+    draw_net(overlay, surface, update);
+    for (std::size_t k = 0; k < info.taken; ++k) {
         const WalkStep& step = update.steps[k];
         for (std::size_t n = 0; n < step.visits; ++n) {
-            draw_primitive(board, surface, step.visited.at(n), k + 1 == news.taken);
+            draw_primitive(overlay, surface, step.visited.at(n), k + 1 == info.taken);
         }
     }
-    const WalkStep* last = news.taken > 0 ? &update.steps[news.taken - 1] : nullptr;
+    const WalkStep* last = info.taken > 0 ? &update.steps[info.taken - 1] : nullptr;
     const bool has_foot = last != nullptr && (last->piece.kind == PrimitiveKind::triangle ||
                                               last->piece.kind == PrimitiveKind::edge);
     if (has_foot) {
-        board.dashes(last->before.position, last->foot, kFoot);
-        board.dashes(update.goal, last->foot, kGoal);
-        draw_cone(board, update.goal, *last);
-        board.dot(last->foot, 3.0F, kFoot);
-        board.word(last->foot, "foot");
+        overlay.dashes(last->before.position, last->foot, kFoot);
+        overlay.dashes(update.goal, last->foot, kGoal);
+        draw_cone(overlay, update.goal, *last);
+        overlay.dot(last->foot, 3.0F, kFoot);
+        overlay.label(last->foot, "foot");
     } else {
-        board.dashes(last != nullptr ? last->before.position : update.start.position, update.goal,
-                     kGoal);
+        overlay.dashes(last != nullptr ? last->before.position : update.start.position, update.goal,
+                       kGoal);
     }
-    draw_path(board, news);
+    draw_path(overlay, info);
     const Vec3 proxy = last != nullptr ? last->after.position : update.start.position;
-    const bool apart = board.are_apart(proxy, update.goal);  // else one label hides the other
-    board.ring(update.goal, 9.0F, kGoal);
-    if (apart) board.word(update.goal, "goal");
-    board.dot(proxy, 6.0F, kProxy);
-    board.word(proxy, apart ? "proxy" : "proxy, goal");
+    const bool apart = overlay.are_apart(proxy, update.goal);  // else one label hides the other
+    overlay.ring(update.goal, 9.0F, kGoal);
+    if (apart) overlay.label(update.goal, "goal");
+    overlay.dot(proxy, 6.0F, kProxy);
+    overlay.label(proxy, apart ? "proxy" : "proxy, goal");
 }
 
 /// The card's text: on the current step, or how to begin.
-std::string words_of(const ViewerState& state) {
-    const ExplainedNews& news = *state.ui.explained;
-    if (news.taken > 0) return text_of(news.update.steps[news.taken - 1]);
+std::string card_text(const ViewerState& state) {
+    const ExplainedInfo& info = *state.ui.explained;
+    if (info.taken > 0) return text_of(info.update.steps[info.taken - 1]);
     const KeyTable& keys = state.keys;
     const std::string on = keys.name_for(Action::step_forward);
     const std::string back = keys.name_for(Action::step_back);
     const std::string steps = on.empty() || back.empty() ? "" : " ( " + on + " and " + back + " )";
     const std::string after = "Step with the arrows" + steps + " or let it run slowly" +
                               keys.in_brackets(Action::play_or_pause) + ".";
-    if (news.held) return "The update begins here. " + after;
+    if (info.held) return "The update begins here. " + after;
     return "What one update does, from where the proxy was to where you press: hold the left "
            "button to move the goal. " +
            after;
 }
 
 /// The longest title that fits into `room`.
-std::string title_of(const ExplainedNews& news, float room) {
-    const std::size_t steps = news.update.steps.size();
+std::string title_of(const ExplainedInfo& info, float room) {
+    const std::size_t steps = info.update.steps.size();
     const std::string what = "Explain one update of DIBHR";
     if (steps == 0) return what + ": the proxy rests where it is";
-    std::string step = formatted("step %zu of %zu", news.taken, steps);
-    const int moves = news.taken > 0 ? news.update.steps[news.taken - 1].after.moves : 0;
+    std::string step = formatted("step %zu of %zu", info.taken, steps);
+    const int moves = info.taken > 0 ? info.update.steps[info.taken - 1].after.moves : 0;
     const std::string more = formatted("%s     %d of %d primitives visited", step.c_str(), moves,
-                                       news.update.result.moves);
+                                       info.update.result.moves);
     for (const std::string& title : {formatted("%s     %s", what.c_str(), more.c_str()), more}) {
         if (ImGui::CalcTextSize(title.c_str()).x < room) return title;
     }
@@ -245,7 +248,7 @@ std::string title_of(const ExplainedNews& news, float room) {
 }
 
 void draw_card(ViewerState& state) {
-    const ExplainedNews& news = *state.ui.explained;
+    const ExplainedInfo& info = *state.ui.explained;
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     const float room = display.x - panel_column_width(state);
     const float margin = 12.0F * state.ui.scale;
@@ -261,7 +264,7 @@ void draw_card(ViewerState& state) {
     };
     button("back", Icon::step_back, "One step back", Action::step_back);
     ImGui::SameLine(0.0F, 0.0F);
-    button("run", news.runs ? Icon::pause : Icon::play, "Slow motion", Action::play_or_pause);
+    button("run", info.runs ? Icon::pause : Icon::play, "Slow motion", Action::play_or_pause);
     ImGui::SameLine(0.0F, 0.0F);
     button("on", Icon::step_forward, "One step on", Action::step_forward);
     ImGui::SameLine();
@@ -269,10 +272,10 @@ void draw_card(ViewerState& state) {
     const std::string end = "End" + state.keys.in_brackets(Action::explain);
     const float end_x =
         width - ImGui::CalcTextSize(end.c_str()).x - 3.0F * ImGui::GetStyle().WindowPadding.x;
-    ImGui::TextUnformatted(title_of(news, end_x - ImGui::GetCursorPosX()).c_str());
+    ImGui::TextUnformatted(title_of(info, end_x - ImGui::GetCursorPosX()).c_str());
     ImGui::SameLine(end_x);
     if (ImGui::SmallButton(end.c_str())) state.commands.push(Action::explain);
-    ImGui::TextWrapped("%s", words_of(state).c_str());
+    ImGui::TextWrapped("%s", card_text(state).c_str());
     // At least two lines high, so that the text does not jump.
     const float lines = ImGui::GetCursorPosY();
     const float least = ImGui::GetFrameHeight() + 2.6F * ImGui::GetTextLineHeightWithSpacing();
@@ -286,7 +289,7 @@ void draw_card(ViewerState& state) {
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid) {
     if (!state.ui.explained || state.ui.explained->waits) return;
-    draw_on_relief(Blackboard(state, clip_from_grid), surface, *state.ui.explained);
+    draw_on_relief(ReliefOverlay(state, clip_from_grid), surface, *state.ui.explained);
     draw_card(state);
 }
 

@@ -14,7 +14,7 @@
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
-#include "app/settings/grip_buttons.hpp"
+#include "app/settings/button_action_names.hpp"
 #include "app/touching/device_state.hpp"
 #include "device/force_devices.hpp"
 
@@ -27,15 +27,16 @@ void draw_device_value(const DeviceRow& row, bool* value, const bool* usual) {
 }
 
 void draw_device_value(const DeviceRow& row, double* value, const double* usual) {
-    double shown = *value * row.shown;
+    double shown = *value * row.panel_factor;
     const NumberRow number{.label = row.label,
                            .format = row.format,
-                           .lowest = row.lowest * row.shown,
-                           .highest = row.highest * row.shown,
-                           .standard = *usual * row.shown,
+                           .lowest = row.lowest * row.panel_factor,
+                           .highest = row.highest * row.panel_factor,
+                           .standard = *usual * row.panel_factor,
                            .help = row.help,
                            .logarithmic = row.lowest > 0.0 && row.highest > 50.0 * row.lowest};
-    if (number_row(number, shown)) *value = std::clamp(shown / row.shown, row.lowest, row.highest);
+    if (number_row(number, shown))
+        *value = std::clamp(shown / row.panel_factor, row.lowest, row.highest);
 }
 
 void draw_device_value(const DeviceRow& row, int* value, const int* usual) {
@@ -57,7 +58,7 @@ void draw_device_value(const DeviceRow& row, ButtonAction* value, const ButtonAc
     choice_row(row.label, button_jobs(), *value, row.help, *usual);
 }
 
-void draw_device_value(const DeviceRow& row, const DeviceWord& value, const DeviceWord& usual) {
+void draw_device_value(const DeviceRow& row, const DeviceEnum& value, const DeviceEnum& usual) {
     int chosen = *value;
     index_row(row.label, value.labels, chosen, row.help, *usual);
     *value = static_cast<std::uint8_t>(chosen);
@@ -85,19 +86,19 @@ void draw_line(const DeviceLine& line) {
         fact_row(line.label, line.text, line.help);
         return;
     }
-    quiet_text(capitalised(line.text));
-    if (*line.help != '\0') explain(line.help);
+    draw_dimmed(capitalised(line.text));
+    if (*line.help != '\0') add_tooltip(line.help);
 }
 
 void draw_sentence(const DeviceState& device) {
     const std::string sentence = capitalised(device.sentence);
     if (sentence.empty()) return;
     if (device.trouble) {
-        trouble_text(sentence);
+        draw_warning(sentence);
     } else if (device.needs_person) {
         ImGui::TextWrapped("%s", sentence.c_str());
     } else {
-        quiet_text(sentence);
+        draw_dimmed(sentence);
     }
 }
 
@@ -109,12 +110,12 @@ void draw_firmware_field(ViewerState& state) {
     const bool named = state.ui.fields.firmware[0] != '\0';
     const bool pressed = button_or_drop("Load", named, "the file");
     if ((entered || pressed) && named) {
-        state.commands.push(UseFirmware{typed_path(state.ui.fields.firmware.data())});
+        state.commands.push(UseFirmware{expand_home(state.ui.fields.firmware.data())});
     }
 }
 
 void draw_wanted_firmware(ViewerState& state, const DeviceFirmware& firmware) {
-    if (!firmware.trouble.empty()) trouble_text(capitalised(firmware.trouble));
+    if (!firmware.trouble.empty()) draw_warning(capitalised(firmware.trouble));
     draw_firmware_field(state);
 }
 
@@ -152,30 +153,30 @@ void draw_placing(ViewerState& state, DeviceSettings& settings, const char* fit_
                       state.settings.touch.shape.relief_px,
                       state.settings.touch.coupling.pixel_pitch_mm});
     }
-    explain(fit_help);
+    add_tooltip(fit_help);
     ImGui::SameLine();
-    if (ImGui::Button("Centre the workspace")) ++state.touch.centred;
-    explain("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
+    if (ImGui::Button("Centre the workspace")) ++state.touch.centre_count;
+    add_tooltip("Takes back what the clutch has shifted", state.keys, Action::centre_workspace);
 }
 
 /// Above the rows of the topic on the connection.
-void draw_connection(ViewerState& state, const DeviceNews& news) {
-    if (const auto& firmware = news.state.firmware) {
+void draw_connection(ViewerState& state, const DeviceInfo& info) {
+    if (const auto& firmware = info.state.firmware) {
         fact_row("Firmware", firmware->name.empty() ? "none kept" : firmware->name);
-        if (!firmware->wanted) draw_firmware_field(state);
+        if (!firmware->needed) draw_firmware_field(state);
     }
-    for (const DeviceLine& line : news.kept) draw_line(line);
+    for (const DeviceLine& line : info.kept) draw_line(line);
 }
 
 }  // namespace
 
-void draw_force_device(ViewerState& state, const DeviceNews& news) {
-    const DeviceState& device = news.state;
-    ImGui::PushID(force_device_kinds()[news.kind]->name);
-    draw_line(device.who);
+void draw_force_device(ViewerState& state, const DeviceInfo& info) {
+    const DeviceState& device = info.state;
+    ImGui::PushID(force_device_kinds()[info.kind]->name);
+    draw_line(device.name_line);
     draw_sentence(device);
-    if (!device.unguarded.empty()) trouble_text(capitalised(device.unguarded));
-    if (device.firmware && device.firmware->wanted) draw_wanted_firmware(state, *device.firmware);
+    if (!device.unguarded.empty()) draw_warning(capitalised(device.unguarded));
+    if (device.firmware && device.firmware->needed) draw_wanted_firmware(state, *device.firmware);
     if (device.progress) draw_progress(*device.progress);
     if (!device.homing.empty()) draw_homing_guide(device.homing);
     const bool pushes = glm::length(state.touch.haptic.touch.sent_force_newton) > 0.0;
@@ -185,17 +186,17 @@ void draw_force_device(ViewerState& state, const DeviceNews& news) {
     ImGui::PopID();
 }
 
-void draw_force_device_settings(ViewerState& state, const DeviceNews& news) {
-    DeviceSettings& settings = state.settings.devices[news.kind];
-    const auto standard = force_device_kinds()[news.kind]->make_settings();
-    ImGui::PushID(force_device_kinds()[news.kind]->name);  // kinds have rows with equal labels
+void draw_force_device_settings(ViewerState& state, const DeviceInfo& info) {
+    DeviceSettings& settings = state.settings.devices[info.kind];
+    const auto standard = force_device_kinds()[info.kind]->make_settings();
+    ImGui::PushID(force_device_kinds()[info.kind]->name);  // kinds have rows with equal labels
     for (const DeviceTopic& topic : settings.topics()) {
-        if (!part(topic.name)) continue;
-        if (*topic.remark != '\0') quiet_text(topic.remark);
+        if (!subsection(topic.name)) continue;
+        if (*topic.remark != '\0') draw_dimmed(topic.remark);
         if (*topic.fit_help != '\0') draw_placing(state, settings, topic.fit_help);
-        if (topic.connection) draw_connection(state, news);
+        if (topic.connection) draw_connection(state, info);
         draw_device_rows(settings, *standard, topic.name);
-        if (topic.connection) quiet_text("Changes here count from the next start of the program.");
+        if (topic.connection) draw_dimmed("Changes here count from the next start of the program.");
     }
     ImGui::PopID();
 }

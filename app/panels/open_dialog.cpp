@@ -67,10 +67,10 @@ bool is_path(const std::string& typed) {
 void list_rows(OpenDialog& dialog) {
     const std::string typed = dialog.typed.data();
     OpenDialog::Rows& rows = dialog.rows;
-    if (rows.of_reading == dialog.reading && rows.typed == typed &&
+    if (rows.reading_number == dialog.reading_number && rows.typed == typed &&
         rows.all_files == dialog.all_files)
         return;
-    rows = {{}, typed, dialog.all_files, dialog.reading};
+    rows = {{}, typed, dialog.all_files, dialog.reading_number};
     const std::string wanted = is_path(typed) ? std::string{} : lower_case(typed);
     const std::vector<FolderEntry>& entries = dialog.folder.entries;
     rows.entries.reserve(entries.size());
@@ -160,10 +160,10 @@ void draw_path(ViewerState& state) {
 
 void draw_line(ViewerState& state) {
     OpenDialog& dialog = state.ui.dialog;
-    if (dialog.asks_for_keyboard > 0) {
+    if (dialog.pictures_to_focus > 0) {
         ImGui::SetWindowFocus();
         ImGui::SetKeyboardFocusHere();
-        --dialog.asks_for_keyboard;
+        --dialog.pictures_to_focus;
     }
     ImGui::SetNextItemWidth(-1.0F);
     ImGui::PushID(dialog.line);
@@ -172,7 +172,7 @@ void draw_line(ViewerState& state) {
         dialog.typed.size(),
         ImGuiInputTextFlags_CallbackCompletion | ImGuiInputTextFlags_CallbackAlways, complete,
         &state);
-    if (ImGui::IsItemActive()) dialog.asks_for_keyboard = 0;
+    if (ImGui::IsItemActive()) dialog.pictures_to_focus = 0;
     ImGui::PopID();
 }
 
@@ -185,7 +185,7 @@ void move_choice(OpenDialog& dialog) {
                      : by > 0 ? 0
                               : last;
     dialog.chosen = entry_in(dialog, static_cast<std::size_t>(next)).file;
-    dialog.bring_into_sight = true;
+    dialog.scroll_pending = true;
 }
 
 void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
@@ -210,7 +210,7 @@ void draw_row(ViewerState& state, const FolderEntry& entry, bool wide) {
 /// Scrolls the chosen row to the middle, after a choice by keys.
 void scroll_to_chosen(OpenDialog& dialog, float height) {
     const auto row = chosen_row(dialog);
-    if (!row || !std::exchange(dialog.bring_into_sight, false)) return;
+    if (!row || !std::exchange(dialog.scroll_pending, false)) return;
     const float each = ImGui::GetTextLineHeight() + 2.0F * ImGui::GetStyle().CellPadding.y;
     ImGui::SetScrollY(each * (static_cast<float>(*row) + 1.5F) - 0.5F * height);
 }
@@ -247,9 +247,9 @@ void draw_places(ViewerState& state, ImVec2 size) {
         ImGui::PushID(folder.c_str());
         if (name_selectable(label, folder == state.ui.dialog.folder.path)) go_to(state, folder);
         ImGui::PopID();
-        explain(folder.c_str());
+        add_tooltip(folder.c_str());
     };
-    place("Home", typed_path("~"));
+    place("Home", expand_home("~"));
     std::error_code unknown;
     place("Current folder", fs::current_path(unknown));
     if (!state.ui.dialog.sample_folder.empty()) place("Sample", state.ui.dialog.sample_folder);
@@ -270,7 +270,7 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
     ImGui::BeginChild("preview", size);
     if (chosen != nullptr) {
         const Preview& preview = dialog.preview;
-        const bool of_chosen = preview.of == chosen->file;
+        const bool of_chosen = preview.file == chosen->file;
         if (of_chosen && preview.texture != 0) {
             const float width = ImGui::GetContentRegionAvail().x;
             const float height = std::min(width * static_cast<float>(preview.rows) /
@@ -283,9 +283,9 @@ void draw_preview(const ViewerState& state, const FolderEntry* chosen, ImVec2 si
         ImGui::TextWrapped("%s", chosen->name().c_str());
         ImGui::TextDisabled("%s%s", chosen->depth.empty() ? "" : "Colour + depth, ",
                             name_of(chosen->kind));
-        if (of_chosen && !preview.words.empty()) quiet_text(preview.words);
+        if (of_chosen && !preview.text.empty()) draw_dimmed(preview.text);
     } else {
-        quiet_text("Choose a recording. Its colour and its depth are one row.");
+        draw_dimmed("Choose a recording. Its colour and its depth are one row.");
     }
     ImGui::EndChild();
 }
@@ -312,12 +312,12 @@ void draw_buttons(ViewerState& state, const FolderEntry* chosen) {
 /// The folder's rows, or why they are not known.
 void draw_contents(ViewerState& state, ImVec2 size) {
     const OpenDialog& dialog = state.ui.dialog;
-    if (dialog.folder.trouble.empty() && !dialog.reads) return draw_rows(state, size);
+    if (dialog.folder.trouble.empty() && !dialog.is_reading) return draw_rows(state, size);
     ImGui::BeginChild("words", size);
-    if (dialog.reads) {
-        quiet_text("Reading the folder");
+    if (dialog.is_reading) {
+        draw_dimmed("Reading the folder");
     } else {
-        trouble_text(capitalised(dialog.folder.trouble));
+        draw_warning(capitalised(dialog.folder.trouble));
     }
     ImGui::EndChild();
 }

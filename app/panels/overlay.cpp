@@ -98,7 +98,7 @@ void red_dot_label(ImDrawList& list, const std::string& text, ImVec2 low) {
                          IM_COL32(235, 64, 52, 255), 24);
 }
 
-std::string replay_text(const ReplayNews& replay) {
+std::string replay_text(const ReplayInfo& replay) {
     const std::string date = date_text(replay.started);
     const char* comma = replay.participant.empty() || date.empty() ? "" : ", ";
     const std::string about = replay.participant + comma + date;
@@ -106,11 +106,11 @@ std::string replay_text(const ReplayNews& replay) {
 }
 
 /// The playing position, in time and in frames or ticks.
-std::string place_text(const ViewerState& state) {
+std::string position_text(const ViewerState& state) {
     const auto& replay = state.touch.replay;
     const PlaybackStatus& video = state.media.playback;
     if (video.live && !replay) return "live, " + in_words(*video.live);
-    const Course at = state.course();
+    const PlayState at = state.play_state();
     return clock_text(at.now_s - at.begin_s) + " of " + clock_text(at.end_s - at.begin_s) +
            (replay ? ", tick " + std::to_string(replay->tick_count)
                    : ", frame " + std::to_string(video.frame + 1));
@@ -147,7 +147,7 @@ std::vector<std::string> statistics_of(const ViewerState& state) {
             formatted(", video %.0f of %.0f", playback.shown_per_s, playback.frames_per_s);
         lines.push_back(formatted("Decoding %.1f ms a frame", playback.decode_ms));
     }
-    if (state.touch.replay || !media.still) lines.push_back("At " + place_text(state));
+    if (state.touch.replay || !media.still) lines.push_back("At " + position_text(state));
     if (!state.touch.replay) {
         const LoopSecond& second = state.touch.haptic.second;
         lines.push_back(formatted("Ticks %.1f per second, late %s of %s", second.rate_hz,
@@ -191,7 +191,7 @@ struct AlgorithmLine {
 /// First the algorithm in use, then the others with the distances of their proxies from its proxy.
 std::vector<AlgorithmLine> side_by_side(const ViewerState& state) {
     const auto line_of = [](Algorithm algorithm, const std::string& what) {
-        const SeriesLook look = look_of(algorithm);
+        const SeriesStyle look = style_of(algorithm);
         const Ink ink = look.stroke.ink;
         return AlgorithmLine{IM_COL32(ink.red, ink.green, ink.blue, 255), look.name + what};
     };
@@ -330,12 +330,12 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
     if (state.touch.catching_up) add("Catching up");
 }
 
-struct Explained {
+struct HelpRow {
     const char* what;
     const char* help;
 };
 
-constexpr Explained kMarks[] = {
+constexpr HelpRow kMarks[] = {
     {"Orange ring", "The goal: where the hand is"},
     {"Blue ball", "The proxy: stays on the surface"},
     {"Pale ball", "In a replay: the proxy as recorded"},
@@ -349,7 +349,7 @@ constexpr Explained kMarks[] = {
     {"Pale cone", "The friction cone: a proxy inside it sticks"},
 };
 
-constexpr Explained kMouse[] = {
+constexpr HelpRow kMouse[] = {
     {"Move", "The hand hovers over the surface"},
     {"Hold left", "Press in, deeper for the first second"},
     {"Hold left + wheel", "Deeper still, less deep"},
@@ -367,9 +367,9 @@ struct SheetGroup {
     [[nodiscard]] std::size_t lines() const { return rows.size() + 1; }
 };
 
-SheetGroup group_of(const char* title, std::span<const Explained> explained) {
+SheetGroup group_of(const char* title, std::span<const HelpRow> explained) {
     SheetGroup group{title};
-    for (const Explained& one : explained) group.rows.emplace_back(one.what, one.help);
+    for (const HelpRow& one : explained) group.rows.emplace_back(one.what, one.help);
     return group;
 }
 
@@ -449,7 +449,7 @@ void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> gro
 }
 
 /// The keys for help and panels, at the upper right, unless the text on the touch is in the way.
-void draw_way_to_keys(const ViewerState& state, float margin) {
+void draw_key_hint(const ViewerState& state, float margin) {
     constexpr float kFaint = 0.6F;
     const std::string help = state.keys.name_for(Action::toggle_help);
     const std::string panels = state.keys.name_for(Action::toggle_panels);
@@ -475,11 +475,12 @@ std::string clip_text(const ViewerState& state) {
 
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.ui.scale;
-    draw_way_to_keys(state, margin);
+    draw_key_hint(state, margin);
     draw_upper_left(state, margin, draw_legend(state, margin));
     if (now_s < state.ui.notice_until_s) {
         const double left_s = state.ui.notice_until_s - now_s;
-        const std::string text = state.ui.notice_of_place ? place_text(state) : state.ui.notice;
+        const std::string text =
+            state.ui.notice_shows_position ? position_text(state) : state.ui.notice;
         centred_label(state, text, 1.5F, static_cast<float>(std::min(1.0, left_s)));
     }
 }

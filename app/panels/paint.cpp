@@ -19,7 +19,7 @@ void draw_material_row(ViewerState& state) {
     all.insert(all.end(), state.ui.materials.own.begin(), state.ui.materials.own.end());
     std::vector<std::string> spoken;
     spoken.reserve(all.size());
-    for (const std::string& name : all) spoken.push_back(spoken_name(name));
+    for (const std::string& name : all) spoken.push_back(display_name(name));
     std::vector<const char*> names;
     names.reserve(all.size());
     for (const std::string& name : spoken) names.push_back(name.c_str());
@@ -40,25 +40,25 @@ void draw_value_row(ViewerState& state) {
         number_row({label, format, limits.lowest, limits.highest, usual, help}, value);
         value = std::clamp(value, limits.lowest, limits.highest);
     };
-    switch (brush.lays) {
-        case BrushLays::material:
+    switch (brush.layer) {
+        case BrushLayer::material:
             return draw_material_row(state);
-        case BrushLays::stiffness:
+        case BrushLayer::stiffness:
             return row("Stiffness", "%.2f N/mm", TouchMapKind::stiffness,
                        standard.stiffness_newton_per_mm,
                        "Stiffness of the spring, instead of the Touch panel's",
                        brush.stiffness_newton_per_mm);
-        case BrushLays::friction:
+        case BrushLayer::friction:
             return row(
                 "Friction", "%.2f", TouchMapKind::friction, standard.friction,
                 "The static coefficient, instead of the Touch panel's; the dynamic one keeps "
                 "its ratio to it",
                 brush.friction);
-        case BrushLays::height:
+        case BrushLayer::height:
             return row("Height", "%.1f px", TouchMapKind::height, standard.height_px,
                        "On top of the depth; below 0: pressed in", brush.height_px);
-        case BrushLays::nothing:
-            return quiet_text("Erases what was painted, of every kind.");
+        case BrushLayer::nothing:
+            return draw_dimmed("Erases what was painted, of every kind.");
     }
 }
 
@@ -69,7 +69,7 @@ void draw_undo_buttons(ViewerState& state) {
         ImGui::BeginDisabled(!enabled);
         const bool pressed = ImGui::Button(label, {third, 0.0F});
         ImGui::EndDisabled();
-        explain(help.c_str());
+        add_tooltip(help.c_str());
         return pressed;
     };
     const KeyTable& keys = state.keys;
@@ -90,14 +90,14 @@ void draw_paint_panel(ViewerState& state) {
     const bool comes = state.ui.show_paint;
     if (!section(state, "Paint", state.settings.panels.paint, &state.ui.show_paint)) return;
     Brush& brush = state.ui.brush;
-    if (!brush.refusal.empty()) return quiet_text(brush.refusal);
+    if (!brush.refusal.empty()) return draw_dimmed(brush.refusal);
     ImGui::PushID("paint");
     bool on = brush.on;
     if (ImGui::Checkbox("Brush", &on)) state.commands.push(Action::toggle_brush);
-    explain(("The left mouse button paints on the relief instead of touching it" +
-             state.keys.in_brackets(Action::toggle_brush))
-                .c_str());
-    choice_row("Paints", kBrushWords, brush.lays,
+    add_tooltip(("The left mouse button paints on the relief instead of touching it" +
+                 state.keys.in_brackets(Action::toggle_brush))
+                    .c_str());
+    choice_row("Paints", kBrushLayerNames, brush.layer,
                "What the brush lays; there it counts instead of the Touch panel");
     draw_value_row(state);
     const Brush standard;
@@ -112,10 +112,11 @@ void draw_paint_panel(ViewerState& state) {
         brush.strength = std::clamp(strength / 100.0, 0.0, 1.0);
     draw_undo_buttons(state);
     if (brush.saved_as.empty()) {
-        quiet_text("Paint on the sample is not kept: it is gone when another recording is opened.");
+        draw_dimmed(
+            "Paint on the sample is not kept: it is gone when another recording is opened.");
     } else {
-        quiet_text("Kept beside the recording as " + brush.saved_as.filename().string() +
-                   " and files named like it; dibhr finds them again.");
+        draw_dimmed("Kept beside the recording as " + brush.saved_as.filename().string() +
+                    " and files named like it; dibhr finds them again.");
     }
     // To the end of the panel; the column's new height is known only a picture later.
     constexpr int kPicturesToScroll = 3;

@@ -20,7 +20,7 @@ void draw_video_panel(ViewerState& state, Transport* player);
 /// Rows that show and edit what the depth's levels mean; part of the Video panel.
 void draw_depth_rows(ViewerState& state);
 /// Fills the typed rows with the panel's statements on the depth that is open now.
-void show_depth_words(ViewerState& state);
+void fill_depth_fields(ViewerState& state);
 /// The depth's meaning in one line; a click on it opens the rows.
 void draw_depth_line(ViewerState& state);
 void draw_surface_panel(ViewerState& state);
@@ -38,11 +38,11 @@ void draw_loop_panel(ViewerState& state);
 /// Recording: start, stop, participant, notes and marks, and its progress.
 void draw_session_panel(ViewerState& state);
 
-/// Parts of the Device panel, for a device that in_sight() accepts: its state and what it needs,
-/// with the guided homing and the firmware; then its settings by topic.
-void draw_force_device(ViewerState& state, const DeviceNews& news);
+/// Parts of the Device panel, for a device that attached_or_expected() accepts: its state and what
+/// it needs, with the guided homing and the firmware; then its settings by topic.
+void draw_force_device(ViewerState& state, const DeviceInfo& info);
 void draw_homing_guide(const std::vector<HomedAxis>& axes);
-void draw_force_device_settings(ViewerState& state, const DeviceNews& news);
+void draw_force_device_settings(ViewerState& state, const DeviceInfo& info);
 
 /// A button that starts or ends a clip of the window, as wide as there is room.
 void draw_clip_button(ViewerState& state);
@@ -104,7 +104,7 @@ void draw_nothing_open(ViewerState& state);
 
 /// A card over the relief: settings of the file that protect the hand less, for a person to agree
 /// to. Until then the defaults are in effect.
-void draw_doubts(ViewerState& state);
+void draw_unsafe_settings(ViewerState& state);
 
 /// A card over the relief, for a video without depth: depth can be made for it.
 void draw_depth_offer(ViewerState& state);

@@ -85,7 +85,7 @@ float panes_height(const ViewerState& state) {
 }
 
 ReliefPaint depth_paint(const ViewerState& state) {
-    const ReliefPaint paint = state.settings.look.paint;
+    const ReliefPaint paint = state.settings.relief_style.paint;
     return depth_colours(paint) != nullptr || !shows_panes(state) ? paint : ReliefPaint::turbo;
 }
 
@@ -109,7 +109,7 @@ void draw_panes(const ViewerState& state) {
     const std::array<PaneRect, 2> panes = pane_rects(state);
     draw_pane(state, panes[0], state.ui.panes.colour, "Colour");
     draw_pane(state, panes[1], state.ui.panes.depth,
-              entry_of(kReliefPaintWords, depth_paint(state)).label);
+              entry_of(kReliefPaintNames, depth_paint(state)).label);
 }
 
 }  // namespace dibhr

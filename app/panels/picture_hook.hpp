@@ -11,13 +11,13 @@
 namespace dibhr {
 
 /// The position of a participant in a study.
-struct StudyPlace {
-    int step{0};          ///< a StudyStep
-    int trial{0};         ///< number of the running trial, from 0
-    int interval{0};      ///< of the trial, from 0
-    bool waits{false};    ///< the interval's surface is not ready
-    bool leaving{false};  ///< the participant is asked whether to leave
-    bool agrees{false};   ///< the experimenter is asked whether the study may protect less
+struct StudyPosition {
+    int step{0};               ///< a StudyStep
+    int trial{0};              ///< number of the running trial, from 0
+    int interval{0};           ///< of the trial, from 0
+    bool waits{false};         ///< the interval's surface is not ready
+    bool leaving{false};       ///< the participant is asked whether to leave
+    bool asks_consent{false};  ///< the experimenter is asked whether the study may protect less
     /// When the question appeared on the screen; nothing: not yet.
     std::optional<std::chrono::steady_clock::time_point> seen_since{};
 };
@@ -28,8 +28,8 @@ struct PictureShown {
     const TouchState& touch;
     const MediaState& media;
     const DepthBlend& surface;
-    const UiState* ui{nullptr};        ///< the viewer's; null in a study's window
-    const StudyPlace* study{nullptr};  ///< null in the viewer's window
+    const UiState* ui{nullptr};           ///< the viewer's; null in a study's window
+    const StudyPosition* study{nullptr};  ///< null in the viewer's window
 };
 
 /// Called on the window's thread after each picture. The tests' build of the program observes the

@@ -6,7 +6,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 
 namespace dibhr {
 
@@ -18,7 +18,7 @@ void fact_if_any(const char* label, const std::string& value) {
     if (!value.empty()) fact_row(label, value);
 }
 
-void draw_about(const ReplayNews& replay) {
+void draw_about(const ReplayInfo& replay) {
     file_row("Session", replay.file);
     fact_if_any("Participant", replay.participant);
     fact_if_any("Recorded", date_text(replay.started));
@@ -28,7 +28,7 @@ void draw_about(const ReplayNews& replay) {
 }
 
 void draw_moment(const ViewerState& state) {
-    const ReplayNews& replay = *state.touch.replay;
+    const ReplayInfo& replay = *state.touch.replay;
     const Touch& touch = state.touch.haptic.touch;
     fact_row("Tick", std::to_string(replay.tick_count));
     fact_row("Video", replay.tick.surface ? clock_text(replay.tick.video_s) + ", frame " +
@@ -44,7 +44,7 @@ void draw_moment(const ViewerState& state) {
     }
 }
 
-void draw_marks(const ReplayNews& replay, Transport& player) {
+void draw_marks(const ReplayInfo& replay, Transport& player) {
     if (replay.marks.empty()) return;
     const float line = ImGui::GetTextLineHeightWithSpacing();
     const float rows = std::min(static_cast<float>(replay.marks.size()), kMarkRows);
@@ -65,18 +65,18 @@ void draw_replay_panel(ViewerState& state, Transport& replay) {
     bool open = true;  // what a replay is for
     section(state, "Replay", open);
     ImGui::PushID("replay");
-    const ReplayNews& news = *state.touch.replay;
-    draw_about(news);
+    const ReplayInfo& info = *state.touch.replay;
+    draw_about(info);
     if (ImGui::Button("Touch this video", {half_width(), 0.0F})) state.commands.push(LeaveReplay{});
-    explain("Leaves the replay: the hand touches the video it was recorded over");
+    add_tooltip("Leaves the replay: the hand touches the video it was recorded over");
     ImGui::SameLine();
-    report_button(state, news.file);
+    report_button(state, info.file);
     draw_clip_button(state);
-    if (!news.playback.failure.empty()) trouble_text(capitalised(news.playback.failure));
-    speed_row(news.playback.speed, replay);
+    if (!info.playback.failure.empty()) draw_warning(capitalised(info.playback.failure));
+    speed_row(info.playback.speed, replay);
     draw_moment(state);
     draw_strip_charts(state);
-    draw_marks(news, replay);
+    draw_marks(info, replay);
     ImGui::PopID();
 }
 

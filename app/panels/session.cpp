@@ -33,11 +33,11 @@ void draw_switch(ViewerState& state) {
         state.commands.push(Action::record);
     }
     if (on) ImGui::PopStyleColor(kRecordingColours);
-    explain(on ? "Closes the file" : "Every tick goes into a new file in the current folder",
-            state.keys, Action::record);
+    add_tooltip(on ? "Closes the file" : "Every tick goes into a new file in the current folder",
+                state.keys, Action::record);
 }
 
-void draw_progress(const RecordingNews& recording) {
+void draw_progress(const RecordingInfo& recording) {
     const RecorderStatus& status = recording.status;
     file_row("File", recording.file);
     fact_row("Time", clock_text(recording.time_s));
@@ -64,7 +64,7 @@ void draw_marks(ViewerState& state) {
     ImGui::SameLine();
     if (ImGui::Button("Mark") || entered)
         state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
-    explain("Marks this moment", state.keys, Action::mark);
+    add_tooltip("Marks this moment", state.keys, Action::mark);
     const std::vector<SessionMark>& marks = state.touch.recording->marks;
     const std::size_t first = marks.size() - std::min(marks.size(), kMarksShown);
     for (std::size_t k = marks.size(); k > first; --k) {
@@ -83,14 +83,14 @@ void draw_clip_button(ViewerState& state) {
     ImGui::EndDisabled();
     if (on) ImGui::PopStyleColor(kRecordingColours);
     if (on) {
-        explain("Finishes its file", state.keys, Action::take_clip);
+        add_tooltip("Finishes its file", state.keys, Action::take_clip);
         return;
     }
     const std::string without = state.keys.name_for(Action::take_clip_of_relief);
     const std::string way = without.empty() ? "" : "; " + without + ": without panels";
-    explain(("What this window shows, as MP4 in the current folder" +
-             state.keys.in_brackets(Action::take_clip) + way)
-                .c_str());
+    add_tooltip(("What this window shows, as MP4 in the current folder" +
+                 state.keys.in_brackets(Action::take_clip) + way)
+                    .c_str());
 }
 
 void draw_session_panel(ViewerState& state) {
@@ -100,7 +100,7 @@ void draw_session_panel(ViewerState& state) {
     ImGui::SameLine();
     draw_clip_button(state);
     const TouchState& touch = state.touch;
-    if (!touch.recording_trouble.empty()) trouble_text(capitalised(touch.recording_trouble));
+    if (!touch.recording_trouble.empty()) draw_warning(capitalised(touch.recording_trouble));
     if (touch.recording) {
         draw_progress(*touch.recording);
     } else if (!touch.recorded_file.empty()) {

@@ -111,31 +111,31 @@ void draw_values_axis(ImDrawList& list, const ChartFrame& frame, float scale) {
     list.AddLine({frame.low.x, frame.y_of(middle)}, {frame.high.x, frame.y_of(middle)},
                  ImGui::GetColorU32(ImGuiCol_Separator));
     for (const float value : {frame.range.low, middle, frame.range.high}) {
-        const std::string words = formatted("%g", static_cast<double>(value));
-        const float width = ImGui::CalcTextSize(words.c_str()).x;
+        const std::string label = formatted("%g", static_cast<double>(value));
+        const float width = ImGui::CalcTextSize(label.c_str()).x;
         const float y = std::clamp(frame.y_of(value) - 0.5F * text, frame.low.y - 0.5F * text,
                                    frame.high.y - text);
-        list.AddText({frame.low.x - width - 4.0F * scale, y}, quiet, words.c_str());
+        list.AddText({frame.low.x - width - 4.0F * scale, y}, quiet, label.c_str());
     }
 }
 
-/// A line each second; labelled if `words_y` is given.
-void draw_time_axis(ImDrawList& list, const ChartFrame& frame, std::optional<float> words_y) {
+/// A line each second; labelled if `labels_y` is given.
+void draw_time_axis(ImDrawList& list, const ChartFrame& frame, std::optional<float> labels_y) {
     constexpr int kSeconds = static_cast<int>(StripHistory::kTicks / kTicksPerSecond);
     for (int second = 0; second < kSeconds; ++second) {
         const float x = frame.x_of(second * kTicksPerSecond);
         list.AddLine({x, frame.low.y}, {x, frame.high.y}, ImGui::GetColorU32(ImGuiCol_Separator));
-        if (!words_y) continue;
-        const std::string words = second == 0 ? "now" : formatted("-%d s", second);
-        const float width = ImGui::CalcTextSize(words.c_str()).x;
-        list.AddText({second == 0 ? x - width : x - 0.5F * width, *words_y},
-                     ImGui::GetColorU32(ImGuiCol_TextDisabled), words.c_str());
+        if (!labels_y) continue;
+        const std::string label = second == 0 ? "now" : formatted("-%d s", second);
+        const float width = ImGui::CalcTextSize(label.c_str()).x;
+        list.AddText({second == 0 ? x - width : x - 0.5F * width, *labels_y},
+                     ImGui::GetColorU32(ImGuiCol_TextDisabled), label.c_str());
     }
 }
 
 /// The chart's name, or, under the pointer, its value there.
-std::string words_of(const StripKind& kind, const StripHistory& strips,
-                     std::optional<std::size_t> age) {
+std::string chart_text(const StripKind& kind, const StripHistory& strips,
+                       std::optional<std::size_t> age) {
     if (!age) return formatted("%s [%s]", kind.name, kind.unit);
     return formatted("%s %.3g %s, %.3f s ago", kind.name,
                      static_cast<double>(strips.before(kind.strip, *age)), kind.unit,
@@ -167,7 +167,7 @@ void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, 
     }
     list.AddText({frame.low.x, low.y + 1.0F * scale},
                  ImGui::GetColorU32(age ? ImGuiCol_Text : ImGuiCol_TextDisabled),
-                 words_of(kind, strips, age).c_str());
+                 chart_text(kind, strips, age).c_str());
     ImGui::Dummy({high.x - low.x, high.y - low.y});
 }
 
@@ -175,25 +175,25 @@ void draw_chart(const StripKind& kind, const StripHistory& strips, float scale, 
 void draw_buttons(ViewerState& state, ImVec2 corner) {
     const float gap = 2.0F * state.ui.scale;
     const char* const choose = "Charts";
-    const char* const hold = state.ui.held_strips ? "Go on" : "Pause";
+    const char* const hold = state.ui.paused_strips ? "Go on" : "Pause";
     const ImVec2 below = ImGui::GetCursorScreenPos();
     ImGui::SetCursorScreenPos(
         {corner.x - button_width(choose) - button_width(hold) - 2.0F * gap, corner.y + gap});
     if (ImGui::SmallButton(hold)) {
-        if (state.ui.held_strips) {
-            state.ui.held_strips.reset();
+        if (state.ui.paused_strips) {
+            state.ui.paused_strips.reset();
         } else {
-            state.ui.held_strips = state.touch.strips;
+            state.ui.paused_strips = state.touch.strips;
         }
     }
-    explain("The charts are held; touching goes on");
+    add_tooltip("The charts are held; touching goes on");
     ImGui::SameLine(0.0F, gap);
     if (ImGui::SmallButton(choose)) ImGui::OpenPopup("charts");
-    explain("Which charts are drawn");
+    add_tooltip("Which charts are drawn");
     if (ImGui::BeginPopup("charts")) {
         for (const StripKind& kind : kKinds) {
             ImGui::Checkbox(kind.name, &(state.settings.charts.*kind.shown));
-            explain(kind.help);
+            add_tooltip(kind.help);
         }
         ImGui::EndPopup();
     }
@@ -204,7 +204,8 @@ void draw_buttons(ViewerState& state, ImVec2 corner) {
 
 void draw_strip_charts(ViewerState& state) {
     ImGui::PushID("charts");
-    const StripHistory& strips = state.ui.held_strips ? *state.ui.held_strips : state.touch.strips;
+    const StripHistory& strips =
+        state.ui.paused_strips ? *state.ui.paused_strips : state.touch.strips;
     ChartsShown& shown = state.settings.charts;
     const auto is_shown = [&shown](const StripKind& kind) { return shown.*kind.shown; };
     if (std::none_of(kKinds.begin(), kKinds.end(), is_shown)) shown.force = true;

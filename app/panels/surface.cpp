@@ -47,9 +47,9 @@ void draw_under_hand(const ViewerState& state) {
 void draw_text_size(ViewerState& state) {
     constexpr double kStep = 1.25;
     double& scale = state.settings.ui_scale;
-    const auto choose = [&](const char* words, double wanted, const char* help) {
-        if (ImGui::Button(words)) scale = wanted;
-        explain(help);
+    const auto choose = [&](const char* label, double wanted, const char* help) {
+        if (ImGui::Button(label)) scale = wanted;
+        add_tooltip(help);
     };
     const double now = static_cast<double>(state.ui.scale);
     choose("Smaller text", std::max(now / kStep, kSmallestUi), "Of all panels; as --ui-scale");
@@ -91,42 +91,43 @@ void draw_surface_panel(ViewerState& state) {
     if (!section(state, "Surface", state.settings.panels.surface)) return;
     ImGui::PushID("surface");
     Settings& settings = state.settings;
-    const ReliefLook standard;
+    const ReliefStyle standard;
     draw_shape(state);
     draw_under_hand(state);
     number_row({"Shading", "%.2f", 0.0, 1.0, standard.light, "0: flat colour, 1: strong"},
-               settings.look.light);
+               settings.relief_style.light);
     const std::string next = state.keys.name_for(Action::next_paint);
     const std::string one_by_one = next.empty() ? "" : " (" + next + ": one after the other)";
-    choice_row("Painted with", kReliefPaintWords, settings.look.paint,
+    choice_row("Painted with", kReliefPaintNames, settings.relief_style.paint,
                ("Clay shows the shape; the depth's colours have a legend" + one_by_one).c_str());
     flag_row("Colour and depth above", settings.panes, false,
              ("Both as pictures above the relief, with the proxy and the pointer on them" +
               state.keys.in_brackets(Action::toggle_panes))
                  .c_str());
-    flag_row("Cut silhouettes", settings.look.discard_silhouettes, standard.discard_silhouettes,
+    flag_row("Cut silhouettes", settings.relief_style.discard_silhouettes,
+             standard.discard_silhouettes,
              "Does not draw the stretched walls between near and far; they can still be touched");
-    ImGui::BeginDisabled(!settings.look.discard_silhouettes);
+    ImGui::BeginDisabled(!settings.relief_style.discard_silhouettes);
     number_row({"Cut steeper than", "%.0f px/px", 1.0, 40.0, standard.silhouette_slope,
                 "Elevation change per pixel"},
-               settings.look.silhouette_slope);
+               settings.relief_style.silhouette_slope);
     ImGui::EndDisabled();
-    flag_row("Coarse drawing", settings.look.coarse, standard.coarse,
+    flag_row("Coarse drawing", settings.relief_style.coarse, standard.coarse,
              "Every second point, for slow machines; touch stays exact");
-    flag_row("Dent and shadow", settings.look.dent, standard.dent,
+    flag_row("Dent and shadow", settings.relief_style.dent, standard.dent,
              "The skin gives way under the proxy: drawn only, what is felt stays as it is");
-    flag_row("Trace", settings.look.trace, standard.trace,
+    flag_row("Trace", settings.relief_style.trace, standard.trace,
              "Dots where you have touched in the last seconds");
     int straight = settings.straight_view ? 1 : 0;
     ImGui::RadioButton("Perspective", &straight, 0);
     ImGui::SameLine();
     ImGui::RadioButton("Straight", &straight, 1);
-    explain("As seen by the camera that recorded it", state.keys, Action::toggle_straight_view);
+    add_tooltip("As seen by the camera that recorded it", state.keys, Action::toggle_straight_view);
     settings.straight_view = straight == 1;
     ImGui::SameLine();
     if (ImGui::Button("Reset view")) state.commands.push(Action::reset_view);
-    explain(state.keys.name_for(Action::reset_view).c_str());
-    choice_row("Theme", kThemeWords, settings.theme,
+    add_tooltip(state.keys.name_for(Action::reset_view).c_str());
+    choice_row("Theme", kThemeNames, settings.theme,
                "The colours of the panels and the wall (--theme)");
     draw_text_size(state);
     ImGui::PopID();

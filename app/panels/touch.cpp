@@ -15,26 +15,26 @@ namespace {
 void draw_motion_trouble(const ViewerState& state) {
     if (!state.settings.touch.carry || state.media.depth_path.empty()) return;
     const std::string trouble = motion_trouble(state.media);
-    if (!trouble.empty()) quiet_text(capitalised(trouble) + '.');
+    if (!trouble.empty()) draw_dimmed(capitalised(trouble) + '.');
 }
 
 /// In a replay: whether the parameters are the recorded ones, and a button to restore them.
 void draw_origin(ViewerState& state) {
     if (!state.touch.replay) return;
     if (!state.touch.replay->computes) {
-        quiet_text("As recorded. Change something: the forces are computed again.");
+        draw_dimmed("As recorded. Change something: the forces are computed again.");
         return;
     }
-    quiet_text("Computed again with these. The pale ball is the recorded proxy.");
+    draw_dimmed("Computed again with these. The pale ball is the recorded proxy.");
     if (ImGui::Button("As recorded", {-1.0F, 0.0F})) state.commands.push(ReplayAsRecorded{});
-    explain("Back to the recorded parameters, proxies and forces");
+    add_tooltip("Back to the recorded parameters, proxies and forces");
 }
 
 /// A note if the device cannot render the requested stiffness or damping.
-void draw_held_coupling(const ViewerState& state) {
-    const Coupling held = felt_coupling(state.settings, state.touch);
-    if (!(held == asked_coupling(state.settings, state.touch))) {
-        quiet_text(
+void draw_effective_coupling(const ViewerState& state) {
+    const Coupling held = effective_coupling(state.settings, state.touch);
+    if (!(held == requested_coupling(state.settings, state.touch))) {
+        draw_dimmed(
             formatted("Felt as %.2f N/mm and %.1f N s/m: the device can give no more at this scale "
                       "of the workspace and with this delay.",
                       held.stiffness_newton_per_mm, held.damping_newton_s_per_m));
@@ -57,7 +57,7 @@ void draw_stability(ViewerState& state) {
             "Damping as the hand needs", settings.damping_as_needed, true,
             "On: as much as the device's delay needs at this stiffness. Off: your own damping");
     }
-    const Coupling felt = felt_coupling(state.settings, state.touch);
+    const Coupling felt = effective_coupling(state.settings, state.touch);
     if (felt == held_coupling(settings.touch.coupling, limits_of_hand(state.touch))) {
         draw_parameters(TouchTopic::damper, settings.touch);
     } else {
@@ -70,7 +70,7 @@ void draw_stability(ViewerState& state) {
     fact_row("Stability margin", formatted("%+.1f N s/m", margin),
              "By how much the hand is damped more than the spring drives it; below 0 it swings");
     if (margin < 0.0)
-        trouble_text("A light or free grip swings: raise the damping, or lower the stiffness.");
+        draw_warning("A light or free grip swings: raise the damping, or lower the stiffness.");
     const EnergyFlow& energy = state.touch.haptic.touch.energy;
     fact_row("Energy",
              formatted("video %.1f, created %.1f mW", energy.from_video_mw, energy.created_mw),
@@ -85,7 +85,7 @@ void draw_stability(ViewerState& state) {
 
 /// A button of the row of materials, lit if it is the chosen one; on a new line if the row is full.
 void draw_material(ViewerState& state, const std::string& name, const char* help) {
-    const std::string label = spoken_name(name.empty() ? std::string(kAsRecorded) : name);
+    const std::string label = display_name(name.empty() ? std::string(kAsRecorded) : name);
     if (!name.empty()) {  // not the first
         ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
         if (ImGui::GetContentRegionAvail().x < button_width(label.c_str())) ImGui::NewLine();
@@ -96,7 +96,7 @@ void draw_material(ViewerState& state, const std::string& name, const char* help
     if (ImGui::Button(label.c_str()))
         state.commands.push(UseMaterial{name.empty() ? std::string(kAsRecorded) : name});
     ImGui::PopStyleColor();
-    explain(help);
+    add_tooltip(help);
 }
 
 /// The materials, and a field to save a changed material under a name.
@@ -128,7 +128,7 @@ void draw_bump(ViewerState& state) {
     }
     if (text_field("##bump", "Bump map: a grey picture, or drop it here", state.ui.fields.bump,
                    "Path of a picture laid over the surface as fine relief; Enter takes it")) {
-        state.commands.push(LoadBump{typed_path(state.ui.fields.bump.data())});
+        state.commands.push(LoadBump{expand_home(state.ui.fields.bump.data())});
     }
     if (!state.touch.bump) return;
     fact_row("Bump map", state.touch.bump_file.filename().string());
@@ -160,21 +160,21 @@ void draw_sound(ViewerState& state) {
     }
     ImGui::SameLine();
     ImGui::Checkbox("Mute", &settings.mute);
-    explain("Touch makes no sound", state.keys, Action::toggle_sound);
+    add_tooltip("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 
-std::string pads_in_words(const PadNews& pads, bool coils_move) {
-    if (pads.state == PadNews::State::no_session)
+std::string pads_text(const PadInfo& pads, bool coils_move) {
+    if (pads.state == PadInfo::State::no_session)
         return "not looked for: no desktop session has been started";
     if (pads.found.empty()) return "none found";
-    std::string words;
+    std::string text;
     for (const FoundPad& pad : pads.found) {
         const char* does = pad.has_coils && coils_move ? "voice coils"
                            : pad.rumbles               ? "rumble"
                                                        : "cannot rumble";
-        words += (words.empty() ? "" : "\n") + pad.name + ": " + does;
+        text += (text.empty() ? "" : "\n") + pad.name + ": " + does;
     }
-    return words;
+    return text;
 }
 
 void draw_game_pad(ViewerState& state) {
@@ -183,8 +183,8 @@ void draw_game_pad(ViewerState& state) {
     flag_row("Game pad", settings.game_pad, Settings{}.game_pad,
              "It rumbles with what is touched, also while muted; it does not move the hand "
              "(--game-pad)");
-    if (state.touch.pads.state != PadNews::State::off)
-        beside_flag(pads_in_words(state.touch.pads, state.touch.moves_coils));
+    if (state.touch.pads.state != PadInfo::State::off)
+        text_beside_flag(pads_text(state.touch.pads, state.touch.moves_coils));
 }
 
 }  // namespace
@@ -196,14 +196,14 @@ void draw_touch_panel(ViewerState& state) {
     draw_materials(state);
     draw_parameters(TouchTopic::algorithm, state.settings.touch);
     draw_parameters(TouchTopic::spring, state.settings.touch);
-    draw_held_coupling(state);
+    draw_effective_coupling(state);
     draw_stability(state);
     draw_parameters(TouchTopic::friction, state.settings.touch);
     draw_motion_trouble(state);
     draw_bump(state);
     draw_parameters(TouchTopic::texture, state.settings.touch);
     if (!state.touch.bump && !state.touch.replay)
-        quiet_text("Roughness needs a bump map to be felt.");
+        draw_dimmed("Roughness needs a bump map to be felt.");
     draw_sound(state);
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +

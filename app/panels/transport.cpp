@@ -118,15 +118,15 @@ std::optional<double> draw_time_line(const TimeLineContents& line, float width) 
 
 /// The text beside the time line: whole if it leaves room for a usable line, else shorter, or
 /// nothing.
-struct Beside {
+struct TimeText {
     std::string time{};  ///< "00:04.1 / 00:10.0"
     std::string more{};  ///< "frame 124"; empty if there is no room
     float width{0.0F};   ///< of both, with the gaps
 };
 
 /// `more_width`: of the longest `more`; `right_of_line`: space for other items [px].
-Beside beside_line(const TimeLineContents& line, const std::string& more, float more_width,
-                   float right_of_line) {
+TimeText fit_time_text(const TimeLineContents& line, const std::string& more, float more_width,
+                       float right_of_line) {
     const float least = 7.0F * ImGui::GetFontSize();
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float room = ImGui::GetContentRegionAvail().x - right_of_line - least;
@@ -145,7 +145,7 @@ Beside beside_line(const TimeLineContents& line, const std::string& more, float 
 /// time to seek [s].
 std::optional<double> draw_line_and_time(const TimeLineContents& line, const std::string& more,
                                          float more_width, float right_of_line) {
-    const Beside beside = beside_line(line, more, more_width, right_of_line);
+    const TimeText beside = fit_time_text(line, more, more_width, right_of_line);
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float width = ImGui::GetContentRegionAvail().x - beside.width - right_of_line - gap;
     std::optional<double> wanted_s;
@@ -176,12 +176,12 @@ void begin_bottom_bar(const ViewerState& state, const char* name) {
 }
 
 /// The state of a live source, in place of the time line.
-void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
+void draw_live(const LiveStatus& live, bool playing, float right_of_text) {
     const ImU32 red = IM_COL32(226, 60, 52, 255);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetFrameHeight();
     const float radius = 0.17F * height;
-    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - right_of_words;
+    const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x - right_of_text;
     ImGui::GetWindowDrawList()->AddCircleFilled(
         {at.x + 2.0F * radius, at.y + 0.5F * height}, radius,
         playing && live.signal ? red : ImGui::GetColorU32(ImGuiCol_TextDisabled), 16);
@@ -189,20 +189,20 @@ void draw_live(const LiveStatus& live, bool playing, float right_of_words) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(playing ? "LIVE" : "HELD");
     ImGui::SameLine();
-    const std::string words = playing ? in_words(live) : "play goes on with the newest frame";
+    const std::string text = playing ? in_words(live) : "play goes on with the newest frame";
     const float room = right - ImGui::GetCursorPosX();
-    if (ImGui::CalcTextSize(words.c_str()).x < room) ImGui::TextDisabled("%s", words.c_str());
+    if (ImGui::CalcTextSize(text.c_str()).x < room) ImGui::TextDisabled("%s", text.c_str());
     ImGui::SameLine(right + ImGui::GetStyle().ItemSpacing.x);
 }
 
 /// The time line of a course, from its begin.
-TimeLineContents line_of(const Course& course) {
-    TimeLineContents line{.now_s = course.now_s - course.begin_s,
-                          .length_s = course.end_s - course.begin_s,
-                          .part = course.part};
+TimeLineContents line_of(const PlayState& play_state) {
+    TimeLineContents line{.now_s = play_state.now_s - play_state.begin_s,
+                          .length_s = play_state.end_s - play_state.begin_s,
+                          .part = play_state.part};
     if (line.part) {
-        line.part->from_s -= course.begin_s;
-        line.part->to_s -= course.begin_s;
+        line.part->from_s -= play_state.begin_s;
+        line.part->to_s -= play_state.begin_s;
     }
     return line;
 }
@@ -212,7 +212,7 @@ void draw_playback(const ViewerState& state, Transport& player, float right_of_l
     play_button(playback.playing, player, state.keys);
     ImGui::SameLine();
     if (playback.live) return draw_live(*playback.live, playback.playing, right_of_line);
-    const auto wanted_s = draw_line_and_time(line_of(playback.course()),
+    const auto wanted_s = draw_line_and_time(line_of(playback.play_state()),
                                              "frame " + std::to_string(playback.frame + 1),
                                              ImGui::CalcTextSize("frame 00000").x, right_of_line);
     if (wanted_s) player.seek(*wanted_s);
@@ -262,7 +262,7 @@ void draw_replay_bar(ViewerState& state, Transport& replay) {
 
 /// While the panels are hidden, the bar appears only near the pointer, but not while the pointer
 /// presses on the relief.
-bool bar_is_wanted(const ViewerState& state) {
+bool bar_is_visible(const ViewerState& state) {
     constexpr float kNear = 2.5F;  // of its height
     if (state.settings.panels_visible) return true;
     const ImGuiIO& io = ImGui::GetIO();
@@ -272,7 +272,7 @@ bool bar_is_wanted(const ViewerState& state) {
 }
 
 /// The force switch without the bar, always in reach.
-void draw_force_switch_alone(ViewerState& state) {
+void draw_force_switch_only(ViewerState& state) {
     const ImVec2 display = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(display, ImGuiCond_Always, {1.0F, 1.0F});
     ImGui::SetNextWindowBgAlpha(0.0F);
@@ -293,13 +293,13 @@ float bottom_bar_height(const ViewerState& state) {
 }
 
 void draw_bottom_bar(ViewerState& state, Transport& transport) {
-    const bool wanted = bar_is_wanted(state);
+    const bool wanted = bar_is_visible(state);
     if (state.touch.replay) {
         if (wanted) draw_replay_bar(state, transport);
     } else if (wanted) {
         draw_transport_bar(state, transport);
     } else {
-        draw_force_switch_alone(state);
+        draw_force_switch_only(state);
     }
 }
 

@@ -22,9 +22,9 @@ void draw_recent(ViewerState& state) {
     ImGui::SetCursorPosX(ImGui::GetCursorPosX() +
                          std::max(0.0F, ImGui::GetContentRegionAvail().x - width));
     if (ImGui::Button(kRecent)) ImGui::OpenPopup("recent");
-    explain("Files that were opened before");
+    add_tooltip("Files that were opened before");
     if (!ImGui::BeginPopup("recent")) return;
-    if (state.media.recent.empty()) quiet_text("No file was opened yet.");
+    if (state.media.recent.empty()) draw_dimmed("No file was opened yet.");
     for (const RecentFile& file : state.media.recent) {
         std::error_code unknown;
         const bool there = is_live(file.colour) || std::filesystem::exists(file.colour, unknown);
@@ -38,11 +38,11 @@ void draw_recent(ViewerState& state) {
             state.commands.push(OpenRequest{file.colour, file.depth});
         ImGui::PopID();
         ImGui::EndDisabled();
-        explain(file.colour.c_str());
+        add_tooltip(file.colour.c_str());
     }
     ImGui::Separator();
     ImGui::Checkbox("Go on where it was left", &state.settings.resume);
-    explain("A video that is opened again goes on at the moment at which it was closed");
+    add_tooltip("A video that is opened again goes on at the moment at which it was closed");
     desktop_dialog_box(state.settings.open_with);
     ImGui::EndPopup();
 }
@@ -63,8 +63,8 @@ void draw_open(ViewerState& state) {
         button_or_drop(opening ? "Opening" : "Open", !opening, "files", button_width(kRecent));
     if (pressed && !named) state.commands.push(Action::open_file);
     if ((from_colour || from_depth || pressed) && named) {
-        state.commands.push(OpenRequest{typed_path(state.ui.fields.colour.data()),
-                                        typed_path(state.ui.fields.depth.data())});
+        state.commands.push(OpenRequest{expand_home(state.ui.fields.colour.data()),
+                                        expand_home(state.ui.fields.depth.data())});
     }
     draw_recent(state);
 }
@@ -82,10 +82,10 @@ void draw_files(const MediaDescription& media) {
              formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
-    if (!media.notice.empty()) quiet_text(capitalised(media.notice));
+    if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 
-bool passes_frames_over(const PlaybackStatus& playback) {
+bool skips_frames(const PlaybackStatus& playback) {
     constexpr double kAll = 0.97;
     return playback.playing && playback.shown_per_s < kAll * playback.frames_per_s;
 }
@@ -95,12 +95,12 @@ bool passes_frames_over(const PlaybackStatus& playback) {
 void draw_frame(const PlaybackStatus& playback) {
     std::string value = std::to_string(playback.frame + 1) + " of " +
                         std::to_string(std::max(playback.frames, playback.frame + 1));
-    const bool slow = passes_frames_over(playback);
+    const bool slow = skips_frames(playback);
     if (slow) value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
     fact_row("Frame", value);
     if (!slow) return;
-    explain(
-        playback.waits
+    add_tooltip(
+        playback.falls_behind
             ? "This machine is too slow for all frames: so many are shown per second, and too late"
             : "This machine is too slow for all frames: so many are shown per second, at the right "
               "time");
@@ -111,7 +111,7 @@ void draw_playback(const ViewerState& state, Transport& player) {
     play_and_step_buttons(playback.playing, player, state.keys, "frame");
     bool looping = playback.looping;
     if (ImGui::Checkbox("Loop", &looping)) player.set_looping(looping);
-    explain("Start again at the end", state.keys, Action::toggle_loop);
+    add_tooltip("Start again at the end", state.keys, Action::toggle_loop);
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
     draw_frame(playback);
     speed_row(playback.speed, player);
@@ -127,7 +127,7 @@ void draw_live(const ViewerState& state, Transport& player) {
     ImGui::TextUnformatted(playback.playing ? "Live" : "Held");
     if (live.signal) {
         fact_row("Delay", formatted("%.0f ms", 1000.0 * live.behind_s));
-        explain(
+        add_tooltip(
             "Time from the arrival of a picture until the whole surface shows it: the time between "
             "frames, the time for cleaning, and a reserve for uneven arrival");
     } else {
@@ -135,12 +135,12 @@ void draw_live(const ViewerState& state, Transport& player) {
     }
     fact_row("Frames", formatted("%.1f/s, %lld left out", playback.frames_per_s,
                                  static_cast<long long>(live.dropped)));
-    explain("Left out: frames that came before the frame before them was ready");
-    if (live.motion_rests)
-        quiet_text("This machine is too slow to find how frames move: nothing is carried along");
-    if (live.in_betweens_rest)
-        quiet_text("This machine is too slow for in-betweens: frames fade into each other");
-    if (!live.signal && !live.trouble.empty()) quiet_text(capitalised(live.trouble));
+    add_tooltip("Left out: frames that came before the frame before them was ready");
+    if (live.motion_paused)
+        draw_dimmed("This machine is too slow to find how frames move: nothing is carried along");
+    if (live.in_betweens_paused)
+        draw_dimmed("This machine is too slow for in-betweens: frames fade into each other");
+    if (!live.signal && !live.trouble.empty()) draw_dimmed(capitalised(live.trouble));
 }
 
 /// If a person switches a step, the preset becomes `own`, with the other steps as they are now.
@@ -149,15 +149,16 @@ void draw_cleaning(ViewerState& state) {
     const std::string held = state.keys.name_for(Action::show_as_recorded);
     const std::string compared =
         held.empty() ? "" : "; hold " + held + " to see and feel it as recorded";
-    choice_row("Cleaning", kCleaningWords, cleaning.preset,
+    choice_row("Cleaning", kCleaningPresetNames, cleaning.preset,
                ("What is done to the depth before it is drawn and touched (--cleaning)" + compared)
                    .c_str(),
                CleaningPreset::automatic);
     const bool by_sidecar = cleaning_on(state.media, cleaning).preset != cleaning.preset;
     if (!state.touch.replay && !state.media.playback.cleaning.empty()) {
-        quiet_text((by_sidecar ? "By the sidecar: " + state.media.playback.cleaning
-                               : capitalised(state.media.playback.cleaning)));
-        explain("Which steps run, and the noise that was measured in the depth, from near to far");
+        draw_dimmed((by_sidecar ? "By the sidecar: " + state.media.playback.cleaning
+                                : capitalised(state.media.playback.cleaning)));
+        add_tooltip(
+            "Which steps run, and the noise that was measured in the depth, from near to far");
     }
     const double said_mm = finger_mm_on(state.media, 0.0);
     const std::string unless_chosen =
@@ -166,7 +167,7 @@ void draw_cleaning(ViewerState& state) {
                 "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
                 false, unless_chosen.c_str()},
                state.settings.finger_mm);
-    if (!part("Cleaning steps")) return;
+    if (!subsection("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
     CleaningSteps steps = own ? cleaning.own : state.media.playback.steps;
     const CleaningSteps standard = own ? kSensorSteps : steps;
@@ -191,7 +192,7 @@ void draw_cleaning(ViewerState& state) {
         "Within the noise of the recording; what is beyond it stays");
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
-    choice_row("In-betweens", kInBetweensWords, state.settings.in_betweens,
+    choice_row("In-betweens", kInBetweensNames, state.settings.in_betweens,
                "Between two frames, moving things are shown on their way, instead of one picture "
                "fading into the other; a replay then needs the colour, too (--in-betweens)");
 }
@@ -208,12 +209,12 @@ void draw_video_panel(ViewerState& state, Transport* player) {
         draw_live(state, *player);
     else if (player != nullptr && plays && !state.media.still)
         draw_playback(state, *player);
-    if (player != nullptr && part("Depth")) draw_depth_rows(state);
+    if (player != nullptr && subsection("Depth")) draw_depth_rows(state);
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);
     ImGui::EndDisabled();
     const std::string& failure = state.media.playback.failure;
-    if (player != nullptr && !failure.empty()) quiet_text(failure);
+    if (player != nullptr && !failure.empty()) draw_dimmed(failure);
     ImGui::PopID();
 }
 

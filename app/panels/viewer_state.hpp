@@ -18,8 +18,8 @@
 #include "app/touching/touch_state.hpp"
 #include "app/window/gui.hpp"
 #include "core/estimate/estimate_watch.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/haptics/explanation.hpp"
-#include "core/haptics/words.hpp"
 
 namespace dibhr {
 
@@ -47,10 +47,10 @@ struct TextFields {
 
 /// The preview of a recording that is not open.
 struct Preview {
-    std::filesystem::path of{};
+    std::filesystem::path file{};
     std::uintptr_t texture{0};  ///< name of an OpenGL texture; 0: none
     int columns{0}, rows{0};
-    std::string words{};
+    std::string text{};
 };
 
 /// The completion of a typed text by Tab.
@@ -67,14 +67,14 @@ struct OpenDialog {
         std::vector<std::size_t> entries{};
         std::string typed{};
         bool all_files{false};
-        int of_reading{-1};
+        int reading_number{-1};
     };
 
     bool shown{false};
     bool in_front{false};  ///< the dialog has the keyboard, not a panel
     Folder folder{};       ///< its entries are still being read while `reads`
-    bool reads{false};
-    int reading{0};  ///< a new number with every change of `folder`
+    bool is_reading{false};
+    int reading_number{0};  ///< a new number with every change of `folder`
     Rows rows{};
     std::filesystem::path chosen{};  ///< an entry of the folder; empty: none
     TextField typed{};               ///< narrows the entries, or is a path
@@ -83,22 +83,22 @@ struct OpenDialog {
     Preview preview{};
     std::filesystem::path sample_folder{};
     int line{0};               ///< ID of the text line; a new ID makes a new, empty line
-    int asks_for_keyboard{0};  ///< pictures left in which the line requests the keyboard
+    int pictures_to_focus{0};  ///< pictures left in which the line requests the keyboard
     int move{0};               ///< move the choice by so many entries
     bool enter{false};         ///< open the choice
-    bool bring_into_sight{false};
+    bool scroll_pending{false};
 };
 
 /// Whether Enter and the arrow keys go to the dialog, also before it has the keyboard.
 [[nodiscard]] inline bool takes_keys(const OpenDialog& dialog) {
-    return dialog.shown && (dialog.in_front || dialog.asks_for_keyboard > 0);
+    return dialog.shown && (dialog.in_front || dialog.pictures_to_focus > 0);
 }
 
 /// What a picture or clip of the window contains.
 enum class PictureOf { window, relief };
 
 /// The state of a clip that is being made of the window.
-struct ClipNews {
+struct ClipInfo {
     std::filesystem::path file{};
     double time_s{0.0};     ///< since its first picture
     bool finishing{false};  ///< ended; its file is not complete yet
@@ -113,10 +113,11 @@ struct PanesShown {
 /// The offer of depth for a video of colour alone: before, during and after its making.
 struct DepthOffer {
     std::filesystem::path colour{};
-    std::string words{};  ///< why the video cannot be opened, or an error; empty: neither
+    std::string text{};  ///< why the video cannot be opened, or an error; empty: neither
     std::vector<std::string> estimators{};  ///< names to choose from; none: it cannot be made
     int chosen{0};                          ///< index in `estimators`
-    std::string asks{};  ///< the command, escaped, that a person must agree to; empty: none
+    std::string
+        unconfirmed_command{};  ///< the command, escaped, that a person must agree to; empty: none
     std::optional<EstimateProgress> progress{};  ///< nothing: it is not being made
     bool ending{false};                          ///< cancelled, but not yet ended
     std::filesystem::path depth{};  ///< finished while something else was open; empty: not yet
@@ -141,18 +142,18 @@ struct Ruler {
 };
 
 /// What a brush paints on the relief, in the order of the panel.
-enum class BrushLays { material, stiffness, friction, height, nothing };
-inline constexpr std::array<Word<BrushLays>, 5> kBrushWords{
-    {{BrushLays::material, "material", "Material"},
-     {BrushLays::stiffness, "stiffness", "Stiffness"},
-     {BrushLays::friction, "friction", "Friction"},
-     {BrushLays::height, "height", "Height"},
-     {BrushLays::nothing, "nothing", "Nothing: erase"}}};
-static_assert(has_all_in_order(kBrushWords, BrushLays::nothing));
+enum class BrushLayer { material, stiffness, friction, height, nothing };
+inline constexpr std::array<NamedValue<BrushLayer>, 5> kBrushLayerNames{
+    {{BrushLayer::material, "material", "Material"},
+     {BrushLayer::stiffness, "stiffness", "Stiffness"},
+     {BrushLayer::friction, "friction", "Friction"},
+     {BrushLayer::height, "height", "Height"},
+     {BrushLayer::nothing, "nothing", "Nothing: erase"}}};
+static_assert(has_all_in_order(kBrushLayerNames, BrushLayer::nothing));
 
 struct Brush {
     bool on{false};
-    BrushLays lays{BrushLays::material};
+    BrushLayer layer{BrushLayer::material};
     std::string material{"bark"};
     double stiffness_newton_per_mm{1.0};
     double friction{0.8};
@@ -168,7 +169,7 @@ struct Brush {
 };
 
 /// One update of the algorithm, explained step by step.
-struct ExplainedNews {
+struct ExplainedInfo {
     ExplainedUpdate update{};
     bool held{false};      ///< the goal is fixed: after the first step, or in a replay
     std::size_t taken{0};  ///< steps shown, of update.steps
@@ -178,28 +179,28 @@ struct ExplainedNews {
 
 /// The state of the window itself.
 struct UiState {
-    std::vector<Doubt> doubts{};                ///< of the settings file, to be agreed to
-    MaterialNames materials{};                  ///< to choose from
-    std::optional<PixelShown> under_hand{};     ///< nothing: the hand is outside the picture
-    std::optional<PixelShown> under_pointer{};  ///< nothing: pressed, or outside the relief
+    std::vector<UnsafeSetting> unsafe_settings{};  ///< of the settings file, to be agreed to
+    MaterialNames materials{};                     ///< to choose from
+    std::optional<PixelShown> under_hand{};        ///< nothing: the hand is outside the picture
+    std::optional<PixelShown> under_pointer{};     ///< nothing: pressed, or outside the relief
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};
-    std::optional<ExplainedNews> explained{};
-    bool statistics{false};                     ///< shown over the relief
-    std::optional<ClipNews> clip{};             ///< nothing: no clip is made
-    std::optional<DepthOffer> depth_offer{};    ///< nothing: no video lacks depth
-    std::optional<StripHistory> held_strips{};  ///< the values of paused charts
-    float strips_end_y{0.0F};                   ///< the charts' lower end in the last picture [px]
+    std::optional<ExplainedInfo> explained{};
+    bool statistics{false};                       ///< shown over the relief
+    std::optional<ClipInfo> clip{};               ///< nothing: no clip is made
+    std::optional<DepthOffer> depth_offer{};      ///< nothing: no video lacks depth
+    std::optional<StripHistory> paused_strips{};  ///< the values of paused charts
+    float strips_end_y{0.0F};  ///< the charts' lower end in the last picture [px]
     double pictures_per_s{0.0};
     bool touched{false};  ///< there was a contact: the first hint is not needed any more
 
     bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view
     bool show_session{false};  ///< recording begun by key: scroll the Session panel into view
     bool help_open{false};
-    std::string message{};        ///< shown in a box until a person closes it
-    std::string notice{};         ///< shown at the bottom until notice_until_s
-    bool notice_of_place{false};  ///< shows the current playing position instead
+    std::string message{};              ///< shown in a box until a person closes it
+    std::string notice{};               ///< shown at the bottom until notice_until_s
+    bool notice_shows_position{false};  ///< shows the current playing position instead
     double notice_until_s{0.0};
     OpenDialog dialog{};
     TextFields fields{};
@@ -220,8 +221,8 @@ struct ViewerState {
     /// As TouchState::shape().
     [[nodiscard]] const SurfaceShape& shape() const noexcept { return touch.shape(settings.touch); }
     /// The course of the session, in a replay, or else of the video.
-    [[nodiscard]] Course course() const {
-        return touch.replay ? Course(touch.replay->playback) : media.playback.course();
+    [[nodiscard]] PlayState play_state() const {
+        return touch.replay ? PlayState(touch.replay->playback) : media.playback.play_state();
     }
 };
 

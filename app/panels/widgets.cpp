@@ -27,7 +27,7 @@ constexpr float kLabelShare = 0.40F;  // of a row's width
 constexpr float kTooltip_em = 22.0F;  // widest text
 
 /// The colour of warnings, readable on the theme's background.
-ImU32 trouble_colour() {
+ImU32 warning_colour() {
     const bool on_dark = ImGui::GetStyleColorVec4(ImGuiCol_Text).x > 0.5F;
     return on_dark ? IM_COL32(242, 184, 97, 255) : IM_COL32(146, 84, 0, 255);
 }
@@ -38,7 +38,7 @@ void row_label(const char* label, const char* help) {
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(label);
-    explain(help);
+    add_tooltip(help);
     ImGui::SameLine(begin + width * kLabelShare);
 }
 
@@ -53,16 +53,16 @@ float value_width() {
     return ImGui::GetContentRegionAvail().x - arrow_width() - ImGui::GetStyle().ItemInnerSpacing.x;
 }
 
-bool put_back_arrow(bool changed) {
+bool restore_arrow(bool changed) {
     ImGui::SameLine(0.0F, ImGui::GetStyle().ItemInnerSpacing.x);
     if (!changed) {
         ImGui::Dummy({arrow_width(), arrow_width()});
         return false;
     }
-    return icon_button("put back", Icon::put_back, "Back to the default");
+    return icon_button("put back", Icon::restore, "Back to the default");
 }
 
-void draw_put_back(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
+void draw_restore(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
     constexpr float kPi = std::numbers::pi_v<float>;
     list.PathArcTo(centre, r, -0.75F * kPi, 0.9F * kPi, 20);
     list.PathStroke(colour, 0, std::max(1.5F, r * 0.28F));
@@ -114,8 +114,8 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
         case Icon::loop:
             draw_loop(list, centre, r, colour);
             break;
-        case Icon::put_back:
-            draw_put_back(list, centre, r * 0.8F, colour);
+        case Icon::restore:
+            draw_restore(list, centre, r * 0.8F, colour);
             break;
     }
 }
@@ -158,7 +158,7 @@ std::string help_of(const Entry& entry) {
 void draw_entry(const TouchChoice& choice, TouchParameters& parameters, TouchParameters& usual) {
     std::visit(
         [&](auto* chosen) {
-            choice_row(std::string(choice.label).c_str(), words_of(*chosen), *chosen,
+            choice_row(std::string(choice.label).c_str(), name_table(*chosen), *chosen,
                        help_of(choice).c_str(), *std::get<decltype(chosen)>(choice.in(usual)));
         },
         choice.in(parameters));
@@ -223,8 +223,8 @@ bool number_row(const NumberRow& row, double& value) {
     });
     // ImGui rounds a dragged value to the shown digits, but a text instead of 0 has none.
     if (named && ImGui::IsMouseDown(ImGuiMouseButton_Left)) value = std::round(value);
-    explain("Drag, or Ctrl+click to type a number");
-    if (put_back_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
+    add_tooltip("Drag, or Ctrl+click to type a number");
+    if (restore_arrow(std::abs(value - row.standard) > 1e-9)) value = row.standard;
     ImGui::PopID();
     return std::abs(value - before) > 0.0;
 }
@@ -248,10 +248,10 @@ Dragged dragged_row(const DraggedRow& row, std::span<double> values) {
     }
     ImGui::EndGroup();
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
-    explain("Drag, or Ctrl+click to type a number");
-    const bool put_back = put_back_arrow(row.changed);
+    add_tooltip("Drag, or Ctrl+click to type a number");
+    const bool restore = restore_arrow(row.changed);
     ImGui::PopID();
-    return put_back ? Dragged::put_back : done ? Dragged::done : Dragged::nothing;
+    return restore ? Dragged::restore : done ? Dragged::done : Dragged::nothing;
 }
 
 bool flag_row(const char* label, bool& value, bool standard, const char* help) {
@@ -259,25 +259,25 @@ bool flag_row(const char* label, bool& value, bool standard, const char* help) {
     const float right = ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x;
     ImGui::PushID(label);
     ImGui::Checkbox(label, &value);
-    explain(help);
+    add_tooltip(help);
     if (value != standard) {
         ImGui::SameLine(right - arrow_width());
-        if (icon_button("put back", Icon::put_back, "Back to the default")) value = standard;
+        if (icon_button("put back", Icon::restore, "Back to the default")) value = standard;
     }
     ImGui::PopID();
     return value != before;
 }
 
-void beside_flag(const std::string& text) {
+void text_beside_flag(const std::string& text) {
     ImGui::SameLine(ImGui::GetCursorPosX() + ImGui::GetContentRegionAvail().x * kLabelShare);
-    quiet_text(text);
+    draw_dimmed(text);
 }
 
 void desktop_dialog_box(OpenWith& with) {
     bool asks = with != OpenWith::window;
     if (ImGui::Checkbox("The desktop's dialog", &asks))
         with = asks ? OpenWith::automatic : OpenWith::window;
-    explain("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
+    add_tooltip("Files are chosen in the desktop's own dialog, where there is one (--open-dialog)");
 }
 
 bool index_row(const char* label, std::span<const char* const> names, int& chosen, const char* help,
@@ -287,8 +287,8 @@ bool index_row(const char* label, std::span<const char* const> names, int& chose
     row_label(label, help);
     ImGui::SetNextItemWidth(value_width());
     ImGui::Combo("##choice", &chosen, names.data(), static_cast<int>(names.size()));
-    explain(help);
-    if (put_back_arrow(chosen != standard)) chosen = standard;
+    add_tooltip(help);
+    if (restore_arrow(chosen != standard)) chosen = standard;
     ImGui::PopID();
     return chosen != before;
 }
@@ -298,7 +298,7 @@ bool text_field(const char* id, const char* hint, std::span<char> text, const ch
     ImGui::SetNextItemWidth(width);
     const bool done = ImGui::InputTextWithHint(id, hint, text.data(), text.size(),
                                                enter ? ImGuiInputTextFlags_EnterReturnsTrue : 0);
-    explain(help);
+    add_tooltip(help);
     return done;
 }
 
@@ -306,7 +306,7 @@ bool text_row(const char* label, const std::string& hint, std::span<char> text, 
     ImGui::PushID(label);
     row_label(label, help);
     bool done = text_field("##text", hint.c_str(), text, help, true, value_width());
-    if (put_back_arrow(text.front() != '\0')) {
+    if (restore_arrow(text.front() != '\0')) {
         text.front() = '\0';
         done = true;
     }
@@ -324,20 +324,20 @@ float half_width() {
 
 void report_button(ViewerState& state, const std::filesystem::path& session) {
     if (ImGui::Button("Report", {-1.0F, 0.0F})) state.commands.push(MakeReport{session});
-    explain("One page: where, how long and how hard it was touched (dibhr report)");
+    add_tooltip("One page: where, how long and how hard it was touched (dibhr report)");
 }
 
 bool button_or_drop(const char* label, bool enabled, const char* dropped, float beside) {
     ImGui::BeginDisabled(!enabled);
     const bool pressed = ImGui::Button(label);
     ImGui::EndDisabled();
-    const std::string words = formatted("or drop %s on the window", dropped);
-    const float needed = ImGui::GetItemRectSize().x + ImGui::CalcTextSize(words.c_str()).x +
-                         beside + 2.0F * ImGui::GetStyle().ItemSpacing.x;
+    const std::string text = formatted("or drop %s on the window", dropped);
+    const float needed = ImGui::GetItemRectSize().x + ImGui::CalcTextSize(text.c_str()).x + beside +
+                         2.0F * ImGui::GetStyle().ItemSpacing.x;
     if (needed > ImGui::GetContentRegionAvail().x) return pressed;
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
-    ImGui::TextDisabled("%s", words.c_str());
+    ImGui::TextDisabled("%s", text.c_str());
     return pressed;
 }
 
@@ -345,12 +345,12 @@ void fact_row(const char* label, const std::string& value, const char* help) {
     const float begin = ImGui::GetCursorPosX();
     const float width = ImGui::GetContentRegionAvail().x;
     ImGui::TextDisabled("%s", label);
-    explain(help);
+    add_tooltip(help);
     ImGui::SameLine(begin + width * kLabelShare);
     ImGui::PushTextWrapPos(begin + width);
     ImGui::TextUnformatted(value.c_str());
     ImGui::PopTextWrapPos();
-    explain(help);
+    add_tooltip(help);
 }
 
 void file_row(const char* label, const std::filesystem::path& file) {
@@ -378,11 +378,11 @@ void place_next_tooltip() {
     }
 }
 
-void explain(const std::string& text, const KeyTable& keys, Action action) {
-    explain((text + keys.in_brackets(action)).c_str());
+void add_tooltip(const std::string& text, const KeyTable& keys, Action action) {
+    add_tooltip((text + keys.in_brackets(action)).c_str());
 }
 
-void explain(const char* text) {
+void add_tooltip(const char* text) {
     if (*text == '\0' || !ImGui::IsItemHovered()) return;
     place_next_tooltip();
     ImGui::BeginTooltip();
@@ -409,16 +409,16 @@ bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags 
     return pressed;
 }
 
-void quiet_text(const std::string& text) {
+void draw_dimmed(const std::string& text) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextWrapped("%s", text.c_str());
     ImGui::PopStyleColor();
 }
 
-void trouble_text(const std::string& text) {
+void draw_warning(const std::string& text) {
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 low = ImGui::GetCursorScreenPos();
-    const ImU32 colour = trouble_colour();
+    const ImU32 colour = warning_colour();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddTriangle({low.x + line * 0.5F, low.y + line * 0.1F},
                      {low.x + line * 0.02F, low.y + line * 0.92F},
@@ -433,7 +433,7 @@ void trouble_text(const std::string& text) {
     ImGui::PopStyleColor();
 }
 
-bool part(const char* title) {
+bool subsection(const char* title) {
     ImGui::Spacing();
     return ImGui::TreeNodeEx(
         title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
@@ -451,7 +451,7 @@ bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
     const ImVec2 high = ImGui::GetItemRectMax();
     draw_icon(*ImGui::GetWindowDrawList(), icon, {(low.x + high.x) * 0.5F, (low.y + high.y) * 0.5F},
               side * 0.25F, ImGui::GetColorU32(ImGuiCol_Text));
-    explain(help);
+    add_tooltip(help);
     return pressed;
 }
 
@@ -486,7 +486,7 @@ std::string capitalised(std::string line) {
     return line;
 }
 
-std::string spoken_name(std::string name) {
+std::string display_name(std::string name) {
     std::replace(name.begin(), name.end(), '-', ' ');
     return capitalised(std::move(name));
 }

@@ -57,7 +57,7 @@ struct DraggedRow {
 };
 
 /// A person's action on a row whose values take effect when the mouse button is released.
-enum class Dragged { nothing, done, put_back };
+enum class Dragged { nothing, done, restore };
 
 /// Label, values to drag side by side, and the arrow.
 [[nodiscard]] Dragged dragged_row(const DraggedRow& row, std::span<double> values);
@@ -66,7 +66,7 @@ enum class Dragged { nothing, done, put_back };
 bool flag_row(const char* label, bool& value, bool standard, const char* help);
 
 /// Dimmed text beside a flag_row that has its default, aligned with the values of other rows.
-void beside_flag(const std::string& text);
+void text_beside_flag(const std::string& text);
 
 /// Label, a drop-down list, and an arrow that restores the `standard` entry. True if the choice
 /// changed.
@@ -125,12 +125,12 @@ void file_row(const char* label, const std::filesystem::path& file);
 void place_next_tooltip();
 
 /// Adds a tooltip to the last item.
-void explain(const char* text);
+void add_tooltip(const char* text);
 /// The same, with the key of the action.
-void explain(const std::string& text, const KeyTable& keys, Action action);
+void add_tooltip(const std::string& text, const KeyTable& keys, Action action);
 
 /// Dimmed text, wrapped at the panel's edge.
-void quiet_text(const std::string& text);
+void draw_dimmed(const std::string& text);
 
 /// Items that show a file's name unchanged, as ImGui's own labels cut it at "##". The caller must
 /// push an ID for each.
@@ -138,12 +138,12 @@ bool name_button(const std::string& name);
 bool name_selectable(const std::string& name, bool chosen, ImGuiSelectableFlags flags = 0);
 
 /// Wrapped text in the colour of warnings, after a warning sign.
-void trouble_text(const std::string& text);
+void draw_warning(const std::string& text);
 
 /// A collapsible part of a section; true if it is open. Its rows are not indented.
-bool part(const char* title);
+bool subsection(const char* title);
 
-enum class Icon { play, pause, step_back, step_forward, loop, put_back };
+enum class Icon { play, pause, step_back, step_forward, loop, restore };
 
 /// A square button with a drawn icon and a tooltip. `lit`: its function is on.
 bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
@@ -174,7 +174,7 @@ Id texture_id(std::uintptr_t name) {
 std::string capitalised(std::string line);
 
 /// A material's name as a label: "As recorded" for "as-recorded".
-[[nodiscard]] std::string spoken_name(std::string name);
+[[nodiscard]] std::string display_name(std::string name);
 
 /// printf into a string.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);

@@ -18,9 +18,9 @@ namespace {
 /// Raises an error class of the package dibhr.
 void raise(const char* name, const std::exception& error) {
     const std::string_view text = error.what();  // a file's name in it may not be UTF-8
-    const auto words = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+    const auto message = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
         text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
-    PyErr_SetObject(py::module_::import("dibhr").attr(name).ptr(), words.ptr());
+    PyErr_SetObject(py::module_::import("dibhr").attr(name).ptr(), message.ptr());
 }
 
 void translate(std::exception_ptr thrown) {

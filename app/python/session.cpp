@@ -76,7 +76,7 @@ std::int64_t read_ticks(const Session& session, double begin_s, double end_s,
     auto* row = static_cast<char*>(rows.mutable_data());
     const auto row_bytes = rows.itemsize();
     const auto most = rows.size();
-    const py::gil_scoped_release others_run;
+    const py::gil_scoped_release gil_released;
     const SessionReader reader(session.file());
     Statement query =
         reader.rows("SELECT " + names + ticks_between(begin_s, end_s) + " ORDER BY tick");
@@ -150,11 +150,11 @@ py::list marks_of(const Session& session) {
 }  // namespace
 
 void bind_session(py::module_& module) {
-    const auto while_others_run = py::call_guard<py::gil_scoped_release>();
+    const auto without_gil = py::call_guard<py::gil_scoped_release>();
     py::class_<Session>(module, "Session")
         .def(py::init<const std::string&>())
-        .def("check", &Session::check, while_others_run)
-        .def("count_ticks", &count_ticks, while_others_run)
+        .def("check", &Session::check, without_gil)
+        .def("count_ticks", &count_ticks, without_gil)
         .def("read_ticks", &read_ticks)
         .def("facts", &facts_of)
         .def("parameters", &parameters_of)

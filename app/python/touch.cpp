@@ -89,7 +89,7 @@ class Renderer {
   public:
     /// Returns the fields of the package's Touch, in their order.
     py::tuple update(const Images& images, double blend, const Numbers& goal, double dt_s) {
-        const Use use(busy_);
+        const BusyGuard guard(busy_);
         const Touch& touch = step(images.at(blend, parameters_.shape),
                                   {goal.at(0), goal.at(1), goal.at(2)}, next_time(dt_s), dt_s);
         const Proxy& proxy = touch.proxy;
@@ -110,11 +110,11 @@ class Renderer {
         const double* const time_s = times_s ? times_s->data() : nullptr;
         auto* const row = static_cast<Row*>(rows.mutable_data());
         const auto count = static_cast<std::size_t>(rows.size());
-        const Use use(busy_);
+        const BusyGuard guard(busy_);
         if (time_s != nullptr && count > 0 && last_t_s_ && *time_s < *last_t_s_) {
             throw InputError("t: begins before the last update; reset() to begin again");
         }
-        const py::gil_scoped_release others_run;
+        const py::gil_scoped_release gil_released;
         const double begin_s = next_time(dt_s);
         for (std::size_t k = 0; k < count; ++k) {
             double t_s = begin_s + static_cast<double>(k) * dt_s;
@@ -135,14 +135,14 @@ class Renderer {
     }
 
     void reset() {
-        const Use use(busy_);
+        const BusyGuard guard(busy_);
         renderer_.reset();
         last_t_s_.reset();
     }
 
     /// Sets all parameters; each value is in its range.
     void set(const py::dict& keywords) {
-        const Use use(busy_);
+        const BusyGuard guard(busy_);
         for (const TouchChoice& choice : touch_choices()) {
             const auto word = keywords[keyword_of(choice.name)].cast<std::string>();
             static_cast<void>(choice.choose(word, parameters_));
@@ -167,16 +167,16 @@ class Renderer {
 
   private:
     /// During its life no other thread may call the renderer.
-    class Use {
+    class BusyGuard {
       public:
-        explicit Use(bool& busy) : busy_(busy) {
+        explicit BusyGuard(bool& busy) : busy_(busy) {
             if (std::exchange(busy_, true)) {
                 throw BusyError("this renderer is at work in another thread; give each its own");
             }
         }
-        ~Use() { busy_ = false; }
-        Use(const Use&) = delete;
-        Use& operator=(const Use&) = delete;
+        ~BusyGuard() { busy_ = false; }
+        BusyGuard(const BusyGuard&) = delete;
+        BusyGuard& operator=(const BusyGuard&) = delete;
 
       private:
         bool& busy_;

@@ -46,7 +46,7 @@ std::string names_of(const Values& values) {
 
 /// Throws CLI::ValidationError.
 template <typename Values>
-auto value_called(const std::string& name, const Values& values, const char* option) {
+auto parse_value(const std::string& name, const Values& values, const char* option) {
     for (const auto value : values) {
         if (name == name_of(value)) return value;
     }
@@ -58,14 +58,14 @@ constexpr std::string_view kAutomatic = "auto";
 /// --NAME: stores read(text) in `fact`; auto leaves `fact` empty.
 template <typename Fact, typename Read>
 void add_fact_option(CLI::App& app, const char* name, std::optional<Fact>& fact, const Read& read,
-                     const char* type, const std::string& lacking, const std::string& help) {
+                     const char* type, const std::string& problem, const std::string& help) {
     app.add_option_function<std::string>(
            name,
-           [&fact, read, name, lacking](const std::string& text) {
+           [&fact, read, name, problem](const std::string& text) {
                fact.reset();
                if (text == kAutomatic) return;
                fact = read(text);
-               if (!fact) throw CLI::ValidationError(name, "'" + text + "' " + lacking);
+               if (!fact) throw CLI::ValidationError(name, "'" + text + "' " + problem);
            },
            help)
         ->type_name(type)
@@ -105,12 +105,12 @@ bool shapes_surface(TouchTopic topic) {
     return topic == TouchTopic::shape || topic == TouchTopic::texture;
 }
 
-std::function<void(double)> taken(const TouchNumber& option, GivenParameters& given) {
+std::function<void(double)> number_setter(const TouchNumber& option, GivenParameters& given) {
     return [&option, &given](double value) { given.numbers.emplace_back(&option, value); };
 }
 
 /// The flag for auto of a number that can be fitted to the media; null: a number that cannot.
-bool* fitted(const TouchNumber& option, GivenParameters& given) {
+bool* fit_flag_of(const TouchNumber& option, GivenParameters& given) {
     TouchParameters any;
     if (&option == &number_of(any.shape.relief_px, any)) return &given.fit_relief;
     if (&option == &number_of(any.coupling.pixel_pitch_mm, any)) return &given.fit_pitch;
@@ -126,7 +126,8 @@ void add_fitted_option(CLI::App& app, const TouchNumber& option, GivenParameters
            [&option, &given, &fits, name](const std::string& text) {
                fits = text == kAutomatic;
                if (!fits)
-                   taken(option, given)(parse_number(name, text, option.lowest, option.highest));
+                   number_setter(option,
+                                 given)(parse_number(name, text, option.lowest, option.highest));
            },
            std::string(option.help) + ", " + range_of(option.lowest, option.highest) +
                "; auto: as fits the picture")
@@ -135,38 +136,38 @@ void add_fitted_option(CLI::App& app, const TouchNumber& option, GivenParameters
 }
 
 void add_number_of_touch(CLI::App& app, const TouchNumber& option, GivenParameters& given) {
-    if (bool* const fits = fitted(option, given))
+    if (bool* const fits = fit_flag_of(option, given))
         add_fitted_option(app, option, given, *fits);
     else
-        add_touch_option(app, option, std::string(option.help), taken(option, given));
+        add_touch_option(app, option, std::string(option.help), number_setter(option, given));
 }
 
 void add_choice_of_touch(CLI::App& app, const TouchChoice& choice, GivenParameters& given,
-                         const char* otherwise) {
+                         const char* default_text) {
     const std::string name = "--" + std::string(choice.name);
     if (app.get_option_no_throw(name) != nullptr) return;  // it takes several values
     add_choice_option(
         app, name, choice.names(), std::string(choice.help) + ": " + listed(choice.names()),
         [&choice, &given](const std::string& word) { given.words.emplace_back(&choice, word); })
         ->type_name("NAME")
-        ->default_str(otherwise != nullptr ? otherwise : std::string(choice.standard()));
+        ->default_str(default_text != nullptr ? default_text : std::string(choice.standard()));
 }
 
 void add_switch_of_touch(CLI::App& app, const TouchSwitch& entry, GivenParameters& given,
-                         const char* otherwise) {
+                         const char* default_text) {
     add_on_off_option(app, "--" + std::string(entry.name), std::string(entry.help),
                       [&entry, &given](bool on) { given.switches.emplace_back(&entry, on); })
-        ->default_str(otherwise != nullptr ? otherwise
-                      : entry.standard()   ? "on"
-                                           : "off");
+        ->default_str(default_text != nullptr ? default_text
+                      : entry.standard()      ? "on"
+                                              : "off");
 }
 
-void add_entries_of_touch(CLI::App& app, GivenParameters& given, const char* otherwise,
+void add_entries_of_touch(CLI::App& app, GivenParameters& given, const char* default_text,
                           bool (*wanted)(TouchTopic)) {
     for (const TouchChoice& choice : touch_choices())
-        if (wanted(choice.topic)) add_choice_of_touch(app, choice, given, otherwise);
+        if (wanted(choice.topic)) add_choice_of_touch(app, choice, given, default_text);
     for (const TouchSwitch& entry : touch_switches())
-        if (wanted(entry.topic)) add_switch_of_touch(app, entry, given, otherwise);
+        if (wanted(entry.topic)) add_switch_of_touch(app, entry, given, default_text);
     for (const TouchNumber& option : touch_numbers())
         if (wanted(option.topic)) add_number_of_touch(app, option, given);
 }
@@ -174,7 +175,7 @@ void add_entries_of_touch(CLI::App& app, GivenParameters& given, const char* oth
 void add_surface_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--material",
-           [&request](const std::string& name) { request.given.material = material_called(name); },
+           [&request](const std::string& name) { request.given.material = material_named(name); },
            "What the surface is made of: " + list_of_materials() +
                ", or a .toml file; a number that has its own option wins over the material")
         ->type_name("NAME");
@@ -222,13 +223,13 @@ Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters) {
     return {radius_mm / parameters.coupling.pixel_pitch_mm, parameters.shape.relief_px};
 }
 
-bool TouchRequest::asks_for_another_surface() const {
+bool TouchRequest::changes_surface() const {
     return !given.bump_file().empty() || raw_depth || preset || finger_mm || in_betweens ||
-           !feels_maps();
+           !uses_maps();
 }
 
 std::shared_ptr<const TouchMaps> TouchRequest::read_maps(const MediaDescription& media) const {
-    if (!feels_maps()) return nullptr;
+    if (!uses_maps()) return nullptr;
     return read_touch_maps(media.depth_path, media.depth_columns, media.depth_rows);
 }
 
@@ -258,7 +259,7 @@ std::shared_ptr<const BumpMap> GivenParameters::read_bumps() const {
     return material ? material->bumps : nullptr;
 }
 
-void make_felt(TouchParameters& parameters) {
+void ensure_roughness(TouchParameters& parameters) {
     constexpr double kFelt_px = 4.0;  // half a millimetre at the paper's pitch
     double& roughness_px = parameters.shape.roughness_px;
     if (!(roughness_px > 0.0)) roughness_px = kFelt_px;
@@ -276,13 +277,13 @@ void GivenParameters::apply_texture(TouchParameters& parameters) const {
     const auto* const size = value_of(number_of(parameters.shape.bump_size_px, parameters));
     if (roughness != nullptr) parameters.shape.roughness_px = *roughness;
     if (size != nullptr) parameters.shape.bump_size_px = *size;
-    if (roughness == nullptr && !bump_file().empty()) make_felt(parameters);
+    if (roughness == nullptr && !bump_file().empty()) ensure_roughness(parameters);
 }
 
 void GivenParameters::apply(TouchParameters& parameters) const {
     for (const auto& [choice, word] : words) static_cast<void>(choice->choose(word, parameters));
     for (const auto& [entry, on] : switches) entry->in(parameters) = on;
-    if (material) lay(*material, parameters);
+    if (material) apply_material(*material, parameters);
     if (friction) parameters.friction = {*friction, *friction};
     for (const auto& [option, value] : numbers) option->in(parameters) = value;
     apply_texture(parameters);
@@ -350,7 +351,7 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
            "--algorithm",
            [&algorithms](const std::vector<std::string>& names) {
                for (const std::string& name : names)
-                   algorithms.push_back(value_called(name, all_algorithms(), "--algorithm"));
+                   algorithms.push_back(parse_value(name, all_algorithms(), "--algorithm"));
            },
            "How the proxy follows the goal, once or several times: " + names_of(all_algorithms()))
         ->type_name("NAME")
@@ -364,7 +365,7 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
             [&formats](const std::vector<std::string>& names) {
                 formats.clear();
                 for (const std::string& name : names) {
-                    formats.push_back(value_called(name, kPlotFormats, "--plot-format"));
+                    formats.push_back(parse_value(name, kPlotFormats, "--plot-format"));
                 }
             },
             "How the pictures are written, one or several with commas: " + names_of(kPlotFormats) +
@@ -449,7 +450,7 @@ void add_shape_options(CLI::App& app, TouchRequest& request) {
     add_surface_options(app, request);
 }
 
-void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise) {
+void add_touch_options(CLI::App& app, TouchRequest& request, const char* default_text) {
     // The range is that of the two coefficients.
     TouchParameters any;
     const TouchNumber& coefficient = number_of(any.friction.static_coefficient, any);
@@ -458,7 +459,7 @@ void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwi
         "Both coefficients of friction; --static-friction and --dynamic-friction win over it",
         [&request](double mu) { request.given.friction = mu; })
         ->type_name("MU");
-    add_entries_of_touch(app, request.given, otherwise, [](TouchTopic) { return true; });
+    add_entries_of_touch(app, request.given, default_text, [](TouchTopic) { return true; });
     add_surface_options(app, request);
 }
 

@@ -11,10 +11,10 @@
 
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/haptics/words.hpp"
 #include "core/plot/canvas.hpp"
-#include "core/video/motion/motion_wanted.hpp"
+#include "core/video/motion/motion_request.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace CLI {
@@ -72,13 +72,13 @@ struct TouchRequest {
 
     [[nodiscard]] DepthRequest depth_request() const;
     /// Whether an option changes the surface: bump map, cleaning, fingertip, in-betweens, maps.
-    [[nodiscard]] bool asks_for_another_surface() const;
+    [[nodiscard]] bool changes_surface() const;
     /// Cleaning for a surface of these parameters, which give the fingertip's size in pixels. Unset
     /// options come from the media's sidecar.
     [[nodiscard]] CleaningOptions cleaning(const TouchParameters& parameters,
                                            const MediaDescription& media = {}) const;
     /// Whether the touch maps beside the recording are used.
-    [[nodiscard]] bool feels_maps() const noexcept { return maps.value_or(true); }
+    [[nodiscard]] bool uses_maps() const noexcept { return maps.value_or(true); }
     /// The maps beside the media that are used; null: none. Throws InputError.
     [[nodiscard]] std::shared_ptr<const TouchMaps> read_maps(const MediaDescription& media) const;
 };
@@ -87,7 +87,7 @@ struct TouchRequest {
 [[nodiscard]] Fingertip fingertip_of(double radius_mm, const TouchParameters& parameters);
 
 /// Sets a perceptible roughness where a bump map has none.
-void make_felt(TouchParameters& parameters);
+void ensure_roughness(TouchParameters& parameters);
 
 /// Warning that a roughness is given without a bump map to scale; empty: no warning.
 [[nodiscard]] std::string roughness_warning(const GivenParameters& given, bool has_bump);
@@ -111,7 +111,7 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
                                const std::function<void(const std::string&)>& take);
 
 /// The same with the names of an enumeration.
-template <HasWords Enum>
+template <HasNameTable Enum>
 CLI::Option* add_words_option(CLI::App& app, const std::string& name, const std::string& help,
                               const std::function<void(Enum)>& take) {
     return add_choice_option(app, name, all_names<Enum>(), help,
@@ -147,6 +147,6 @@ void add_shape_options(CLI::App& app, TouchRequest& request);
 
 /// The same, --friction and the other entries of the table, except options that the command already
 /// has. The last argument: default shown for choices and switches; null: their own defaults.
-void add_touch_options(CLI::App& app, TouchRequest& request, const char* otherwise = nullptr);
+void add_touch_options(CLI::App& app, TouchRequest& request, const char* default_text = nullptr);
 
 }  // namespace dibhr

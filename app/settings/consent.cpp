@@ -22,13 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool protects_less(Less less, double value, double than) {
-    return less == Less::higher ? value > than : value < than;
+bool protects_less(WeakerWhen weaker_when, double value, double than) {
+    return weaker_when == WeakerWhen::higher ? value > than : value < than;
 }
 
-bool protects_less(Less less, const Setting& value, const Setting& than) {
-    if (less == Less::other) return !same(value, than);
-    return protects_less(less, *std::get<double*>(value.value), *std::get<double*>(than.value));
+bool protects_less(WeakerWhen weaker_when, const Setting& value, const Setting& than) {
+    if (weaker_when == WeakerWhen::other) return !same(value, than);
+    return protects_less(weaker_when, *std::get<double*>(value.value),
+                         *std::get<double*>(than.value));
 }
 
 std::string key_of(const Setting& setting) {
@@ -40,14 +41,15 @@ std::string key_of_command(const std::string& command) {
 }
 
 /// Whether the record has consent to this value, or to one that protects even less.
-bool was_agreed(const std::set<std::string>& lines, const Setting& setting, Less less) {
+bool was_agreed(const std::set<std::string>& lines, const Setting& setting,
+                WeakerWhen weaker_when) {
     const std::string key = key_of(setting);
     if (lines.contains(key + text_of(setting))) return true;
-    if (less == Less::other) return false;
+    if (weaker_when == WeakerWhen::other) return false;
     return std::any_of(lines.begin(), lines.end(), [&](const std::string& line) {
         const auto agreed =
             line.starts_with(key) ? number_of_text(line.substr(key.size())) : std::nullopt;
-        return agreed && protects_less(less, *agreed, *std::get<double*>(setting.value));
+        return agreed && protects_less(weaker_when, *agreed, *std::get<double*>(setting.value));
     });
 }
 
@@ -59,7 +61,7 @@ std::string value_in_words(const Setting& setting) {
     return text;
 }
 
-bool is_of(const Doubt& doubt, const Setting& setting) {
+bool is_of(const UnsafeSetting& doubt, const Setting& setting) {
     return doubt.table == setting.table && doubt.name == setting.name;
 }
 
@@ -86,35 +88,36 @@ fs::path consent_path() {
     return recent_files_path().parent_path() / "agreed";
 }
 
-std::vector<Doubt> Consent::hold(Settings& settings) const {
+std::vector<UnsafeSetting> Consent::replace_unsafe(Settings& settings) const {
     const std::set<std::string> lines = agreed();
     Settings usual;
-    const std::vector<Setting> asked = list_of(settings);
-    const std::vector<Setting> safe = list_of(usual);
-    std::vector<Doubt> doubts;
-    for (std::size_t k = 0; k < asked.size(); ++k) {
-        const auto& known = asked[k].protection;
-        if (!known || !protects_less(known->less, asked[k], safe[k]) ||
-            was_agreed(lines, asked[k], known->less))
+    const std::vector<Setting> requested = all_settings(settings);
+    const std::vector<Setting> safe = all_settings(usual);
+    std::vector<UnsafeSetting> unsafe_settings;
+    for (std::size_t k = 0; k < requested.size(); ++k) {
+        const auto& known = requested[k].protection;
+        if (!known || !protects_less(known->weaker_when, requested[k], safe[k]) ||
+            was_agreed(lines, requested[k], known->weaker_when))
             continue;
-        doubts.push_back({asked[k].table, asked[k].name, known->what, value_in_words(safe[k]),
-                          value_in_words(asked[k]), key_of(asked[k]) + text_of(asked[k])});
-        assign(asked[k], safe[k]);
+        unsafe_settings.push_back({requested[k].table, requested[k].name, known->what,
+                                   value_in_words(safe[k]), value_in_words(requested[k]),
+                                   key_of(requested[k]) + text_of(requested[k])});
+        assign(requested[k], safe[k]);
     }
-    return doubts;
+    return unsafe_settings;
 }
 
-void Consent::hold_and_warn(Settings& settings, const fs::path& file) const {
-    print_warning(in_words(hold(settings), file));
+void Consent::replace_unsafe_and_warn(Settings& settings, const fs::path& file) const {
+    print_warning(warning_text(replace_unsafe(settings), file));
 }
 
-bool Consent::knows(const std::string& command) const {
+bool Consent::has_agreed_to(const std::string& command) const {
     return agreed().contains(key_of_command(command));
 }
 
-void Consent::agree(const std::vector<Doubt>& doubts) const {
+void Consent::agree(const std::vector<UnsafeSetting>& unsafe_settings) const {
     std::vector<std::string> lines;
-    for (const Doubt& doubt : doubts) lines.push_back(doubt.record);
+    for (const UnsafeSetting& doubt : unsafe_settings) lines.push_back(doubt.record);
     add(lines);
 }
 
@@ -124,15 +127,15 @@ void Consent::agree(const std::string& command) const {
 
 void Consent::agree_to_changes(Settings before, Settings now) const {
     Settings held = now;
-    std::vector<Doubt> doubts = hold(held);
-    const std::vector<Setting> first = list_of(before);
-    const std::vector<Setting> last = list_of(now);
-    std::erase_if(doubts, [&](const Doubt& doubt) {
+    std::vector<UnsafeSetting> unsafe_settings = replace_unsafe(held);
+    const std::vector<Setting> first = all_settings(before);
+    const std::vector<Setting> last = all_settings(now);
+    std::erase_if(unsafe_settings, [&](const UnsafeSetting& doubt) {
         for (std::size_t k = 0; k < first.size(); ++k)
             if (is_of(doubt, first[k])) return same(first[k], last[k]);
         return true;
     });
-    agree(doubts);
+    agree(unsafe_settings);
 }
 
 std::set<std::string> Consent::agreed() const {
@@ -155,27 +158,28 @@ void Consent::add(const std::vector<std::string>& lines) const {
     write_file(record_, listed({all.begin(), all.end()}, "\n") + '\n');
 }
 
-void copy_doubted(const std::vector<Doubt>& doubts, Settings from, Settings& to) {
-    const std::vector<Setting> source = list_of(from);
-    const std::vector<Setting> target = list_of(to);
+void copy_unsafe(const std::vector<UnsafeSetting>& unsafe_settings, Settings from, Settings& to) {
+    const std::vector<Setting> source = all_settings(from);
+    const std::vector<Setting> target = all_settings(to);
     for (std::size_t k = 0; k < source.size(); ++k) {
-        const auto of_it = [&](const Doubt& doubt) { return is_of(doubt, source[k]); };
-        if (std::any_of(doubts.begin(), doubts.end(), of_it)) assign(target[k], source[k]);
+        const auto of_it = [&](const UnsafeSetting& doubt) { return is_of(doubt, source[k]); };
+        if (std::any_of(unsafe_settings.begin(), unsafe_settings.end(), of_it))
+            assign(target[k], source[k]);
     }
 }
 
-void drop_changed(std::vector<Doubt>& doubts, Settings now) {
-    for (const Setting& setting : list_of(now))
-        std::erase_if(doubts, [&setting](const Doubt& doubt) {
+void drop_changed(std::vector<UnsafeSetting>& unsafe_settings, Settings now) {
+    for (const Setting& setting : all_settings(now))
+        std::erase_if(unsafe_settings, [&setting](const UnsafeSetting& doubt) {
             return is_of(doubt, setting) && value_in_words(setting) != doubt.usual;
         });
 }
 
-std::string in_words(const std::vector<Doubt>& doubts, const fs::path& file) {
-    if (doubts.empty()) return {};
+std::string warning_text(const std::vector<UnsafeSetting>& unsafe_settings, const fs::path& file) {
+    if (unsafe_settings.empty()) return {};
     std::vector<std::string> values;
-    for (const Doubt& doubt : doubts)
-        values.push_back(std::string(doubt.what) + " " + doubt.asked + " in place of " +
+    for (const UnsafeSetting& doubt : unsafe_settings)
+        values.push_back(std::string(doubt.what) + " " + doubt.requested + " in place of " +
                          doubt.usual);
     return file.string() + " asks for " + listed(values) +
            ": the default is used until somebody agrees in the viewer's window";

@@ -14,10 +14,10 @@
 namespace dibhr {
 
 /// A setting that protects the hand less than its default, without the user's consent.
-struct Doubt {
+struct UnsafeSetting {
     std::string_view table{}, name{};  ///< names of the Setting
     std::string_view what{};           ///< for the user: "Max force [N]"
-    std::string usual{}, asked{};      ///< default and requested value: "4" and "8"
+    std::string usual{}, requested{};  ///< default and requested value: "4" and "8"
     std::string record{};              ///< line that consent adds to the record
 };
 
@@ -29,13 +29,13 @@ class Consent {
     explicit Consent(std::filesystem::path record = consent_path()) : record_(std::move(record)) {}
 
     /// Replaces every value without consent by its default. Returns the replaced values.
-    [[nodiscard]] std::vector<Doubt> hold(Settings& settings) const;
+    [[nodiscard]] std::vector<UnsafeSetting> replace_unsafe(Settings& settings) const;
     /// The same without a window to ask in: prints a warning. `file`: where the settings come from.
-    void hold_and_warn(Settings& settings, const std::filesystem::path& file) const;
-    [[nodiscard]] bool knows(const std::string& command) const;
+    void replace_unsafe_and_warn(Settings& settings, const std::filesystem::path& file) const;
+    [[nodiscard]] bool has_agreed_to(const std::string& command) const;
 
     // Record the user's consent. Throw InputError where the record cannot be written.
-    void agree(const std::vector<Doubt>& doubts) const;
+    void agree(const std::vector<UnsafeSetting>& unsafe_settings) const;
     void agree(const std::string& command) const;
     /// Consent by use of the panels: to every value that differs between the two.
     void agree_to_changes(Settings before, Settings now) const;
@@ -48,13 +48,13 @@ class Consent {
 };
 
 /// Copies the values of these settings only.
-void copy_doubted(const std::vector<Doubt>& doubts, Settings from, Settings& to);
+void copy_unsafe(const std::vector<UnsafeSetting>& unsafe_settings, Settings from, Settings& to);
 
 /// Removes the settings that the user has changed from their default since the replacement.
-void drop_changed(std::vector<Doubt>& doubts, Settings now);
+void drop_changed(std::vector<UnsafeSetting>& unsafe_settings, Settings now);
 
 /// The text of a warning about these settings of `file`; empty: there are none.
-[[nodiscard]] std::string in_words(const std::vector<Doubt>& doubts,
-                                   const std::filesystem::path& file);
+[[nodiscard]] std::string warning_text(const std::vector<UnsafeSetting>& unsafe_settings,
+                                       const std::filesystem::path& file);
 
 }  // namespace dibhr

@@ -13,7 +13,7 @@ namespace dibhr {
 
 namespace fs = std::filesystem;
 
-const Estimator* estimator_called(std::span<const Estimator> estimators, const std::string& name) {
+const Estimator* estimator_named(std::span<const Estimator> estimators, const std::string& name) {
     const auto found = std::ranges::find(estimators, name, &Estimator::name);
     return found == estimators.end() ? nullptr : &*found;
 }
@@ -29,7 +29,7 @@ std::string toml_of(const Estimator& estimator) {
     return line + " }\n";
 }
 
-std::string how_to_have_an_estimator() {
+std::string estimator_hint() {
     return "Name one that you have installed in the settings, or with dibhr depth COLOR --with "
            "\"COMMAND\" --as NAME (dibhr help depth has the commands of some)";
 }

@@ -21,14 +21,14 @@ struct Estimator {
 };
 
 /// The estimator of that name; null: there is none.
-[[nodiscard]] const Estimator* estimator_called(std::span<const Estimator> estimators,
-                                                const std::string& name);
+[[nodiscard]] const Estimator* estimator_named(std::span<const Estimator> estimators,
+                                               const std::string& name);
 
 /// The estimator as a line of the settings file. Its name must be a bare TOML key.
 [[nodiscard]] std::string toml_of(const Estimator& estimator);
 
 /// A sentence that says how to add an estimator.
-[[nodiscard]] std::string how_to_have_an_estimator();
+[[nodiscard]] std::string estimator_hint();
 
 /// The cache of estimated depth: $XDG_CACHE_HOME/dibhr/depth, or ~/.cache/dibhr/depth.
 [[nodiscard]] std::filesystem::path depth_cache_path();

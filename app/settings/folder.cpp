@@ -141,21 +141,21 @@ fs::path whole_path(const fs::path& file) {
     return (unknown ? file : whole).lexically_normal();
 }
 
-FolderEntry entry_meant(const Folder& folder, const std::string& typed,
-                        const std::optional<FolderEntry>& chosen) {
-    const fs::path named = typed_path(typed);
+FolderEntry resolve_typed(const Folder& folder, const std::string& typed,
+                          const std::optional<FolderEntry>& chosen) {
+    const fs::path named = expand_home(typed);
     if (is_live(named)) return {FileKind::video, named};
     for (const fs::path& place : {folder.path / named, whole_path(named)}) {
         std::error_code unknown;
         if (fs::is_directory(place, unknown)) return {FileKind::folder, place};
         if (!fs::exists(place, unknown)) continue;
-        const auto known = entry_of(folder, place);
+        const auto known = index_of_entry(folder, place);
         return known ? folder.entries[*known] : FolderEntry{FileKind::other, place};
     }
     return chosen ? *chosen : FolderEntry{FileKind::other, named};
 }
 
-std::optional<std::size_t> entry_of(const Folder& folder, const fs::path& file) {
+std::optional<std::size_t> index_of_entry(const Folder& folder, const fs::path& file) {
     const fs::path whole = whole_path(file);
     const auto holds = [&whole](const FolderEntry& entry) {
         return entry.file == whole || entry.depth == whole;
@@ -169,7 +169,7 @@ std::string completed(const std::string& typed, const fs::path& folder) {
     const std::size_t slash = typed.rfind('/');
     const std::string before = slash == std::string::npos ? "" : typed.substr(0, slash + 1);
     const std::string begun = typed.substr(before.size());
-    const fs::path place = before.empty() ? folder : folder / typed_path(before);
+    const fs::path place = before.empty() ? folder : folder / expand_home(before);
     std::error_code failed;
     std::optional<std::string> all;
     for (fs::directory_iterator entries(place, failed);

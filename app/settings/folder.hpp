@@ -47,12 +47,12 @@ struct Folder {
 /// The entry for a typed name: an existing file or folder in `folder` or in the current one; else
 /// `chosen`; else the typed name itself, so that opening it gives the error. Waits for the disk:
 /// not for the window's thread.
-[[nodiscard]] FolderEntry entry_meant(const Folder& folder, const std::string& typed,
-                                      const std::optional<FolderEntry>& chosen);
+[[nodiscard]] FolderEntry resolve_typed(const Folder& folder, const std::string& typed,
+                                        const std::optional<FolderEntry>& chosen);
 
 /// Index of the entry that contains `file`, alone or in a pair; nothing: none.
-[[nodiscard]] std::optional<std::size_t> entry_of(const Folder& folder,
-                                                  const std::filesystem::path& file);
+[[nodiscard]] std::optional<std::size_t> index_of_entry(const Folder& folder,
+                                                        const std::filesystem::path& file);
 
 /// Completes a typed path: "/da" gives "/data/"; for several matches their common beginning;
 /// without a match the typed path. Relative paths begin in `folder`. Waits for the disk: not for

@@ -261,7 +261,7 @@ bool is_kept_for_force_off(const Key& key) {
 }
 
 /// The valid entries of the user's own keys.
-class Wishes {
+class ValidOwnKeys {
   public:
     /// What is wrong with the entry; empty: valid, and added.
     std::string take(const OwnKeys& entry) {
@@ -271,10 +271,10 @@ class Wishes {
             return "cannot be without a key: F8 always takes the force off; remove the entry";
         std::vector<Key> keys;
         for (const std::string& name : entry.keys) {
-            const std::optional<Key> key = key_called(name);
-            std::string lacking = lacking_of(key, *job);
-            if (!lacking.empty())
-                return "names " + in_quotes(name) + ", " + lacking + "; the default keys stay";
+            const std::optional<Key> key = key_named(name);
+            std::string problem = problem_of(key, *job);
+            if (!problem.empty())
+                return "names " + in_quotes(name) + ", " + problem + "; the default keys stay";
             if (!holds(keys, *key)) keys.push_back(*key);
         }
         own_[static_cast<std::size_t>(job->action)] = std::move(keys);
@@ -288,7 +288,7 @@ class Wishes {
         const bool usual = !own || job.action == Action::force_off;
         for (const std::string_view name : job.standard) {
             if (!usual || name.empty()) break;
-            const Key key = *key_called(name);
+            const Key key = *key_named(name);
             if (owner_of(key) == nullptr) keys.push_back(key);
         }
         if (own) keys.insert(keys.end(), own->begin(), own->end());
@@ -296,7 +296,7 @@ class Wishes {
     }
 
   private:
-    [[nodiscard]] std::string lacking_of(const std::optional<Key>& key, const KeyJob& job) const {
+    [[nodiscard]] std::string problem_of(const std::optional<Key>& key, const KeyJob& job) const {
         if (!key) return "which is no key: write one as dibhr help keys does, like Space or Ctrl+R";
         if (job.held && held_code(*key) == 0)
             return "which cannot be held: choose one key without Ctrl and Shift";
@@ -322,7 +322,7 @@ class Wishes {
 
 }  // namespace
 
-std::optional<Key> key_called(std::string_view name) {
+std::optional<Key> key_named(std::string_view name) {
     const std::string letters = plain(name);
     std::string_view rest = letters;
     const bool control = takes_away(rest, kControl);
@@ -353,13 +353,13 @@ const KeyJob& job_of(Action action) {
 }
 
 KeyTable::KeyTable(std::span<const OwnKeys> own, std::vector<std::string>* complaints) {
-    Wishes wishes;
+    ValidOwnKeys valid;
     for (const OwnKeys& entry : own) {
-        std::string lacking = wishes.take(entry);
-        if (complaints != nullptr) complaints->push_back(std::move(lacking));
+        std::string problem = valid.take(entry);
+        if (complaints != nullptr) complaints->push_back(std::move(problem));
     }
     for (const KeyJob& job : kJobs)
-        keys_[static_cast<std::size_t>(job.action)] = wishes.keys_for(job);
+        keys_[static_cast<std::size_t>(job.action)] = valid.keys_for(job);
 }
 
 std::string KeyTable::names_for(Action action) const {
@@ -387,7 +387,7 @@ std::string KeyTable::in_brackets(Action action) const {
     return " (" + (gap + name) + gap + ")";
 }
 
-std::string KeyTable::told(Action action, std::string_view does) const {
+std::string KeyTable::key_hint(Action action, std::string_view does) const {
     const std::string name = name_for(action);
     return name.empty() ? name : ": " + name + std::string(does);
 }

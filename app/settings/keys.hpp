@@ -83,7 +83,7 @@ struct Key {
 
 /// The key of a name as on the help sheet: "Space", "Ctrl+Shift+F12", "Page up", "[", "G"; in any
 /// case, with or without blanks. Nothing: no key has that name.
-[[nodiscard]] std::optional<Key> key_called(std::string_view name);
+[[nodiscard]] std::optional<Key> key_named(std::string_view name);
 [[nodiscard]] std::string name_of(const Key& key);
 
 /// An action of keys, and its default keys.
@@ -92,7 +92,7 @@ struct KeyJob {
     std::string_view name;   ///< "play-or-pause", in the settings file
     std::string_view group;  ///< heading on the help sheet
     std::string_view help;
-    std::array<std::string_view, 3> standard{};  ///< default keys, as key_called() takes them
+    std::array<std::string_view, 3> standard{};  ///< default keys, as key_named() takes them
     bool while_typing{
         false};           ///< also while a text field has the keyboard, unless it is typed there
     bool repeats{false};  ///< repeats while its key is down
@@ -133,7 +133,7 @@ class KeyTable {
     [[nodiscard]] std::string in_brackets(Action action) const;
 
     /// ": Ctrl+R begins", to append to a sentence; empty: the action has no key.
-    [[nodiscard]] std::string told(Action action, std::string_view does) const;
+    [[nodiscard]] std::string key_hint(Action action, std::string_view does) const;
 
     /// GLFW's key codes of an action that is active while one of them is held.
     [[nodiscard]] std::vector<int> held_keys(Action action) const;

@@ -177,7 +177,7 @@ void lay_texture(const Material& material, TouchParameters& parameters) {
     keep_in_range(parameters);
 }
 
-void lay(const Material& material, TouchParameters& parameters) {
+void apply_material(const Material& material, TouchParameters& parameters) {
     lay_texture(material, parameters);
     parameters.friction = material.friction;
     parameters.coupling.stiffness_newton_per_mm = material.stiffness_newton_per_mm;
@@ -193,7 +193,7 @@ bool has_texture(const Material& material, const TouchParameters& parameters) {
 
 bool is_made_of(const Material& material, const TouchParameters& parameters) {
     TouchParameters laid = parameters;
-    lay(material, laid);
+    apply_material(material, laid);
     return laid == parameters;
 }
 
@@ -230,7 +230,7 @@ Material read_material(const fs::path& file) {
     return material;
 }
 
-Material material_called(const std::string& name) {
+Material material_named(const std::string& name) {
     if (name == kAsRecorded) return {};
     if (fs::path(name).extension() == kEnding) return read_material(name);
     for (const fs::path& folder : {own_materials_folder(), shipped_materials_folder()}) {

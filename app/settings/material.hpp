@@ -36,7 +36,7 @@ inline constexpr std::string_view kAsRecorded = "as-recorded";
 void lay_texture(const Material& material, TouchParameters& parameters);
 
 /// Sets all parameters that the material defines.
-void lay(const Material& material, TouchParameters& parameters);
+void apply_material(const Material& material, TouchParameters& parameters);
 
 /// Whether roughness and size are those of lay_texture().
 [[nodiscard]] bool has_texture(const Material& material, const TouchParameters& parameters);
@@ -55,7 +55,7 @@ void lay(const Material& material, TouchParameters& parameters);
 
 /// The user's material of that name, else the program's; or a file that ends in .toml; or
 /// kAsRecorded. Throws InputError that lists the existing ones.
-[[nodiscard]] Material material_called(const std::string& name);
+[[nodiscard]] Material material_named(const std::string& name);
 
 /// Names of the program's materials and of the user's own.
 struct MaterialNames {
@@ -63,7 +63,7 @@ struct MaterialNames {
     std::vector<std::string> own{};
 };
 [[nodiscard]] MaterialNames material_names();
-/// "as-recorded, bark, ice": all that material_called() knows.
+/// "as-recorded, bark, ice": all that material_named() knows.
 [[nodiscard]] std::string list_of_materials();
 
 /// The folder of the user's own materials: materials/ beside the settings file.

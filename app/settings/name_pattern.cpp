@@ -62,7 +62,7 @@ Part part_at(std::string_view rest, const NameFacts& facts) {
 
 }  // namespace
 
-std::string lacking_of(const NamePattern& pattern) {
+std::string problem_of(const NamePattern& pattern) {
     const std::string& text = pattern.text;
     const bool one_line = std::ranges::none_of(text, [](unsigned char c) { return c < 0x20; });
     if (text.empty() || text.back() == '/' || !one_line) return "names no file";

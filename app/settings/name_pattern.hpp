@@ -23,7 +23,7 @@ struct NameFacts {
 };
 
 /// What is wrong with a pattern, as the end of a sentence; empty: valid.
-[[nodiscard]] std::string lacking_of(const NamePattern& pattern);
+[[nodiscard]] std::string problem_of(const NamePattern& pattern);
 
 /// A path without extension: "dibhr-20261120-060742", "hand-00m04.631s-000139". The pattern must be
 /// valid.

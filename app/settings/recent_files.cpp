@@ -52,7 +52,7 @@ std::vector<RecentFile> with_first(const RecentFile& opened, std::vector<RecentF
     return files;
 }
 
-void remember(const RecentFile& opened, const fs::path& file) {
+void add_recent_file(const RecentFile& opened, const fs::path& file) {
     const std::vector<RecentFile> before = read_recent_files(file);
     const std::vector<RecentFile> files = with_first(opened, before);
     if (files == before) return;
@@ -64,7 +64,7 @@ void remember(const RecentFile& opened, const fs::path& file) {
     out.commit();
 }
 
-fs::path typed_path(const std::string& text) {
+fs::path expand_home(const std::string& text) {
     if (text == "~") return home_folder();
     return text.starts_with("~/") ? home_folder() / text.substr(2) : fs::path(text);
 }

@@ -26,9 +26,9 @@ struct RecentFile {
                                                  std::vector<RecentFile> files);
 
 /// The same in the file. Throws InputError when the file cannot be written.
-void remember(const RecentFile& opened, const std::filesystem::path& file);
+void add_recent_file(const RecentFile& opened, const std::filesystem::path& file);
 
 /// A typed path: ~ and ~/... are replaced by the home folder.
-[[nodiscard]] std::filesystem::path typed_path(const std::string& text);
+[[nodiscard]] std::filesystem::path expand_home(const std::string& text);
 
 }  // namespace dibhr

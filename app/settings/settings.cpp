@@ -40,16 +40,16 @@ constexpr std::string_view kEstimators = "estimators";
 // Each returns what is wrong with a value of the file; empty: valid, and stored.
 
 template <typename T>
-std::string take_exact(const toml::node& node, T& value, const char* lacking) {
+std::string take_exact(const toml::node& node, T& value, const char* problem) {
     const auto read = node.value_exact<T>();
-    if (!read) return lacking;
+    if (!read) return problem;
     value = *read;
     return {};
 }
 
 template <typename Enum>
-std::string take_word(std::optional<Enum> named, Enum& value, const std::string& lacking) {
-    if (!named) return lacking;
+std::string take_word(std::optional<Enum> named, Enum& value, const std::string& problem) {
+    if (!named) return problem;
     value = *named;
     return {};
 }
@@ -65,9 +65,9 @@ std::string take(const toml::node& node, const Setting&, std::string& value) {
 std::string take(const toml::node& node, const Setting&, NamePattern& value) {
     const auto read = node.value_exact<std::string>();
     if (!read) return "is not a text in quotes";
-    std::string lacking = lacking_of({*read});
-    if (lacking.empty()) value.text = *read;
-    return lacking;
+    std::string problem = problem_of({*read});
+    if (problem.empty()) value.text = *read;
+    return problem;
 }
 
 std::string take(const toml::node& node, const Setting& setting, double& value) {
@@ -82,19 +82,19 @@ std::string take(const toml::node& node, const Setting& setting, double& value) 
 
 std::string take(const toml::node& node, const Setting& setting, int& value) {
     double read = value;
-    std::string lacking = take(node, setting, read);
+    std::string problem = take(node, setting, read);
     value = static_cast<int>(std::lround(read));
-    return lacking;
+    return problem;
 }
 
-template <HasWords Enum>
+template <HasNameTable Enum>
 std::string take(const toml::node& node, const Setting&, Enum& value) {
-    std::string lacking = "is none of " + listed(all_names<Enum>());
-    if (std::is_same_v<Enum, Algorithm>) lacking = "is not the name of an algorithm";
-    if (std::is_same_v<Enum, CleaningPreset>) lacking = "is not the name of a way to clean";
-    if (std::is_same_v<Enum, ReliefPaint>) lacking = "is not what the relief can be painted with";
+    std::string problem = "is none of " + listed(all_names<Enum>());
+    if (std::is_same_v<Enum, Algorithm>) problem = "is not the name of an algorithm";
+    if (std::is_same_v<Enum, CleaningPreset>) problem = "is not the name of a way to clean";
+    if (std::is_same_v<Enum, ReliefPaint>) problem = "is not what the relief can be painted with";
     const auto word = node.value<std::string_view>().value_or("");
-    return take_word(named<Enum>(word), value, lacking);
+    return take_word(named<Enum>(word), value, problem);
 }
 
 std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
@@ -102,7 +102,7 @@ std::string take(const toml::node& node, const Setting&, ButtonAction& value) {
     return take_word(button_action_named(word), value, "is not what a button can do");
 }
 
-std::string take_at(const toml::node& node, const Setting&, const DeviceWord& word) {
+std::string take_at(const toml::node& node, const Setting&, const DeviceEnum& word) {
     const std::vector<std::string> names(word.names.begin(), word.names.end());
     const auto found =
         std::find(names.begin(), names.end(), node.value<std::string>().value_or(""));
@@ -135,7 +135,7 @@ std::optional<std::vector<std::string>> key_names(const toml::node& node) {
 /// A command, or a table with a command and facts of its depth. Returns what is wrong; empty:
 /// valid, and stored.
 std::string take(const toml::node& node, Estimator& estimator) {
-    constexpr const char* kLacking = "is neither a command in quotes nor a table with one";
+    constexpr const char* kProblem = "is neither a command in quotes nor a table with one";
     if (const auto command = node.value_exact<std::string>()) {
         estimator.command = *command;
         return {};
@@ -143,7 +143,7 @@ std::string take(const toml::node& node, Estimator& estimator) {
     const toml::table* const table = node.as_table();
     const auto command =
         table == nullptr ? std::nullopt : (*table)["command"].value_exact<std::string>();
-    if (!command) return kLacking;
+    if (!command) return kProblem;
     toml::table rest = *table;
     rest.erase("command");
     std::ostringstream facts;
@@ -169,9 +169,10 @@ std::vector<std::pair<std::string, const toml::node*>> in_order(const toml::tabl
 
 /// Reads values from a parsed file. An invalid value keeps its default, with a warning that names
 /// the line.
-class Reading {
+class SettingsReader {
   public:
-    Reading(const toml::table& root, const fs::path& file, std::vector<std::string>& warnings)
+    SettingsReader(const toml::table& root, const fs::path& file,
+                   std::vector<std::string>& warnings)
         : root_(root), file_(file), warnings_(warnings) {}
 
     void take_keys(std::vector<OwnKeys>& keys) {
@@ -181,7 +182,8 @@ class Reading {
         std::vector<std::string> complaints;
         const KeyTable checked(keys, &complaints);
         for (std::size_t k = 0; k < keys.size(); ++k)
-            if (!complaints[k].empty()) tell(*nodes[k], kKeys, keys[k].action, complaints[k]);
+            if (!complaints[k].empty())
+                add_warning(*nodes[k], kKeys, keys[k].action, complaints[k]);
     }
 
     void take_estimators(std::vector<Estimator>& estimators) {
@@ -189,13 +191,13 @@ class Reading {
         if (table == nullptr) return;
         for (const auto& [name, node] : in_order(*table)) {
             Estimator estimator{.name = name};
-            const std::string lacking = is_bare_name(name)
+            const std::string problem = is_bare_name(name)
                                             ? take(*node, estimator)
                                             : "is not a name of letters, digits, - and _";
-            if (lacking.empty())
+            if (problem.empty())
                 estimators.push_back(std::move(estimator));
             else
-                tell(*node, kEstimators, name, lacking);
+                add_warning(*node, kEstimators, name, problem);
         }
     }
 
@@ -204,21 +206,21 @@ class Reading {
             known_[setting.table].insert(setting.name);
             const toml::node* node = root_[setting.table][setting.name].node();
             if (node == nullptr) continue;
-            const std::string lacking = std::visit(
+            const std::string problem = std::visit(
                 [&](const auto& value) { return take_at(*node, setting, value); }, setting.value);
-            if (!lacking.empty()) warn(*node, setting.table, setting.name, lacking);
+            if (!problem.empty()) warn(*node, setting.table, setting.name, problem);
         }
         tell_unknown();
     }
 
     void warn(const toml::node& node, std::string_view table, std::string_view name,
               const std::string& what) {
-        tell(node, table, name, what + "; the default is kept");
+        add_warning(node, table, name, what + "; the default is kept");
     }
 
   private:
-    void tell(const toml::node& node, std::string_view table, std::string_view name,
-              const std::string& what) {
+    void add_warning(const toml::node& node, std::string_view table, std::string_view name,
+                     const std::string& what) {
         std::ostringstream text;
         text << file_.string() << ":" << node.source().begin.line << ": ";
         if (!table.empty()) text << table << ".";
@@ -233,7 +235,7 @@ class Reading {
         for (const auto& [name, node] : in_order(table)) {
             auto names = key_names(*node);
             if (!is_bare_name(name)) {
-                tell(*node, kKeys, name, "is not an action: dibhr help keys lists them");
+                add_warning(*node, kKeys, name, "is not an action: dibhr help keys lists them");
             } else if (!names) {
                 warn(*node, kKeys, name, "is neither a key in quotes nor a list of them");
             } else {
@@ -296,7 +298,7 @@ std::string toml_text(Enum value) {
     return '"' + std::string(name_of(value)) + '"';
 }
 
-std::string toml_text_at(const DeviceWord& word) {
+std::string toml_text_at(const DeviceEnum& word) {
     return '"' + std::string(word.names[*word]) + '"';
 }
 
@@ -318,7 +320,7 @@ std::string toml_text(const OwnKeys& own) {
 std::string toml_text(Settings settings) {
     std::string text;
     std::string_view table;
-    for (const Setting& setting : list_of(settings)) {
+    for (const Setting& setting : all_settings(settings)) {
         if (setting.table != table) text += "\n[" + std::string(setting.table) + "]\n";
         table = setting.table;
         text += std::string(setting.name) + " = " + text_of(setting) + "\n";
@@ -365,13 +367,13 @@ Settings load_settings(const fs::path& file, std::vector<std::string>& warnings)
     if (fs::status(file, failed).type() == fs::file_type::not_found) return {};
     const toml::table root = parsed(file);
     Settings settings;
-    Reading reading(root, file, warnings);
+    SettingsReader reading(root, file, warnings);
     if (const toml::node* version = root.get("version")) {
         if (version->value_exact<std::int64_t>() != kVersion) {
             reading.warn(*version, "", "version", "is not 1, the one this program writes");
         }
     }
-    reading.take_all(list_of(settings));
+    reading.take_all(all_settings(settings));
     reading.take_keys(settings.keys);
     reading.take_estimators(settings.estimators);
     keep_in_range(settings.touch);
@@ -402,7 +404,7 @@ void save_settings(const Settings& settings, const fs::path& file) {
     }
 }
 
-std::vector<Setting> list_of(Settings& s) {
+std::vector<Setting> all_settings(Settings& s) {
     std::vector<Setting> list{{"window", "width", &s.width, kSmallestWindow, kLargestWindow},
                               {"window", "height", &s.height, kSmallestWindow, kLargestWindow},
                               {"window", "ui-scale", &s.ui_scale, 0.0, kLargestUi},
@@ -426,22 +428,24 @@ std::vector<Setting> list_of(Settings& s) {
     }
     for (const TouchSwitch& entry : touch_switches())
         list.push_back({"touch", entry.name, &entry.in(s.touch)});
-    list.insert(list.end(), {{"touch", "material", &s.material},
-                             {.table = "touch",
-                              .name = "stability",
-                              .value = &s.stability,
-                              .protection = Protection{Less::other, "Stability control"}},
-                             {.table = "touch",
-                              .name = "damping-as-needed",
-                              .value = &s.damping_as_needed,
-                              .protection = Protection{Less::other, "Damping as the hand needs"}},
-                             {"touch", "fit-relief", &s.fit_relief},
-                             {"touch", "fit-pixel-pitch", &s.fit_pitch}});
+    list.insert(list.end(),
+                {{"touch", "material", &s.material},
+                 {.table = "touch",
+                  .name = "stability",
+                  .value = &s.stability,
+                  .protection = Protection{WeakerWhen::other, "Stability control"}},
+                 {.table = "touch",
+                  .name = "damping-as-needed",
+                  .value = &s.damping_as_needed,
+                  .protection = Protection{WeakerWhen::other, "Damping as the hand needs"}},
+                 {"touch", "fit-relief", &s.fit_relief},
+                 {"touch", "fit-pixel-pitch", &s.fit_pitch}});
     for (const TouchNumber& number : touch_numbers()) {
         list.push_back({"touch", number.name, &number.in(s.touch), number.lowest, number.highest});
     }
     list.push_back({"device", "max-force", &s.max_force_newton, 0.0,
-                    DeviceLimits{}.max_force_newton, Protection{Less::higher, "Max force [N]"}});
+                    DeviceLimits{}.max_force_newton,
+                    Protection{WeakerWhen::higher, "Max force [N]"}});
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
                              {"sound", "game-pad", &s.game_pad}});
@@ -450,7 +454,7 @@ std::vector<Setting> list_of(Settings& s) {
         {.table = "falcon",
          .name = "force-in-front-only",
          .value = &s.force_in_front_only,
-         .protection = Protection{Less::other, "Force only while the window is in front"}});
+         .protection = Protection{WeakerWhen::other, "Force only while the window is in front"}});
     const auto kinds = force_device_kinds();
     for (std::size_t k = 0; k < s.devices.size(); ++k) {
         for (const DeviceRow& row : s.devices[k].rows()) {
@@ -468,22 +472,23 @@ std::vector<Setting> list_of(Settings& s) {
     visit_steps(s.cleaning.own, [&list](std::string_view name, bool& step) {
         list.push_back({"cleaning", name, &step});
     });
-    list.insert(list.end(), {{"look", "discard-silhouettes", &s.look.discard_silhouettes},
-                             {"look", "silhouette-slope", &s.look.silhouette_slope, 1.0, 100.0},
-                             {"look", "paint", &s.look.paint},
-                             {"look", "light", &s.look.light, 0.0, 1.0},
-                             {"look", "coarse", &s.look.coarse},
-                             {"look", "dent", &s.look.dent},
-                             {"look", "trace", &s.look.trace},
-                             {"look", "straight-view", &s.straight_view},
-                             {"look", "panes", &s.panes},
-                             {"look", "others", &s.others},
-                             {"playing", "resume", &s.resume},
-                             {"charts", "force", &s.charts.force},
-                             {"charts", "penetration", &s.charts.penetration},
-                             {"charts", "speed", &s.charts.speed},
-                             {"charts", "energy", &s.charts.energy},
-                             {"charts", "lateness", &s.charts.lateness}});
+    list.insert(list.end(),
+                {{"look", "discard-silhouettes", &s.relief_style.discard_silhouettes},
+                 {"look", "silhouette-slope", &s.relief_style.silhouette_slope, 1.0, 100.0},
+                 {"look", "paint", &s.relief_style.paint},
+                 {"look", "light", &s.relief_style.light, 0.0, 1.0},
+                 {"look", "coarse", &s.relief_style.coarse},
+                 {"look", "dent", &s.relief_style.dent},
+                 {"look", "trace", &s.relief_style.trace},
+                 {"look", "straight-view", &s.straight_view},
+                 {"look", "panes", &s.panes},
+                 {"look", "others", &s.others},
+                 {"playing", "resume", &s.resume},
+                 {"charts", "force", &s.charts.force},
+                 {"charts", "penetration", &s.charts.penetration},
+                 {"charts", "speed", &s.charts.speed},
+                 {"charts", "energy", &s.charts.energy},
+                 {"charts", "lateness", &s.charts.lateness}});
     return list;
 }
 
@@ -502,10 +507,10 @@ std::string text_of(const Setting& setting) {
     return std::visit([](const auto& value) { return toml_text_at(value); }, setting.value);
 }
 
-Settings changes_kept(Settings in_file, Settings started, Settings now) {
-    const std::vector<Setting> kept = list_of(in_file);
-    const std::vector<Setting> before = list_of(started);
-    const std::vector<Setting> after = list_of(now);
+Settings merge_changes(Settings in_file, Settings started, Settings now) {
+    const std::vector<Setting> kept = all_settings(in_file);
+    const std::vector<Setting> before = all_settings(started);
+    const std::vector<Setting> after = all_settings(now);
     for (std::size_t k = 0; k < kept.size(); ++k) {
         if (!same(before[k], after[k])) assign(kept[k], after[k]);
     }
@@ -513,8 +518,8 @@ Settings changes_kept(Settings in_file, Settings started, Settings now) {
 }
 
 bool same_settings(Settings a, Settings b) {
-    const std::vector<Setting> first = list_of(a);
-    const std::vector<Setting> second = list_of(b);
+    const std::vector<Setting> first = all_settings(a);
+    const std::vector<Setting> second = all_settings(b);
     return a.keys == b.keys && a.estimators == b.estimators &&
            std::equal(first.begin(), first.end(), second.begin(), same);
 }

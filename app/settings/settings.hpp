@@ -11,17 +11,17 @@
 #include <variant>
 #include <vector>
 
+#include "app/settings/button_action_names.hpp"
 #include "app/settings/estimators.hpp"
-#include "app/settings/grip_buttons.hpp"
 #include "app/settings/keys.hpp"
 #include "app/settings/name_pattern.hpp"
 #include "app/settings/theme.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/safety.hpp"
-#include "core/haptics/words.hpp"
 #include "core/sound/touch_sound.hpp"
 #include "core/video/frames/cleaning_options.hpp"
-#include "core/video/motion/motion_wanted.hpp"
+#include "core/video/motion/motion_request.hpp"
 #include "core/video/sources/media.hpp"
 #include "device/force_devices.hpp"
 #include "render/scene_view.hpp"
@@ -43,14 +43,14 @@ enum class OpenWith : std::uint8_t {
     window      ///< the window's own, with pairs and previews
 };
 
-inline constexpr std::array<Word<OpenWith>, 3> kOpenWithWords{
+inline constexpr std::array<NamedValue<OpenWith>, 3> kOpenWithNames{
     {{OpenWith::automatic, "auto", "The desktop's, where there is one"},
      {OpenWith::desktop, "desktop", "The desktop's"},
      {OpenWith::window, "window", "In this window"}}};
-static_assert(has_all_in_order(kOpenWithWords, OpenWith::window));
+static_assert(has_all_in_order(kOpenWithNames, OpenWith::window));
 
-[[nodiscard]] constexpr const auto& words_of(OpenWith) noexcept {
-    return kOpenWithWords;
+[[nodiscard]] constexpr const auto& name_table(OpenWith) noexcept {
+    return kOpenWithNames;
 }
 
 /// Which panels are open.
@@ -87,13 +87,13 @@ struct Settings {
     bool panels_visible{true};
     ChartsShown charts{};
     TouchParameters touch{};
-    std::string material{};        ///< for material_called(); empty: as recorded
+    std::string material{};        ///< for material_named(); empty: as recorded
     bool stability{true};          ///< stability control: removes energy that rendering creates
     bool damping_as_needed{true};  ///< with stability: the device's need, not `touch`
     CleaningOptions cleaning{};    ///< without the fingertip
     double finger_mm{0.0};         ///< radius of the fingertip
     InBetweens in_betweens{};
-    ReliefLook look{};
+    ReliefStyle relief_style{};
     bool straight_view{false};
     bool others{false};             ///< show the proxies of the other algorithms
     bool panes{false};              ///< show colour and depth above the relief
@@ -103,7 +103,7 @@ struct Settings {
     bool fit_relief{true};  ///< fit the relief to each opened media
     bool fit_pitch{true};
     double max_force_newton{SafetyLimits{}.max_force_newton};  ///< 0 .. 8
-    bool force_in_front_only{true};  ///< no force while another window is in front
+    bool force_in_front_only{true};             ///< no force while another window is in front
     double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
     bool mute{false};                           ///< sound off
     bool game_pad{true};                        ///< game pads rumble
@@ -145,15 +145,15 @@ struct Widened<std::variant<Some...>, More...> {
 struct Setting {
     std::string_view table;
     std::string_view name;
-    Widened<TouchWordPlace, bool*, int*, double*, std::string*, NamePattern*, CleaningPreset*,
-            ButtonAction*, ReliefPaint*, Theme*, OpenWith*, DeviceWord, InBetweens*>::type value;
+    Widened<TouchChoiceTarget, bool*, int*, double*, std::string*, NamePattern*, CleaningPreset*,
+            ButtonAction*, ReliefPaint*, Theme*, OpenWith*, DeviceEnum, InBetweens*>::type value;
     double lowest{0.0};  ///< of a number
     double highest{0.0};
     std::optional<Protection> protection{};  ///< set where the value protects the hand
 };
 
 /// All values except keys and estimators, in the file's order, to read or change `settings`.
-[[nodiscard]] std::vector<Setting> list_of(Settings& settings);
+[[nodiscard]] std::vector<Setting> all_settings(Settings& settings);
 
 [[nodiscard]] bool same(const Setting& a, const Setting& b);
 /// For values at the same place of two lists.
@@ -162,7 +162,7 @@ void assign(const Setting& to, const Setting& from);
 [[nodiscard]] std::string text_of(const Setting& setting);
 
 /// `in_file`, with every value that differs between `started` and `now` taken from `now`.
-[[nodiscard]] Settings changes_kept(Settings in_file, Settings started, Settings now);
+[[nodiscard]] Settings merge_changes(Settings in_file, Settings started, Settings now);
 
 [[nodiscard]] bool same_settings(Settings a, Settings b);
 

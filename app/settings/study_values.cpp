@@ -76,24 +76,24 @@ TouchRequest request_of(const TouchValues& values) {
     if (const auto moves = word("in-betweens"); !moves.empty())
         request.in_betweens = named<InBetweens>(moves);
     if (const auto material = word("material"); !material.empty())
-        given.material = material_called(material);
+        given.material = material_named(material);
     given.bump = word("bump");
     request.preset = named<CleaningPreset>(word("cleaning"));
     request.raw_depth = request.preset == CleaningPreset::raw;
     return request;
 }
 
-void take_protections(const TouchValues& values, Settings& settings) {
+void apply_protections(const TouchValues& values, Settings& settings) {
     const auto stability = values.words.find("stability");
     settings.stability = stability == values.words.end() || stability->second != "off";
     settings.damping_as_needed = !request_of(values).given.gives_damping();
 }
 
-std::vector<Doubt> doubts_of(const Protocol& protocol, const Consent& consent) {
+std::vector<UnsafeSetting> unsafe_settings_of(const Protocol& protocol, const Consent& consent) {
     Settings least;
     for (const Condition& condition : protocol.conditions) {
         Settings worn;
-        take_protections(condition.values, worn);
+        apply_protections(condition.values, worn);
         least.stability = least.stability && worn.stability;
         least.damping_as_needed = least.damping_as_needed && worn.damping_as_needed;
     }
@@ -101,10 +101,10 @@ std::vector<Doubt> doubts_of(const Protocol& protocol, const Consent& consent) {
         if (const TouchNumber* const varied = touch_number(block.variation.parameter))
             least.damping_as_needed =
                 least.damping_as_needed && varied->topic != TouchTopic::damper;
-    return consent.hold(least);
+    return consent.replace_unsafe(least);
 }
 
-void require_felt(const TouchValues& values) {
+void validate_values(const TouchValues& values) {
     const GivenParameters given = request_of(values).given;
     TouchParameters parameters;
     try {

@@ -14,14 +14,15 @@ namespace dibhr {
 [[nodiscard]] TouchRequest request_of(const TouchValues& values);
 
 /// Sets stability control and damping as needed on, unless the condition has them off.
-void take_protections(const TouchValues& values, Settings& settings);
+void apply_protections(const TouchValues& values, Settings& settings);
 
 /// The settings of any interval that protect the hand less, without consent here.
-[[nodiscard]] std::vector<Doubt> doubts_of(const Protocol& protocol, const Consent& consent);
+[[nodiscard]] std::vector<UnsafeSetting> unsafe_settings_of(const Protocol& protocol,
+                                                            const Consent& consent);
 
 /// Validates the values; reads the material. Throws InputError, with the names used on a study's
 /// page, where dynamic friction is above static friction, one coefficient would change the other
 /// unseen, or a texture has no bump map.
-void require_felt(const TouchValues& values);
+void validate_values(const TouchValues& values);
 
 }  // namespace dibhr

@@ -9,7 +9,7 @@
 #include <mutex>
 #include <utility>
 
-#include "app/sound/wishes.hpp"
+#include "app/sound/worker_control.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/sound/touch_rumble.hpp"
 
@@ -17,8 +17,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kLookForPads_s = 0.5;
-constexpr double kTell_s = 0.01;
+constexpr double kScanInterval_s = 0.5;
+constexpr double kRumbleInterval_s = 0.01;
 
 }  // namespace
 
@@ -28,82 +28,82 @@ class PadOutput::Work {
     explicit Work(std::shared_ptr<TouchSource> from) : source(std::move(from)) {}
 
     void run();
-    [[nodiscard]] PadNews news() const;
+    [[nodiscard]] PadInfo info() const;
 
     std::shared_ptr<TouchSource> source;
-    Wishes<bool> wishes{};                    // true: pads rumble
+    WorkerControl<bool> control{};            // true: pads rumble
     TripleBuffer<SoundMaterial> materials{};  // from the window's thread to this one
     std::atomic<bool> coils_move{false};
 
   private:
-    void wait_without();
-    void serve();
-    void say(PadNews news);
+    void wait_without_session();
+    void run_pads();
+    void set_info(PadInfo info);
 
     mutable std::mutex mutex_{};
-    PadNews news_{};  // under the mutex
+    PadInfo info_{};  // under the mutex
 };
 
 void PadOutput::Work::run() {
-    while (wishes.wait()) {
+    while (control.wait()) {
         if (pads_would_copy_process()) {
-            wait_without();
+            wait_without_session();
         } else {
-            serve();
+            run_pads();
         }
-        say({});
+        set_info({});
     }
     SDL_TLSCleanup();  // SDL's data of this thread, which SDL did not start
-    wishes.say_left();
+    control.report_stopped();
 }
 
-void PadOutput::Work::wait_without() {
-    say({.state = PadNews::State::no_session});
-    while (wishes.holds_for(true, kLookForPads_s)) continue;
+void PadOutput::Work::wait_without_session() {
+    set_info({.state = PadInfo::State::no_session});
+    while (control.unchanged_for(true, kScanInterval_s)) continue;
 }
 
-void PadOutput::Work::serve() {
+void PadOutput::Work::run_pads() {
     Pads pads(*source);
     TouchRumble rumble;
     SoundListener ticks(source->ticks);
-    double step_s = kTell_s;
-    double not_looked_s = kLookForPads_s;
+    double step_s = kRumbleInterval_s;
+    double since_scan_s = kScanInterval_s;
     do {
-        if (not_looked_s >= kLookForPads_s) {
-            pads.look();
-            say({.state = PadNews::State::looking, .found = pads.found()});
-            not_looked_s = 0.0;
+        if (since_scan_s >= kScanInterval_s) {
+            pads.scan();
+            set_info({.state = PadInfo::State::looking, .found = pads.found()});
+            since_scan_s = 0.0;
         }
         rumble.choose(materials.front());
         for (SoundTick tick; ticks.pop(tick);) rumble.add(tick);
-        pads.turn(rumble.after(step_s), coils_move);
-        step_s = pads.empty() ? kLookForPads_s : kTell_s;
-        not_looked_s += step_s;
-    } while (wishes.holds_for(true, step_s));
+        pads.set_motors(rumble.after(step_s), coils_move);
+        step_s = pads.empty() ? kScanInterval_s : kRumbleInterval_s;
+        since_scan_s += step_s;
+    } while (control.unchanged_for(true, step_s));
 }
 
-void PadOutput::Work::say(PadNews news) {
+void PadOutput::Work::set_info(PadInfo info) {
     const std::lock_guard lock(mutex_);
-    news_ = std::move(news);
+    info_ = std::move(info);
 }
 
-PadNews PadOutput::Work::news() const {
+PadInfo PadOutput::Work::info() const {
     const std::lock_guard lock(mutex_);
-    return news_;
+    return info_;
 }
 
-bool PadNews::has_coils() const {
+bool PadInfo::has_coils() const {
     return std::ranges::any_of(found, &FoundPad::has_coils);
 }
 
 PadOutput::PadOutput(const std::shared_ptr<TouchSource>& source)
     : work_(std::make_shared<Work>(source)) {
-    teach_sdl_manners();
+    configure_sdl();
     thread_ = std::thread([work = work_] { work->run(); });
 }
 
 PadOutput::~PadOutput() {
-    work_->wishes.leave(thread_);
+    work_->control.stop(thread_);
 }
 
 void PadOutput::choose(const SoundMaterial& material, bool on, bool coils_move) {
@@ -112,11 +112,11 @@ void PadOutput::choose(const SoundMaterial& material, bool on, bool coils_move) 
         work_->materials.publish(material);
     }
     work_->coils_move = coils_move;
-    work_->wishes.wish(on);
+    work_->control.request(on);
 }
 
-PadNews PadOutput::news() const {
-    return work_->news();
+PadInfo PadOutput::info() const {
+    return work_->info();
 }
 
 }  // namespace dibhr

@@ -12,7 +12,7 @@
 namespace dibhr {
 
 /// The game pads found, or why none is looked for.
-struct PadNews {
+struct PadInfo {
     enum class State { off, no_session, looking };
 
     State state{State::off};  ///< no_session: no desktop session, so no pad is looked for
@@ -21,7 +21,7 @@ struct PadNews {
     /// Whether a found pad has voice coils.
     [[nodiscard]] bool has_coils() const;
 
-    bool operator==(const PadNews&) const = default;
+    bool operator==(const PadInfo&) const = default;
 };
 
 /// While switched on, its thread scans for pads twice a second, and sends them the strength of the
@@ -40,7 +40,7 @@ class PadOutput {
     void choose(const SoundMaterial& material, bool on, bool coils_move);
 
     /// For the window's thread.
-    [[nodiscard]] PadNews news() const;
+    [[nodiscard]] PadInfo info() const;
 
   private:
     class Work;

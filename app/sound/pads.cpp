@@ -19,8 +19,8 @@ constexpr std::size_t kMostPads = 8;
 constexpr Uint16 kSony = 0x054c;
 constexpr Uint16 kDualSense = 0x0ce6;
 constexpr Uint16 kDualSenseEdge = 0x0df2;
-constexpr Uint32 kLasts_ms = 1000;  // turn() renews the rumble long before its end
-constexpr double kSteps = 64.0;     // smaller changes are not sent to a pad
+constexpr Uint32 kRumbleDuration_ms = 1000;  // turn() renews the rumble long before its end
+constexpr double kSteps = 64.0;              // smaller changes are not sent to a pad
 
 Uint16 motor(double strength) {
     return static_cast<Uint16>(std::lround(std::round(kSteps * strength) / kSteps * 65535.0));
@@ -50,18 +50,18 @@ bool pads_would_copy_process() {
 }
 
 Pads::Pads(TouchSource& source) : source_(source) {
-    const SdlTurn::Taken turn(source.sdl);
+    const SdlLock::Guard guard(source.sdl);
     initialised_ = SDL_InitSubSystem(SDL_INIT_JOYSTICK) == 0;
 }
 
 Pads::~Pads() {
-    turn({}, false);
-    const SdlTurn::Taken turn(source_.sdl);
+    set_motors({}, false);
+    const SdlLock::Guard guard(source_.sdl);
     for (const Pad& pad : pads_) SDL_JoystickClose(pad.joystick);
     if (initialised_) SDL_QuitSubSystem(SDL_INIT_JOYSTICK);
 }
 
-void Pads::look() {
+void Pads::scan() {
     if (!initialised_) return;
     read_pads();
     std::erase_if(pads_, [](const Pad& pad) {
@@ -87,13 +87,13 @@ void Pads::open(int index) {
                                .has_coils = has_coils(joystick)}});
 }
 
-void Pads::turn(Rumble rumble, bool coils_move) {
+void Pads::set_motors(Rumble rumble, bool coils_move) {
     if (pads_.empty()) return;
     read_pads();
     for (const Pad& pad : pads_) {
         if (!pad.found.rumbles) continue;
         const Rumble own = coils_move && pad.found.has_coils ? Rumble{} : rumble;
-        SDL_JoystickRumble(pad.joystick, motor(own.low), motor(own.high), kLasts_ms);
+        SDL_JoystickRumble(pad.joystick, motor(own.low), motor(own.high), kRumbleDuration_ms);
     }
 }
 

@@ -36,11 +36,11 @@ class Pads {
 
     /// Opens pads that were connected, closes pads that were disconnected. A pad that cannot be
     /// opened is tried again by the next call.
-    void look();
+    void scan();
 
     /// Call it often while there is a pad. `coils_move`: pads with voice coils do not rumble, which
     /// would switch off their sound.
-    void turn(Rumble rumble, bool coils_move);
+    void set_motors(Rumble rumble, bool coils_move);
 
     [[nodiscard]] bool empty() const noexcept { return pads_.empty(); }
     [[nodiscard]] std::vector<FoundPad> found() const;

@@ -17,11 +17,11 @@ class SoundOutput {
     enum class State { quiet, playing, no_device };  ///< quiet: muted, or opening
 
     /// Which devices are to be open. None at first.
-    struct Wish {
+    struct Request {
         bool speaker{false};  ///< false: muted
         bool coils{false};    ///< a game pad's voice coils, once its sound device exists
 
-        bool operator==(const Wish&) const = default;
+        bool operator==(const Request&) const = default;
     };
 
     explicit SoundOutput(const std::shared_ptr<TouchSource>& source);
@@ -31,7 +31,7 @@ class SoundOutput {
     SoundOutput& operator=(const SoundOutput&) = delete;
 
     /// For the window's thread: the choice for the next samples. The volume is the speaker's.
-    void choose(const SoundChoice& choice, Wish wish);
+    void choose(const SoundChoice& choice, Request request);
 
     /// The speaker's state.
     [[nodiscard]] State state() const noexcept;

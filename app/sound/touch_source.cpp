@@ -12,32 +12,33 @@ namespace dibhr {
 namespace {
 
 /// Ignores ALSA's error messages: a machine without a sound card is no error.
-void say_nothing(const char*, int, const char*, int, const char*, ...) {}
+void ignore_alsa_error(const char*, int, const char*, int, const char*, ...) {}
 
 }  // namespace
 
-SdlTurn::Taken::Taken(SdlTurn& turn) : turn_(turn) {
-    constexpr auto kPatience = std::chrono::seconds(1);
-    std::unique_lock lock(turn.mutex_);
-    mine_ = turn.given_back_.wait_for(lock, kPatience, [&turn] { return !turn.taken_; });
-    if (mine_) turn.taken_ = true;
+SdlLock::Guard::Guard(SdlLock& sdl_lock) : sdl_lock_(sdl_lock) {
+    constexpr auto kTurnTimeout = std::chrono::seconds(1);
+    std::unique_lock lock(sdl_lock.mutex_);
+    owned_ =
+        sdl_lock.released_.wait_for(lock, kTurnTimeout, [&sdl_lock] { return !sdl_lock.locked_; });
+    if (owned_) sdl_lock.locked_ = true;
 }
 
-SdlTurn::Taken::~Taken() {
-    if (!mine_) return;
-    const std::lock_guard lock(turn_.mutex_);
-    turn_.taken_ = false;
-    turn_.given_back_.notify_all();
+SdlLock::Guard::~Guard() {
+    if (!owned_) return;
+    const std::lock_guard lock(sdl_lock_.mutex_);
+    sdl_lock_.locked_ = false;
+    sdl_lock_.released_.notify_all();
 }
 
-void teach_sdl_manners() {
+void configure_sdl() {
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // the program handles signals itself
     SDL_SetHint(SDL_HINT_APP_NAME, "dibhr");
     SDL_SetHint(SDL_HINT_AUDIO_DEVICE_STREAM_NAME, "Touch");
     // The kernel's drivers can rumble; SDL's drivers would open every pad and set its lights.
     SDL_SetHint(SDL_HINT_JOYSTICK_HIDAPI, "0");
     SDL_SetHint(SDL_HINT_JOYSTICK_ALLOW_BACKGROUND_EVENTS, "1");  // SDL has no window
-    snd_lib_error_set_handler(say_nothing);
+    snd_lib_error_set_handler(ignore_alsa_error);
 }
 
 }  // namespace dibhr

@@ -9,36 +9,36 @@
 namespace dibhr {
 
 /// Only one thread at a time may initialise or shut down SDL.
-class SdlTurn {
+class SdlLock {
   public:
     /// Holds the lock during its life. Waits at most a second for it and then goes on without: a
     /// hanging server must not block the other thread.
-    class Taken {
+    class Guard {
       public:
-        explicit Taken(SdlTurn& turn);
-        ~Taken();
-        Taken(const Taken&) = delete;
-        Taken& operator=(const Taken&) = delete;
+        explicit Guard(SdlLock& sdl_lock);
+        ~Guard();
+        Guard(const Guard&) = delete;
+        Guard& operator=(const Guard&) = delete;
 
       private:
-        SdlTurn& turn_;
-        bool mine_;
+        SdlLock& sdl_lock_;
+        bool owned_;
     };
 
   private:
     std::mutex mutex_{};
-    std::condition_variable given_back_{};
-    bool taken_{false};  // under the mutex
+    std::condition_variable released_{};
+    bool locked_{false};  // under the mutex
 };
 
 /// Owned by each output together with its thread, which may outlive the output.
 struct TouchSource {
     SoundRing ticks{};  ///< the haptic loop pushes them
-    SdlTurn sdl{};
+    SdlLock sdl{};
 };
 
 /// SDL must not handle signals, print drivers' messages, or open pads by its own drivers. Each
 /// output calls it on the window's thread before its own thread starts.
-void teach_sdl_manners();
+void configure_sdl();
 
 }  // namespace dibhr

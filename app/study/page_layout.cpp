@@ -201,7 +201,7 @@ void draw_body(const PageBody& body, const MeasuredBody& whole, float width) {
         if (text.text.empty()) continue;
         const TextBlock& block = whole.blocks[k++];
         place(block.size);
-        draw_text(block, ImGui::GetCursorScreenPos(), LineAlign::left, text.quiet);
+        draw_text(block, ImGui::GetCursorScreenPos(), LineAlign::left, text.dimmed);
         ImGui::Dummy(block.size);
     }
 }
@@ -262,8 +262,8 @@ TextBlock text_block(const std::string& text, float most_width, float times) {
     return block;
 }
 
-void draw_text(const TextBlock& block, ImVec2 at, LineAlign align, bool quiet) {
-    const ImU32 colour = ImGui::GetColorU32(quiet ? ImGuiCol_TextDisabled : ImGuiCol_Text);
+void draw_text(const TextBlock& block, ImVec2 at, LineAlign align, bool dimmed) {
+    const ImU32 colour = ImGui::GetColorU32(dimmed ? ImGuiCol_TextDisabled : ImGuiCol_Text);
     const float share = align == LineAlign::left ? 0.0F : align == LineAlign::middle ? 0.5F : 1.0F;
     for (const std::string& line : block.lines) {
         const float free = block.size.x - width_of(line, block.times);

@@ -30,7 +30,7 @@ struct TextBlock {
 [[nodiscard]] TextBlock text_block(const std::string& text, float most_width, float times = 1.0F);
 
 /// Draws with the upper left corner at `at` [px of the display]; `align`: of the lines.
-void draw_text(const TextBlock& block, ImVec2 at, LineAlign align, bool quiet = false);
+void draw_text(const TextBlock& block, ImVec2 at, LineAlign align, bool dimmed = false);
 
 /// Buttons side by side in the middle; where they do not fit, in columns of equal width, down to
 /// one column.
@@ -58,7 +58,7 @@ struct FootPart {
 struct PageText {
     std::string text{};
     float times{1.0F};  ///< as large as the font
-    bool quiet{false};
+    bool dimmed{false};
 };
 
 struct PageBody {

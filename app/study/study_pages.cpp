@@ -238,7 +238,7 @@ Press draw_leaving(const StudyShown& view) {
     const PageBody body = body_of(
         view,
         {{"Leave the study?"},
-         {.text = "All answers so far are kept. It goes on here the next time.", .quiet = true}},
+         {.text = "All answers so far are kept. It goes on here the next time.", .dimmed = true}},
         0.3F);
     return draw_page(
         body, std::array{button_part({.labels = {"Stay  (Escape)", "Leave  (L)"}}, [](int which) {
@@ -256,10 +256,10 @@ Press draw_feedback(const StudyRun& run, const StudyShown& view) {
 }
 
 /// Asks the experimenter for consent, before all else.
-Press draw_question_of_safety(const StudyShown& view) {
+Press draw_consent(const StudyShown& view) {
     const PageBody body =
         body_of(view,
-                {{"This study protects the hand less than usual:\n\n" + view.to_agree +
+                {{"This study protects the hand less than usual:\n\n" + view.consent_text +
                   "\nWhoever leads the study agrees to that here, once."}},
                 0.2F);
     return draw_page(
@@ -322,10 +322,10 @@ std::optional<StudyPress> draw_study(const StudyRun& run, const StudyShown& view
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoNav |
                      ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoScrollWithMouse |
                      (over_relief ? ImGuiWindowFlags_NoBackground : ImGuiWindowFlags_None));
-    const Press press = view.asks_to_leave       ? draw_leaving(view)
-                        : !view.to_agree.empty() ? draw_question_of_safety(view)
-                        : view.before_start      ? draw_start(run, view)
-                                                 : draw_step(run, view);
+    const Press press = view.asks_to_leave           ? draw_leaving(view)
+                        : !view.consent_text.empty() ? draw_consent(view)
+                        : view.before_start          ? draw_start(run, view)
+                                                     : draw_step(run, view);
     draw_bars(run, view);
     ImGui::End();
     return press;

@@ -21,7 +21,7 @@ struct StudyPress {
         feel,    ///< feel interval `which` again (question), or the other one (adjustment)
         turn,    ///< changes the parameter by `value` of its range
         scroll,  ///< scrolls a page down by `value` lines
-        agree,   ///< to StudyShown::to_agree
+        agree,   ///< to StudyShown::consent_text
         early,   ///< an answer before the question was on the screen
         ask_to_leave,
         stay,
@@ -35,13 +35,13 @@ struct StudyPress {
 
 /// What the pages show in addition to the run's step.
 struct StudyShown {
-    bool waits{false};          ///< the interval's surface is not ready yet
-    bool asks_to_leave{false};  ///< the participant pressed Escape
-    bool before_start{false};   ///< the program has started; the participant has not begun
-    std::string to_agree{};     ///< protections that the study weakens; empty: none
-    bool first_picture{false};  ///< the shown page is new
-    float scroll{0.0F};         ///< lines to scroll down since the last picture
-    double left_share{1.0};     ///< remaining share of a time limit; 1 without a limit
+    bool waits{false};           ///< the interval's surface is not ready yet
+    bool asks_to_leave{false};   ///< the participant pressed Escape
+    bool before_start{false};    ///< the program has started; the participant has not begun
+    std::string consent_text{};  ///< protections that the study weakens; empty: none
+    bool first_picture{false};   ///< the shown page is new
+    float scroll{0.0F};          ///< lines to scroll down since the last picture
+    double left_share{1.0};      ///< remaining share of a time limit; 1 without a limit
     bool has_limit{false};
     std::optional<double> mark{};  ///< mark on a scale; nothing: not set yet
     bool by_mouse{false};          ///< no force device touches

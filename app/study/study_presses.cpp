@@ -35,12 +35,12 @@ Press answer_by_digit(const StudyRun& run, int digit) {
     if (block.form == TrialForm::rating) {
         if (has_wide_scale(block.question)) return std::nullopt;
         const StudyAnswer answer{.number = static_cast<double>(digit)};
-        return run.would_take(answer) ? Press(StudyPress{Kind::rate, 0, *answer.number})
-                                      : std::nullopt;
+        return run.would_accept(answer) ? Press(StudyPress{Kind::rate, 0, *answer.number})
+                                        : std::nullopt;
     }
     const StudyAnswer answer{.choice = digit - 1};
-    return digit >= 1 && run.would_take(answer) ? Press(StudyPress{Kind::choose, digit - 1})
-                                                : std::nullopt;
+    return digit >= 1 && run.would_accept(answer) ? Press(StudyPress{Kind::choose, digit - 1})
+                                                  : std::nullopt;
 }
 
 /// The first press puts the mark into the middle, in either direction.
@@ -126,7 +126,7 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
         return std::nullopt;
     }
     if (key.name == "Esc") return StudyPress{Kind::ask_to_leave};
-    if (!view.to_agree.empty())
+    if (!view.consent_text.empty())
         return !key.early && (key.name == "a" || key.name == "A") ? Press(StudyPress{Kind::agree})
                                                                   : std::nullopt;
     const bool early = key.early || view.waits;  // waits for the surface or the next step
@@ -144,7 +144,7 @@ std::optional<StudyPress> press_of_key(const StudyRun& run, const StudyShown& vi
 
 std::optional<StudyPress> press_of_button(const StudyRun& run, const StudyShown& view,
                                           const StudyButton& button) {
-    if (view.asks_to_leave || !view.to_agree.empty()) return std::nullopt;
+    if (view.asks_to_leave || !view.consent_text.empty()) return std::nullopt;
     const Place place = place_of(run, view);
     Press answer;
     if (place != Place::page)

@@ -38,21 +38,22 @@ Settings usable_in_study(Settings settings) {
 
 }  // namespace
 
-StudySurface::StudySurface(HandDevice hand, const Settings& settings, const TouchTies& ties)
+StudySurface::StudySurface(HandDevice hand, const Settings& settings,
+                           const TouchConnections& connections)
     : own_(usable_in_study(settings)),
       settings_(own_),
-      session_(std::move(hand), ties, {settings_, touch_, media_}) {}
+      session_(std::move(hand), connections, {settings_, touch_, media_}) {}
 
 void StudySurface::begin_trial(const std::filesystem::path& file) {
     trial_file_ = file;
 }
 
-void StudySurface::wear(const TouchValues& values) {
+void StudySurface::apply_values(const TouchValues& values) {
     const TouchRequest request = request_of(values);
     Settings& settings = settings_ = own_;
     settings.touch = {};
     settings.fit_relief = settings.fit_pitch = false;
-    take_protections(values, settings);
+    apply_protections(values, settings);
     settings.cleaning = {.preset = request.preset.value_or(CleaningPreset::automatic)};
     settings.finger_mm = request.finger_mm.value_or(0.0);
     settings.in_betweens = request.in_betweens.value_or(InBetweens::automatic);
@@ -72,8 +73,8 @@ void StudySurface::open(const Protocol& protocol, const std::string& media) {
 }
 
 void StudySurface::show(const Protocol& protocol, const StudyInterval& interval) {
-    rest();
-    wear(interval.values);
+    take_force_off();
+    apply_values(interval.values);
     const std::string& media = word_of(interval.values, "media");
     const std::string name = media.empty() ? kSampleMedia : media;
     if (name != media_name_) {
@@ -91,7 +92,7 @@ void StudySurface::record_if_possible() {
         session_.recording().start(std::exchange(trial_file_, {}));
 }
 
-bool StudySurface::is_there() const {
+bool StudySurface::is_ready() const {
     return trial_file_.empty() && shown_.makes_surface() &&
            shown_.nearest().media == session_.media_number();
 }
@@ -101,8 +102,8 @@ void StudySurface::begin_interval(int number) {
     touch_.force_enabled = true;
 }
 
-void StudySurface::rest() {
-    rests_ = rests_ || touch_.force_enabled;
+void StudySurface::take_force_off() {
+    rest_mark_due_ = rest_mark_due_ || touch_.force_enabled;
     touch_.force_enabled = false;
 }
 
@@ -118,7 +119,7 @@ void StudySurface::turn(const std::string& parameter, double value) {
 }
 
 void StudySurface::end_trial() {
-    rest();
+    take_force_off();
     publish();  // while still recording
     static_cast<void>(session_.recording().stop());
     if (!touch_.recording_trouble.empty()) throw InputError(touch_.recording_trouble);
@@ -135,15 +136,15 @@ void StudySurface::poll(bool window_in_front) {
 
 void StudySurface::publish() {
     session_.publish();
-    if (std::exchange(rests_, false)) session_.recording().mark("rest");
+    if (std::exchange(rest_mark_due_, false)) session_.recording().mark("rest");
 }
 
-std::vector<GripPress> StudySurface::take_presses() {
-    std::vector<GripPress> presses = session_.take_presses();
-    const auto takes_force_off = [](const GripPress& press) {
+std::vector<DeviceButtonPress> StudySurface::take_presses() {
+    std::vector<DeviceButtonPress> presses = session_.take_presses();
+    const auto takes_force_off = [](const DeviceButtonPress& press) {
         return press.action == ButtonAction::force_off;
     };
-    if (std::erase_if(presses, takes_force_off) > 0) rest();
+    if (std::erase_if(presses, takes_force_off) > 0) take_force_off();
     return presses;
 }
 

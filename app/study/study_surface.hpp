@@ -19,7 +19,7 @@ namespace dibhr {
 /// the user's settings only device, force limit and loudness are used.
 class StudySurface {
   public:
-    StudySurface(HandDevice hand, const Settings& settings, const TouchTies& ties);
+    StudySurface(HandDevice hand, const Settings& settings, const TouchConnections& connections);
 
     /// Records the trial's ticks into that file, from the next interval on.
     void begin_trial(const std::filesystem::path& file);
@@ -27,11 +27,11 @@ class StudySurface {
     /// InputError for media that cannot be opened.
     void show(const Protocol& protocol, const StudyInterval& interval);
     /// Whether the first frame can be touched and seen, and the recording has begun.
-    [[nodiscard]] bool is_there() const;
+    [[nodiscard]] bool is_ready() const;
     /// Begins the interval: the force rises from zero. `number`: of the interval, from 1.
     void begin_interval(int number);
     /// Takes the force off. Where it was on, the session gets the mark "rest".
-    void rest();
+    void take_force_off();
     /// Changes one parameter of the interval.
     void turn(const std::string& parameter, double value);
     /// Ends the recording. Throws InputError when it could not be written.
@@ -43,7 +43,7 @@ class StudySurface {
     /// Once a picture, after all changes: publishes to the next tick.
     void publish();
     /// The presses since the last call; *force off* is done here and left out.
-    [[nodiscard]] std::vector<GripPress> take_presses();
+    [[nodiscard]] std::vector<DeviceButtonPress> take_presses();
     [[nodiscard]] bool is_down(int button) const noexcept {
         return (touch_.haptic.hand.buttons >> button & 1) != 0;
     }
@@ -61,7 +61,7 @@ class StudySurface {
     void stop() noexcept { session_.stop(); }
 
   private:
-    void wear(const TouchValues& values);
+    void apply_values(const TouchValues& values);
     void open(const Protocol& protocol, const std::string& media);
     void record_if_possible();
 
@@ -71,7 +71,7 @@ class StudySurface {
     MediaState media_{};
     std::string media_name_{};            // of the open media
     std::filesystem::path trial_file_{};  // until the trial's recording begins; else empty
-    bool rests_{false};                   // the mark "rest" is due after the next publish()
+    bool rest_mark_due_{false};           // the mark "rest" is due after the next publish()
     DepthBlend shown_{};
     TouchSession session_;  // last member: destroyed first
 };

@@ -74,36 +74,36 @@ Vec3 place_of(const MouseTarget& mouse, const DepthSurface& surface) {
 }  // namespace
 
 StudyWindow::StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file,
-                         HandDevice hand, Ending& ending)
+                         HandDevice hand, ShutdownWatchdog& shutdown)
     : after_picture_(options.after_picture),
-      doubts_(options.doubts),
+      unsafe_settings_(options.unsafe_settings),
       run_(run),
       file_(file),
-      ending_(ending),
+      shutdown_(shutdown),
       window_(size_of(options), kInSync, "dibhr"),
       gui_(window_,
            {kTextTimes * window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
-      pace_(shortest_picture(kInSync, software_)),
+      pace_(least_picture_time(kInSync, software_)),
       surface_(std::move(hand), options.settings,
-               {heart_, ending.without_force(), ending.words()}) {
-    if (software_) let_drawing_give_way();
+               {heart_, shutdown.without_force(), shutdown.crash_note()}) {
+    if (software_) lower_drawing_priority();
     window_.on_display_loss([this] { leave_without_display(); });
-    ending_.watch_display(display_connection());
+    shutdown_.watch_display(display_connection());
     if (!options.size) window_.toggle_full_screen();
-    for (const Doubt& doubt : doubts_)
-        view_.to_agree +=
-            std::string(doubt.what) + ": " + doubt.asked + ", default " + doubt.usual + '\n';
-    view_.before_start = run_.step() == StudyStep::interval || !doubts_.empty();
+    for (const UnsafeSetting& doubt : unsafe_settings_)
+        view_.consent_text +=
+            std::string(doubt.what) + ": " + doubt.requested + ", default " + doubt.usual + '\n';
+    view_.before_start = run_.step() == StudyStep::interval || !unsafe_settings_.empty();
 }
 
 StudyWindow::~StudyWindow() {
-    ending_.watch_display(-1);
+    shutdown_.watch_display(-1);
     window_.on_display_loss({});
 }
 
 void StudyWindow::lead() {
-    ending_.words().doing("leading a study");
+    shutdown_.crash_note().set_activity("leading a study");
     while (!over()) {
         show_one_picture();
         pace_.wait();
@@ -113,8 +113,8 @@ void StudyWindow::lead() {
 }
 
 bool StudyWindow::over() const {
-    return left_ || run_.step() == StudyStep::finished || ending_.asked() ||
-           window_.wants_to_close();
+    return left_ || run_.step() == StudyStep::finished || shutdown_.requested() ||
+           window_.close_requested();
 }
 
 /// The display is lost: all answers are in the file already.
@@ -123,7 +123,7 @@ void StudyWindow::leave_without_display() {
 }
 
 void StudyWindow::beat() {
-    window_.meet_display();
+    window_.ping_display();
     heart_.beat();
 }
 
@@ -131,7 +131,7 @@ bool StudyWindow::is_early(Clock::time_point press) const noexcept {
     return !seen_since_ || press < *seen_since_;
 }
 
-bool StudyWindow::felt() const noexcept {
+bool StudyWindow::touching() const noexcept {
     return (run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust) &&
            !view_.asks_to_leave && !view_.before_start;
 }
@@ -141,9 +141,9 @@ void StudyWindow::show_one_picture() {
     beat();
     surface_.poll(window_.in_front());
     if (!entered_ && !view_.before_start) enter_step();
-    begin_if_there();
+    begin_interval_if_ready();
     take(input);
-    look_at_time(Clock::now());
+    apply_time_limit(Clock::now());
     if (over()) return;
     enter_page();
     draw(input);
@@ -168,13 +168,13 @@ void StudyWindow::note_on_screen() {
 }
 
 void StudyWindow::report_picture() const {
-    const StudyPlace place{.step = static_cast<int>(run_.step()),
-                           .trial = run_.trial().number,
-                           .interval = run_.interval(),
-                           .waits = view_.waits,
-                           .leaving = view_.asks_to_leave,
-                           .agrees = !view_.to_agree.empty(),
-                           .seen_since = seen_since_};
+    const StudyPosition place{.step = static_cast<int>(run_.step()),
+                              .trial = run_.trial().number,
+                              .interval = run_.interval(),
+                              .waits = view_.waits,
+                              .leaving = view_.asks_to_leave,
+                              .asks_consent = !view_.consent_text.empty(),
+                              .seen_since = seen_since_};
     after_picture_({.settings = surface_.settings(),
                     .touch = surface_.touch(),
                     .media = surface_.media(),
@@ -184,7 +184,7 @@ void StudyWindow::report_picture() const {
 
 /// The next interval is entered with the next picture: by then the loop has seen the force off.
 void StudyWindow::leave_step() {
-    surface_.rest();
+    surface_.take_force_off();
     long_press_.forget();
     entered_.reset();
     seen_since_.reset();
@@ -194,8 +194,8 @@ void StudyWindow::leave_step() {
 
 /// A page is entered in the picture that shows it first.
 void StudyWindow::enter_page() {
-    const bool felt = run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust;
-    if (!entered_ && !felt && !view_.before_start) enter_step();
+    const bool touching = run_.step() == StudyStep::interval || run_.step() == StudyStep::adjust;
+    if (!entered_ && !touching && !view_.before_start) enter_step();
 }
 
 /// Prepares the run's current step, once.
@@ -218,12 +218,12 @@ void StudyWindow::enter_step() {
             enter_interval();
             break;
         default:
-            surface_.rest();
+            surface_.take_force_off();
     }
 }
 
 void StudyWindow::load_picture(const StudyPage& page) {
-    surface_.rest();
+    surface_.take_force_off();
     if (page.picture.empty()) return;
     const auto picture = std::make_shared<const ColourImage>(read_colour_picture(page.picture));
     constexpr int kMost_px = 4096;
@@ -236,10 +236,10 @@ void StudyWindow::enter_interval() {
     const Trial& trial = run_.trial();
     const auto which = static_cast<std::size_t>(run_.interval());
     if (!in_trial_) {
-        session_ = file_.fresh_session();
+        session_ = file_.new_session_file();
         surface_.begin_trial(session_);
         in_trial_ = true;
-        turned_since_.reset();
+        first_felt_at_.reset();
         if (trial.form == TrialForm::adjust)
             turned_ = trial.intervals.back().value.value_or(run_.block().variation.reference);
     }
@@ -250,11 +250,11 @@ void StudyWindow::enter_interval() {
 }
 
 /// Begins the interval once its surface is ready.
-void StudyWindow::begin_if_there() {
+void StudyWindow::begin_interval_if_ready() {
     if (!view_.waits || view_.asks_to_leave || !entered_) return;
     const double waited_s = seconds(Clock::now() - *entered_);
     if (waited_s < kPreparing_s) return;
-    if (!surface_.is_there()) {
+    if (!surface_.is_ready()) {
         if (waited_s > kLongestPreparing_s)
             throw InputError("the video of trial " + std::to_string(run_.trial().number + 1) +
                              " gives no surface: check its files with dibhr info");
@@ -262,7 +262,7 @@ void StudyWindow::begin_if_there() {
     }
     view_.waits = false;
     since_ = Clock::now();
-    if (!turned_since_) turned_since_ = *since_;
+    if (!first_felt_at_) first_felt_at_ = *since_;
     const MediaDescription& media = surface_.media();
     camera_.frame_relief(media.depth_columns, media.depth_rows,
                          surface_.settings().touch.shape.relief_px);
@@ -270,7 +270,7 @@ void StudyWindow::begin_if_there() {
 }
 
 /// Ends the interval or question whose time limit is over at `now`.
-void StudyWindow::look_at_time(Clock::time_point now) {
+void StudyWindow::apply_time_limit(Clock::time_point now) {
     if (view_.waits || view_.asks_to_leave || view_.before_start || !since_) return;
     const bool question = run_.step() == StudyStep::question;
     if (!question && run_.step() != StudyStep::interval) return;
@@ -284,13 +284,13 @@ void StudyWindow::look_at_time(Clock::time_point now) {
 }
 
 void StudyWindow::take_button(StudyButton button, Clock::time_point at) {
-    look_at_time(at);
+    apply_time_limit(at);
     button.early = is_early(at);
     if (const auto press = press_of_button(run_, view_, button)) act(*press, at);
 }
 
 void StudyWindow::take_buttons() {
-    for (const GripPress& press : surface_.take_presses()) {
+    for (const DeviceButtonPress& press : surface_.take_presses()) {
         if (press.button == kLongPressButton && run_.step() == StudyStep::adjust &&
             !is_early(press.at))
             long_press_.begin(press.at);
@@ -320,7 +320,7 @@ void StudyWindow::take_keys(const WindowInput& input) {
     std::optional<Clock::time_point> taken;  // by a key: its character is no second press
     for (const Pressed& one : all) {
         if (one.typed && taken == one.at) continue;
-        look_at_time(one.at);
+        apply_time_limit(one.at);
         const auto press = press_of_key(run_, view_, {one.name, one.shift, is_early(one.at)});
         if (!press) continue;
         if (!one.typed) taken = one.at;
@@ -347,16 +347,16 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
         case ask_to_leave:
             view_.asks_to_leave = true;
             seen_since_.reset();
-            asked_ = Clock::now();
-            surface_.rest();
+            paused_at_ = Clock::now();
+            surface_.take_force_off();
             return;
         case stay:
             view_.asks_to_leave = false;
             seen_since_.reset();
-            if (since_) *since_ += Clock::now() - asked_;
-            if (turned_since_) *turned_since_ += Clock::now() - asked_;
+            if (since_) *since_ += Clock::now() - paused_at_;
+            if (first_felt_at_) *first_felt_at_ += Clock::now() - paused_at_;
             // The interrupted interval begins again.
-            if (felt()) leave_step();
+            if (touching()) leave_step();
             return;
         case leave:
             left_ = true;
@@ -385,11 +385,11 @@ void StudyWindow::act(const StudyPress& press, Clock::time_point at) {
 
 void StudyWindow::agree_to_study() {
     try {
-        Consent().agree(doubts_);
+        Consent().agree(unsafe_settings_);
     } catch (const InputError& error) {
         print_warning(std::string(error.what()) + "; dibhr will ask again");
     }
-    view_.to_agree.clear();
+    view_.consent_text.clear();
     view_.before_start = run_.step() == StudyStep::interval;
     seen_since_.reset();
 }
@@ -401,7 +401,7 @@ void StudyWindow::act_at_question(const StudyPress& press, Clock::time_point at)
         view_.mark = std::clamp(press.value, static_cast<double>(question.lowest),
                                 static_cast<double>(question.highest));
     } else if (press.kind == feel) {
-        run_.feel_again(press.which);
+        run_.repeat_interval(press.which);
         leave_step();
     } else if (press.kind == choose) {
         answer({.choice = press.which}, at);
@@ -429,9 +429,9 @@ void StudyWindow::act_at_adjustment(const StudyPress& press, Clock::time_point a
 void StudyWindow::answer(const StudyAnswer& given, Clock::time_point at) {
     StudyAnswer whole = given;
     whole.reaction_s =
-        seconds(at - (run_.step() == StudyStep::adjust ? *turned_since_ : since_.value_or(at)));
+        seconds(at - (run_.step() == StudyStep::adjust ? *first_felt_at_ : since_.value_or(at)));
     whole.early = early_;
-    if (!run_.takes(whole)) return;
+    if (!run_.accepts(whole)) return;
     const AnsweredTrial answered = run_.judged(whole, utc_now_s());
     surface_.end_trial();
     file_.add(answered, session_);
@@ -447,7 +447,7 @@ void StudyWindow::draw(const WindowInput& input) {
     const PointerUse use =
         mouse_.use(pointer, input.wheel_steps, mouse_is_over_button(), size, camera_);
     hand_seen_ = use.over_relief || !surface_.by_mouse();
-    if (felt() && !view_.waits) point(camera_.ray_under(pointer.position_px, size), use);
+    if (touching() && !view_.waits) point(camera_.ray_under(pointer.position_px, size), use);
     draw_relief();
     beat();
     view_.device_words = device_banner(surface_.settings(), surface_.touch());
@@ -487,9 +487,9 @@ void StudyWindow::show_hand_only(TouchMarkers& markers) const {
 /// Draws the relief only in an interval, and only where the block shows it.
 void StudyWindow::draw_relief() {
     const StudyView view = run_.block().view;
-    const bool seen = felt() && !view_.waits && view != StudyView::blank;
+    const bool seen = touching() && !view_.waits && view != StudyView::blank;
     SceneContent content = scene_content(surface_.settings(), surface_.touch(), surface_.shown());
-    if (!seen) content = {.look = content.look, .light_wall = content.light_wall};
+    if (!seen) content = {.relief_style = content.relief_style, .light_wall = content.light_wall};
     hide_condition(content);
     if (content.markers.visible && view == StudyView::relief) show_hand_only(content.markers);
     content.markers.visible = content.markers.visible && hand_seen_;

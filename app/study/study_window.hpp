@@ -13,8 +13,8 @@
 #include "app/study/study_pages.hpp"
 #include "app/study/study_surface.hpp"
 #include "app/touching/pointer.hpp"
-#include "app/window/ending.hpp"
 #include "app/window/gui.hpp"
+#include "app/window/shutdown_watchdog.hpp"
 #include "app/window/window.hpp"
 #include "core/realtime/heartbeat.hpp"
 #include "core/study/study_file.hpp"
@@ -28,8 +28,9 @@ namespace dibhr {
 
 struct StudyWindowOptions {
     std::optional<std::pair<int, int>> size{};  ///< nothing: the whole screen
-    Settings settings{};  ///< used: device, force limit, loudness, appearance
-    std::vector<Doubt> doubts{};  ///< of the study: consent is asked before it begins
+    Settings settings{};                        ///< used: device, force limit, loudness, appearance
+    std::vector<UnsafeSetting>
+        unsafe_settings{};  ///< of the study: consent is asked before it begins
     PictureHook after_picture{};
 };
 
@@ -40,7 +41,7 @@ class StudyWindow {
     /// Opens the window. `run` and `file` belong to the same study. All references must outlive the
     /// object. Throws Error.
     StudyWindow(const StudyWindowOptions& options, StudyRun& run, StudyFile& file, HandDevice hand,
-                Ending& ending);
+                ShutdownWatchdog& shutdown);
     ~StudyWindow();
     StudyWindow(const StudyWindow&) = delete;
     StudyWindow& operator=(const StudyWindow&) = delete;
@@ -58,8 +59,8 @@ class StudyWindow {
     void enter_interval();
     void enter_page();
     void note_on_screen();
-    void look_at_time(Clock::time_point now);
-    void begin_if_there();
+    void apply_time_limit(Clock::time_point now);
+    void begin_interval_if_ready();
     void take(const WindowInput& input);
     void take_buttons();
     void take_button(StudyButton button, Clock::time_point at);
@@ -79,15 +80,15 @@ class StudyWindow {
     void report_picture() const;
     void leave_without_display();
     [[nodiscard]] DepthSurface seen_surface() const;
-    [[nodiscard]] bool felt() const noexcept;
+    [[nodiscard]] bool touching() const noexcept;
     [[nodiscard]] bool over() const;
     [[nodiscard]] bool is_early(Clock::time_point press) const noexcept;
 
     const PictureHook after_picture_;
-    const std::vector<Doubt> doubts_;
+    const std::vector<UnsafeSetting> unsafe_settings_;
     StudyRun& run_;
     StudyFile& file_;
-    Ending& ending_;
+    ShutdownWatchdog& shutdown_;
     Heartbeat heart_{};  // of the window's thread and the display
     Window window_;
     Gui gui_;
@@ -112,8 +113,8 @@ class StudyWindow {
     bool hand_seen_{false};                     // false: the mouse is beside the relief
     double turned_{0.0};                        // current value of an adjustment
     std::optional<Clock::time_point> since_{};  // begin of the time limit
-    Clock::time_point asked_{};  // when the question about leaving stopped that time
-    std::optional<Clock::time_point> turned_since_{};  // begin of an adjustment's first interval
+    Clock::time_point paused_at_{};             // when the question about leaving stopped that time
+    std::optional<Clock::time_point> first_felt_at_{};  // begin of an adjustment's first interval
     LongPress long_press_{};
 };
 

@@ -8,10 +8,10 @@
 
 namespace dibhr {
 
-const DeviceNews* touching_device(const TouchState& touch) {
+const DeviceInfo* touching_device(const TouchState& touch) {
     const auto found =
-        std::find_if(touch.devices.begin(), touch.devices.end(), [&touch](const DeviceNews& news) {
-            return news.kind + 1 == std::size_t{touch.haptic.hand.which};
+        std::find_if(touch.devices.begin(), touch.devices.end(), [&touch](const DeviceInfo& info) {
+            return info.kind + 1 == std::size_t{touch.haptic.hand.device_number};
         });
     return found == touch.devices.end() ? nullptr : &*found;
 }
@@ -19,32 +19,33 @@ const DeviceNews* touching_device(const TouchState& touch) {
 // In a replay no device is read.
 
 bool a_device_touches(const TouchState& touch) {
-    const DeviceNews* const device = touching_device(touch);
-    return !touch.replay && device != nullptr && device->state.ready && !touch.haptic.hand.stand_in;
+    const DeviceInfo* const device = touching_device(touch);
+    return !touch.replay && device != nullptr && device->state.ready &&
+           !touch.haptic.hand.mouse_fallback;
 }
 
 bool may_touch(const TouchState& touch) {
     return !touch.replay &&
-           std::any_of(touch.devices.begin(), touch.devices.end(), [](const DeviceNews& news) {
-               return !news.asked || news.was_ready || news.state.may_be_ready;
+           std::any_of(touch.devices.begin(), touch.devices.end(), [](const DeviceInfo& info) {
+               return !info.answered || info.was_ready || info.state.may_be_ready;
            });
 }
 
-bool in_sight(const DeviceNews& news) {
-    return !news.state.absent || news.state.trouble || news.was_ready;
+bool attached_or_expected(const DeviceInfo& info) {
+    return !info.state.absent || info.state.trouble || info.was_ready;
 }
 
 std::string touching_text(const TouchState& touch) {
-    const DeviceNews* const device = touching_device(touch);
-    if (device == nullptr || touch.haptic.hand.stand_in) return "the mouse, meanwhile";
-    return std::string("the ") + force_device_kinds()[device->kind]->called;
+    const DeviceInfo* const device = touching_device(touch);
+    if (device == nullptr || touch.haptic.hand.mouse_fallback) return "the mouse, meanwhile";
+    return std::string("the ") + force_device_kinds()[device->kind]->short_name;
 }
 
-std::string lacking_text(const TouchState& touch) {
+std::string missing_text(const TouchState& touch) {
     if (touch.replay || a_device_touches(touch)) return {};
-    for (const DeviceNews& news : touch.devices) {
-        const DeviceState& state = news.state;
-        const bool lost = state.absent && (news.was_ready || state.trouble);
+    for (const DeviceInfo& info : touch.devices) {
+        const DeviceState& state = info.state;
+        const bool lost = state.absent && (info.was_ready || state.trouble);
         if ((lost || state.needs_person) && !state.sentence.empty()) return state.sentence;
     }
     return {};

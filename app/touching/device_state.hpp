@@ -8,7 +8,7 @@
 namespace dibhr {
 
 /// The device that gave the goal of the last known tick; null: none of touch.devices.
-[[nodiscard]] const DeviceNews* touching_device(const TouchState& touch);
+[[nodiscard]] const DeviceInfo* touching_device(const TouchState& touch);
 
 /// Whether a ready device gave the goal of the last known tick.
 [[nodiscard]] bool a_device_touches(const TouchState& touch);
@@ -18,12 +18,12 @@ namespace dibhr {
 [[nodiscard]] bool may_touch(const TouchState& touch);
 
 /// Whether the device is attached, was attached in this run, or was requested by name.
-[[nodiscard]] bool in_sight(const DeviceNews& news);
+[[nodiscard]] bool attached_or_expected(const DeviceInfo& info);
 
 /// "the mouse, meanwhile", "the Falcon".
 [[nodiscard]] std::string touching_text(const TouchState& touch);
 
 /// Why an attached or lost device cannot touch; empty: it can, or another device touches.
-[[nodiscard]] std::string lacking_text(const TouchState& touch);
+[[nodiscard]] std::string missing_text(const TouchState& touch);
 
 }  // namespace dibhr

@@ -11,7 +11,7 @@ namespace {
 
 /// Workspace scale of the touching device, else of the first one (touch.devices is not empty).
 double scale_of_hand(const Settings& settings, const TouchState& touch) {
-    const DeviceNews* const device = touching_device(touch);
+    const DeviceInfo* const device = touching_device(touch);
     return settings.devices[(device == nullptr ? touch.devices.front() : *device).kind].scale();
 }
 
@@ -22,31 +22,31 @@ const DeviceLimits& limits_of_hand(const TouchState& touch) {
     return now ? *now : touch.device.limits;
 }
 
-Coupling asked_coupling(const Settings& settings, const TouchState& touch) {
+Coupling requested_coupling(const Settings& settings, const TouchState& touch) {
     const Coupling& chosen = settings.touch.coupling;
     if (touch.replay || !settings.stability || !settings.damping_as_needed) return chosen;
     const DeviceLimits& hand = limits_of_hand(touch);
-    const double felt_stiffness = held_coupling(chosen, hand).stiffness_newton_per_mm;
-    return stable_coupling(chosen, felt_stiffness, hand.dynamics);
+    const double effective_stiffness = held_coupling(chosen, hand).stiffness_newton_per_mm;
+    return stable_coupling(chosen, effective_stiffness, hand.dynamics);
 }
 
-Coupling felt_coupling(const Settings& settings, const TouchState& touch) {
-    const Coupling asked = asked_coupling(settings, touch);
-    if (!may_touch(touch)) return asked;
+Coupling effective_coupling(const Settings& settings, const TouchState& touch) {
+    const Coupling requested = requested_coupling(settings, touch);
+    if (!may_touch(touch)) return requested;
     // The loop's limits also contain the device's measured delay.
-    if (a_device_touches(touch)) return held_coupling(asked, limits_of_hand(touch));
-    return held_coupling(asked, at_scale(touch.device.limits, scale_of_hand(settings, touch)));
+    if (a_device_touches(touch)) return held_coupling(requested, limits_of_hand(touch));
+    return held_coupling(requested, at_scale(touch.device.limits, scale_of_hand(settings, touch)));
 }
 
-HapticSettings asked_settings(const Settings& settings, const TouchState& touch) {
-    HapticSettings asked{
+HapticSettings requested_settings(const Settings& settings, const TouchState& touch) {
+    HapticSettings requested{
         .parameters = settings.touch,
         .limits = {.max_force_newton = settings.max_force_newton, .stability = settings.stability},
         .force_enabled = touch.force_enabled && !waits_for_front(settings, touch),
         .bump = touch.bump,
     };
-    asked.parameters.coupling = asked_coupling(settings, touch);
-    return asked;
+    requested.parameters.coupling = requested_coupling(settings, touch);
+    return requested;
 }
 
 bool waits_for_front(const Settings& settings, const TouchState& touch) {
@@ -62,7 +62,7 @@ bool clutched(const Settings& settings, const TouchState& touch) {
 std::string device_banner(const Settings& settings, const TouchState& touch) {
     if (touch.force_enabled && a_device_touches(touch) && waits_for_front(settings, touch))
         return "force off: the window is not in front. Click it, and the force rises again";
-    return lacking_text(touch);
+    return missing_text(touch);
 }
 
 }  // namespace dibhr

@@ -14,14 +14,14 @@ namespace dibhr {
 
 /// The coupling that the window requests of the loop: the user's, with the damping that the device
 /// needs where the user has left *damping as needed* on.
-[[nodiscard]] Coupling asked_coupling(const Settings& settings, const TouchState& touch);
+[[nodiscard]] Coupling requested_coupling(const Settings& settings, const TouchState& touch);
 
 /// For panels: the requested coupling after the limits of the device that touches, or that may
 /// begin to before the next picture.
-[[nodiscard]] Coupling felt_coupling(const Settings& settings, const TouchState& touch);
+[[nodiscard]] Coupling effective_coupling(const Settings& settings, const TouchState& touch);
 
 /// All settings that the window requests of the loop, except recording, followed and version.
-[[nodiscard]] HapticSettings asked_settings(const Settings& settings, const TouchState& touch);
+[[nodiscard]] HapticSettings requested_settings(const Settings& settings, const TouchState& touch);
 
 /// Whether the force is off because another window is in front while a device touches, or may
 /// begin to.

@@ -14,7 +14,7 @@ constexpr auto kLongestDrawing = std::chrono::seconds(1);
 
 }  // namespace
 
-std::chrono::nanoseconds shortest_picture(bool sync, bool software) {
+std::chrono::nanoseconds least_picture_time(bool sync, bool software) {
     if (!sync) return std::chrono::nanoseconds(0);
     return software ? kSoftwarePictureTime : kPictureTime;
 }

@@ -7,7 +7,7 @@
 namespace dibhr {
 
 /// Least time between two pictures; zero without `sync`. `software`: the processor draws.
-[[nodiscard]] std::chrono::nanoseconds shortest_picture(bool sync, bool software);
+[[nodiscard]] std::chrono::nanoseconds least_picture_time(bool sync, bool software);
 
 /// Calls `beat` while the processor's threads draw, for a second at most. Software drawing can take
 /// long on a busy machine; the window handles no keys meanwhile, but it is not hung.

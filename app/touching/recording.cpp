@@ -27,13 +27,13 @@ constexpr std::chrono::milliseconds kLastTicks{100};
 
 /// Full name of the touching device where it has one; else the requested device's name.
 std::string device_name(const TouchState& touch) {
-    const DeviceNews* const device = touching_device(touch);
+    const DeviceInfo* const device = touching_device(touch);
     return device == nullptr || device->state.full_name.empty() ? touch.device.name
                                                                 : device->state.full_name;
 }
 
 /// Prefix of the names of the device's facts.
-std::string prefix_of(const DeviceNews& device) {
+std::string prefix_of(const DeviceInfo& device) {
     return std::string(force_device_kinds()[device.kind]->name) + "-";
 }
 
@@ -50,7 +50,7 @@ std::string fact_of(std::string_view word) {
 }
 
 /// The facts of a recording: versions of program and libraries, files, parameters, device.
-std::map<std::string, std::string> session_facts(const TouchedState& state) {
+std::map<std::string, std::string> session_facts(const TouchStateRefs& state) {
     const Settings& settings = state.settings;
     const MediaDescription& media = state.media;
     const DeviceSpecification& device = state.touch.device;
@@ -79,7 +79,7 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
     facts.emplace("cleaning", name_of(cleaning_on(media, settings.cleaning).preset));
     facts.emplace("finger", number_text(finger_mm_on(media, settings.finger_mm)));
     facts.emplace("surface-version", std::to_string(kSurfaceVersion));
-    for (const DeviceNews& one : state.touch.devices) {
+    for (const DeviceInfo& one : state.touch.devices) {
         for (const DeviceFacts& known : {one.state.facts, number_facts(settings.devices[one.kind])})
             for (const auto& [name, value] : known) facts.emplace(prefix_of(one) + name, value);
     }
@@ -90,7 +90,7 @@ std::map<std::string, std::string> session_facts(const TouchedState& state) {
 RecorderStatus finish_both(Recorder& recorder, LiveRecorder& live,
                            std::chrono::milliseconds for_sums) {
     live.finish();
-    recorder.media_is_whole(live.contents());
+    recorder.complete_media(live.contents());
     RecorderStatus recorded = recorder.finish(for_sums);
     if (recorded.failure.empty()) recorded.failure = live.failure();
     return recorded;
@@ -98,18 +98,18 @@ RecorderStatus finish_both(Recorder& recorder, LiveRecorder& live,
 
 }  // namespace
 
-std::uint32_t TouchRecording::opened(const MediaDescription& media) {
-    opened_.push_back({media});
-    const auto number = static_cast<std::uint32_t>(opened_.size());
-    if (recorder_) tell_media(number, opened_.back());
+std::uint32_t TouchRecording::add_media(const MediaDescription& media) {
+    known_media_.push_back({media});
+    const auto number = static_cast<std::uint32_t>(known_media_.size());
+    if (recorder_) record_media(number, known_media_.back());
     return number;
 }
 
-void TouchRecording::tell_media(std::uint32_t number, const Opened& opened) {
-    const MediaDescription& media = opened.media;
+void TouchRecording::record_media(std::uint32_t number, const KnownMedia& known) {
+    const MediaDescription& media = known.media;
     recorder_->media(number, media.colour_path, media.depth_path,
                      media.meaning ? toml_of(media.meaning->statement()) : std::string{},
-                     opened.grows);
+                     known.grows);
 }
 
 void TouchRecording::start_live(const std::filesystem::path& file) {
@@ -123,14 +123,14 @@ void TouchRecording::start_live(const std::filesystem::path& file) {
         kept.meaning->packing.value = DepthPacking::separate;
         kept.meaning->code.value = DepthCode::grey;
     }
-    opened_.push_back({std::move(kept), true});
-    waiting_ = {file, static_cast<std::uint32_t>(opened_.size())};
+    known_media_.push_back({std::move(kept), true});
+    waiting_ = {file, static_cast<std::uint32_t>(known_media_.size())};
     player_.record_live(waiting_->number,
                         [live = live_](const LiveRecord& record) { live->add(record); });
 }
 
 /// From the first saved frame on, every touched frame is in the video.
-void TouchRecording::begin_if_there() {
+void TouchRecording::start_at_first_frame() {
     const auto& live = state_.media.playback.live;
     if (!waiting_ || !live || live->media != waiting_->number) return;
     start(std::exchange(waiting_, {})->file);
@@ -145,14 +145,14 @@ void TouchRecording::start(const std::filesystem::path& file) {
     facts.emplace(kParticipant, participant_);
     facts.emplace(kNote, note_);
     recorder_ = std::make_unique<Recorder>(file, ticks_, facts, &heart_);
-    words_.recording(file);
+    crash_note_.set_recording(file);
     std::uint32_t number = 0;
-    for (const Opened& opened : opened_) tell_media(++number, opened);
+    for (const KnownMedia& known : known_media_) record_media(++number, known);
     if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
-    told_version_ = 0;
-    told_devices_.clear();
-    for (const DeviceNews& one : state_.touch.devices)
-        told_devices_.push_back({.ages_before = one.state.ages.value_or(PoseAges{})});
+    recorded_version_ = 0;
+    recorded_devices_.clear();
+    for (const DeviceInfo& one : state_.touch.devices)
+        recorded_devices_.push_back({.ages_before = one.state.ages.value_or(PoseAges{})});
     device_.clear();
     start_ = std::chrono::steady_clock::now();
     state_.touch.recording_trouble.clear();
@@ -163,7 +163,7 @@ std::string TouchRecording::stop(const std::string& reason) {
     poll();  // records what was typed last
     if (std::exchange(waiting_, {})) {
         live_->discard();
-        leave();
+        release_recorder();
         return "Nothing was recorded: no frame came";
     }
     if (!recorder_) return {};
@@ -176,22 +176,22 @@ std::string TouchRecording::stop(const std::string& reason) {
                                     std::this_thread::sleep_for(kLastTicks);
                                     return finish_both(*recorder, *live, Recorder::kPatience);
                                 });
-        opened_.back().grows = false;
-        leave();
+        known_media_.back().grows = false;
+        release_recorder();
         state_.touch.recording.reset();
         return "Finishing the recording" + (reason.empty() ? "" : ", as " + reason);
     }
-    return told(recorder_->finish());
+    return report_end(recorder_->finish());
 }
 
 /// Updates the state after the end of a recording. Returns the notice about it.
-std::string TouchRecording::told(const RecorderStatus& recorded) {
+std::string TouchRecording::report_end(const RecorderStatus& recorded) {
     if (!recorded.failure.empty()) {
-        break_off(recorded.failure);
+        abort_recording(recorded.failure);
         return {};
     }
     state_.touch.recorded_file = finishing_file_;
-    leave();
+    release_recorder();
     state_.touch.recording.reset();
     state_.touch.session_fields.note = {};  // the note was about this recording
     return "Recorded " + std::to_string(recorded.rows) + " ticks into " +
@@ -202,22 +202,22 @@ std::optional<std::string> TouchRecording::take_finished() {
     if (!finishing_.valid() ||
         finishing_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
         return std::nullopt;
-    return told(finishing_.get());
+    return report_end(finishing_.get());
 }
 
-void TouchRecording::break_off(const std::string& failure) {
+void TouchRecording::abort_recording(const std::string& failure) {
     state_.touch.recording_trouble = failure;
     // What is felt from here on is in no file. The user must notice that, so the force goes off.
     state_.touch.force_enabled = false;
     trouble_ = failure;
     if (failure_.empty()) failure_ = failure;
-    leave();
+    release_recorder();
     state_.touch.recording.reset();
 }
 
-void TouchRecording::hand_over(const HapticSettings& settings) {
-    if (!recorder_ || told_version_ == settings.version) return;
-    told_version_ = settings.version;
+void TouchRecording::record_parameters(const HapticSettings& settings) {
+    if (!recorder_ || recorded_version_ == settings.version) return;
+    recorded_version_ = settings.version;
     recorder_->parameters(
         {.version = settings.version,
          .touch = settings.parameters,
@@ -235,7 +235,8 @@ void TouchRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) {
 std::string TouchRecording::mark(const KeyTable& keys,
                                  std::chrono::steady_clock::time_point moment) {
     if (!recorder_)
-        return "Nothing is recorded that could be marked" + keys.told(Action::record, " begins");
+        return "Nothing is recorded that could be marked" +
+               keys.key_hint(Action::record, " begins");
     const char* typed = state_.touch.session_fields.tag.data();
     const std::string tag = *typed == '\0' ? kPlainTag : typed;
     recorder_->mark(tag, {}, moment);
@@ -250,47 +251,48 @@ void TouchRecording::mark(const std::string& tag) {
 }
 
 void TouchRecording::poll() {
-    begin_if_there();
+    start_at_first_frame();
     if (!recorder_) return;
-    const auto tell_changed = [this](const char* key, const TextField& field, std::string& told) {
-        if (told == field.data()) return;
-        told = field.data();
-        recorder_->set_fact(key, told);
+    const auto record_changed = [this](const char* key, const TextField& field,
+                                       std::string& recorded) {
+        if (recorded == field.data()) return;
+        recorded = field.data();
+        recorder_->set_fact(key, recorded);
     };
     const TouchState& touch = state_.touch;
-    tell_changed(kParticipant, touch.session_fields.participant, participant_);
-    tell_changed(kNote, touch.session_fields.note, note_);
+    record_changed(kParticipant, touch.session_fields.participant, participant_);
+    record_changed(kNote, touch.session_fields.note, note_);
     // The device that touched last need not be the requested one.
     if (const std::string device = device_name(touch);
         device != device_ && device != touch.device.name) {
         device_ = device;
         recorder_->set_fact("device", device);
     }
-    tell_devices();
-    RecordingNews& news = *state_.touch.recording;
-    news.status = recorder_->status();
-    news.time_s = now_s();
-    std::string failure = news.status.failure;
+    record_devices();
+    RecordingInfo& info = *state_.touch.recording;
+    info.status = recorder_->status();
+    info.time_s = now_s();
+    std::string failure = info.status.failure;
     if (const std::string of_video = live_ ? live_->failure() : std::string{}; !of_video.empty())
         failure = "Recording the live video stopped: " + of_video;
-    if (!failure.empty()) break_off(failure);
+    if (!failure.empty()) abort_recording(failure);
 }
 
 /// Facts of devices found meanwhile, and the ages of the poses that the recorded ticks used.
-void TouchRecording::tell_devices() {
-    for (std::size_t k = 0; k < told_devices_.size(); ++k) {
-        const DeviceNews& one = state_.touch.devices[k];
+void TouchRecording::record_devices() {
+    for (std::size_t k = 0; k < recorded_devices_.size(); ++k) {
+        const DeviceInfo& one = state_.touch.devices[k];
         const DeviceState& state = one.state;
-        ToldDevice& told = told_devices_[k];
-        if (!state.id.empty() && state.id != told.id) {
-            told.id = state.id;
+        RecordedDevice& recorded = recorded_devices_[k];
+        if (!state.id.empty() && state.id != recorded.id) {
+            recorded.id = state.id;
             for (const auto& [name, value] : state.facts)
                 recorder_->set_fact(prefix_of(one) + name, value);
         }
         if (!state.ages) continue;
-        const PoseAges ages = state.ages->since(told.ages_before);
-        if (ages.count() == 0 || ages.count() == told.ages_told) continue;
-        told.ages_told = ages.count();
+        const PoseAges ages = state.ages->since(recorded.ages_before);
+        if (ages.count() == 0 || ages.count() == recorded.ages_recorded) continue;
+        recorded.ages_recorded = ages.count();
         for (const auto& [name, part] : {std::pair{"half", 0.5}, {"most", 0.99}, {"worst", 1.0}}) {
             recorder_->set_fact(prefix_of(one) + "pose-age-" + name + "-ms",
                                 number_text(ages.quantile_ms(part), 2));
@@ -298,11 +300,11 @@ void TouchRecording::tell_devices() {
     }
 }
 
-void TouchRecording::leave() {
+void TouchRecording::release_recorder() {
     if (live_) player_.record_live(0, {});
     live_.reset();
     recorder_.reset();
-    words_.recording({});
+    crash_note_.set_recording({});
 }
 
 void TouchRecording::finish(std::chrono::milliseconds for_sums) {

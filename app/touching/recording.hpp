@@ -13,7 +13,7 @@
 
 #include "app/settings/keys.hpp"
 #include "app/touching/touch_state.hpp"
-#include "app/window/last_words.hpp"
+#include "app/window/crash_note.hpp"
 #include "core/clip/live_recorder.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
@@ -26,11 +26,12 @@ namespace dibhr {
 class TouchRecording {
   public:
     /// All arguments must outlive the object. The haptic loop writes `ticks`.
-    TouchRecording(TickRing& ticks, LastWords& words, Player& player, const TouchedState& state)
-        : ticks_(ticks), words_(words), player_(player), state_(state) {}
+    TouchRecording(TickRing& ticks, CrashNote& crash_note, Player& player,
+                   const TouchStateRefs& state)
+        : ticks_(ticks), crash_note_(crash_note), player_(player), state_(state) {}
 
     /// Registers a video. Returns the number by which ticks refer to it.
-    [[nodiscard]] std::uint32_t opened(const MediaDescription& media);
+    [[nodiscard]] std::uint32_t add_media(const MediaDescription& media);
 
     /// Throws InputError when the file cannot be made.
     void start(const std::filesystem::path& file);
@@ -42,16 +43,16 @@ class TouchRecording {
     std::string stop(const std::string& reason = {});
     [[nodiscard]] bool active() const { return recorder_ != nullptr; }
     /// A recording is active, or waits for the first frame of a live video.
-    [[nodiscard]] bool asked_for() const { return active() || waiting_; }
+    [[nodiscard]] bool active_or_waiting() const { return active() || waiting_; }
     /// The file of a recording that waits for its first frame; else empty.
-    [[nodiscard]] std::filesystem::path waits_with() const {
+    [[nodiscard]] std::filesystem::path waiting_file() const {
         return waiting_ ? waiting_->file : std::filesystem::path{};
     }
     [[nodiscard]] bool finishing() const { return finishing_.valid(); }
     [[nodiscard]] std::optional<std::string> take_finished();
 
     /// Records parameters. Call it before they are published to the tick.
-    void hand_over(const HapticSettings& settings);
+    void record_parameters(const HapticSettings& settings);
 
     /// Records the touch maps that ticks refer to by `version`. May be called after those ticks,
     /// once the maps are encoded.
@@ -78,15 +79,15 @@ class TouchRecording {
     [[nodiscard]] const Heartbeat& heart() const noexcept { return heart_; }
 
   private:
-    struct Opened {
+    struct KnownMedia {
         MediaDescription media{};
         bool grows{false};  ///< the video file is still being written
     };
     /// What the file has so far of a force device.
-    struct ToldDevice {
-        PoseAges ages_before{};      ///< when the recording began
-        std::uint64_t ages_told{0};  ///< number of poses in the ages last recorded
-        std::string id{};            ///< empty until the device was found
+    struct RecordedDevice {
+        PoseAges ages_before{};          ///< when the recording began
+        std::uint64_t ages_recorded{0};  ///< number of poses in the ages last recorded
+        std::string id{};                ///< empty until the device was found
     };
     /// A live recording until its first frame comes.
     struct Waiting {
@@ -94,34 +95,34 @@ class TouchRecording {
         std::uint32_t number{0};
     };
 
-    void tell_media(std::uint32_t number, const Opened& opened);
-    void begin_if_there();
-    [[nodiscard]] std::string told(const RecorderStatus& recorded);
-    void tell_devices();
-    void break_off(const std::string& failure);
+    void record_media(std::uint32_t number, const KnownMedia& known);
+    void start_at_first_frame();
+    [[nodiscard]] std::string report_end(const RecorderStatus& recorded);
+    void record_devices();
+    void abort_recording(const std::string& failure);
     [[nodiscard]] double now_s() const;
 
     /// Ends the connection to recorder and live video.
-    void leave();
+    void release_recorder();
 
     TickRing& ticks_;
-    LastWords& words_;
+    CrashNote& crash_note_;
     Player& player_;
-    TouchedState state_;
-    Heartbeat heart_{};                     // before recorder_, whose thread beats it
-    std::vector<Opened> opened_{};          // by media number - 1
-    std::unique_ptr<Recorder> recorder_{};  // null: not recording
-    std::shared_ptr<LiveRecorder> live_{};  // null: the source is not live
+    TouchStateRefs state_;
+    Heartbeat heart_{};                      // before recorder_, whose thread beats it
+    std::vector<KnownMedia> known_media_{};  // by media number - 1
+    std::unique_ptr<Recorder> recorder_{};   // null: not recording
+    std::shared_ptr<LiveRecorder> live_{};   // null: the source is not live
     std::optional<Waiting> waiting_{};
     std::future<RecorderStatus> finishing_{};
     std::filesystem::path finishing_file_{};
     /// The last touch maps that were in use; a recording may begin with them.
     std::uint32_t maps_version_{0};
     std::vector<SessionMap> maps_{};
-    std::uint64_t told_version_{0};           // of the last recorded parameters
-    std::string participant_{}, note_{};      // as recorded
-    std::vector<ToldDevice> told_devices_{};  // one for each of touch.devices
-    std::string device_{};                    // as recorded, where it is not the requested one
+    std::uint64_t recorded_version_{0};               // of the last recorded parameters
+    std::string participant_{}, note_{};              // as recorded
+    std::vector<RecordedDevice> recorded_devices_{};  // one for each of touch.devices
+    std::string device_{};  // as recorded, where it is not the requested one
     std::chrono::steady_clock::time_point start_{};
     std::string failure_{};  // of the first recording that failed, for finish()
     std::string trouble_{};  // of the last one, for take_trouble()

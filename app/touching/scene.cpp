@@ -22,14 +22,14 @@ Vec3 normal_at(const DepthSurface& surface, Vec3 p) {
 
 /// The algorithm's colour, as in every plot.
 glm::vec3 tint_of(Algorithm algorithm) {
-    const Ink ink = look_of(algorithm).stroke.ink;
+    const Ink ink = style_of(algorithm).stroke.ink;
     return glm::vec3(ink.red, ink.green, ink.blue) / 255.0F;
 }
 
 /// Adds the ball of a fingertip, which rests on the drawn surface.
 void add_finger(const DepthBlend& shown, const SurfaceShape& shape, TouchMarkers& markers) {
     const Fingertip& finger = shown.nearest().cleaning.finger;
-    if (!markers.visible || shown.nearest().beneath == nullptr) return;
+    if (!markers.visible || shown.nearest().undilated == nullptr) return;
     markers.finger_px = std::min(finger.radius_px, kWidestFinger_px);
     if (markers.contact && is_finite(markers.proxy))
         markers.finger_contact = contact_point(shown.drawn_surface(shape), finger, markers.proxy);
@@ -76,16 +76,17 @@ SceneContent scene_content(const Settings& settings, const TouchState& touch,
     SceneContent content;
     content.shape = touch.shape(settings.touch);
     content.bump = touch.bump.get();
-    content.look = settings.look;
+    content.relief_style = settings.relief_style;
     content.light_wall = settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
-    content.depth = shown.shown();
-    content.colour = &shown.coloured();
+    content.depth = shown.with_in_betweens();
+    content.colour = &shown.colour_frame();
     content.maps = shown.from->maps;
     const DepthSurface surface = shown.surface(content.shape, content.bump);
     content.markers = markers_of(settings, touch, surface);
     add_finger(shown, content.shape, content.markers);
-    if (settings.look.dent) content.dent = dent_under(content.markers, *shown.from->drawn());
+    if (settings.relief_style.dent)
+        content.dent = dent_under(content.markers, *shown.from->drawn());
     return content;
 }
 

@@ -21,10 +21,10 @@ using std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kCatchingUpTime{300};
 
 std::string text_of(const Standstill& last) {
-    const char* const of = last.of == Standstill::Of::window  ? "The window"
-                           : last.of == Standstill::Of::video ? "Reading the video"
-                                                              : "Writing the recording";
-    return std::string(of) + " stood still for " + number_text(last.seconds, 1) +
+    const char* const thread = last.thread == Standstill::Thread::window  ? "The window"
+                               : last.thread == Standstill::Thread::video ? "Reading the video"
+                                                                          : "Writing the recording";
+    return std::string(thread) + " stood still for " + number_text(last.seconds, 1) +
            " s: the force was off";
 }
 
@@ -39,16 +39,17 @@ CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& medi
 
 }  // namespace
 
-TouchSession::TouchSession(HandDevice hand, const TouchTies& ties, const TouchedState& state)
-    : ties_(ties),
+TouchSession::TouchSession(HandDevice hand, const TouchConnections& connections,
+                           const TouchStateRefs& state)
+    : connections_(connections),
       state_(state),
       hand_(std::move(hand)),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
-      recording_(*ticks_, ties.words, player_, state) {
+      recording_(*ticks_, connections.crash_note, player_, state) {
     state_.touch.device = hand_.device->specification();
-    state_.touch.haptic.hand = hand_.device->unread();
+    state_.touch.haptic.hand = hand_.device->reading_without_surface();
     for (std::size_t k = 0; k < hand_.devices.size(); ++k)
         if (ForceDevice* const device = hand_.devices[k])
             devices_.emplace_back(k, *device, state_.settings, state_.touch);
@@ -61,29 +62,30 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
     state_.media.playback = player_.status();
     if (loop_) touch.haptic = haptic_state_.front();
     follow_others();
-    notice_catching_up();
+    update_catching_up();
     const Standstill& last = touch.haptic.standstill;
     if (last.count > standstills_) notices.push_back(text_of(last));
     standstills_ = last.count;
-    for (DeviceEnd& device : devices_)
+    for (DeviceClient& device : devices_)
         if (auto notice = device.poll(touch)) notices.push_back(std::move(*notice));
     if (!touch.grants && loop_) touch.grants = loop_->grants();
     for (TickStrip strip; strips_->pop(strip);) touch.strips.add(strip);
     touch.sound = sound_.state();
     touch.moves_coils = sound_.moves_coils();
-    touch.pads = pads_.news();
+    touch.pads = pads_.info();
     return notices;
 }
 
-std::vector<GripPress> TouchSession::take_presses() {
-    std::vector<GripPress> presses;
-    for (DeviceEnd& device : devices_) device.take_presses(state_.settings, state_.touch, presses);
+std::vector<DeviceButtonPress> TouchSession::take_presses() {
+    std::vector<DeviceButtonPress> presses;
+    for (DeviceClient& device : devices_)
+        device.take_presses(state_.settings, state_.touch, presses);
     return presses;
 }
 
 void TouchSession::follow_others() {
     if (state_.touch.replay) return;
-    if (published_.followed) {
+    if (published_.compare_algorithms) {
         others_.follow(*walked_, player_.picture(), published_.bump);
     } else {
         others_.forget(*walked_);
@@ -92,7 +94,7 @@ void TouchSession::follow_others() {
 }
 
 /// Counts also what happened in the ticks between two pictures.
-void TouchSession::notice_catching_up() {
+void TouchSession::update_catching_up() {
     const HapticState& haptic = state_.touch.haptic;
     const auto now = steady_clock::now();
     if (haptic.catching_up() || haptic.bounds_met > bounds_met_)
@@ -107,12 +109,12 @@ std::string TouchSession::use_firmware(const std::filesystem::path& file) {
         return one->keep_firmware != nullptr;
     });
     if (kind == kinds.end()) return "No device takes firmware";
-    const auto device = std::find_if(devices_.begin(), devices_.end(), [&](const DeviceEnd& one) {
-        return kinds[one.kind()] == *kind;
-    });
+    const auto device =
+        std::find_if(devices_.begin(), devices_.end(),
+                     [&](const DeviceClient& one) { return kinds[one.kind()] == *kind; });
     const std::string name = device == devices_.end() ? (*kind)->keep_firmware(file)
                                                       : device->device().use_firmware(file);
-    return std::string("Kept for the ") + (*kind)->called + ": " + name;
+    return std::string("Kept for the ") + (*kind)->short_name + ": " + name;
 }
 
 void TouchSession::publish() {
@@ -123,25 +125,26 @@ void TouchSession::publish() {
     const MediaDescription& media = state_.media;
     stretch(touch.bump, media.depth_columns, media.depth_rows, settings.touch.shape.bump_size_px);
     // Requested values: the loop limits them to what the device it reads can render.
-    HapticSettings asked = asked_settings(settings, touch);
-    const bool retuned =
-        std::any_of(devices_.begin(), devices_.end(),
-                    [&](const DeviceEnd& device) { return device.is_retuned(settings, touch); });
-    const bool same = published_.version > 0 && same_touch(published_, asked) && !retuned;
-    asked.recording = recording_.active();
-    asked.followed = settings.others;
-    if (!same || published_.recording != asked.recording || published_.followed != asked.followed) {
-        const bool recording_ends = published_.recording && !asked.recording;
-        asked.version = published_.version + (same ? 0 : 1);
-        published_ = asked;
-        recording_.hand_over(published_);
+    HapticSettings requested = requested_settings(settings, touch);
+    const bool retuned = std::any_of(
+        devices_.begin(), devices_.end(),
+        [&](const DeviceClient& device) { return device.has_new_tuning(settings, touch); });
+    const bool same = published_.version > 0 && same_touch(published_, requested) && !retuned;
+    requested.recording = recording_.active();
+    requested.compare_algorithms = settings.others;
+    if (!same || published_.recording != requested.recording ||
+        published_.compare_algorithms != requested.compare_algorithms) {
+        const bool recording_ends = published_.recording && !requested.recording;
+        requested.version = published_.version + (same ? 0 : 1);
+        published_ = requested;
+        recording_.record_parameters(published_);
         haptic_settings_.publish(published_);
         // The next tick may have begun before this publish.
         if (recording_ends) recording_ended_at_ = haptic_state_.front().ticks;
     }
     // After the settings: a new tuning moves the goal, and the force must then rise from zero.
-    for (DeviceEnd& device : devices_)
-        if (device.is_retuned(settings, touch)) device.publish(settings, touch);
+    for (DeviceClient& device : devices_)
+        if (device.has_new_tuning(settings, touch)) device.publish(settings, touch);
     publish_to_player();
 }
 
@@ -158,7 +161,7 @@ void TouchSession::publish_to_outputs() {
 
 void TouchSession::publish_to_player() {
     const Settings& settings = state_.settings;
-    player_.set_motion(motion_wanted(
+    player_.set_motion(motion_request(
         settings.touch.carry, state_.media.as_recorded ? InBetweens::off : settings.in_betweens));
     player_.set_cleaning(wanted_cleaning(settings, state_.media));
 }
@@ -167,23 +170,24 @@ void TouchSession::start() {
     if (loop_) return;
     publish();
     // Forget the state of the last loop: a new loop counts ticks from 0.
-    state_.touch.haptic = {.hand = hand_.device->unread()};
+    state_.touch.haptic = {.hand = hand_.device->reading_without_surface()};
     haptic_state_.publish(state_.touch.haptic);
     standstills_ = 0;
     recording_ended_at_ = 0;
-    loop_ = std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
-                                                           player_.haptics(),
-                                                           haptic_settings_,
-                                                           haptic_state_,
-                                                           *strips_,
-                                                           *ticks_,
-                                                           {.window = &ties_.window,
-                                                            .video = &player_.heart(),
-                                                            .recorder = &recording_.heart(),
-                                                            .decoder = &player_.decoder_heart()},
-                                                           &ties_.without_force,
-                                                           &touch_source_->ticks,
-                                                           walked_.get()});
+    loop_ =
+        std::make_unique<HapticLoop>(HapticConnections{*hand_.device,
+                                                       player_.haptics(),
+                                                       haptic_settings_,
+                                                       haptic_state_,
+                                                       *strips_,
+                                                       *ticks_,
+                                                       {.window = &connections_.window,
+                                                        .video = &player_.heart(),
+                                                        .recorder = &recording_.heart(),
+                                                        .decoder = &player_.decoder_heartbeat()},
+                                                       &connections_.without_force,
+                                                       &touch_source_->ticks,
+                                                       walked_.get()});
 }
 
 std::optional<TickSchedule> TouchSession::stop() noexcept {
@@ -201,7 +205,7 @@ void TouchSession::close_device() {
 
 void TouchSession::play(std::unique_ptr<Media> media, std::shared_ptr<const TouchMaps> maps) {
     state_.media.describe(media->description());
-    media_number_ = recording_.opened(state_.media);
+    media_number_ = recording_.add_media(state_.media);
     player_.play_media(std::move(media), media_number_, std::move(maps));
 }
 
@@ -221,7 +225,7 @@ void TouchSession::point(const Camera::Ray& ray, const DepthBlend& shown, Pointe
 
 bool TouchSession::by_mouse() const noexcept {
     return hand_.mouse != nullptr &&
-           (!hand_.looks_for_device() || state_.touch.haptic.hand.stand_in);
+           (!hand_.looks_for_device() || state_.touch.haptic.hand.mouse_fallback);
 }
 
 bool TouchSession::may_record() const noexcept {

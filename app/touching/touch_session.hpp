@@ -14,11 +14,11 @@
 #include "app/sound/pad_output.hpp"
 #include "app/sound/sound_output.hpp"
 #include "app/sound/touch_source.hpp"
-#include "app/touching/device_ends.hpp"
+#include "app/touching/device_client.hpp"
 #include "app/touching/pointer.hpp"
 #include "app/touching/recording.hpp"
 #include "app/touching/touch_state.hpp"
-#include "app/window/last_words.hpp"
+#include "app/window/crash_note.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/loop/other_proxies.hpp"
 #include "core/realtime/heartbeat.hpp"
@@ -31,17 +31,17 @@
 namespace dibhr {
 
 /// What a session uses of its window and program; all must outlive the session.
-struct TouchTies {
+struct TouchConnections {
     const Heartbeat& window;
     const std::atomic<bool>& without_force;
-    LastWords& words;
+    CrashNote& crash_note;
 };
 
 /// For the window's thread only. Force is sent only between start() and stop().
 class TouchSession {
   public:
     /// `state` belongs to the window and must outlive the session.
-    TouchSession(HandDevice hand, const TouchTies& ties, const TouchedState& state);
+    TouchSession(HandDevice hand, const TouchConnections& connections, const TouchStateRefs& state);
 
     // Once a picture, in this order, with TouchRecording::poll() after take_presses().
 
@@ -49,7 +49,7 @@ class TouchSession {
     /// to the user.
     [[nodiscard]] std::vector<std::string> poll(bool window_in_front);
     /// The presses of device buttons since the last call.
-    [[nodiscard]] std::vector<GripPress> take_presses();
+    [[nodiscard]] std::vector<DeviceButtonPress> take_presses();
     /// Publishes all changes of this picture: to the next tick, the devices, player and outputs.
     void publish();
 
@@ -85,14 +85,14 @@ class TouchSession {
 
   private:
     void follow_others();
-    void notice_catching_up();
+    void update_catching_up();
     void publish_to_outputs();
     void publish_to_player();
 
-    TouchTies ties_;
-    TouchedState state_;
+    TouchConnections connections_;
+    TouchStateRefs state_;
     HandDevice hand_;
-    std::vector<DeviceEnd> devices_{};  // in the order of touch.devices
+    std::vector<DeviceClient> devices_{};  // in the order of touch.devices
     HandPointer pointer_{};
     std::uint32_t media_number_{0};
     HapticSettings published_{};

@@ -43,14 +43,14 @@ struct StripHistory {
 
     std::array<std::array<float, kTicks>, kStrips> values{};
     std::size_t next{0};  ///< the oldest value, overwritten by the next one
-    double given_millijoule{0.0};
+    double work_millijoule{0.0};
 
     void add(const TickStrip& strip) {
-        if (std::isfinite(strip.given_millijoule))
-            given_millijoule += static_cast<double>(strip.given_millijoule);
+        if (std::isfinite(strip.work_millijoule))
+            work_millijoule += static_cast<double>(strip.work_millijoule);
         const std::array<float, kStrips> now{
             strip.force_newton, strip.penetration_mm, strip.speed_mm_per_s,
-            static_cast<float>(given_millijoule), strip.lateness_us};
+            static_cast<float>(work_millijoule), strip.lateness_us};
         for (std::size_t k = 0; k < kStrips; ++k) values[k][next] = now[k];
         next = (next + 1) % kTicks;
     }
@@ -71,7 +71,7 @@ struct SessionFields {
 };
 
 /// What the window shows of a recording that is going on.
-struct RecordingNews {
+struct RecordingInfo {
     RecorderStatus status{};
     std::filesystem::path file{};
     double time_s{0.0};                ///< since it began
@@ -79,7 +79,7 @@ struct RecordingNews {
 };
 
 /// What the window shows of a replay.
-struct ReplayNews {
+struct ReplayInfo {
     std::filesystem::path file{};
     std::string participant{}, note{}, started{}, device{};
     std::vector<SessionMark> marks{};  ///< times as the ticks'
@@ -92,10 +92,10 @@ struct ReplayNews {
 };
 
 /// What the window shows of a force device that is looked for.
-struct DeviceNews {
+struct DeviceInfo {
     std::size_t kind{0};  ///< index in force_device_kinds()
     DeviceState state{};
-    bool asked{false};               ///< `state` came from the device; before, its state is unknown
+    bool answered{false};            ///< `state` came from the device; before, its state is unknown
     bool was_ready{false};           ///< at some time in this run; not ready now: lost
     std::vector<DeviceLine> kept{};  ///< settings that a service stores for all programs
 };
@@ -103,7 +103,7 @@ struct DeviceNews {
 struct TouchState {
     // What a person chooses.
     bool force_enabled{true};
-    std::uint32_t centred{0};  ///< counts requests to centre the workspace
+    std::uint32_t centre_count{0};  ///< counts requests to centre the workspace
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};
     Material material{};  ///< last choice; its values may have been changed since
@@ -112,20 +112,20 @@ struct TouchState {
     // Shown only.
     bool in_front{true};  ///< the window is; false: another window is in front
     DeviceSpecification device{};
-    std::vector<DeviceNews> devices{};  ///< the devices in use, in the order of their kinds
+    std::vector<DeviceInfo> devices{};  ///< the devices in use, in the order of their kinds
     bool needs_person{false};           ///< a device does; reset when its panel is visible
     HapticState haptic{};
-    bool catching_up{false};  ///< the proxy is, or was within the last 0.3 s
+    bool catching_up{false};               ///< the proxy is, or was within the last 0.3 s
     std::vector<AlgorithmProxy> others{};  ///< for the same goal; empty: off, or unknown
     StripHistory strips{};
     std::optional<RealtimeGrants> grants{};
-    std::optional<RecordingNews> recording{};
+    std::optional<RecordingInfo> recording{};
     std::string recording_trouble{};        ///< why the last recording broke off
     std::filesystem::path recorded_file{};  ///< the last one; empty: none yet
-    std::optional<ReplayNews> replay{};     ///< nothing: a hand touches
+    std::optional<ReplayInfo> replay{};     ///< nothing: a hand touches
     SoundOutput::State sound{SoundOutput::State::quiet};
     bool moves_coils{false};  ///< of a game pad
-    PadNews pads{};
+    PadInfo pads{};
 
     /// The last tick's shape, so that the picture shows what is felt. `chosen`: the settings.
     [[nodiscard]] const SurfaceShape& shape(const TouchParameters& chosen) const noexcept {
@@ -139,10 +139,10 @@ struct OpenRequest {
     std::filesystem::path depth{};
     bool in_any_order{false};  ///< dropped together: colour and depth are told apart
     DepthRequest request{usual_depth_request()};
-    bool chosen{false};  ///< depth statements of the panel, saved once the file is open
-    double at_s{0.0};    ///< where to begin [s]
-    bool paused{false};  ///< begin paused
-    bool again{false};   ///< a live source changed its form: retry until it opens
+    bool chosen{false};     ///< depth statements of the panel, saved once the file is open
+    double at_s{0.0};       ///< where to begin [s]
+    bool paused{false};     ///< begin paused
+    bool reconnect{false};  ///< a live source changed its form: retry until it opens
 };
 
 /// The open media, and how it plays.
@@ -157,7 +157,7 @@ struct MediaState : MediaDescription {
 };
 
 /// References to the window's state that a TouchSession uses; it must outlive the session.
-struct TouchedState {
+struct TouchStateRefs {
     const Settings& settings;
     TouchState& touch;
     MediaState& media;

@@ -32,13 +32,13 @@ fs::path sample_folder() try {
 
 }  // namespace
 
-Browsing::Browsing(Errands& errands)
+Browsing::Browsing(TaskGroup& tasks)
     : sample_folder_(sample_folder()),
-      folder_(errands),
-      completion_(errands),
-      typed_(errands),
-      preview_(errands),
-      neighbours_(errands) {}
+      folder_(tasks),
+      completion_(tasks),
+      typed_(tasks),
+      preview_(tasks),
+      neighbours_(tasks) {}
 
 void Browsing::toggle(ViewerState& state) {
     if (state.ui.dialog.shown) {
@@ -66,33 +66,33 @@ void Browsing::show(const fs::path& folder, ViewerState& state) {
 }
 
 void Browsing::go_to(const fs::path& folder, OpenDialog& dialog) {
-    folder_.start_anew([folder] { return read_folder(folder); });
+    folder_.restart([folder] { return read_folder(folder); });
     dialog.folder = {.path = whole_path(folder)};
-    dialog.reads = true;
-    ++dialog.reading;
+    dialog.is_reading = true;
+    ++dialog.reading_number;
     dialog.typed = {};
     ++dialog.line;
-    dialog.asks_for_keyboard = OpenDialog::kPicturesToFocus;
+    dialog.pictures_to_focus = OpenDialog::kPicturesToFocus;
     dialog.chosen.clear();
 }
 
-bool Browsing::go_by(int entries, const ViewerState& state) {
+bool Browsing::read_neighbours(int entries, const ViewerState& state) {
     const fs::path folder = whole_path(shown_file(state)).parent_path();
     if (!neighbours_.start([folder] { return read_folder(folder); })) return false;
-    by_ = entries;
+    neighbour_offset_ = entries;
     return true;
 }
 
 void Browsing::complete(const std::string& typed, const OpenDialog& dialog) {
-    completion_.start_anew([typed, folder = dialog.folder.path] {
+    completion_.restart([typed, folder = dialog.folder.path] {
         return Completion{typed, completed(typed, folder)};
     });
 }
 
 void Browsing::enter(const TypedFile& entered, const OpenDialog& dialog) {
     entered_in_ = dialog.line;
-    typed_.start_anew([entered, listed = dialog.folder] {
-        return entry_meant(listed, entered.typed, entered.chosen);
+    typed_.restart([entered, listed = dialog.folder] {
+        return resolve_typed(listed, entered.typed, entered.chosen);
     });
 }
 
@@ -100,7 +100,7 @@ std::optional<std::string> Browsing::advance(ViewerState& state) {
     take_folder(state.ui.dialog);
     take_typed(state);
     advance_preview(state.ui.dialog);
-    if (const auto folder = neighbours_.take()) return step(*folder, state);
+    if (const auto folder = neighbours_.take()) return open_neighbour(*folder, state);
     return std::nullopt;
 }
 
@@ -108,10 +108,10 @@ void Browsing::take_folder(OpenDialog& dialog) {
     auto folder = folder_.take();
     if (!folder) return;
     dialog.folder = std::move(*folder);
-    dialog.reads = false;
-    ++dialog.reading;
+    dialog.is_reading = false;
+    ++dialog.reading_number;
     // The row of a pair is named by its colour.
-    if (const auto row = entry_of(dialog.folder, dialog.chosen))
+    if (const auto row = index_of_entry(dialog.folder, dialog.chosen))
         dialog.chosen = dialog.folder.entries[*row].file;
 }
 
@@ -128,47 +128,47 @@ void Browsing::take_typed(ViewerState& state) {
 void Browsing::advance_preview(OpenDialog& dialog) {
     if (auto preview = preview_.take()) {
         picture_ = std::move(preview->picture);
-        dialog.preview = {.of = std::move(preview->of), .words = std::move(preview->words)};
+        dialog.preview = {.file = std::move(preview->file), .text = std::move(preview->text)};
         if (picture_) {
             dialog.preview.columns = picture_->columns;
             dialog.preview.rows = picture_->rows;
             dialog.preview.texture = texture_.show(picture_, kMostPreview_px, false);
         }
     }
-    if (!dialog.shown || dialog.chosen.empty() || dialog.preview.of == dialog.chosen) return;
-    const auto chosen = entry_of(dialog.folder, dialog.chosen);
-    if (!chosen || preview_.under_way()) return;
+    if (!dialog.shown || dialog.chosen.empty() || dialog.preview.file == dialog.chosen) return;
+    const auto chosen = index_of_entry(dialog.folder, dialog.chosen);
+    if (!chosen || preview_.running()) return;
     preview_.start([entry = dialog.folder.entries[*chosen]] { return read_preview(entry); });
 }
 
 Browsing::Read Browsing::read_preview(const FolderEntry& entry) {
-    Read read{.of = entry.file};
+    Read read{.file = entry.file};
     if (entry.kind != FileKind::video && entry.kind != FileKind::picture) return read;
     try {
         const auto media = open_request(request_for(entry));
         const auto first = media->next();
         const MediaDescription& about = media->description();
         if (first) read.picture = std::make_shared<const ColourImage>(first->colour);
-        read.words = std::to_string(about.depth_columns) + " x " + std::to_string(about.depth_rows);
+        read.text = std::to_string(about.depth_columns) + " x " + std::to_string(about.depth_rows);
     } catch (const std::exception&) {  // the reason is shown when the file is opened
-        read.words = "No depth was found for it.";
+        read.text = "No depth was found for it.";
     }
     return read;
 }
 
-std::string Browsing::step(const Folder& folder, ViewerState& state) const {
+std::string Browsing::open_neighbour(const Folder& folder, ViewerState& state) const {
     if (!folder.trouble.empty()) return folder.trouble;
     std::vector<const FolderEntry*> files;
     files.reserve(folder.entries.size());
     std::optional<std::size_t> at;
-    const auto shown = entry_of(folder, shown_file(state));
+    const auto shown = index_of_entry(folder, shown_file(state));
     for (std::size_t k = 0; k < folder.entries.size(); ++k) {
         const FolderEntry& entry = folder.entries[k];
         if (entry.kind == FileKind::folder || !can_be_opened(entry)) continue;
         if (shown == k) at = files.size();
         files.push_back(&entry);
     }
-    const long next = (at ? static_cast<long>(*at) : -1) + by_;
+    const long next = (at ? static_cast<long>(*at) : -1) + neighbour_offset_;
     if (next < 0) return "The first one in its folder";
     if (next >= static_cast<long>(files.size())) return "The last one in its folder";
     const FolderEntry& entry = *files[static_cast<std::size_t>(next)];

@@ -8,7 +8,7 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/settings/folder.hpp"
-#include "app/viewer/errand.hpp"
+#include "app/viewer/task_group.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "render/gl_objects.hpp"
 
@@ -17,7 +17,7 @@ namespace dibhr {
 class Browsing {
   public:
     /// The task group must outlive it.
-    explicit Browsing(Errands& errands);
+    explicit Browsing(TaskGroup& tasks);
 
     /// Shows or hides the dialog.
     void toggle(ViewerState& state);
@@ -30,7 +30,7 @@ class Browsing {
 
     /// Opens the file that is `entries` after the shown one (before it: < 0), once its folder was
     /// read. False while the folder is still being read for the last call.
-    [[nodiscard]] bool go_by(int entries, const ViewerState& state);
+    [[nodiscard]] bool read_neighbours(int entries, const ViewerState& state);
 
     /// Reads another folder for the dialog.
     void go_to(const std::filesystem::path& folder, OpenDialog& dialog);
@@ -44,27 +44,27 @@ class Browsing {
 
   private:
     struct Read {
-        std::filesystem::path of{};
+        std::filesystem::path file{};
         std::shared_ptr<const ColourImage> picture{};
-        std::string words{};
+        std::string text{};
     };
 
     static Read read_preview(const FolderEntry& entry);
     void take_folder(OpenDialog& dialog);
     void take_typed(ViewerState& state);
     void advance_preview(OpenDialog& dialog);
-    [[nodiscard]] std::string step(const Folder& folder, ViewerState& state) const;
+    [[nodiscard]] std::string open_neighbour(const Folder& folder, ViewerState& state) const;
 
     std::filesystem::path sample_folder_;
     std::shared_ptr<const ColourImage> picture_{};
     ColourTexture texture_{};
-    int by_{0};
+    int neighbour_offset_{0};
     int entered_in_{0};  // OpenDialog::line at enter(); a result for another line is dropped
-    Errand<Folder> folder_;
-    Errand<Completion> completion_;
-    Errand<FolderEntry> typed_;
-    Errand<Read> preview_;
-    Errand<Folder> neighbours_;
+    BackgroundTask<Folder> folder_;
+    BackgroundTask<Completion> completion_;
+    BackgroundTask<FolderEntry> typed_;
+    BackgroundTask<Read> preview_;
+    BackgroundTask<Folder> neighbours_;
 };
 
 }  // namespace dibhr

@@ -33,7 +33,7 @@ ViewerClip::~ViewerClip() {
     }
 }
 
-void ViewerClip::start(const std::filesystem::path& file, ClipName name, PictureOf of) {
+void ViewerClip::start(const std::filesystem::path& file, ClipNameConflict name, PictureOf of) {
     recorder_ = std::make_unique<ClipRecorder>(file, name);
     file_ = file;
     name_ = name;
@@ -45,7 +45,7 @@ void ViewerClip::start(const std::filesystem::path& file, ClipName name, Picture
 void ViewerClip::stop() {
     if (!recorder_ || end_) return;
     end_ = Clock::now();
-    recorder_->stop(*end_, ClipEnd::well);
+    recorder_->stop(*end_, ClipEnd::indexed);
 }
 
 bool ViewerClip::wants(PictureOf of, Clock::time_point now) const {
@@ -59,17 +59,17 @@ void ViewerClip::add(ColourImage picture, Clock::time_point now) {
     recorder_->add(std::move(picture), now);
 }
 
-std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
+std::optional<std::string> ViewerClip::poll(ViewerState& state) {
     state.ui.clip.reset();
     if (!recorder_) return {};
     const Clock::time_point now = end_.value_or(Clock::now());
     const double length_s = begin_ ? seconds_between(*begin_, now) : 0.0;
     if (!recorder_->done()) {
-        state.ui.clip = ClipNews{file_, length_s, end_.has_value()};
-        tell_words();
+        state.ui.clip = ClipInfo{file_, length_s, end_.has_value()};
+        set_crash_note();
         return {};
     }
-    forget_words();
+    clear_crash_note();
     const std::unique_ptr<ClipRecorder> over = std::move(recorder_);
     try {
         return "Saved " + over->result().string() + ", " + clock_text(length_s);
@@ -79,24 +79,24 @@ std::optional<std::string> ViewerClip::take_news(ViewerState& state) {
     }
 }
 
-void ViewerClip::tell_words() {
-    if (in_words_ || !recorder_->plays()) return;
-    words_.clip(recorder_->written(), file_, name_ == ClipName::replaces);
-    in_words_ = true;
+void ViewerClip::set_crash_note() {
+    if (in_crash_note_ || !recorder_->plays()) return;
+    crash_note_.set_clip(recorder_->written(), file_, name_ == ClipNameConflict::replaces);
+    in_crash_note_ = true;
 }
 
-void ViewerClip::forget_words() {
-    if (std::exchange(in_words_, false)) words_.clip({}, {}, false);
+void ViewerClip::clear_crash_note() {
+    if (std::exchange(in_crash_note_, false)) crash_note_.set_clip({}, {}, false);
 }
 
 void ViewerClip::wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how) {
-    const std::chrono::seconds patience = how == ClipEnd::well ? kPatience : kPatienceAtOnce;
+    const std::chrono::seconds patience = how == ClipEnd::indexed ? kPatience : kPatienceAtOnce;
     if (over->done_within(patience)) {
         static_cast<void>(over->result());
         return;
     }
     static_cast<void>(over.release());  // its thread cannot be ended and still uses it
-    errands_.give_one_up();
+    tasks_.abandon_one();
     throw InputError(file_.string() + ": the clip is not finished after " +
                      std::to_string(patience.count()) +
                      " s; what was written so far is beside it and ends in .part: check whether "
@@ -107,7 +107,7 @@ void ViewerClip::finish(ClipEnd how) {
     if (recorder_) {
         recorder_->stop(Clock::now(), how);
         wait_for(std::move(recorder_), how);
-        forget_words();
+        clear_crash_note();
     }
     if (!failure_.empty()) throw InputError(failure_);
 }

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
-#include "app/viewer/errand.hpp"
-#include "app/window/last_words.hpp"
+#include "app/viewer/task_group.hpp"
+#include "app/window/crash_note.hpp"
 #include "core/clip/clip_recorder.hpp"
 
 namespace dibhr {
@@ -19,14 +19,14 @@ class ViewerClip {
     using Clock = ClipRecorder::Clock;
 
     /// Both must outlive it. The crash note names an unfinished clip if the program hangs at exit.
-    ViewerClip(Errands& errands, LastWords& words) : errands_(errands), words_(words) {}
+    ViewerClip(TaskGroup& tasks, CrashNote& crash_note) : tasks_(tasks), crash_note_(crash_note) {}
     /// Finishes the clip if an error ends the program.
     ~ViewerClip();
     ViewerClip(const ViewerClip&) = delete;
     ViewerClip& operator=(const ViewerClip&) = delete;
 
     /// Throws InputError when the file cannot be made.
-    void start(const std::filesystem::path& file, ClipName name, PictureOf of);
+    void start(const std::filesystem::path& file, ClipNameConflict name, PictureOf of);
     /// Ends the clip now; the file is finished a little later.
     void stop();
     /// A clip is recorded, or its file is being finished.
@@ -40,7 +40,7 @@ class ViewerClip {
 
     /// Once a picture: copies the clip's status into `state`. Returns a notice once the clip is
     /// finished. Throws InputError, once, when it failed.
-    [[nodiscard]] std::optional<std::string> take_news(ViewerState& state);
+    [[nodiscard]] std::optional<std::string> poll(ViewerState& state);
 
     /// At the end of the program: waits for the file with a timeout. Throws InputError when a clip
     /// failed, or is not finished in time.
@@ -48,15 +48,15 @@ class ViewerClip {
 
   private:
     void wait_for(std::unique_ptr<ClipRecorder> over, ClipEnd how);
-    void tell_words();
-    void forget_words();
+    void set_crash_note();
+    void clear_crash_note();
 
-    Errands& errands_;
-    LastWords& words_;
+    TaskGroup& tasks_;
+    CrashNote& crash_note_;
     std::unique_ptr<ClipRecorder> recorder_{};  // null: no clip
     std::filesystem::path file_{};
-    ClipName name_{ClipName::replaces};
-    bool in_words_{false};
+    ClipNameConflict name_{ClipNameConflict::replaces};
+    bool in_crash_note_{false};
     PictureOf of_{PictureOf::window};
     std::optional<Clock::time_point> begin_{};  // time of the first picture
     std::optional<Clock::time_point> end_{};

@@ -25,24 +25,25 @@ std::vector<std::string> patterns_of_recordings() {
 }  // namespace
 
 void DesktopDialog::ask(const std::filesystem::path& folder, unsigned long x11_window) {
-    off_ = std::make_shared<CallOff>();
+    cancellation_ = std::make_shared<Cancellation>();
     const FileQuestion question{
         .title = "Open a recording, or colour and depth together",
         .folder = folder,
         .filters = {{"Recordings", patterns_of_recordings()}, {"All files", {"*"}}},
         .x11_window = x11_window};
-    asking_.start_anew([question, off = off_] { return ask_desktop(question, *off); });
+    asking_.restart(
+        [question, cancellation = cancellation_] { return ask_desktop(question, *cancellation); });
 }
 
 std::optional<FileAnswer> DesktopDialog::take() {
     if (!open()) return std::nullopt;
     auto answer = asking_.take();
-    if (answer) off_.reset();
+    if (answer) cancellation_.reset();
     return answer;
 }
 
-void DesktopDialog::call_off() {
-    if (const auto off = std::exchange(off_, nullptr)) off->call_off();
+void DesktopDialog::cancel() {
+    if (const auto cancellation = std::exchange(cancellation_, nullptr)) cancellation->cancel();
 }
 
 }  // namespace dibhr

@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
-#include "app/desktop/call_off.hpp"
+#include "app/desktop/cancellation.hpp"
 #include "app/desktop/file_dialog.hpp"
-#include "app/viewer/errand.hpp"
+#include "app/viewer/task_group.hpp"
 
 namespace dibhr {
 
@@ -14,25 +14,26 @@ namespace dibhr {
 class DesktopDialog {
   public:
     /// The task group must outlive it.
-    explicit DesktopDialog(Errands& errands) : asking_(errands) {}
+    explicit DesktopDialog(TaskGroup& tasks) : asking_(tasks) {}
     /// Closes an open dialog.
-    ~DesktopDialog() { call_off(); }
+    ~DesktopDialog() { cancel(); }
     DesktopDialog(const DesktopDialog&) = delete;
     DesktopDialog& operator=(const DesktopDialog&) = delete;
 
-    [[nodiscard]] bool open() const { return off_ != nullptr; }
+    [[nodiscard]] bool open() const { return cancellation_ != nullptr; }
 
     /// Opens the dialog; only while none is open. Same folder and file types as the window's own.
     void ask(const std::filesystem::path& folder, unsigned long x11_window);
 
-    /// The answer, once; nothing before it comes, and nothing after call_off().
+    /// The answer, once; nothing before it comes, and nothing after cancel().
     [[nodiscard]] std::optional<FileAnswer> take();
 
-    void call_off();
+    void cancel();
 
   private:
-    std::shared_ptr<CallOff> off_{};  // shared with the thread that waits; null: none is open
-    Errand<FileAnswer> asking_;
+    std::shared_ptr<Cancellation>
+        cancellation_{};  // shared with the thread that waits; null: none is open
+    BackgroundTask<FileAnswer> asking_;
 };
 
 }  // namespace dibhr

@@ -34,22 +34,22 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
         return Answer{};
     }
     if (!state.ui.explained) return std::nullopt;
-    ExplainedNews& news = *state.ui.explained;
+    ExplainedInfo& info = *state.ui.explained;
     switch (action) {
         case Action::step_forward:
-            news.runs = false;
-            return step_on(news, replay, state);
+            info.runs = false;
+            return step_on(info, replay, state);
         case Action::step_back:
-            news.runs = false;
-            if (news.taken > 0) --news.taken;
+            info.runs = false;
+            if (info.taken > 0) --info.taken;
             // Before the first step a hand may choose another goal.
-            if (news.taken == 0) news.held = replay != nullptr;
+            if (info.taken == 0) info.held = replay != nullptr;
             return Answer{};
         case Action::play_or_pause:
-            news.runs = !news.runs;
-            news.held = true;
+            info.runs = !info.runs;
+            info.held = true;
             next_step_s_ = 0.0;
-            if (news.taken >= news.update.steps.size()) news.taken = 0;
+            if (info.taken >= info.update.steps.size()) info.taken = 0;
             return Answer{};
         case Action::close_topmost:
             if (!state.ui.message.empty() || state.ui.help_open || state.ui.dialog.shown)
@@ -63,14 +63,14 @@ std::optional<Answer> ViewerExplaining::perform(Action action, ViewerState& stat
 
 void ViewerExplaining::begin(ViewerState& state, Player& player) {
     player.pause();
-    state.ui.explained = ExplainedNews{};
+    state.ui.explained = ExplainedInfo{};
     proxy_ = state.touch.haptic.touch.proxy;
     goal_ = state.touch.haptic.touch.goal;
     pressed_ = false;
     columns_ = state.media.depth_columns;
     rows_ = state.media.depth_rows;
     tick_ = -1;
-    asked_.reset();
+    input_.reset();
     seen_held_.reset();
 }
 
@@ -79,14 +79,14 @@ void ViewerExplaining::take_next_tick(ViewerState& state, SessionPlayer& replay)
     proxy_ = state.touch.haptic.touch.proxy;
     left_tick_ = state.touch.replay->tick.tick;
     tick_ = -1;
-    *state.ui.explained = ExplainedNews{.held = true};
+    *state.ui.explained = ExplainedInfo{.held = true};
     replay.step(1);
 }
 
-Answer ViewerExplaining::step_on(ExplainedNews& news, SessionPlayer* replay, ViewerState& state) {
-    news.held = true;
-    if (news.taken < news.update.steps.size()) {
-        ++news.taken;
+Answer ViewerExplaining::step_on(ExplainedInfo& info, SessionPlayer* replay, ViewerState& state) {
+    info.held = true;
+    if (info.taken < info.update.steps.size()) {
+        ++info.taken;
     } else if (replay != nullptr) {
         if (is_at_its_end(*replay)) return {"No update comes after this"};
         take_next_tick(state, *replay);
@@ -101,11 +101,11 @@ void ViewerExplaining::follow_hand(const ViewerState& state) {
     goal_ = touch.goal;
 }
 
-void ViewerExplaining::run(ExplainedNews& news, double now_s) {
-    if (!news.runs || now_s < next_step_s_) return;
-    const std::size_t steps = news.update.steps.size();
-    if (next_step_s_ > 0.0 && news.taken < steps) ++news.taken;
-    if (news.taken >= steps) news.runs = false;
+void ViewerExplaining::run(ExplainedInfo& info, double now_s) {
+    if (!info.runs || now_s < next_step_s_) return;
+    const std::size_t steps = info.update.steps.size();
+    if (next_step_s_ > 0.0 && info.taken < steps) ++info.taken;
+    if (info.taken >= steps) info.runs = false;
     next_step_s_ =
         now_s + std::min(kStepTime_s, kLongestRun_s / std::max(1.0, static_cast<double>(steps)));
 }
@@ -116,7 +116,7 @@ void ViewerExplaining::end(ViewerState& state, Camera& camera) {
 }
 
 /// The surface has another size, or the replay was moved or plays on.
-bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& state) const {
+bool ViewerExplaining::is_outdated(const DepthBlend& shown, const ViewerState& state) const {
     if (!shown.makes_surface() || shown.from->depth->columns != columns_ ||
         shown.from->depth->rows != rows_)
         return true;
@@ -127,16 +127,16 @@ bool ViewerExplaining::has_gone(const DepthBlend& shown, const ViewerState& stat
 }
 
 /// Computes the update only when its input changed: the cost grows with the walk's square.
-void ViewerExplaining::explain_anew(const DepthBlend& shown, ViewerState& state) {
-    const DepthBlend pair = shown.shown();
-    Asked asked{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
-                state.touch.bump, proxy_,         goal_,      state.settings.touch.friction};
-    if (asked_ == asked) return;
-    const DepthSurface surface = shown.surface(asked.shape, asked.bump.get());
-    ExplainedNews& news = *state.ui.explained;
-    news.update = explain(surface, proxy_, goal_, asked.friction);
-    news.taken = std::min(news.taken, news.update.steps.size());
-    asked_ = std::move(asked);
+void ViewerExplaining::explain_if_changed(const DepthBlend& shown, ViewerState& state) {
+    const DepthBlend pair = shown.with_in_betweens();
+    UpdateInput input{pair.from->depth, pair.to->depth, pair.blend, state.shape(),
+                      state.touch.bump, proxy_,         goal_,      state.settings.touch.friction};
+    if (input_ == input) return;
+    const DepthSurface surface = shown.surface(input.shape, input.bump.get());
+    ExplainedInfo& info = *state.ui.explained;
+    info.update = explain(surface, proxy_, goal_, input.friction);
+    info.taken = std::min(info.taken, info.update.steps.size());
+    input_ = std::move(input);
 }
 
 void ViewerExplaining::advance(const DepthBlend& shown, ViewerState& state, Camera& camera,
@@ -144,33 +144,33 @@ void ViewerExplaining::advance(const DepthBlend& shown, ViewerState& state, Came
     if (!state.ui.explained) return end(state, camera);
     const bool reads = state.touch.replay && tick_ < 0;
     if (reads && state.touch.replay->tick.tick > left_tick_) tick_ = state.touch.replay->tick.tick;
-    if (has_gone(shown, state)) return end(state, camera);
-    ExplainedNews& news = *state.ui.explained;
-    news.waits = state.touch.replay && tick_ < 0;
-    if (news.waits) return;
+    if (is_outdated(shown, state)) return end(state, camera);
+    ExplainedInfo& info = *state.ui.explained;
+    info.waits = state.touch.replay && tick_ < 0;
+    if (info.waits) return;
     if (state.touch.replay) {
         goal_ = state.touch.haptic.touch.goal;
-    } else if (!news.held) {
+    } else if (!info.held) {
         follow_hand(state);
     }
-    explain_anew(shown, state);
-    run(news, now_s);
-    if (seen_held_ == news.held && seen_tick_ == tick_) return;
-    seen_held_ = news.held;
+    explain_if_changed(shown, state);
+    run(info, now_s);
+    if (seen_held_ == info.held && seen_tick_ == tick_) return;
+    seen_held_ = info.held;
     seen_tick_ = tick_;
-    move_camera(news, camera);
+    move_camera(info, camera);
 }
 
 /// Shows the whole walk; with room to move the goal until it is fixed.
-void ViewerExplaining::move_camera(const ExplainedNews& news, Camera& camera) {
+void ViewerExplaining::move_camera(const ExplainedInfo& info, Camera& camera) {
     if (!before_) before_ = camera;
-    const PathBox walked = box_of(news.update);
-    const Vec3 low = glm::min(walked.low, news.update.goal);
-    const Vec3 high = glm::max(walked.high, news.update.goal);
+    const PathBox walked = box_of(info.update);
+    const Vec3 low = glm::min(walked.low, info.update.goal);
+    const Vec3 high = glm::max(walked.high, info.update.goal);
     constexpr double kClosest_px = 2.5;
     constexpr double kAir = 1.35;
     const double radius = kAir * 0.5 * glm::length(high - low);
-    camera.close_up(0.5 * (low + high), std::max(news.held ? kClosest_px : kAround_px, radius));
+    camera.close_up(0.5 * (low + high), std::max(info.held ? kClosest_px : kAround_px, radius));
 }
 
 }  // namespace dibhr

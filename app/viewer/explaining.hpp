@@ -29,11 +29,11 @@ class ViewerExplaining {
     /// Ends the explanation, as other files are shown.
     void end(ViewerState& state, Camera& camera);
     /// The user chose the view: do not move the camera back at the end.
-    void leave_camera() { before_.reset(); }
+    void keep_camera() { before_.reset(); }
 
   private:
     /// All that an update depends on. Owns the images, so that a new one never has their address.
-    struct Asked {
+    struct UpdateInput {
         std::shared_ptr<const DepthImage> from{}, to{};
         double blend{0.0};
         SurfaceShape shape{};
@@ -42,27 +42,27 @@ class ViewerExplaining {
         Vec3 goal{0.0};
         Friction friction{};
 
-        bool operator==(const Asked&) const = default;
+        bool operator==(const UpdateInput&) const = default;
     };
 
     void begin(ViewerState& state, Player& player);
     void take_next_tick(ViewerState& state, SessionPlayer& replay);
-    Answer step_on(ExplainedNews& news, SessionPlayer* replay, ViewerState& state);
-    [[nodiscard]] bool has_gone(const DepthBlend& shown, const ViewerState& state) const;
-    void explain_anew(const DepthBlend& shown, ViewerState& state);
+    Answer step_on(ExplainedInfo& info, SessionPlayer* replay, ViewerState& state);
+    [[nodiscard]] bool is_outdated(const DepthBlend& shown, const ViewerState& state) const;
+    void explain_if_changed(const DepthBlend& shown, ViewerState& state);
     void follow_hand(const ViewerState& state);
-    void run(ExplainedNews& news, double now_s);
-    void move_camera(const ExplainedNews& news, Camera& camera);
+    void run(ExplainedInfo& info, double now_s);
+    void move_camera(const ExplainedInfo& info, Camera& camera);
 
-    Proxy proxy_{};                    // before the update
-    Vec3 goal_{0.0};                   // of the update
-    bool pressed_{false};              // goal_ was on or under the surface
-    std::int64_t left_tick_{-1};       // in a replay: the tick before the update
-    std::int64_t tick_{-1};            // and the update's tick; -1: still being read
-    int columns_{0}, rows_{0};         // of the surface at begin()
-    std::optional<Camera> before_{};   // view to go back to
-    std::optional<Asked> asked_{};     // input of the shown update
-    std::optional<bool> seen_held_{};  // state of the update that the camera shows
+    Proxy proxy_{};                       // before the update
+    Vec3 goal_{0.0};                      // of the update
+    bool pressed_{false};                 // goal_ was on or under the surface
+    std::int64_t left_tick_{-1};          // in a replay: the tick before the update
+    std::int64_t tick_{-1};               // and the update's tick; -1: still being read
+    int columns_{0}, rows_{0};            // of the surface at begin()
+    std::optional<Camera> before_{};      // view to go back to
+    std::optional<UpdateInput> input_{};  // input of the shown update
+    std::optional<bool> seen_held_{};     // state of the update that the camera shows
     std::int64_t seen_tick_{-1};
     double next_step_s_{0.0};
 };

@@ -77,7 +77,7 @@ std::string picture_name(const ViewerState& state) {
 }
 
 void Screenshots::save(PictureOf of, ColourImage picture, const std::string& name) {
-    asked_.erase(of);
+    requested_.erase(of);
     const auto write = [picture = std::move(picture), file = name + ".png"] {
         return "Saved " + write_new_png(picture, file).string();
     };
@@ -98,8 +98,8 @@ void Screenshots::finish() {
     for (auto& picture : std::exchange(writing_, {})) picture.get();
 }
 
-SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file,
-                               ErrandsInOrder& writing)
+SettingsSaver::SettingsSaver(Settings in_file, Settings started, std::filesystem::path file,
+                             TaskQueue& writing)
     : in_file_(std::move(in_file)),
       started_(std::move(started)),
       agreed_(started_),
@@ -108,8 +108,8 @@ SettingsKeeper::SettingsKeeper(Settings in_file, Settings started, std::filesyst
       file_(std::move(file)),
       writing_(writing) {}
 
-void SettingsKeeper::look(const Settings& now, double now_s) {
-    const Settings wanted = changes_kept(in_file_, started_, now);
+void SettingsSaver::poll(const Settings& now, double now_s) {
+    const Settings wanted = merge_changes(in_file_, started_, now);
     if (!same_settings(wanted, wanted_)) {
         wanted_ = wanted;
         changed_s_ = now_s;
@@ -117,12 +117,12 @@ void SettingsKeeper::look(const Settings& now, double now_s) {
     if (now_s - changed_s_ >= kSettleTime_s) save(now);
 }
 
-void SettingsKeeper::finish(const Settings& now) {
-    wanted_ = changes_kept(in_file_, started_, now);
+void SettingsSaver::finish(const Settings& now) {
+    wanted_ = merge_changes(in_file_, started_, now);
     save(now);
 }
 
-void SettingsKeeper::save(const Settings& now) {
+void SettingsSaver::save(const Settings& now) {
     if (!same_settings(wanted_, written_)) {
         written_ = wanted_;
         writing_.add([settings = wanted_, file = file_] { save_settings(settings, file); });
@@ -171,10 +171,10 @@ FileMemory memory_of(const Media& media) {
     return file.empty() ? FileMemory{} : read_memory(file_memories_path(), file);
 }
 
-Opened try_open(const OpenRequest& request) {
+OpenResult try_open(const OpenRequest& request) {
     try {
-        Opened opened{.request = request};
-        if (request.depth.empty() && names_session(request.colour)) {
+        OpenResult opened{.request = request};
+        if (request.depth.empty() && is_session_file(request.colour)) {
             opened.session = std::make_unique<OpenedSession>(request.colour, false);
         } else {
             opened.media = open_request(request);

@@ -14,8 +14,8 @@
 #include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
-#include "app/viewer/errand.hpp"
 #include "app/viewer/painting.hpp"
+#include "app/viewer/task_group.hpp"
 #include "core/replay/session_player.hpp"
 #include "core/video/sources/media.hpp"
 
@@ -32,8 +32,8 @@ namespace dibhr {
 class Screenshots {
   public:
     /// Requests that the next drawn picture is saved.
-    void ask(PictureOf of) { asked_.insert(of); }
-    [[nodiscard]] bool wants(PictureOf of) const { return asked_.contains(of); }
+    void request(PictureOf of) { requested_.insert(of); }
+    [[nodiscard]] bool wants(PictureOf of) const { return requested_.contains(of); }
 
     /// Starts writing a requested picture into a new file; adds a number where `name` exists.
     void save(PictureOf of, ColourImage picture, const std::string& name);
@@ -45,27 +45,29 @@ class Screenshots {
     void finish();
 
   private:
-    std::set<PictureOf> asked_{};
+    std::set<PictureOf> requested_{};
     std::vector<std::future<std::string>> writing_{};
 };
 
 /// Saves the settings changed in the window, a little after each change and at the end. A change
 /// that protects the hand less is recorded as the user's consent.
-class SettingsKeeper {
+class SettingsSaver {
   public:
     /// `in_file`: as read; `started`: at the window's start, with the command line's values. A
     /// value that was not changed since the start stays in the file as it was.
-    SettingsKeeper(Settings in_file, Settings started, std::filesystem::path file,
-                   ErrandsInOrder& writing);
+    SettingsSaver(Settings in_file, Settings started, std::filesystem::path file,
+                  TaskQueue& writing);
 
     /// Once a picture. Writes when a change is two seconds old; the task queue throws on failure.
-    void look(const Settings& now, double now_s);
+    void poll(const Settings& now, double now_s);
 
     /// At the end: writes what is not yet written.
     void finish(const Settings& now);
 
     /// The user refused these values: the file gets the defaults instead.
-    void forget(const std::vector<Doubt>& doubts) { copy_doubted(doubts, {}, in_file_); }
+    void use_defaults(const std::vector<UnsafeSetting>& unsafe_settings) {
+        copy_unsafe(unsafe_settings, {}, in_file_);
+    }
 
   private:
     void save(const Settings& now);
@@ -76,12 +78,12 @@ class SettingsKeeper {
     Settings wanted_;  // for the file
     Settings written_;
     std::filesystem::path file_;
-    ErrandsInOrder& writing_;
+    TaskQueue& writing_;
     double changed_s_{0.0};
 };
 
 /// Result of opening files: media, a session, or a failure as a sentence.
-struct Opened {
+struct OpenResult {
     OpenRequest request{};
     std::unique_ptr<Media> media{};
     FileMemory memory{};  ///< of the media
@@ -109,6 +111,6 @@ struct Opened {
     const std::vector<std::filesystem::path>& files);
 
 /// Opens media or a session. May wait for disk and network: not for the window's thread.
-[[nodiscard]] Opened try_open(const OpenRequest& request);
+[[nodiscard]] OpenResult try_open(const OpenRequest& request);
 
 }  // namespace dibhr

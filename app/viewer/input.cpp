@@ -42,7 +42,7 @@ constexpr std::array kAfterPicture{Action::record,
                                    Action::take_clip_of_relief,
                                    Action::quit};
 
-bool is_of_a_hand(Action action) {
+bool needs_hand(Action action) {
     return action == Action::toggle_force || action == Action::force_off ||
            action == Action::centre_workspace || action == Action::mark ||
            action == Action::toggle_sound;
@@ -53,10 +53,10 @@ void close_topmost(ViewerState& state) {
         state.ui.message.clear();
     } else if (state.ui.dialog.shown) {
         state.ui.dialog.shown = false;
-    } else if (!state.ui.doubts.empty() && !state.touch.replay) {
-        state.ui.doubts.clear();  // the next start asks again
+    } else if (!state.ui.unsafe_settings.empty() && !state.touch.replay) {
+        state.ui.unsafe_settings.clear();  // the next start asks again
     } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
-        state.commands.push(DepthWish::close);
+        state.commands.push(DepthOfferCommand::close);
     } else {
         state.ui.help_open = false;
     }
@@ -101,41 +101,41 @@ std::optional<double> speed_after(Action action, double speed) {
 }
 
 /// The key's 1st press sets the part's start, the 2nd its end, the 3rd plays all again.
-std::optional<MediaPart> next_part(const Course& course) {
+std::optional<MediaPart> next_part(const PlayState& play_state) {
     constexpr double kForEver_s = std::numeric_limits<double>::infinity();
     constexpr double kShortest_s = 0.04;  // a frame
-    if (!course.part) return MediaPart{course.now_s, kForEver_s};
-    if (course.part->to_s < kForEver_s) return std::nullopt;
-    const auto [from_s, to_s] = std::minmax(course.part->from_s, course.now_s);
+    if (!play_state.part) return MediaPart{play_state.now_s, kForEver_s};
+    if (play_state.part->to_s < kForEver_s) return std::nullopt;
+    const auto [from_s, to_s] = std::minmax(play_state.part->from_s, play_state.now_s);
     return MediaPart{from_s, std::max(to_s, from_s + kShortest_s)};
 }
 
-std::string said_of(const std::optional<MediaPart>& part, const Course& course,
-                    const KeyTable& keys) {
-    const auto at = [&course](double t_s) { return clock_text(t_s - course.begin_s); };
+std::string part_text(const std::optional<MediaPart>& part, const PlayState& play_state,
+                      const KeyTable& keys) {
+    const auto at = [&play_state](double t_s) { return clock_text(t_s - play_state.begin_s); };
     if (!part) return "All is played, no longer a part";
     if (std::isinf(part->to_s))
         return "Loop from " + at(part->from_s) +
-               keys.told(Action::loop_part, " again ends it here");
+               keys.key_hint(Action::loop_part, " again ends it here");
     return "Loop from " + at(part->from_s) + " to " + at(part->to_s);
 }
 
 /// Actions that move a video or session; nothing: the action does not.
-std::optional<Answer> move(Action action, const Course& course, Transport& player,
+std::optional<Answer> move(Action action, const PlayState& play_state, Transport& player,
                            const KeyTable& keys) {
-    const double end_s = std::max(course.begin_s, course.end_s);
+    const double end_s = std::max(play_state.begin_s, play_state.end_s);
     if (const double step_s = seek_step_s(action); std::abs(step_s) > 0.0) {
-        player.seek(std::clamp(course.now_s + step_s, course.begin_s, end_s));
+        player.seek(std::clamp(play_state.now_s + step_s, play_state.begin_s, end_s));
         return Answer{.place = true};
     }
-    if (const auto speed = speed_after(action, course.speed)) {
+    if (const auto speed = speed_after(action, play_state.speed)) {
         player.set_speed(*speed);
         return Answer{"Speed " + short_text(*speed, 3) + "x"};
     }
     switch (action) {
         case Action::play_or_pause:
-            course.playing ? player.pause() : player.play();
-            return Answer{course.playing ? "Pause" : "Play"};
+            play_state.playing ? player.pause() : player.play();
+            return Answer{play_state.playing ? "Pause" : "Play"};
         case Action::step_forward:
             player.step(1);
             return Answer{.place = true};
@@ -143,20 +143,20 @@ std::optional<Answer> move(Action action, const Course& course, Transport& playe
             player.step(-1);
             return Answer{.place = true};
         case Action::go_to_start:
-            player.seek(course.begin_s);
+            player.seek(play_state.begin_s);
             return Answer{.place = true};
         case Action::go_to_end:
-            player.seek(std::max(course.begin_s, end_s - kBeforeEnd_s));
+            player.seek(std::max(play_state.begin_s, end_s - kBeforeEnd_s));
             return Answer{.place = true};
         case Action::loop_part: {
-            const std::optional<MediaPart> part = next_part(course);
+            const std::optional<MediaPart> part = next_part(play_state);
             player.set_part(part);
             if (part) player.set_looping(true);
-            return Answer{said_of(part, course, keys)};
+            return Answer{part_text(part, play_state, keys)};
         }
         case Action::toggle_loop:
-            player.set_looping(!course.looping);
-            return Answer{course.looping ? "Loop off" : "Loop on"};
+            player.set_looping(!play_state.looping);
+            return Answer{play_state.looping ? "Loop off" : "Loop on"};
         default:
             return std::nullopt;
     }
@@ -189,11 +189,11 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
     if (video.live && !replays) {
         if (const auto moved = move_live(action, video.playing, transport)) return *moved;
     }
-    if (const auto moved = move(action, state.course(), transport, state.keys)) {
+    if (const auto moved = move(action, state.play_state(), transport, state.keys)) {
         const bool still = state.media.still && !replays;
         return still ? Answer{"A still picture: nothing plays"} : *moved;
     }
-    if (replays && is_of_a_hand(action)) return {"A replay: no hand is touching"};
+    if (replays && needs_hand(action)) return {"A replay: no hand is touching"};
     if (std::find(kAfterPicture.begin(), kAfterPicture.end(), action) != kAfterPicture.end())
         state.commands.push(action);
     Settings& settings = state.settings;
@@ -205,7 +205,7 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
             state.touch.force_enabled = false;
             return {"Force off"};
         case Action::centre_workspace:
-            ++state.touch.centred;
+            ++state.touch.centre_count;
             return {"Workspace centred"};
         case Action::mark:
             state.commands.push(MarkMoment{std::chrono::steady_clock::now()});
@@ -222,12 +222,13 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
             settings.panels_visible = !settings.panels_visible;
             return {settings.panels_visible
                         ? "Panels shown"
-                        : "Panels hidden" + state.keys.told(Action::toggle_panels, " shows them")};
+                        : "Panels hidden" +
+                              state.keys.key_hint(Action::toggle_panels, " shows them")};
         case Action::next_paint: {
-            ReliefPaint& paint = settings.look.paint;
+            ReliefPaint& paint = settings.relief_style.paint;
             const std::size_t next = static_cast<std::size_t>(paint) + 1;
-            paint = static_cast<ReliefPaint>(next % kReliefPaintWords.size());
-            return {entry_of(kReliefPaintWords, paint).label};
+            paint = static_cast<ReliefPaint>(next % kReliefPaintNames.size());
+            return {entry_of(kReliefPaintNames, paint).label};
         }
         case Action::toggle_others:
             settings.others = !settings.others;

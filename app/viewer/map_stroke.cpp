@@ -36,9 +36,9 @@ TouchMap resized(const TouchMap& map, TouchMapKind kind, int columns, int rows) 
     for (TouchMap::Pixel& pixel : cover.pixels) pixel = {pixel.cover, level_of_share(1.0)};
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
-            const double share = felt_value(cover, i, j, columns, rows, 0.0);
+            const double share = map_value(cover, i, j, columns, rows, 0.0);
             // `value` is weighted by the cover (0 where nothing covers): divide by it.
-            const double value = felt_value(map, i, j, columns, rows, 0.0);
+            const double value = map_value(map, i, j, columns, rows, 0.0);
             if (share > 0.0)
                 other.at(i, j) = {other.level_of(value / share), level_of_share(share)};
         }
@@ -59,7 +59,7 @@ MapStroke::MapStroke(const TouchMaps& before, std::vector<Lay> lays, BrushTip ti
         map = resized(map, lay.kind, columns, rows);
     }
     maps_ = before_;
-    lay(maps_, columns_, rows_);
+    lay_heights(maps_, columns_, rows_);
 }
 
 void MapStroke::go_to(const Vec3& place) {
@@ -75,7 +75,7 @@ void MapStroke::go_to(const Vec3& place) {
     const bool raises = std::any_of(lays_.begin(), lays_.end(), [](const Lay& lay) {
         return lay.kind == TouchMapKind::height;
     });
-    if (raises) lay(maps_, columns_, rows_);
+    if (raises) lay_heights(maps_, columns_, rows_);
 }
 
 void MapStroke::dab(double x, double y) {

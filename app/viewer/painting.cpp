@@ -59,21 +59,21 @@ std::function<double(int, int)> everywhere(double value) {
 
 /// Throws InputError for a material that does not exist any more.
 std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const DepthImage& image) {
-    switch (brush.lays) {
-        case BrushLays::stiffness:
+    switch (brush.layer) {
+        case BrushLayer::stiffness:
             return {{TouchMapKind::stiffness, everywhere(brush.stiffness_newton_per_mm)}};
-        case BrushLays::friction:
+        case BrushLayer::friction:
             return {{TouchMapKind::friction, everywhere(brush.friction)}};
-        case BrushLays::height:
+        case BrushLayer::height:
             return {{TouchMapKind::height, everywhere(brush.height_px)}};
-        case BrushLays::nothing:
+        case BrushLayer::nothing:
             return {{TouchMapKind::stiffness}, {TouchMapKind::friction}, {TouchMapKind::height}};
-        case BrushLays::material:
+        case BrushLayer::material:
             break;
     }
-    const Material material = material_called(brush.material);
+    const Material material = material_named(brush.material);
     TouchParameters laid = felt;
-    lay(material, laid);
+    apply_material(material, laid);
     return {
         {TouchMapKind::stiffness, everywhere(laid.coupling.stiffness_newton_per_mm)},
         {TouchMapKind::friction, everywhere(laid.friction.static_coefficient)},
@@ -81,16 +81,16 @@ std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const 
 }
 
 /// The map whose values are shown; none: show where any paint lies.
-std::optional<TouchMapKind> shown_kind(BrushLays lays) {
-    switch (lays) {
-        case BrushLays::stiffness:
+std::optional<TouchMapKind> shown_kind(BrushLayer layer) {
+    switch (layer) {
+        case BrushLayer::stiffness:
             return TouchMapKind::stiffness;
-        case BrushLays::friction:
+        case BrushLayer::friction:
             return TouchMapKind::friction;
-        case BrushLays::height:
+        case BrushLayer::height:
             return TouchMapKind::height;
-        case BrushLays::material:
-        case BrushLays::nothing:
+        case BrushLayer::material:
+        case BrushLayer::nothing:
             break;
     }
     return std::nullopt;
@@ -99,8 +99,8 @@ std::optional<TouchMapKind> shown_kind(BrushLays lays) {
 /// Colours a picture by a map's values, or with one colour where any paint lies.
 class Tint {
   public:
-    Tint(const TouchMaps& maps, BrushLays lays)
-        : maps_(maps), kind_(shown_kind(lays)), ramp_(colours_of(ColourRamp::viridis)) {}
+    Tint(const TouchMaps& maps, BrushLayer layer)
+        : maps_(maps), kind_(shown_kind(layer)), ramp_(colours_of(ColourRamp::viridis)) {}
 
     [[nodiscard]] ColourImage over(const ColourImage& picture) const {
         ColourImage tinted = picture;
@@ -157,7 +157,7 @@ FoundMaps find_maps(const MediaDescription& media) {
 
 std::shared_ptr<const TouchMaps> ViewerPainting::numbered(TouchMaps maps) {
     maps.version = ++versions_;
-    lay(maps, columns_, rows_);
+    lay_heights(maps, columns_, rows_);
     return std::make_shared<const TouchMaps>(std::move(maps));
 }
 
@@ -189,10 +189,10 @@ void ViewerPainting::end(ViewerState& state) {
     undone_.clear();
     state.ui.brush.on = false;
     state.ui.brush.ring.clear();
-    show_news(state);
+    update_brush(state);
 }
 
-void ViewerPainting::show_news(ViewerState& state) const {
+void ViewerPainting::update_brush(ViewerState& state) const {
     Brush& brush = state.ui.brush;
     brush.refusal = refusal_;
     brush.can_undo = !before_.empty();
@@ -242,16 +242,16 @@ void ViewerPainting::end_stroke(ViewerState& state, Player& player) {
     for (const TouchMapKind kind : all_touch_map_kinds()) {
         if (!painted.of(kind).covers_anything()) painted.of(kind) = {};
     }
-    become(painted.empty() ? nullptr : numbered(std::move(painted)), state, player);
+    replace_maps(painted.empty() ? nullptr : numbered(std::move(painted)), state, player);
 }
 
-void ViewerPainting::become(std::shared_ptr<const TouchMaps> maps, ViewerState& state,
-                            Player& player) {
+void ViewerPainting::replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerState& state,
+                                  Player& player) {
     maps_ = std::move(maps);
     drawn_.reset();
     player.set_maps(maps_);
     to_write_.push_back({depth_, maps_, !is_sample_});
-    show_news(state);
+    update_brush(state);
 }
 
 void ViewerPainting::undo(ViewerState& state, Player& player) {
@@ -259,7 +259,7 @@ void ViewerPainting::undo(ViewerState& state, Player& player) {
     undone_.push_back(maps_);
     std::shared_ptr<const TouchMaps> maps = std::move(before_.back());
     before_.pop_back();
-    become(std::move(maps), state, player);
+    replace_maps(std::move(maps), state, player);
 }
 
 void ViewerPainting::redo(ViewerState& state, Player& player) {
@@ -267,20 +267,20 @@ void ViewerPainting::redo(ViewerState& state, Player& player) {
     before_.push_back(maps_);
     std::shared_ptr<const TouchMaps> maps = std::move(undone_.back());
     undone_.pop_back();
-    become(std::move(maps), state, player);
+    replace_maps(std::move(maps), state, player);
 }
 
 void ViewerPainting::remove_all(ViewerState& state, Player& player) {
     if (stroke_ || !maps_ || !refusal_.empty()) return;
     before_.push_back(maps_);
     undone_.clear();
-    become(nullptr, state, player);
+    replace_maps(nullptr, state, player);
 }
 
 /// Writes one version at a time. A recording may refer to every version; for files only the last
 /// one matters.
 void ViewerPainting::start_writing() {
-    if (to_write_.empty() || writing_.under_way()) return;
+    if (to_write_.empty() || writing_.running()) return;
     const ToWrite next = to_write_.front();
     to_write_.erase(to_write_.begin());
     const bool is_last = std::none_of(
@@ -308,16 +308,16 @@ void ViewerPainting::take_written(TouchRecording& recording) {
     if (!written->failure.empty()) failure_ = written->failure;
 }
 
-void ViewerPainting::take_news(ViewerState& state, TouchRecording& recording) {
-    show_news(state);
+void ViewerPainting::poll(ViewerState& state, TouchRecording& recording) {
+    update_brush(state);
     take_written(recording);
     start_writing();
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }
 
-void ViewerPainting::hand_over(TouchRecording& recording, std::chrono::milliseconds patience) {
+void ViewerPainting::flush_maps(TouchRecording& recording, std::chrono::milliseconds patience) {
     const auto latest = std::chrono::steady_clock::now() + patience;
-    while (writing_.under_way() || !to_write_.empty()) {
+    while (writing_.running() || !to_write_.empty()) {
         start_writing();
         writing_.wait_until(latest);
         take_written(recording);
@@ -326,8 +326,8 @@ void ViewerPainting::hand_over(TouchRecording& recording, std::chrono::milliseco
 }
 
 void ViewerPainting::finish(TouchRecording& recording, std::chrono::milliseconds patience) {
-    hand_over(recording, patience);
-    if (writing_.under_way()) failure_ = depth_.string() + ": what was painted could not be saved";
+    flush_maps(recording, patience);
+    if (writing_.running()) failure_ = depth_.string() + ": what was painted could not be saved";
     if (!failure_.empty()) throw InputError(std::exchange(failure_, {}));
 }
 
@@ -337,17 +337,17 @@ std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
 
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
     const std::shared_ptr<const TouchMaps> maps = drawn();
-    const BrushLays lays = state.ui.brush.lays;
+    const BrushLayer layer = state.ui.brush.layer;
     if (!state.ui.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
     const bool is_same =
-        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_lays_ == lays;
+        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_layer_ == layer;
     if (!is_same) {
         tinted_ = {};
         tinted_.colour =
-            std::make_shared<const ColourImage>(Tint(*maps, lays).over(*frame->colour));
+            std::make_shared<const ColourImage>(Tint(*maps, layer).over(*frame->colour));
         tinted_colour_ = frame->colour;
         tinted_maps_ = maps;
-        tinted_lays_ = lays;
+        tinted_layer_ = layer;
     }
     return &tinted_;
 }

@@ -11,8 +11,8 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/touching/recording.hpp"
-#include "app/viewer/errand.hpp"
 #include "app/viewer/map_stroke.hpp"
+#include "app/viewer/task_group.hpp"
 #include "core/video/playing/player.hpp"
 
 namespace dibhr {
@@ -29,7 +29,7 @@ struct FoundMaps {
 class ViewerPainting {
   public:
     /// The task group must outlive it.
-    explicit ViewerPainting(Errands& errands) : writing_(errands) {}
+    explicit ViewerPainting(TaskGroup& tasks) : writing_(tasks) {}
     ViewerPainting(const ViewerPainting&) = delete;
     ViewerPainting& operator=(const ViewerPainting&) = delete;
 
@@ -52,9 +52,9 @@ class ViewerPainting {
 
     /// Once a picture: updates the brush in `state`, and passes new maps to the recording. Throws
     /// InputError, once, when the maps could not be saved.
-    void take_news(ViewerState& state, TouchRecording& recording);
+    void poll(ViewerState& state, TouchRecording& recording);
     /// Before a recording ends: passes it all maps of its ticks. Waits at most `patience`.
-    void hand_over(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
+    void flush_maps(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
     /// At the end of the program: saves the unsaved maps. Throws InputError.
     void finish(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
 
@@ -75,8 +75,8 @@ class ViewerPainting {
 
     void start_stroke(const DepthBlend& shown, ViewerState& state, Player& player);
     void end_stroke(ViewerState& state, Player& player);
-    void become(std::shared_ptr<const TouchMaps> maps, ViewerState& state, Player& player);
-    void show_news(ViewerState& state) const;
+    void replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerState& state, Player& player);
+    void update_brush(ViewerState& state) const;
     void start_writing();
     void take_written(TouchRecording& recording);
     [[nodiscard]] std::shared_ptr<const TouchMaps> numbered(TouchMaps maps);
@@ -97,13 +97,13 @@ class ViewerPainting {
         bool to_files{false};
     };
     std::vector<ToWrite> to_write_{};
-    Errand<Written> writing_;
-    std::string failure_{};  // for the next take_news()
+    BackgroundTask<Written> writing_;
+    std::string failure_{};  // for the next poll()
     // What tinted_ was made of.
     Frame tinted_{};
     std::shared_ptr<const ColourImage> tinted_colour_{};
     std::shared_ptr<const TouchMaps> tinted_maps_{};
-    BrushLays tinted_lays_{BrushLays::material};
+    BrushLayer tinted_layer_{BrushLayer::material};
 };
 
 }  // namespace dibhr

@@ -14,7 +14,7 @@ constexpr int kMostOfPane_px = 1024;  // side of a texture: a pane is not much l
 void ViewerPanes::show(const DepthBlend& shown, ViewerState& state) {
     state.ui.panes = {};
     if (!shows_panes(state) || !shown.makes_surface()) return;
-    const Frame& frame = shown.coloured();
+    const Frame& frame = shown.colour_frame();
     if (frame.colour && !frame.colour->rgb.empty())
         state.ui.panes.colour = colour_.show(frame.colour, kMostOfPane_px, false);
     const ReliefPaint paint = depth_paint(state);

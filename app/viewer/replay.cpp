@@ -61,7 +61,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     const bool moves = std::any_of(session.sources().begin(), session.sources().end(),
                                    [](const SessionSource& one) { return one.source.in_betweens; });
     state.settings.in_betweens = moves ? InBetweens::on : InBetweens::off;
-    state.touch.replay = ReplayNews{.file = session.file(),
+    state.touch.replay = ReplayInfo{.file = session.file(),
                                     .participant = session.fact("participant"),
                                     .note = session.fact("note"),
                                     .started = session.fact("started"),
@@ -77,7 +77,8 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
     chosen_.reset();
     if (!(wanted == recorded_)) chosen_ = wanted;
     state.settings.touch = wanted;
-    outline_ = std::make_unique<SessionOutline>(session.file(), session.begin_s(), session.end_s());
+    outline_ =
+        std::make_unique<ContactBandReader>(session.file(), session.begin_s(), session.end_s());
     player_ = std::make_unique<SessionPlayer>(std::move(opened));
     state.touch.replay->playback = player_->playback();  // for a key in this picture
     if (chosen_) player_->compute(chosen_);
@@ -102,7 +103,8 @@ void ViewerReplay::advance(ViewerState& state, SessionPlayer::Time now) {
     player_->advance(now, [&state, this](const SessionMoment& moment) {
         const Touch touch = touch_of(moment);
         const TickRecord& tick = moment.tick;
-        const bool goes_on = tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.lets_go;
+        const bool goes_on =
+            tick.tick == passed_tick_ + 1 && !tick.from_zero && !tick.releases_contact;
         const double pitch_mm = state.settings.touch.coupling.pixel_pitch_mm;
         state.touch.strips.add(
             strip_of(passed_, touch, goes_on ? tick.dt_s : 0.0, tick.lateness_us, pitch_mm));
@@ -127,7 +129,7 @@ void ViewerReplay::show(const SessionMoment& moment, ViewerState& state) {
     state.touch.haptic.hand = {.goal_in_grid = tick.goal,
                                .buttons = tick.buttons,
                                .ready = tick.device_ready,
-                               .stand_in = tick.stand_in};
+                               .mouse_fallback = tick.mouse_fallback};
     state.touch.bump = moment.bump;
     if (moment.parameters != nullptr) {
         recorded_ = moment.parameters->touch;
@@ -150,7 +152,7 @@ void ViewerReplay::follow_panels(const ViewerState& state) {
     player_->compute(chosen_);
 }
 
-void ViewerReplay::put_back(ViewerState& state) {
+void ViewerReplay::restore_recorded(ViewerState& state) {
     if (!player_) return;
     chosen_.reset();
     state.settings.touch = recorded_;
@@ -163,7 +165,7 @@ DepthBlend ViewerReplay::shown() const {
     return {&moment->frames->from, &moment->frames->to, moment->tick.blend};
 }
 
-Settings ViewerReplay::lasting(const ViewerState& state) const {
+Settings ViewerReplay::settings_to_save(const ViewerState& state) const {
     Settings settings = state.settings;
     if (player_) {
         settings.touch = touch_;

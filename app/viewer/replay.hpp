@@ -27,19 +27,19 @@ class ViewerReplay {
     /// After the panels: computes with other parameters if the user has changed them.
     void follow_panels(const ViewerState& state);
     /// Shows the recorded parameters again.
-    void put_back(ViewerState& state);
+    void restore_recorded(ViewerState& state);
 
     /// The frames of the shown moment.
     [[nodiscard]] DepthBlend shown() const;
 
     /// The settings to save: without the values that only show the recording.
-    [[nodiscard]] Settings lasting(const ViewerState& state) const;
+    [[nodiscard]] Settings settings_to_save(const ViewerState& state) const;
 
   private:
     void show(const SessionMoment& moment, ViewerState& state);
 
     std::unique_ptr<SessionPlayer> player_{};
-    std::unique_ptr<SessionOutline> outline_{};
+    std::unique_ptr<ContactBandReader> outline_{};
     TouchParameters recorded_{};               // of the shown moment
     std::optional<TouchParameters> chosen_{};  // instead of them
     Touch passed_{};                           // of the last tick that was played

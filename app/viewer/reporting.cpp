@@ -53,36 +53,36 @@ bool Reporting::start(const fs::path& session) {
     }
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(child), kPolitely);
     child_ = child;
-    said_.clear();
-    said_end_ = errors[0];
+    errors_.clear();
+    error_pipe_ = errors[0];
     page_ = folder / "report.html";
     return true;
 }
 
-void Reporting::take_what_is_said() {
+void Reporting::read_errors() {
     std::array<char, 512> piece{};
     for (ssize_t count = 1; count > 0;) {
-        count = ::read(said_end_, piece.data(), piece.size());
-        if (count > 0) said_.append(piece.data(), static_cast<std::size_t>(count));
+        count = ::read(error_pipe_, piece.data(), piece.size());
+        if (count > 0) errors_.append(piece.data(), static_cast<std::size_t>(count));
     }
 }
 
 std::optional<fs::path> Reporting::take() {
     if (child_ == 0) return {};
-    take_what_is_said();  // else the child could block on a full pipe
+    read_errors();  // else the child could block on a full pipe
     int status = 0;
     if (::waitpid(child_, &status, WNOHANG) != child_) return {};
-    take_what_is_said();
-    ::close(said_end_);
+    read_errors();
+    ::close(error_pipe_);
     child_ = 0;
     if (status != 0)
-        throw InputError(said_.empty() ? "the report was not made: its program was ended"
-                                       : sentence_in(said_));
+        throw InputError(errors_.empty() ? "the report was not made: its program was ended"
+                                         : sentence_in(errors_));
     return page_;
 }
 
 Reporting::~Reporting() {
-    if (child_ != 0) ::close(said_end_);
+    if (child_ != 0) ::close(error_pipe_);
 }
 
 void show_in_browser(const fs::path& page) {

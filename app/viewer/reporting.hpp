@@ -26,12 +26,12 @@ class Reporting {
     [[nodiscard]] std::optional<std::filesystem::path> take();
 
   private:
-    void take_what_is_said();
+    void read_errors();
 
     std::filesystem::path page_{};
-    std::string said_{};  // from the child's stderr
-    pid_t child_{0};      // 0: none is running
-    int said_end_{-1};    // read end of the pipe
+    std::string errors_{};  // from the child's stderr
+    pid_t child_{0};        // 0: none is running
+    int error_pipe_{-1};    // read end of the pipe
 };
 
 /// Opens a page in the desktop's browser; does nothing where there is none.

@@ -8,32 +8,32 @@
 
 namespace dibhr {
 
-void ServiceSettings::follow(const Settings& settings, std::vector<DeviceNews>& devices) {
-    for (DeviceNews& news : devices) {
-        if (force_device_kinds()[news.kind]->ask_kept == nullptr) continue;
-        follow(settings, news, asking_.try_emplace(news.kind, errands_).first->second);
+void ServiceSettings::update(const Settings& settings, std::vector<DeviceInfo>& devices) {
+    for (DeviceInfo& info : devices) {
+        if (force_device_kinds()[info.kind]->read_kept_settings == nullptr) continue;
+        update(settings, info, asking_.try_emplace(info.kind, tasks_).first->second);
     }
 }
 
-void ServiceSettings::follow(const Settings& settings, DeviceNews& news, Asking& asking) {
+void ServiceSettings::update(const Settings& settings, DeviceInfo& info, Asking& asking) {
     constexpr int kMostTries = 3;
     constexpr std::chrono::seconds kBetween{3};
-    if (auto kept = asking.answer.take()) news.kept = std::move(*kept);
-    if (asking.answer.under_way()) return;
-    if (news.state.id != asking.device) {
-        asking.device = news.state.id;
-        news.kept.clear();
+    if (auto kept = asking.answer.take()) info.kept = std::move(*kept);
+    if (asking.answer.running()) return;
+    if (info.state.id != asking.device) {
+        asking.device = info.state.id;
+        info.kept.clear();
         asking.tries = 0;
         asking.at = {};
     }
     const auto now = std::chrono::steady_clock::now();
-    if (asking.device.empty() || !news.kept.empty() || asking.tries == kMostTries ||
+    if (asking.device.empty() || !info.kept.empty() || asking.tries == kMostTries ||
         now < asking.at + kBetween)
         return;
     ++asking.tries;
     asking.at = now;
-    asking.answer.start([ask = force_device_kinds()[news.kind]->ask_kept,
-                         own = settings.devices[news.kind].clone(),
+    asking.answer.start([ask = force_device_kinds()[info.kind]->read_kept_settings,
+                         own = settings.devices[info.kind].clone(),
                          device = asking.device] { return ask(*own, device); });
 }
 

@@ -9,31 +9,31 @@
 
 #include "app/settings/settings.hpp"
 #include "app/touching/touch_state.hpp"
-#include "app/viewer/errand.hpp"
+#include "app/viewer/task_group.hpp"
 
 namespace dibhr {
 
 /// Requested when a device is found, again a few times while no answer comes, on other threads.
 class ServiceSettings {
   public:
-    explicit ServiceSettings(Errands& errands) : errands_(errands) {}
+    explicit ServiceSettings(TaskGroup& tasks) : tasks_(tasks) {}
 
     /// Once a picture, after the session's poll(): copies the answers into `devices`.
-    void follow(const Settings& settings, std::vector<DeviceNews>& devices);
+    void update(const Settings& settings, std::vector<DeviceInfo>& devices);
 
   private:
     struct Asking {
-        explicit Asking(Errands& errands) : answer(errands) {}
+        explicit Asking(TaskGroup& tasks) : answer(tasks) {}
 
         std::string device{};  ///< id of the device of the last request
         int tries{0};
         std::chrono::steady_clock::time_point at{};
-        Errand<std::vector<DeviceLine>> answer;
+        BackgroundTask<std::vector<DeviceLine>> answer;
     };
 
-    static void follow(const Settings& settings, DeviceNews& news, Asking& asking);
+    static void update(const Settings& settings, DeviceInfo& info, Asking& asking);
 
-    Errands& errands_;
+    TaskGroup& tasks_;
     std::map<std::size_t, Asking> asking_{};  // by the device's kind
 };
 

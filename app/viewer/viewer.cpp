@@ -28,7 +28,7 @@ constexpr double kNoticeTime_s = 4.0;
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 
 /// `begin_s`: begin of the media, on its own clock.
-void play_as_asked(const ViewOptions& options, double begin_s, Transport& player) {
+void apply_play_options(const ViewOptions& options, double begin_s, Transport& player) {
     if (options.end_s)
         player.set_part(MediaPart{begin_s + options.open.at_s, begin_s + *options.end_s});
     if (options.speed) player.set_speed(*options.speed);
@@ -36,7 +36,7 @@ void play_as_asked(const ViewOptions& options, double begin_s, Transport& player
 }
 
 /// The saved or requested size; else the default, which grows with the text.
-WindowSize asked_size(const ViewOptions& options) {
+WindowSize requested_size(const ViewOptions& options) {
     const Settings& settings = options.settings;
     const Settings standard;
     const bool chosen = options.size_given || settings.width != standard.width ||
@@ -47,45 +47,46 @@ WindowSize asked_size(const ViewOptions& options) {
 
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
-               ToldLog& log)
+Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& shutdown,
+               TaskGroup& tasks, MessageLog& log)
     : options_(options),
-      ending_(ending),
+      shutdown_(shutdown),
       log_(log),
-      window_(asked_size(options), options.sync, "dibhr"),
+      window_(requested_size(options), options.sync, "dibhr"),
       gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
       software_(read_limits().software),
-      pace_(shortest_picture(options.sync, software_)),
+      pace_(least_picture_time(options.sync, software_)),
       state_{.settings = options.settings,
              .keys = KeyTable(options.settings.keys),
-             .ui = {.doubts = options.doubts}},
-      service_settings_(errands),
-      opening_(errands),
-      clip_(errands, ending.words()),
-      estimating_(errands),
-      browsing_(errands),
-      desktop_(errands),
-      painting_(errands),
-      lasting_(errands),
-      keeper_(options.in_file, options.settings, options.settings_file, lasting_),
+             .ui = {.unsafe_settings = options.unsafe_settings}},
+      service_settings_(tasks),
+      opening_(tasks),
+      clip_(tasks, shutdown.crash_note()),
+      estimating_(tasks),
+      browsing_(tasks),
+      desktop_(tasks),
+      painting_(tasks),
+      save_queue_(tasks),
+      settings_saver_(options.in_file, options.settings, options.settings_file, save_queue_),
       start_(steady_clock::now()),
-      touch_(std::move(parts.hand), {heart_, ending.without_force(), ending.words()},
+      touch_(std::move(parts.hand), {heart_, shutdown.without_force(), shutdown.crash_note()},
              {state_.settings, state_.touch, state_.media}) {
-    if (software_) let_drawing_give_way();
+    if (software_) lower_drawing_priority();
     window_.on_display_loss([this] { close_without_display(); });
-    ending_.watch_display(display_connection());
+    shutdown_.watch_display(display_connection());
     state_.touch.bump = std::move(parts.bump);
     state_.touch.bump_file = std::move(parts.bump_file);
     state_.touch.material = std::move(parts.material);
     state_.ui.materials = material_names();
     state_.ui.message = capitalised(parts.damage);
-    wear_look();
+    apply_style();
     if (options.full_screen) window_.toggle_full_screen();
-    if (!options.clip.empty()) clip_.start(options.clip, ClipName::replaces, options.pictures_of);
+    if (!options.clip.empty())
+        clip_.start(options.clip, ClipNameConflict::replaces, options.pictures_of);
     if (parts.session) {
         replay_session(std::move(parts.session));
         SessionPlayer& replay = *replay_.player();
-        play_as_asked(options, replay.playback().begin_s, replay);
+        apply_play_options(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
         if (options.open.paused) replay.pause();
         return;
@@ -104,17 +105,17 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Er
     }
     show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
-    play_as_asked(options, 0.0, touch_.player());
+    apply_play_options(options, 0.0, touch_.player());
 }
 
 Viewer::~Viewer() {
-    ending_.watch_display(-1);
+    shutdown_.watch_display(-1);
     window_.on_display_loss({});
 }
 
 void Viewer::run() {
     start_ = steady_clock::now();
-    ending_.words().doing("drawing");
+    shutdown_.crash_note().set_activity("drawing");
     while (!over()) {
         show_one_picture();
         pace_.wait();
@@ -124,19 +125,19 @@ void Viewer::run() {
 
 /// Beats once the display has answered, so that a hung display stops the heartbeat, too.
 void Viewer::beat() {
-    window_.meet_display();
+    window_.ping_display();
     heart_.beat();
 }
 
 /// The display is lost: saves all without the window.
 void Viewer::close_without_display() {
-    ending_.words().doing("closing without a display");
-    desktop_.call_off();
+    shutdown_.crash_note().set_activity("closing without a display");
+    desktop_.cancel();
     state_.ui.message.clear();
     touch_.stop();
     estimating_.end();
     const std::atomic<bool> at_once{true};
-    write_what_lasts(at_once, [this](const char*, const auto& step) { attempt(step); });
+    save_all(at_once, [this](const char*, const auto& step) { attempt(step); });
     touch_.close_device();
     if (!state_.ui.message.empty()) print_error_line(state_.ui.message);
 }
@@ -144,7 +145,7 @@ void Viewer::close_without_display() {
 void Viewer::finish() {
     std::string failure;
     const auto try_to = [&](const char* what, const auto& step) {
-        ending_.words().doing(what);
+        shutdown_.crash_note().set_activity(what);
         try {
             step();
         } catch (const Error& error) {
@@ -153,45 +154,47 @@ void Viewer::finish() {
     };
     // First the force: no force is sent while files are written.
     try_to("taking the force off", [this] {
-        if (const auto schedule = touch_.stop()) keep_lateness(*schedule);
+        if (const auto schedule = touch_.stop()) log_lateness(*schedule);
         estimating_.end();
     });
     try_to("writing the last picture", [this] { write_last_picture(); });
     try_to("writing the last picture", [this] { take_last_screenshot(); });
-    write_what_lasts(ending_.asked(), try_to);
-    ending_.words().doing("closing the window");
+    save_all(shutdown_.requested(), try_to);
+    shutdown_.crash_note().set_activity("closing the window");
     if (!failure.empty()) throw InputError(failure);
 }
 
 /// Calls `try_to` with name and function of each step. `at_once`, once true, shortens the timeouts.
 template <typename Try>
-void Viewer::write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to) {
-    ending_.words().doing("saving the settings");
+void Viewer::save_all(const std::atomic<bool>& at_once, const Try& try_to) {
+    shutdown_.crash_note().set_activity("saving the settings");
     explaining_.end(state_, camera_);
     keep_memory();
-    keeper_.finish(lasting_settings());
+    settings_saver_.finish(settings_to_save());
     TouchRecording& recording = touch_.recording();
-    try_to("saving the settings",
-           [&] { lasting_.finish(at_once ? kPatienceAtAnEnd : std::chrono::milliseconds(10000)); });
+    try_to("saving the settings", [&] {
+        save_queue_.finish(at_once ? kPatienceAtAnEnd : std::chrono::milliseconds(10000));
+    });
     try_to("writing pictures", [&] { screenshots_.finish(); });
     try_to("saving what was painted", [&] {
         at_once ? painting_.finish(recording, kPatienceAtAnEnd) : painting_.finish(recording);
     });
-    try_to("finishing the clip", [&] { clip_.finish(at_once ? ClipEnd::at_once : ClipEnd::well); });
+    try_to("finishing the clip",
+           [&] { clip_.finish(at_once ? ClipEnd::at_once : ClipEnd::indexed); });
     try_to("closing the recording",
            [&] { recording.finish(at_once ? kPatienceAtAnEnd : Recorder::kPatience); });
 }
 
 /// Once a picture: the window may have moved to a display of another scale.
-void Viewer::wear_look() {
+void Viewer::apply_style() {
     const Settings& settings = state_.settings;
-    gui_.wear({window_.scale(settings.ui_scale), settings.theme});
+    gui_.apply({window_.scale(settings.ui_scale), settings.theme});
     state_.ui.fonts = gui_.fonts();
     state_.ui.scale = gui_.scale();
 }
 
 void Viewer::show_one_picture() {
-    wear_look();
+    apply_style();
     const WindowInput input = window_.take_input();
     beat();
     poll();
@@ -206,7 +209,7 @@ void Viewer::show_one_picture() {
     show_recording_trouble();  // a command may have ended it
     publish();
     keep_settings();
-    keep_told();
+    log_messages();
     if (software_) beat_while_drawing([this] { beat(); });
     window_.show_picture();
     require_graphics();
@@ -219,7 +222,8 @@ void Viewer::show_one_picture() {
 void Viewer::draw_picture(const WindowInput& input) {
     const glm::ivec2 viewport = relief_viewport();
     draw_scene(viewport);
-    if (wants_picture(PictureOf::relief)) hand_out(PictureOf::relief, read_framebuffer(viewport));
+    if (wants_picture(PictureOf::relief))
+        deliver_picture(PictureOf::relief, read_framebuffer(viewport));
     beat();
     draw_panels(input.keys);
     beat();
@@ -239,29 +243,29 @@ void Viewer::poll() {
     }
     playback_failure_ = failure;
     attempt([this] {
-        while (const auto notice = screenshots_.take()) tell(*notice);
+        while (const auto notice = screenshots_.take()) show_notice(*notice);
     });
     attempt([this] {
-        if (const auto notice = clip_.take_news(state_)) tell(*notice);
+        if (const auto notice = clip_.poll(state_)) show_notice(*notice);
     });
-    attempt([this] { painting_.take_news(state_, touch_.recording()); });
+    attempt([this] { painting_.poll(state_, touch_.recording()); });
     take_report();
-    if (const auto made = estimating_.take_news(state_)) open(*made);
+    if (const auto made = estimating_.poll(state_)) open(*made);
 }
 
 /// Polls replay, touching, device buttons and recording.
 void Viewer::poll_touch() {
     if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
-    for (const std::string& notice : touch_.poll(window_.in_front())) tell(notice);
-    service_settings_.follow(state_.settings, state_.touch.devices);
-    for (const GripPress& press : touch_.take_presses()) {
+    for (const std::string& notice : touch_.poll(window_.in_front())) show_notice(notice);
+    service_settings_.update(state_.settings, state_.touch.devices);
+    for (const DeviceButtonPress& press : touch_.take_presses()) {
         const std::optional<Action> action = entry_of(button_jobs(), press.action).perform;
         for (std::uint32_t k = 0; action && k < press.times; ++k) perform(*action);
     }
     state_.ui.touched = state_.ui.touched || state_.touch.haptic.touch.proxy.contact;
     TouchRecording& recording = touch_.recording();
     recording.poll();
-    if (const auto notice = recording.take_finished()) tell(*notice);
+    if (const auto notice = recording.take_finished()) show_notice(*notice);
     show_recording_trouble();
 }
 
@@ -289,13 +293,14 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
         !state_.ui.brush.on) {
         draw_hint(state_, Hint::touch, hint_alpha_);
-        const bool wonders = hint_alpha_ <= 0.0F && state_.touch.haptic.touch.proxy.contact;
-        if (wonders) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
+        const bool may_press_deeper =
+            hint_alpha_ <= 0.0F && state_.touch.haptic.touch.proxy.contact;
+        if (may_press_deeper) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
     }
     draw_overlay(state_, now_s());
     draw_nothing_open(state_);
     draw_explained();
-    draw_doubts(state_);
+    draw_unsafe_settings(state_);
     draw_depth_offer(state_);
     draw_open_dialog(state_);
     draw_help_sheet(state_);
@@ -308,7 +313,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     };
     draw_over_pictures(state_, read);
     gui_.end();
-    if (wanted) hand_out(PictureOf::window, std::move(picture));
+    if (wanted) deliver_picture(PictureOf::window, std::move(picture));
 }
 
 void Viewer::draw_explained() {
@@ -332,10 +337,11 @@ void Viewer::keep_settings() {
         state_.settings.height = size.y;
     }
     attempt([this] {
-        keeper_.look(lasting_settings(), now_s());
-        lasting_.look();
+        settings_saver_.poll(settings_to_save(), now_s());
+        save_queue_.poll();
     });
-    if (!state_.ui.doubts.empty()) drop_changed(state_.ui.doubts, state_.settings);
+    if (!state_.ui.unsafe_settings.empty())
+        drop_changed(state_.ui.unsafe_settings, state_.settings);
 }
 
 bool Viewer::wants_picture(PictureOf of) const {
@@ -344,7 +350,7 @@ bool Viewer::wants_picture(PictureOf of) const {
 }
 
 /// Passes a picture to screenshot and clip where they need it.
-void Viewer::hand_out(PictureOf of, ColourImage picture) {
+void Viewer::deliver_picture(PictureOf of, ColourImage picture) {
     const auto now = steady_clock::now();
     if (screenshots_.wants(of)) screenshots_.save(of, picture, picture_name(state_));
     if (shown_.makes_surface() && clip_.wants(of, now)) clip_.add(std::move(picture), now);
@@ -367,25 +373,25 @@ void Viewer::take_last_screenshot() {
 }
 
 /// Logs new messages and device banners, wherever they were set.
-void Viewer::keep_told() {
-    log_.keep_change("message", state_.ui.message);
-    log_.keep_change("device", device_banner(state_.settings, state_.touch));
+void Viewer::log_messages() {
+    log_.append_if_changed("message", state_.ui.message);
+    log_.append_if_changed("device", device_banner(state_.settings, state_.touch));
     attempt([this] { log_.write(); });
 }
 
-void Viewer::keep_lateness(const TickSchedule& schedule) {
+void Viewer::log_lateness(const TickSchedule& schedule) {
     const double worst_ms =
         std::chrono::duration<double, std::milli>(schedule.lateness().worst()).count();
-    log_.keep("ticks", std::to_string(schedule.ticks()) + ", late " +
-                           std::to_string(schedule.late_ticks()) + ", the worst by " +
-                           number_text(worst_ms, 3) + " ms");
+    log_.append("ticks", std::to_string(schedule.ticks()) + ", late " +
+                             std::to_string(schedule.late_ticks()) + ", the worst by " +
+                             number_text(worst_ms, 3) + " ms");
 }
 
-void Viewer::tell(const std::string& notice) {
+void Viewer::show_notice(const std::string& notice) {
     const bool shown = notice == state_.ui.notice && now_s() < state_.ui.notice_until_s;
-    if (!shown) log_.keep("told", notice);
+    if (!shown) log_.append("told", notice);
     state_.ui.notice = notice;
-    state_.ui.notice_of_place = false;
+    state_.ui.notice_shows_position = false;
     state_.ui.notice_until_s = now_s() + kNoticeTime_s;
 }
 
@@ -399,14 +405,14 @@ double Viewer::now_s() const {
 }
 
 bool Viewer::over() {
-    return ending_.asked() || window_.wants_to_close() ||
+    return shutdown_.requested() || window_.close_requested() ||
            (options_.seconds && now_s() >= *options_.seconds) ||
            (!options_.clip.empty() && played_to_the_end());
 }
 
 /// Whether playing has ended and does not loop.
 bool Viewer::played_to_the_end() const {
-    const Course at = state_.course();
+    const PlayState at = state_.play_state();
     if (at.playing || at.looping) return false;
     if (state_.touch.replay) return at.now_s >= at.last_s();
     const PlaybackStatus& video = state_.media.playback;

@@ -22,20 +22,20 @@
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
-#include "app/viewer/errand.hpp"
 #include "app/viewer/estimating.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/message_log.hpp"
 #include "app/viewer/painting.hpp"
 #include "app/viewer/panes.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/service_settings.hpp"
-#include "app/viewer/told_log.hpp"
+#include "app/viewer/task_group.hpp"
 #include "app/viewer/trace.hpp"
-#include "app/window/ending.hpp"
 #include "app/window/gui.hpp"
+#include "app/window/shutdown_watchdog.hpp"
 #include "app/window/window.hpp"
 #include "core/error.hpp"
 #include "core/realtime/heartbeat.hpp"
@@ -67,9 +67,10 @@ struct ViewOptions {
     bool any_media{false};   ///< replay: also over files that have changed
     TouchRequest touch{};    ///< the command line's; it overrides a session's
     std::filesystem::path settings_file{settings_path()};  ///< where settings are saved
-    Settings in_file{};           ///< as read; the window saves only changes of it
-    std::vector<Doubt> doubts{};  ///< of it: defaults are used until the user agrees
-    Settings settings{};          ///< in_file with the command line's values
+    Settings in_file{};  ///< as read; the window saves only changes of it
+    std::vector<UnsafeSetting>
+        unsafe_settings{};  ///< of it: defaults are used until the user agrees
+    Settings settings{};    ///< in_file with the command line's values
     PictureHook after_picture{};
 };
 
@@ -99,8 +100,8 @@ struct OwnRelief {
 class Viewer {
   public:
     /// Opens the window and starts the loop. All references must outlive the viewer. Throws Error.
-    Viewer(const ViewOptions& options, ViewerParts parts, Ending& ending, Errands& errands,
-           ToldLog& log);
+    Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& shutdown,
+           TaskGroup& tasks, MessageLog& log);
     /// Removes the handler for a lost display.
     ~Viewer();
     Viewer(const Viewer&) = delete;
@@ -112,7 +113,7 @@ class Viewer {
 
   private:
     void show_one_picture();
-    void wear_look();
+    void apply_style();
     void poll();
     void poll_touch();
     void show_recording_trouble();
@@ -137,17 +138,17 @@ class Viewer {
     void perform_after_picture(Action action);
     void publish();
     void keep_settings();
-    void take_word(bool agreed);
+    void answer_unsafe_settings(bool agreed);
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
                     const FileMemory& memory, FoundMaps maps);
     void keep_memory();
-    void take_memory(const FileMemory& memory, const OpenRequest& request);
+    void apply_memory(const FileMemory& memory, const OpenRequest& request);
     void forget_relief();
     void replay_session(std::unique_ptr<OpenedSession> session);
     void keep_recent(const RecentFile& opened);
     void show_title(const std::filesystem::path& file);
     /// The user's choices, without values that media or a replay have set.
-    [[nodiscard]] Settings lasting_settings() const;
+    [[nodiscard]] Settings settings_to_save() const;
     void fit_to_media();
     void keep_panel(const std::filesystem::path& depth_before);
     void open_again(const DepthStatement& panel);
@@ -155,26 +156,26 @@ class Viewer {
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
     void leave_trace(TouchMarkers& markers);
-    void take_material(const std::string& name);
+    void use_material(const std::string& name);
     void keep_material(const std::string& name);
     void start_or_stop_recording();
     void start_or_stop_clip(PictureOf of);
     [[nodiscard]] bool wants_picture(PictureOf of) const;
-    void hand_out(PictureOf of, ColourImage picture);
+    void deliver_picture(PictureOf of, ColourImage picture);
     void beat();
     void finish();
     void close_without_display();
     template <typename Try>
-    void write_what_lasts(const std::atomic<bool>& at_once, const Try& try_to);
+    void save_all(const std::atomic<bool>& at_once, const Try& try_to);
     void write_last_picture();
     void take_last_screenshot();
     /// Shows a notice instead while the last files are still being opened.
     void open(const OpenRequest& request);
     void make_report(const std::filesystem::path& session);
     void take_report();
-    void tell(const std::string& notice);
-    void keep_told();
-    void keep_lateness(const TickSchedule& schedule);
+    void show_notice(const std::string& notice);
+    void log_messages();
+    void log_lateness(const TickSchedule& schedule);
     /// Calls `step`; shows its error in the message box.
     template <typename Step>
     void attempt(const Step& step) {
@@ -193,8 +194,8 @@ class Viewer {
 
     // touch_ is last: it is destroyed first, so that no force is sent while the rest is destroyed.
     ViewOptions options_;
-    Ending& ending_;
-    ToldLog& log_;
+    ShutdownWatchdog& shutdown_;
+    MessageLog& log_;
     Heartbeat heart_{};  // of the window's thread and the display
     Window window_;
     Gui gui_;
@@ -206,7 +207,7 @@ class Viewer {
     std::optional<Vec3> pointed_at_{};  // on the drawn surface
     ViewerState state_{};
     ServiceSettings service_settings_;
-    Errand<Opened> opening_;
+    BackgroundTask<OpenResult> opening_;
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;
@@ -216,8 +217,8 @@ class Viewer {
     DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
-    ErrandsInOrder lasting_;  // writes settings, file memories, recent files
-    SettingsKeeper keeper_;
+    TaskQueue save_queue_;  // writes settings, file memories, recent files
+    SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this picture
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};

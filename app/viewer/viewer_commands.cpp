@@ -12,28 +12,28 @@ namespace dibhr {
 
 void Viewer::carry_out_commands() {
     if (state_.touch.replay) replay_.follow_panels(state_);
-    if (const auto notice = browsing_.advance(state_)) tell(*notice);
+    if (const auto notice = browsing_.advance(state_)) show_notice(*notice);
     const Overloaded carry_out{
         [this](Action action) { perform_after_picture(action); },
         [this](const OpenRequest& request) { open(request); },
         [this](const DepthStatement& said) { open_again(said); },
-        [this](DepthWish wish) {
+        [this](DepthOfferCommand command) {
             attempt([&] {
-                if (const auto made = estimating_.perform(wish, state_)) open(*made);
+                if (const auto made = estimating_.perform(command, state_)) open(*made);
             });
         },
         [this](const TypedFile& entered) { browsing_.enter(entered, state_.ui.dialog); },
-        [this](SaveSidecar) { attempt([this] { tell(save_sidecar()); }); },
+        [this](SaveSidecar) { attempt([this] { show_notice(save_sidecar()); }); },
         [this](const LoadBump& bump) { load_bump(bump.file); },
-        [this](const UseMaterial& material) { take_material(material.name); },
+        [this](const UseMaterial& material) { use_material(material.name); },
         [this](const KeepMaterial& material) { keep_material(material.name); },
         [this](const UseFirmware& firmware) {
-            attempt([&] { tell(touch_.use_firmware(firmware.file)); });
+            attempt([&] { show_notice(touch_.use_firmware(firmware.file)); });
         },
-        [this](AnswerDoubts answer) { take_word(answer.agreed); },
+        [this](AnswerUnsafeSettings answer) { answer_unsafe_settings(answer.agreed); },
         [this](RemovePaint) { painting_.remove_all(state_, touch_.player()); },
-        [this](MarkMoment mark) { tell(touch_.recording().mark(state_.keys, mark.at)); },
-        [this](ReplayAsRecorded) { replay_.put_back(state_); },
+        [this](MarkMoment mark) { show_notice(touch_.recording().mark(state_.keys, mark.at)); },
+        [this](ReplayAsRecorded) { replay_.restore_recorded(state_); },
         [this](LeaveReplay) {
             const MediaDescription& video = state_.media;
             open({video.colour_path, video.depth_path});
@@ -53,11 +53,11 @@ void Viewer::perform_after_picture(Action action) {
             return frame_relief();
         case Action::toggle_full_screen:
             window_.toggle_full_screen();
-            return tell(window_.full_screen() ? "Full screen" : "Full screen off");
+            return show_notice(window_.full_screen() ? "Full screen" : "Full screen off");
         case Action::take_screenshot:
-            return screenshots_.ask(PictureOf::window);
+            return screenshots_.request(PictureOf::window);
         case Action::take_screenshot_of_relief:
-            return screenshots_.ask(PictureOf::relief);
+            return screenshots_.request(PictureOf::relief);
         case Action::take_clip:
             return start_or_stop_clip(PictureOf::window);
         case Action::take_clip_of_relief:
@@ -70,22 +70,22 @@ void Viewer::perform_after_picture(Action action) {
 }
 
 /// The user's answer about settings that protect the hand less.
-void Viewer::take_word(bool agreed) {
-    const std::vector<Doubt> doubts = std::exchange(state_.ui.doubts, {});
-    if (!agreed) return keeper_.forget(doubts);
-    copy_doubted(doubts, options_.in_file, state_.settings);
-    lasting_.add([doubts] { Consent().agree(doubts); });
+void Viewer::answer_unsafe_settings(bool agreed) {
+    const std::vector<UnsafeSetting> unsafe_settings = std::exchange(state_.ui.unsafe_settings, {});
+    if (!agreed) return settings_saver_.use_defaults(unsafe_settings);
+    copy_unsafe(unsafe_settings, options_.in_file, state_.settings);
+    save_queue_.add([unsafe_settings] { Consent().agree(unsafe_settings); });
 }
 
 void Viewer::start_or_stop_recording() {
     TouchRecording& recording = touch_.recording();
     if (state_.touch.replay) {
-        tell("A replay is not recorded: open a video to touch");
-    } else if (recording.asked_for()) {
-        painting_.hand_over(recording);
-        tell(recording.stop());
+        show_notice("A replay is not recorded: open a video to touch");
+    } else if (recording.active_or_waiting()) {
+        painting_.flush_maps(recording);
+        show_notice(recording.stop());
     } else if (recording.finishing()) {
-        tell("Still finishing the last recording");
+        show_notice("Still finishing the last recording");
     } else if (!touch_.may_record()) {
         state_.commands.push(Action::record);  // try again after the next picture
     } else {
@@ -93,20 +93,20 @@ void Viewer::start_or_stop_recording() {
             const std::string file = new_file_name("dibhr");
             state_.media.live ? recording.start_live(file) : recording.start(file);
             state_.ui.show_session = true;
-            tell("Recording into " + file);
+            show_notice("Recording into " + file);
         });
     }
 }
 
 void Viewer::start_or_stop_clip(PictureOf of) {
     if (clip_.stopped()) {
-        tell("Still finishing the last clip");
+        show_notice("Still finishing the last clip");
     } else if (clip_.active()) {
         clip_.stop();
-        tell("Finishing the clip");
+        show_notice("Finishing the clip");
     } else {
         attempt([&] {
-            clip_.start(picture_name(state_) + ".mp4", ClipName::stands_beside, of);
+            clip_.start(picture_name(state_) + ".mp4", ClipNameConflict::adds_number, of);
             state_.ui.notice_until_s = 0.0;  // no notice: it would be in the clip
         });
     }
@@ -117,20 +117,20 @@ void Viewer::load_bump(const std::filesystem::path& file) {
         TouchState& touch = state_.touch;
         touch.bump = file.empty() ? nullptr : std::make_shared<const BumpMap>(read_bump_map(file));
         touch.bump_file = file;
-        if (touch.bump) make_felt(state_.settings.touch);
+        if (touch.bump) ensure_roughness(state_.settings.touch);
     });
 }
 
-void Viewer::take_material(const std::string& name) {
+void Viewer::use_material(const std::string& name) {
     if (state_.touch.replay) {
-        tell(
+        show_notice(
             "A replay is felt as it was recorded: press \"Touch this video\" on the Replay panel "
             "to choose a material");
         return;
     }
     attempt([&] {
-        Material material = material_called(name);
-        lay(material, state_.settings.touch);
+        Material material = material_named(name);
+        apply_material(material, state_.settings.touch);
         state_.touch.bump = material.bumps;
         state_.touch.bump_file = material.map;
         state_.settings.material = material.name.empty() ? std::string{} : name;
@@ -145,17 +145,17 @@ void Viewer::keep_material(const std::string& name) {
                                         state_.media.depth_columns);
         material.name = name;
         material.sound = touch.material.sound;
-        tell("Kept as " + save_material(material).string());
+        show_notice("Kept as " + save_material(material).string());
         state_.ui.materials = material_names();
         state_.ui.fields.material = {};
-        take_material(name);
+        use_material(name);
     });
 }
 
 void Viewer::make_report(const std::filesystem::path& session) {
     attempt([&] {
         const bool begun = reporting_.start(std::filesystem::absolute(session));
-        tell(begun ? "Making the report" : "Still making the last report");
+        show_notice(begun ? "Making the report" : "Still making the last report");
     });
 }
 
@@ -163,7 +163,7 @@ void Viewer::take_report() {
     attempt([this] {
         const auto page = reporting_.take();
         if (!page) return;
-        tell("Report: " + page->string());
+        show_notice("Report: " + page->string());
         show_in_browser(*page);
     });
 }

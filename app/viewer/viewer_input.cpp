@@ -15,7 +15,8 @@ void Viewer::take_keys(const WindowInput& input) {
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
                                                     [this](int key) { return window_.holds(key); });
-    if (as_recorded && !state_.media.as_recorded && !state_.touch.replay) tell("Depth as recorded");
+    if (as_recorded && !state_.media.as_recorded && !state_.touch.replay)
+        show_notice("Depth as recorded");
     state_.media.as_recorded = as_recorded;
     const auto take = [this](Action action, EventTimes::Time at) {
         if (action == Action::mark && !state_.touch.replay)
@@ -49,12 +50,13 @@ std::optional<Answer> Viewer::perform_with_files(Action action) {
         case Action::open_file:
             return open_by_dialog();
         case Action::open_file_in_window:
-            desktop_.call_off();
+            desktop_.cancel();
             browsing_.toggle(state_);
             return Answer{};
         case Action::next_file:
         case Action::previous_file:
-            if (browsing_.go_by(action == Action::next_file ? 1 : -1, state_)) return Answer{};
+            if (browsing_.read_neighbours(action == Action::next_file ? 1 : -1, state_))
+                return Answer{};
             return Answer{"Still looking into the folder"};
         default:
             return std::nullopt;
@@ -64,13 +66,14 @@ std::optional<Answer> Viewer::perform_with_files(Action action) {
 std::optional<Answer> Viewer::perform_with_view(Action action) {
     if (action == Action::copy_view) {
         gui_.copy(text_of(camera_.view()));
-        return Answer{"View copied" + state_.keys.told(Action::paste_view, " takes it again")};
+        return Answer{"View copied" + state_.keys.key_hint(Action::paste_view, " takes it again")};
     }
     if (action != Action::paste_view) return std::nullopt;
     const auto view = view_in(gui_.copied());
     if (!view)
-        return Answer{"No view was copied" + state_.keys.told(Action::copy_view, " copies one")};
-    explaining_.leave_camera();
+        return Answer{"No view was copied" +
+                      state_.keys.key_hint(Action::copy_view, " copies one")};
+    explaining_.keep_camera();
     camera_.set_view(*view);
     return Answer{"View taken"};
 }
@@ -92,7 +95,7 @@ std::optional<Answer> Viewer::perform_with_brush(Action action) {
     if (action == Action::undo) {
         if (!brush.can_undo) return Answer{"There is no paint to take back"};
         painting_.undo(state_, touch_.player());
-        return Answer{"Taken back" + state_.keys.told(Action::redo, " paints it again")};
+        return Answer{"Taken back" + state_.keys.key_hint(Action::redo, " paints it again")};
     }
     if (!brush.can_redo) return Answer{"Nothing was taken back that could be painted again"};
     painting_.redo(state_, touch_.player());
@@ -111,8 +114,8 @@ void Viewer::perform(Action action) {
     state_.media.playback = player.status();
     if (replay != nullptr) state_.touch.replay->playback = replay->playback();
     if (!answer->place && answer->words.empty()) return;
-    tell(answer->words);
-    state_.ui.notice_of_place = answer->place;
+    show_notice(answer->words);
+    state_.ui.notice_shows_position = answer->place;
 }
 
 void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {

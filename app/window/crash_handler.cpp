@@ -27,7 +27,7 @@ constexpr std::array<std::pair<int, const char*>, 5> kCrashes{{{SIGSEGV, "segmen
 
 // A signal handler gets no argument of ours: here it finds the CrashHandler that exists. The first
 // crash takes it, so that only one line is printed.
-std::atomic<const CrashHandler*> living{nullptr};
+std::atomic<const CrashHandler*> active_handler{nullptr};
 
 const char* name_of_signal(int signal) noexcept {
     for (const auto& [number, name] : kCrashes)
@@ -38,25 +38,26 @@ const char* name_of_signal(int signal) noexcept {
 void on_crash(int signal, siginfo_t* info, void*) noexcept {
     // The kernel sends SIGXFSZ to the thread that wrote; the failed write is enough.
     if (signal == SIGXFSZ && (info->si_code == SI_KERNEL || info->si_pid == getpid())) return;
-    if (const CrashHandler* const handler = living.exchange(nullptr))
-        handler->crashed(name_of_signal(signal));
+    if (const CrashHandler* const handler = active_handler.exchange(nullptr))
+        handler->report_crash(name_of_signal(signal));
     std::signal(signal, SIG_DFL);
     std::raise(signal);  // pending until this returns
 }
 
 [[noreturn]] void on_terminate() noexcept {
-    if (const CrashHandler* const handler = living.exchange(nullptr)) {
+    if (const CrashHandler* const handler = active_handler.exchange(nullptr)) {
         try {
             if (const auto error = std::current_exception()) std::rethrow_exception(error);
-            handler->crashed("terminated");
+            handler->report_crash("terminated");
         } catch (const std::bad_alloc&) {
             // In a thread or library that cannot report it: not a fault of the program.
-            handler->crashed("there is not enough memory: close other programs or raise the limit");
+            handler->report_crash(
+                "there is not enough memory: close other programs or raise the limit");
             _exit(EXIT_FAILURE);
         } catch (const std::exception& error) {
-            handler->crashed(error.what());
+            handler->report_crash(error.what());
         } catch (...) {
-            handler->crashed("an error of an unknown kind");
+            handler->report_crash("an error of an unknown kind");
         }
     }
     std::abort();
@@ -71,9 +72,9 @@ void for_each_signal(const Act& act) {
 
 }  // namespace
 
-CrashHandler::CrashHandler(const LastWords& words, void (*first)() noexcept)
-    : words_(words), first_(first), stack_(std::make_unique<std::byte[]>(kStack_bytes)) {
-    living = this;
+CrashHandler::CrashHandler(const CrashNote& crash_note, void (*first)() noexcept)
+    : crash_note_(crash_note), first_(first), stack_(std::make_unique<std::byte[]>(kStack_bytes)) {
+    active_handler = this;
     if (!kSanitized) {
         const stack_t stack{stack_.get(), 0, kStack_bytes};
         sigaltstack(&stack, nullptr);
@@ -88,15 +89,15 @@ CrashHandler::CrashHandler(const LastWords& words, void (*first)() noexcept)
 CrashHandler::~CrashHandler() {
     // Other code may still write beyond the limit of a file's size: its writes only fail, too.
     for_each_signal([](int signal) { std::signal(signal, signal == SIGXFSZ ? SIG_IGN : SIG_DFL); });
-    living = nullptr;
+    active_handler = nullptr;
     if (kSanitized) return;
     const stack_t none{nullptr, SS_DISABLE, 0};
     sigaltstack(&none, nullptr);
 }
 
-void CrashHandler::crashed(const char* how) const noexcept {
+void CrashHandler::report_crash(const char* how) const noexcept {
     first_();
-    words_.tell({"crashed (", how, "); the force is off"});
+    crash_note_.print({"crashed (", how, "); the force is off"});
 }
 
 }  // namespace dibhr

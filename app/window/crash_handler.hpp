@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <memory>
 
-#include "app/window/last_words.hpp"
+#include "app/window/crash_note.hpp"
 
 namespace dibhr {
 
@@ -16,16 +16,16 @@ namespace dibhr {
 class CrashHandler {
   public:
     /// The crashing thread calls `first`, which must be async-signal-safe. `words` must outlive it.
-    CrashHandler(const LastWords& words, void (*first)() noexcept);
+    CrashHandler(const CrashNote& crash_note, void (*first)() noexcept);
     ~CrashHandler();
     CrashHandler(const CrashHandler&) = delete;
     CrashHandler& operator=(const CrashHandler&) = delete;
 
     /// Calls `first` and prints the crash note; from a signal handler.
-    void crashed(const char* how) const noexcept;
+    void report_crash(const char* how) const noexcept;
 
   private:
-    const LastWords& words_;
+    const CrashNote& crash_note_;
     void (*first_)() noexcept;
     std::unique_ptr<std::byte[]> stack_;  // the handler's, if this thread's stack overflowed
 };

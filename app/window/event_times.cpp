@@ -21,7 +21,7 @@ EventTimes::Time of_server(std::uint32_t server_ms, EventTimes::Time now) {
 
 }  // namespace
 
-void EventTimes::look() {
+void EventTimes::collect() {
     presses_.clear();
     Display* const display = x11_display();
     if (display == nullptr) return;

@@ -20,7 +20,7 @@ class EventTimes {
     };
 
     /// Call it right before events are polled.
-    void look();
+    void collect();
     /// The time of the press that GLFW has just reported; call it in the order of the presses. The
     /// begin of the server's millisecond; now, without an X server or with one of another clock.
     [[nodiscard]] Time of(Kind kind, unsigned code);

@@ -166,15 +166,15 @@ Fonts load_fonts(float scale) {
     return fonts;
 }
 
-void set_style(const GuiLook& look) {
+void set_style(const GuiStyle& gui_style) {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();
-    if (look.theme == Theme::dark)
+    if (gui_style.theme == Theme::dark)
         ImGui::StyleColorsDark();
     else
         ImGui::StyleColorsLight();
-    set_spacing(style, look.scale);
-    set_colours(style, look.theme);
+    set_spacing(style, gui_style.scale);
+    set_colours(style, gui_style.theme);
 }
 
 #if IMGUI_VERSION_NUM < 18700
@@ -203,13 +203,13 @@ class LingeringKeys {
 
 }  // namespace
 
-Gui::Gui(const Window& window, const GuiLook& look) : look_(look) {
+Gui::Gui(const Window& window, const GuiStyle& gui_style) : style_(gui_style) {
     IMGUI_CHECKVERSION();
     ImGui::SetAllocatorFunctions(allocate_or_throw, [](void* memory, void*) { std::free(memory); });
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
-    set_style(look_);
-    fonts_ = load_fonts(look_.scale);
+    set_style(style_);
+    fonts_ = load_fonts(style_.scale);
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 330");
 }
@@ -220,15 +220,15 @@ Gui::~Gui() {
     ImGui::DestroyContext();
 }
 
-void Gui::wear(const GuiLook& look) {
-    if (look == look_) return;
-    const bool other_size = look.scale != look_.scale;
-    look_ = look;
-    set_style(look_);
+void Gui::apply(const GuiStyle& gui_style) {
+    if (gui_style == style_) return;
+    const bool other_size = gui_style.scale != style_.scale;
+    style_ = gui_style;
+    set_style(style_);
     if (!other_size) return;
     ImGui_ImplOpenGL3_DestroyFontsTexture();
     ImGui::GetIO().Fonts->Clear();
-    fonts_ = load_fonts(look_.scale);
+    fonts_ = load_fonts(style_.scale);
     ImGui_ImplOpenGL3_CreateFontsTexture();
 }
 

@@ -18,17 +18,17 @@ struct Fonts {
 };
 
 /// How the panels are drawn.
-struct GuiLook {
+struct GuiStyle {
     float scale{1.0F};  ///< of text, rows and gaps; 1: for an ordinary display
     Theme theme{Theme::dark};
 
-    bool operator==(const GuiLook&) const = default;
+    bool operator==(const GuiStyle&) const = default;
 };
 
 /// Made after the window (it chains the window's callbacks), destroyed before it.
 class Gui {
   public:
-    Gui(const Window& window, const GuiLook& look);
+    Gui(const Window& window, const GuiStyle& gui_style);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
@@ -43,12 +43,12 @@ class Gui {
     void copy(const std::string& text);
     [[nodiscard]] std::string copied() const;
     /// Call between two pictures. A new scale takes some milliseconds: fonts are loaded again.
-    void wear(const GuiLook& look);
+    void apply(const GuiStyle& gui_style);
     [[nodiscard]] const Fonts& fonts() const { return fonts_; }
-    [[nodiscard]] float scale() const { return look_.scale; }
+    [[nodiscard]] float scale() const { return style_.scale; }
 
   private:
-    GuiLook look_;
+    GuiStyle style_;
     Fonts fonts_{};
 };
 

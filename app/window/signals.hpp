@@ -6,12 +6,12 @@ namespace dibhr {
 
 /// During its life, SIGINT, SIGTERM, SIGHUP and SIGQUIT do not kill the process and Ctrl+Z does not
 /// stop it. Construct it before any thread starts: threads inherit the blocked signals.
-class EndingSignals {
+class ShutdownSignals {
   public:
-    EndingSignals();
-    ~EndingSignals();
-    EndingSignals(const EndingSignals&) = delete;
-    EndingSignals& operator=(const EndingSignals&) = delete;
+    ShutdownSignals();
+    ~ShutdownSignals();
+    ShutdownSignals(const ShutdownSignals&) = delete;
+    ShutdownSignals& operator=(const ShutdownSignals&) = delete;
 
     /// Whether a shutdown signal has arrived since the last call.
     [[nodiscard]] bool arrived();

@@ -19,12 +19,12 @@ namespace dibhr {
 
 namespace {
 
-GatheredInput& gathered_of(GLFWwindow* window) {
-    return *static_cast<GatheredInput*>(glfwGetWindowUserPointer(window));
+PendingInput& pending_of(GLFWwindow* window) {
+    return *static_cast<PendingInput*>(glfwGetWindowUserPointer(window));
 }
 
 WindowInput& input_of(GLFWwindow* window) {
-    return gathered_of(window).input;
+    return pending_of(window).input;
 }
 
 bool pressed(GLFWwindow* window, int button) {
@@ -55,14 +55,14 @@ GLFWwindow* open_window(int width, int height, const std::string& title) {
 }
 
 /// Clamped, since a display may report any scale.
-float usable_scale(double asked, float displays) {
-    const double scale = asked > 0.0 ? asked : static_cast<double>(displays);
+float usable_scale(double requested, float displays) {
+    const double scale = requested > 0.0 ? requested : static_cast<double>(displays);
     if (!std::isfinite(scale) || scale <= 0.0) return 1.0F;
     return static_cast<float>(std::clamp(scale, kSmallestUi, kLargestUi));
 }
 
 /// Text twice as large needs a window twice as large, if the display has room for it.
-glm::ivec2 grown(glm::ivec2 size, double asked) {
+glm::ivec2 scaled_size(glm::ivec2 size, double requested) {
     GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
     if (monitor == nullptr) return size;
     float displays = 1.0F;
@@ -71,7 +71,7 @@ glm::ivec2 grown(glm::ivec2 size, double asked) {
     glm::ivec2 place{0};
     glm::ivec2 room{0};
     glfwGetMonitorWorkarea(monitor, &place.x, &place.y, &room.x, &room.y);
-    const glm::ivec2 wanted(glm::vec2(size) * usable_scale(asked, displays));
+    const glm::ivec2 wanted(glm::vec2(size) * usable_scale(requested, displays));
     return glm::max(size, glm::min(wanted, room));
 }
 
@@ -83,8 +83,8 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
     if (glfwInit() != GLFW_TRUE)
         throw DeviceError(
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
-    when_display_goes(display_lost_);
-    if (size.times) size_ = grown(size_, *size.times);
+    set_display_loss_handler(display_lost_);
+    if (size.times) size_ = scaled_size(size_, *size.times);
     window_ = open_window(size_.x, size_.y, title);
     if (window_ == nullptr) {
         const char* reason = nullptr;
@@ -99,7 +99,7 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
     glfwSwapInterval(sync && x11_window() != 0 ? 1 : 0);
     glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
                             GLFW_DONT_CARE);
-    glfwSetWindowUserPointer(window_, &gathered_);
+    glfwSetWindowUserPointer(window_, &pending_);
     collect_events();
 }
 
@@ -111,7 +111,7 @@ Window::~Window() {
 void Window::collect_events() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
         if (action == GLFW_RELEASE) return;
-        GatheredInput& all = gathered_of(window);
+        PendingInput& all = pending_of(window);
         all.key = {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
                    (mods & GLFW_MOD_SHIFT) != 0,
                    all.times.of(EventTimes::Kind::key, static_cast<unsigned>(code))};
@@ -119,12 +119,12 @@ void Window::collect_events() {
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
         // GLFW reports a character after the key that typed it.
-        const KeyPress& by = gathered_of(window).key;
+        const KeyPress& by = pending_of(window).key;
         input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
         if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
-        GatheredInput& all = gathered_of(window);
+        PendingInput& all = pending_of(window);
         all.input.clicked_at = all.times.of(EventTimes::Kind::mouse_button, 1);
     });
     glfwSetScrollCallback(
@@ -134,14 +134,14 @@ void Window::collect_events() {
     });
 }
 
-void Window::leave_without_display() {
+void Window::exit_without_display() {
     if (on_display_loss_) on_display_loss_();
     print_error_line("the display went away: start dibhr again when it is back");
     // Without destructors and exit() handlers: a driver's would use the display.
     _exit(EXIT_FAILURE);
 }
 
-bool Window::wants_to_close() const {
+bool Window::close_requested() const {
     return glfwWindowShouldClose(window_) == GLFW_TRUE;
 }
 
@@ -150,9 +150,9 @@ void Window::close() {
 }
 
 WindowInput Window::take_input() {
-    gathered_.times.look();
+    pending_.times.collect();
     glfwPollEvents();
-    return std::exchange(gathered_.input, {});
+    return std::exchange(pending_.input, {});
 }
 
 bool Window::in_front() const {
@@ -193,11 +193,11 @@ glm::ivec2 Window::window_size() const {
     return size;
 }
 
-float Window::scale(double asked) const {
+float Window::scale(double requested) const {
     float x = 1.0F;
     float y = 1.0F;
     glfwGetWindowContentScale(window_, &x, &y);
-    return usable_scale(asked, x);
+    return usable_scale(requested, x);
 }
 
 unsigned long Window::x11_window() const {

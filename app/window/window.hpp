@@ -43,7 +43,7 @@ struct WindowInput {
 };
 
 /// The input that the window's callbacks collect.
-struct GatheredInput {
+struct PendingInput {
     WindowInput input{};
     KeyPress key{};  ///< the last key press: its character may follow
     EventTimes times{};
@@ -78,7 +78,7 @@ class Window {
     /// status 1. It must not use the window.
     void on_display_loss(std::function<void()> act) { on_display_loss_ = std::move(act); }
 
-    [[nodiscard]] bool wants_to_close() const;
+    [[nodiscard]] bool close_requested() const;
     void close();
 
     /// Polls for events; does not wait.
@@ -92,14 +92,14 @@ class Window {
     [[nodiscard]] glm::ivec2 framebuffer_size() const;
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     /// Of text and panels: `asked`, or if that is 0, the display's own scale (1: an ordinary one).
-    [[nodiscard]] float scale(double asked) const;
+    [[nodiscard]] float scale(double requested) const;
     void set_title(const std::string& title);
     void toggle_full_screen();
     [[nodiscard]] bool full_screen() const;
     void show_picture();  ///< swaps the buffers; with `sync`, waits for an X display
     /// A round trip to the display server, which returns only if the server responds. (Does nothing
     /// under Wayland.)
-    void meet_display() const { static_cast<void>(framebuffer_size()); }
+    void ping_display() const { static_cast<void>(framebuffer_size()); }
 
     /// The X server's ID of the window; 0: no X server.
     [[nodiscard]] unsigned long x11_window() const;
@@ -108,12 +108,12 @@ class Window {
 
   private:
     void collect_events();
-    [[noreturn]] void leave_without_display();
+    [[noreturn]] void exit_without_display();
 
     std::function<void()> on_display_loss_{};
-    const std::function<void()> display_lost_{[this] { leave_without_display(); }};
+    const std::function<void()> display_lost_{[this] { exit_without_display(); }};
     GLFWwindow* window_{nullptr};
-    GatheredInput gathered_{};
+    PendingInput pending_{};
     glm::ivec2 place_{0};  // before the full screen
     glm::ivec2 size_{0};
 };

@@ -12,12 +12,12 @@ namespace dibhr {
 namespace {
 
 /// A window manager may close its frame between two queries; Xlib would then exit the program.
-class ErrorsPassedOver {
+class IgnoredXErrors {
   public:
-    ErrorsPassedOver() : before_(XSetErrorHandler([](Display*, XErrorEvent*) { return 0; })) {}
-    ~ErrorsPassedOver() { XSetErrorHandler(before_); }
-    ErrorsPassedOver(const ErrorsPassedOver&) = delete;
-    ErrorsPassedOver& operator=(const ErrorsPassedOver&) = delete;
+    IgnoredXErrors() : before_(XSetErrorHandler([](Display*, XErrorEvent*) { return 0; })) {}
+    ~IgnoredXErrors() { XSetErrorHandler(before_); }
+    IgnoredXErrors(const IgnoredXErrors&) = delete;
+    IgnoredXErrors& operator=(const IgnoredXErrors&) = delete;
 
   private:
     XErrorHandler before_;
@@ -47,7 +47,7 @@ unsigned long x11_window_of(GLFWwindow* window) {
 bool is_covered(unsigned long x11_window, int width, int height) {
     Display* const display = x11_display();
     if (display == nullptr) return false;
-    const ErrorsPassedOver passed_over;
+    const IgnoredXErrors ignored;
     const Window root = DefaultRootWindow(display);
     const Window frame = frame_of(display, x11_window, root);
     const std::array<std::array<int, 2>, 5> of_four{{{2, 2}, {1, 1}, {3, 1}, {1, 3}, {3, 3}}};
@@ -61,7 +61,7 @@ bool is_covered(unsigned long x11_window, int width, int height) {
     });
 }
 
-void when_display_goes(const std::function<void()>& act) {
+void set_display_loss_handler(const std::function<void()>& act) {
     Display* const display = x11_display();
     if (display == nullptr) return;
     XSetIOErrorHandler([](Display*) { return 0; });  // the default handler would print

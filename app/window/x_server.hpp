@@ -19,7 +19,7 @@ namespace dibhr {
 /// From now on the thread that notices the loss of the X server calls `act`, within the call that
 /// noticed it. `act` must neither return nor use the display, and must outlive the display. Does
 /// nothing under another display server.
-void when_display_goes(const std::function<void()>& act);
+void set_display_loss_handler(const std::function<void()>& act);
 
 /// The socket of the X server; it hangs up when the server is lost. -1 under another display
 /// server. Call it on the thread that made the window.

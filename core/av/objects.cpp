@@ -65,7 +65,7 @@ AvOwned<AVPacket> new_packet() {
     return packet;
 }
 
-void give_buffer(AVFrame& frame, int pixel_format, int columns, int rows) {
+void allocate_buffer(AVFrame& frame, int pixel_format, int columns, int rows) {
     if (frame.width == columns && frame.height == rows) return;
     av_frame_unref(&frame);
     frame.format = pixel_format;

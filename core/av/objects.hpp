@@ -40,7 +40,7 @@ using AvOwned = std::unique_ptr<Object, AvFree>;
 /// Allocates memory for a picture of that AVPixelFormat, with padding after each row and after the
 /// last one: the scaler reads and writes whole vectors. A frame of that size keeps its memory.
 /// Throws std::bad_alloc.
-void give_buffer(AVFrame& frame, int pixel_format, int columns, int rows);
+void allocate_buffer(AVFrame& frame, int pixel_format, int columns, int rows);
 
 /// Options by name: of one object, or the same ones for each of `count` objects.
 class AvOptions {

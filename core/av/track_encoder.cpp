@@ -26,7 +26,7 @@ AvOwned<AVCodecContext> new_encoder(const AVCodec* encoder, int columns, int row
 }
 
 TrackEncoder::TrackEncoder(AvOwned<AVCodecContext> opened) : codec_(std::move(opened)) {
-    give_buffer(*frame_, codec_->pix_fmt, codec_->width, codec_->height);
+    allocate_buffer(*frame_, codec_->pix_fmt, codec_->width, codec_->height);
     frame_->color_range = codec_->color_range;
 }
 

@@ -22,15 +22,15 @@ std::int64_t clip_time(double seconds) {
     return std::llround(seconds * kTrackUnitsPerSecond);
 }
 
-fs::path committed(OutputFile& file, const fs::path& target, ClipName name) {
-    if (name == ClipName::stands_beside) return file.commit_beside();
+fs::path committed(OutputFile& file, const fs::path& target, ClipNameConflict name) {
+    if (name == ClipNameConflict::adds_number) return file.commit_beside();
     file.commit();
     return target;
 }
 
 }  // namespace
 
-ClipFile::ClipFile(const fs::path& target, ClipName name)
+ClipFile::ClipFile(const fs::path& target, ClipNameConflict name)
     : target_(target), name_(name), written_(target) {
     set_up_libraries();
 }
@@ -38,7 +38,7 @@ ClipFile::ClipFile(const fs::path& target, ClipName name)
 ClipFile::~ClipFile() = default;
 
 template <typename Step>
-auto ClipFile::telling_which_file(const Step& step) {
+auto ClipFile::with_file_in_errors(const Step& step) {
     try {
         return step();
     } catch (const InputError& error) {
@@ -54,7 +54,7 @@ void ClipFile::open(const ColourImage& first) {
 void ClipFile::add(const ColourImage& picture, double shown_s) {
     const std::int64_t shown_ms = clip_time(shown_s);
     if (shown_ms <= last_ms_ || picture.rgb.empty()) return;
-    telling_which_file([&] {
+    with_file_in_errors([&] {
         if (!encoder_) open(picture);
         encoder_->encode(picture, shown_ms, [this](AVPacket& packet) { file_->write(packet); });
     });
@@ -66,7 +66,7 @@ bool ClipFile::plays() const noexcept {
 }
 
 fs::path ClipFile::finish(double end_s, ClipEnd how) {
-    return telling_which_file([&] {
+    return with_file_in_errors([&] {
         if (!encoder_) throw InputError("no picture was drawn while the clip went on");
         encoder_->drain([this](AVPacket& packet) { file_->write(packet); });
         const std::int64_t end_ms = std::max(clip_time(end_s), last_ms_ + 1);

@@ -14,18 +14,18 @@ class Mp4File;
 class PictureEncoder;
 
 /// What happens when a file of that name exists.
-enum class ClipName { replaces, stands_beside };
+enum class ClipNameConflict { replaces, adds_number };
 
 /// How a clip is finished: with the index at the begin of the file, which needs a copy; or at once,
 /// with the index in pieces, which plays as well.
-enum class ClipEnd { well, at_once };
+enum class ClipEnd { indexed, at_once };
 
 /// An MP4 that appears whole or not at all. Until it is finished the clip is a file .part... beside
 /// it, which plays up to a second before the last picture even when the program dies.
 class ClipFile {
   public:
     /// Throws InputError when the file cannot be made.
-    ClipFile(const std::filesystem::path& target, ClipName name);
+    ClipFile(const std::filesystem::path& target, ClipNameConflict name);
     ~ClipFile();
     ClipFile(const ClipFile&) = delete;
     ClipFile& operator=(const ClipFile&) = delete;
@@ -48,10 +48,10 @@ class ClipFile {
   private:
     void open(const ColourImage& first);
     template <typename Step>
-    auto telling_which_file(const Step& step);
+    auto with_file_in_errors(const Step& step);
 
     std::filesystem::path target_;
-    ClipName name_;
+    ClipNameConflict name_;
     OutputFile written_;
     std::unique_ptr<PictureEncoder> encoder_{};
     std::unique_ptr<Mp4File> file_{};

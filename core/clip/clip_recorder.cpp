@@ -16,7 +16,7 @@ namespace {
 
 /// Gives the calling thread the lowest priority that still runs: the haptic thread replaces it at
 /// once. Not SCHED_IDLE, because the window's thread waits for the same mutex.
-void give_way() {
+void lower_thread_priority() {
     constexpr int kLeast = 19;
     const sched_param none{};
     ::sched_setscheduler(0, SCHED_BATCH, &none);
@@ -25,14 +25,14 @@ void give_way() {
 
 }  // namespace
 
-ClipRecorder::ClipRecorder(const std::filesystem::path& file, ClipName name)
+ClipRecorder::ClipRecorder(const std::filesystem::path& file, ClipNameConflict name)
     : file_(file, name), result_(std::async(std::launch::async, [this] { return work(); })) {}
 
 ClipRecorder::~ClipRecorder() {
     const std::scoped_lock lock(mutex_);
     given_up_ = !stopped_;
     stopped_ = true;
-    news_.notify_one();
+    wake_.notify_one();
 }
 
 bool ClipRecorder::wants_picture() const {
@@ -46,7 +46,7 @@ void ClipRecorder::add(ColourImage picture, Clock::time_point shown) {
         if (stopped_ || waiting_.size() >= kMostWaiting) return;
         waiting_.push_back({std::move(picture), shown});
     }
-    news_.notify_one();
+    wake_.notify_one();
 }
 
 void ClipRecorder::stop(Clock::time_point end, ClipEnd how) {
@@ -54,15 +54,15 @@ void ClipRecorder::stop(Clock::time_point end, ClipEnd how) {
     how_ = how;
     if (std::exchange(stopped_, true)) return;
     end_ = end;
-    news_.notify_one();
+    wake_.notify_one();
 }
 
 bool ClipRecorder::done() const {
     return done_within(std::chrono::milliseconds(0));
 }
 
-bool ClipRecorder::done_within(std::chrono::milliseconds patience) const {
-    return !result_.valid() || result_.wait_for(patience) == std::future_status::ready;
+bool ClipRecorder::done_within(std::chrono::milliseconds timeout) const {
+    return !result_.valid() || result_.wait_for(timeout) == std::future_status::ready;
 }
 
 std::uint64_t ClipRecorder::encoded() const {
@@ -76,14 +76,14 @@ bool ClipRecorder::plays() const {
 }
 
 std::filesystem::path ClipRecorder::work() {
-    give_way();
+    lower_thread_priority();
     std::optional<Clock::time_point> begin;
     const auto seconds = [&begin](Clock::time_point at) {
         return std::chrono::duration<double>(at - *begin).count();
     };
     std::unique_lock lock(mutex_);
     while (true) {
-        news_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
+        wake_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
         if (given_up_) throw InputError("the clip was given up");
         if (waiting_.empty()) break;
         const Shown next = std::move(waiting_.front());

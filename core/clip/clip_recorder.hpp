@@ -20,7 +20,7 @@ class ClipRecorder {
     using Clock = std::chrono::steady_clock;
 
     /// Throws InputError when the file cannot be made.
-    ClipRecorder(const std::filesystem::path& file, ClipName name);
+    ClipRecorder(const std::filesystem::path& file, ClipNameConflict name);
     /// Waits for the picture that is being encoded. Removes a clip that was not stopped.
     ~ClipRecorder();
     ClipRecorder(const ClipRecorder&) = delete;
@@ -36,7 +36,7 @@ class ClipRecorder {
     /// The clip is whole, or failed; it may also fail before stop().
     [[nodiscard]] bool done() const;
     /// Waits at most so long for that. Before it is done, the destructor may wait.
-    [[nodiscard]] bool done_within(std::chrono::milliseconds patience) const;
+    [[nodiscard]] bool done_within(std::chrono::milliseconds timeout) const;
     /// Waits for that. Returns the file's name; call it once. Throws InputError when it failed.
     std::filesystem::path result() { return result_.get(); }
 
@@ -59,12 +59,12 @@ class ClipRecorder {
 
     ClipFile file_;
     mutable std::mutex mutex_{};  // for all members below
-    std::condition_variable news_{};
+    std::condition_variable wake_{};
     std::deque<Shown> waiting_{};
     bool stopped_{false};
     bool given_up_{false};
     Clock::time_point end_{};
-    ClipEnd how_{ClipEnd::well};
+    ClipEnd how_{ClipEnd::indexed};
     std::uint64_t encoded_{0};
     bool plays_{false};
     std::future<std::filesystem::path> result_;  // last: its thread uses all of these

@@ -62,7 +62,7 @@ void LiveRecorder::add(const LiveRecord& record) {
         failure_ = "the disk is too slow for the live video";
         waiting_.clear();
     }
-    news_.notify_one();
+    wake_.notify_one();
 }
 
 void LiveRecorder::finish() {
@@ -70,7 +70,7 @@ void LiveRecorder::finish() {
         const std::lock_guard lock(mutex_);
         stopped_ = true;
     }
-    news_.notify_one();
+    wake_.notify_one();
     if (thread_.joinable()) thread_.join();
 }
 
@@ -118,7 +118,7 @@ void LiveRecorder::run() {
     };
     std::unique_lock lock(mutex_);
     while (true) {
-        news_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
+        wake_.wait(lock, [this] { return stopped_ || !waiting_.empty(); });
         if (waiting_.empty()) break;
         const LiveRecord next = std::move(waiting_.front());
         waiting_.pop_front();

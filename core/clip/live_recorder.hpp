@@ -52,7 +52,7 @@ class LiveRecorder {
 
     const LiveFiles files_;
     mutable std::mutex mutex_{};
-    std::condition_variable news_{};
+    std::condition_variable wake_{};
     std::deque<LiveRecord> waiting_{};
     bool stopped_{false};
     std::string failure_{};

@@ -36,7 +36,7 @@ int even(int pixels) {
 }
 
 /// Marks colours as HDTV's, which players assume by default.
-void say_colours(AVCodecContext& codec) {
+void set_colour_space(AVCodecContext& codec) {
     codec.color_range = AVCOL_RANGE_MPEG;
     codec.colorspace = AVCOL_SPC_BT709;
     codec.color_primaries = AVCOL_PRI_BT709;
@@ -52,7 +52,7 @@ AvOwned<AVCodecContext> opened(const char* name, int columns, int rows) {
     codec->framerate = {kPicturesPerSecond, 1};
     codec->gop_size = kPicturesToKey;
     codec->max_b_frames = 0;
-    say_colours(*codec);
+    set_colour_space(*codec);
     if (encoder->id == AV_CODEC_ID_MPEG4) {
         codec->flags |= AV_CODEC_FLAG_QSCALE;
         codec->global_quality = FF_QP2LAMBDA * kMpeg4Quality;
@@ -109,7 +109,7 @@ PictureEncoder::PictureEncoder(int columns, int rows) : encoder_(encoder_for(col
 /// The unscaled picture, without the last row or column where their number is odd.
 const AVFrame& PictureEncoder::copied(const ColourImage& picture) {
     AVFrame& frame = *picture_;
-    give_buffer(frame, AV_PIX_FMT_RGB24, even(picture.columns), even(picture.rows));
+    allocate_buffer(frame, AV_PIX_FMT_RGB24, even(picture.columns), even(picture.rows));
     av_image_copy_plane(frame.data[0], frame.linesize[0], picture.rgb.data(), 3 * picture.columns,
                         3 * frame.width, frame.height);
     return frame;
@@ -117,7 +117,7 @@ const AVFrame& PictureEncoder::copied(const ColourImage& picture) {
 
 const AVFrame& PictureEncoder::scaled(const AVFrame& from, int columns, int rows) {
     AVFrame& frame = *scaled_;
-    give_buffer(frame, AV_PIX_FMT_YUV420P, columns, rows);
+    allocate_buffer(frame, AV_PIX_FMT_YUV420P, columns, rows);
     scaler_.reset(sws_getCachedContext(scaler_.release(), from.width, from.height, AV_PIX_FMT_RGB24,
                                        columns, rows, AV_PIX_FMT_YUV420P, SWS_BILINEAR, nullptr,
                                        nullptr, nullptr));

@@ -31,7 +31,7 @@ constexpr std::chrono::seconds kBetweenFlushes{1};  // most that a power cut los
 SummedFile::SummedFile(std::filesystem::path file)
     : file_(std::move(file)),
       descriptor_(::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
-    require_written(descriptor_ < 0 || !flushed_folder(file_.parent_path()) ? AVERROR(errno) : 0);
+    require_written(descriptor_ < 0 || !flush_folder(file_.parent_path()) ? AVERROR(errno) : 0);
     auto* const buffer = static_cast<unsigned char*>(av_malloc(kPieceBytes));
     // `auto`, since the bytes are const from libavformat 61 on.
     const auto write_some = [](void* to, auto* bytes, int count) {
@@ -63,7 +63,7 @@ bool SummedFile::flush_in_time() {
     const auto now = std::chrono::steady_clock::now();
     if (now - flushed_at_ < kBetweenFlushes) return true;
     flushed_at_ = now;
-    return flushed(descriptor_);
+    return flush_to_disk(descriptor_);
 }
 
 std::int64_t SummedFile::seek(void* file, std::int64_t to, int from) noexcept {
@@ -92,7 +92,7 @@ void SummedFile::end_head() {
 void SummedFile::finish() {
     avio_flush(bytes_.get());
     require_written(bytes_->error);
-    require_written(flushed(descriptor_) ? 0 : AVERROR(errno));
+    require_written(flush_to_disk(descriptor_) ? 0 : AVERROR(errno));
     require_written(::close(std::exchange(descriptor_, -1)) != 0 ? AVERROR(errno) : 0);
 }
 

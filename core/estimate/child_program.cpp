@@ -26,8 +26,8 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kPolitely = 10;                             // nice(2)
-constexpr std::size_t kMostWords = std::size_t{1} << 16;  ///< bytes read at once
+constexpr int kLowNice = 10;                                     // nice(2)
+constexpr std::size_t kMostOutput_bytes = std::size_t{1} << 16;  ///< bytes read at once
 
 /// The arguments with a null at the end, as exec needs them.
 std::vector<char*> as_pointers(std::vector<std::string>& words) {
@@ -74,13 +74,13 @@ struct Ends {
 
 /// Runs in the child between vfork and exec. The child shares this program's memory, so this uses
 /// system calls only and changes nothing. On failure writes -errno to `trouble`.
-[[noreturn]] void become(char* const* words, char** variables, const Ends& ends,
-                         ChildManner manner) {
+[[noreturn]] void exec_keeper(char* const* words, char** variables, const Ends& ends,
+                              ChildPriority priority) {
     struct sigaction usual {};
     usual.sa_handler = SIG_DFL;  // NOLINT(cppcoreguidelines-pro-type-union-access): POSIX's
     for (const int signal : {SIGPIPE, SIGTERM, SIGINT, SIGHUP, SIGQUIT})
         ::sigaction(signal, &usual, nullptr);
-    if (manner == ChildManner::polite) give_way(0);
+    if (priority == ChildPriority::low) lower_priority(0);
     const int nothing = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
     const bool ready =
         ::setpgid(0, 0) == 0 && nothing >= 0 && ::dup2(nothing, STDIN_FILENO) >= 0 &&
@@ -88,13 +88,14 @@ struct Ends {
         ::fcntl(ends.life, F_SETFD, 0) == 0 && ::fcntl(ends.trouble, F_SETFD, 0) == 0;
     if (ready) ::execve(words[0], words, variables);
     const int why = -errno;
-    [[maybe_unused]] const ssize_t told = ::write(ends.trouble, &why, sizeof why);
+    [[maybe_unused]] const ssize_t reported = ::write(ends.trouble, &why, sizeof why);
     ::_exit(EXIT_FAILURE);
 }
 
 /// Returns 0, the errno of the program, or -errno of its keeper. The child uses this program's
 /// memory until exec, as in posix_spawn: copying the memory would disturb the haptic thread.
-int start(const std::vector<std::string>& program, Ends ends, ChildManner manner, pid_t& child) {
+int start(const std::vector<std::string>& program, Ends ends, ChildPriority priority,
+          pid_t& child) {
     // A successful exec closes this pipe. (A pipe and not memory: with a sanitizer vfork() shares
     // none.)
     std::array<int, 2> trouble{};
@@ -111,7 +112,7 @@ int start(const std::vector<std::string>& program, Ends ends, ChildManner manner
     ::sigfillset(&all);
     ::pthread_sigmask(SIG_SETMASK, &all, &before);  // our handlers must not run in the child
     const pid_t started = ::vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork)
-    if (started == 0) become(arguments.data(), entries.data(), ends, manner);
+    if (started == 0) exec_keeper(arguments.data(), entries.data(), ends, priority);
     if (started < 0) why = -errno;
     ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
     child = started;
@@ -129,27 +130,27 @@ std::string in_words(const ChildEnd& end) {
            ")";
 }
 
-void give_way(pid_t who) noexcept {
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(who), kPolitely);
+void lower_priority(pid_t who) noexcept {
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(who), kLowNice);
 }
 
-ChildProgram::ChildProgram(std::vector<std::string> words, ChildManner manner) {
+ChildProgram::ChildProgram(std::vector<std::string> words, ChildPriority priority) {
     std::array<int, 2> output{-1, -1}, life{};
     if (::pipe2(output.data(), O_CLOEXEC) != 0 || ::pipe2(life.data(), O_CLOEXEC) != 0) {
         for (const int end : output) ::close(end);  // those that were opened
         throw InputError("the estimator cannot be started: too many files are open");
     }
-    const int failed = start(words, {.output = output[1], .life = life[0]}, manner, child_);
+    const int failed = start(words, {.output = output[1], .life = life[0]}, priority, child_);
     ::close(output[1]);
     ::close(life[0]);
-    words_end_ = output[0];
+    output_end_ = output[0];
     life_ = life[1];
     if (failed != 0) {
-        ::close(words_end_);
+        ::close(output_end_);
         ::close(life_);
         refuse(words.front(), failed);
     }
-    ::fcntl(words_end_, F_SETFL, O_NONBLOCK);
+    ::fcntl(output_end_, F_SETFL, O_NONBLOCK);
 }
 
 ChildProgram::~ChildProgram() {
@@ -157,24 +158,25 @@ ChildProgram::~ChildProgram() {
     // Reaped only here: until now no other process can get its number.
     while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
     }
-    if (words_end_ >= 0) ::close(words_end_);
+    if (output_end_ >= 0) ::close(output_end_);
 }
 
-std::string ChildProgram::written(std::chrono::milliseconds patience) {
-    if (words_end_ < 0) {
-        if (!end_) std::this_thread::sleep_for(patience);
+std::string ChildProgram::written(std::chrono::milliseconds timeout) {
+    if (output_end_ < 0) {
+        if (!end_) std::this_thread::sleep_for(timeout);
         return {};
     }
-    pollfd reading{words_end_, POLLIN, 0};
-    ::poll(&reading, 1, static_cast<int>(patience.count()));
+    pollfd reading{output_end_, POLLIN, 0};
+    ::poll(&reading, 1, static_cast<int>(timeout.count()));
     std::string text;
     std::array<char, 4096> piece{};
     ssize_t count = 1;
-    while (text.size() < kMostWords && (count = ::read(words_end_, piece.data(), piece.size())) > 0)
+    while (text.size() < kMostOutput_bytes &&
+           (count = ::read(output_end_, piece.data(), piece.size())) > 0)
         text.append(piece.data(), static_cast<std::size_t>(count));
     if (count == 0) {
-        ::close(words_end_);
-        words_end_ = -1;
+        ::close(output_end_);
+        output_end_ = -1;
     }
     return text;
 }

@@ -22,18 +22,18 @@ struct ChildEnd {
 [[nodiscard]] std::string in_words(const ChildEnd& end);
 
 /// The priority of a program.
-enum class ChildManner { ordinary, polite };
+enum class ChildPriority { normal, low };
 
 /// Lowers the priority of that process or thread and of all that it starts from now on; 0: the
 /// calling thread.
-void give_way(pid_t who) noexcept;
+void lower_priority(pid_t who) noexcept;
 
 class ChildProgram {
   public:
     /// Starts the program, without a shell and without standard input. Throws InputError when that
     /// fails: what, and what to do next. However dibhr ends, the program is killed then, with all
     /// that it started.
-    ChildProgram(std::vector<std::string> words, ChildManner manner);
+    ChildProgram(std::vector<std::string> words, ChildPriority priority);
     /// Kills what is left of the program.
     ~ChildProgram();
     ChildProgram(const ChildProgram&) = delete;
@@ -41,7 +41,7 @@ class ChildProgram {
 
     /// Reads what the program has written to standard output and standard error since the last
     /// call, up to a bound; waits at most so long for output, or for the program's end.
-    [[nodiscard]] std::string written(std::chrono::milliseconds patience);
+    [[nodiscard]] std::string written(std::chrono::milliseconds timeout);
     /// How the program ended; nothing while it runs.
     [[nodiscard]] std::optional<ChildEnd> ended();
     /// Sends SIGTERM; kills what is left after 0.4 s. Waits for that.
@@ -52,9 +52,9 @@ class ChildProgram {
     [[nodiscard]] pid_t keeper() const noexcept { return child_; }
 
   private:
-    pid_t child_{0};     ///< the keeper, which exits as the program does
-    int life_{-1};       ///< our end of a pipe; the keeper sees when it closes
-    int words_end_{-1};  ///< the pipe of the program's output; negative: closed
+    pid_t child_{0};      ///< the keeper, which exits as the program does
+    int life_{-1};        ///< our end of a pipe; the keeper sees when it closes
+    int output_end_{-1};  ///< the pipe of the program's output; negative: closed
     std::optional<ChildEnd> end_{};
 };
 

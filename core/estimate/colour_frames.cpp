@@ -36,8 +36,8 @@ void write_frame(const cv::Mat& picture, const fs::path& file) {
 }
 
 template <typename Take>
-ColourFrames read_all(const fs::path& colour, const std::atomic<bool>& stop, const FramesTold& tell,
-                      const Take& take) {
+ColourFrames read_all(const fs::path& colour, const std::atomic<bool>& stop,
+                      const ReportFrames& report, const Take& take) {
     const std::unique_ptr<PictureSource> source = open_picture_source(colour, PictureRole::colour);
     ColourFrames frames;
     frames.file = colour;
@@ -48,7 +48,7 @@ ColourFrames read_all(const fs::path& colour, const std::atomic<bool>& stop, con
         take(picture->picture, frames.count());
         const auto about = static_cast<std::size_t>(std::max<std::int64_t>(
             source->facts().frames, static_cast<std::int64_t>(frames.count())));
-        tell(frames.count(), about);
+        report(frames.count(), about);
     }
     const SourceFacts& facts = source->facts();
     frames.columns = facts.columns;
@@ -74,17 +74,17 @@ double ColourFrames::interval_s() const noexcept {
 }
 
 ColourFrames read_colour_frames(const fs::path& colour, const std::atomic<bool>& stop,
-                                const FramesTold& tell) {
-    return read_all(colour, stop, tell, [](const cv::Mat&, std::size_t) {});
+                                const ReportFrames& report) {
+    return read_all(colour, stop, report, [](const cv::Mat&, std::size_t) {});
 }
 
 ColourFrames write_colour_frames(const fs::path& colour, const fs::path& folder,
                                  const std::set<std::size_t>& without,
-                                 const std::atomic<bool>& stop, const FramesTold& tell) {
+                                 const std::atomic<bool>& stop, const ReportFrames& report) {
     std::error_code failed;
     fs::remove_all(folder, failed);
     fs::create_directories(folder, failed);  // a failure is reported by the first picture
-    return read_all(colour, stop, tell, [&](const cv::Mat& picture, std::size_t number) {
+    return read_all(colour, stop, report, [&](const cv::Mat& picture, std::size_t number) {
         if (!without.contains(number)) write_frame(picture, folder / (frame_name(number) + ".png"));
     });
 }

@@ -28,12 +28,12 @@ struct ColourFrames {
 [[nodiscard]] std::string frame_name(std::size_t number);
 
 /// Called during long work with the frames done, and about how many there are.
-using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
+using ReportFrames = std::function<void(std::size_t done, std::size_t of)>;
 
 /// Reads all of a video, a picture or a row of them. Throws InputError.
 [[nodiscard]] ColourFrames read_colour_frames(const std::filesystem::path& colour,
                                               const std::atomic<bool>& stop,
-                                              const FramesTold& tell);
+                                              const ReportFrames& report);
 
 /// The same, and writes the pictures as PNG into the folder, which it empties first; leaves out the
 /// numbers in `without`.
@@ -41,6 +41,6 @@ using FramesTold = std::function<void(std::size_t done, std::size_t of)>;
                                                const std::filesystem::path& folder,
                                                const std::set<std::size_t>& without,
                                                const std::atomic<bool>& stop,
-                                               const FramesTold& tell);
+                                               const ReportFrames& report);
 
 }  // namespace dibhr

@@ -128,7 +128,7 @@ void EstimateFolder::empty() const {
         if (entry.path().filename() != kLock) clear_away(entry.path());
 }
 
-void EstimateFolder::drop_work() const {
+void EstimateFolder::remove_work_files() const {
     clear_away(frames());
     clear_away(output());
 }

@@ -47,7 +47,7 @@ class EstimateFolder {
     /// Removes all files but the lock.
     void empty() const;
     /// Removes the files that only the estimator needed.
-    void drop_work() const;
+    void remove_work_files() const;
 
   private:
     std::filesystem::path path_;

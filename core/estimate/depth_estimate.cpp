@@ -15,7 +15,7 @@
 #include "core/estimate/depth_result.hpp"
 #include "core/estimate/estimator_command.hpp"
 #include "core/estimate/estimator_output.hpp"
-#include "core/estimate/spoken_progress.hpp"
+#include "core/estimate/printed_progress.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
@@ -37,15 +37,15 @@ double seconds_since(steady_clock::time_point begin) {
 }
 
 /// Writes the estimator's output to a file; of a very long output only its begin and its end.
-class SaidFile {
+class OutputLog {
   public:
-    explicit SaidFile(const fs::path& file) : file_(file, std::ios::binary | std::ios::trunc) {}
-    ~SaidFile() {
+    explicit OutputLog(const fs::path& file) : file_(file, std::ios::binary | std::ios::trunc) {}
+    ~OutputLog() {
         if (left_out_ > 0) file_ << "\n[" << left_out_ << " bytes are left out here]\n";
         file_ << last_;
     }
-    SaidFile(const SaidFile&) = delete;
-    SaidFile& operator=(const SaidFile&) = delete;
+    OutputLog(const OutputLog&) = delete;
+    OutputLog& operator=(const OutputLog&) = delete;
 
     void take(std::string_view text) {
         const std::string_view first = text.substr(0, kMost - std::min(first_, kMost));
@@ -59,8 +59,7 @@ class SaidFile {
     }
 
   private:
-    static constexpr std::size_t kMost = std::size_t{1}
-                                         << 19;  ///< bytes of begin and end
+    static constexpr std::size_t kMost = std::size_t{1} << 19;  ///< bytes of begin and end
 
     std::ofstream file_;
     std::size_t first_{0}, left_out_{0};
@@ -75,71 +74,71 @@ class Run {
         : folder_(folder),
           frames_(frames),
           watch_(watch),
-          patience_s_(request.patience_s),
-          said_(folder.said()),
+          timeout_s_(request.timeout_s),
+          output_log_(folder.said()),
           child_(command.words({fs::absolute(request.colour), folder.frames(), folder.output()}),
-                 request.manner) {
+                 request.priority) {
         before_ = std::min(row_so_far(folder_.output()).size(), frames_);
-        watch_.runs(child_.keeper());
+        watch_.set_keeper(child_.keeper());
     }
-    ~Run() { watch_.runs(0); }
+    ~Run() { watch_.set_keeper(0); }
     Run(const Run&) = delete;
     Run& operator=(const Run&) = delete;
 
     /// Waits. How it ended; nothing when it was stopped. Throws InputError at a timeout.
-    std::optional<ChildEnd> watched() {
+    std::optional<ChildEnd> wait_for_end() {
         constexpr std::chrono::milliseconds kPause{50};
-        constexpr double kLookAgain_s = 0.25;
+        constexpr double kCheckInterval_s = 0.25;
         while (true) {
             const auto ended = child_.ended();
-            take_words(child_.written(ended ? std::chrono::milliseconds(0) : kPause));
+            take_output(child_.written(ended ? std::chrono::milliseconds(0) : kPause));
             if (watch_.stopped()) {
                 child_.end();
                 return std::nullopt;
             }
             if (ended) return ended;
-            if (seconds_since(looked_) >= kLookAgain_s) look();
+            if (seconds_since(checked_at_) >= kCheckInterval_s) check_output();
         }
     }
 
-    [[nodiscard]] const std::string& last_line() const { return spoken_.last_line(); }
+    [[nodiscard]] const std::string& last_line() const { return printed_.last_line(); }
 
   private:
-    void take_words(const std::string& text) {
+    void take_output(const std::string& text) {
         if (text.empty()) return;
-        said_.take(text);
-        spoken_.take(text);
-        alive_ = steady_clock::now();
-        tell();
+        output_log_.take(text);
+        printed_.take(text);
+        last_sign_at_ = steady_clock::now();
+        report();
     }
 
     /// Counts frames and bytes in the output folder, and checks the timeout.
-    void look() {
-        looked_ = steady_clock::now();
+    void check_output() {
+        checked_at_ = steady_clock::now();
         done_ = std::min(row_so_far(folder_.output()).size(), frames_);
         const std::uintmax_t bytes = bytes_in(folder_.output());
-        if (std::exchange(bytes_, bytes) != bytes) alive_ = looked_;
-        tell();
-        if (seconds_since(alive_) < patience_s_) return;
+        if (std::exchange(bytes_, bytes) != bytes) last_sign_at_ = checked_at_;
+        report();
+        if (seconds_since(last_sign_at_) < timeout_s_) return;
         child_.end();
-        throw InputError("the estimator wrote and printed nothing for " + short_text(patience_s_) +
+        throw InputError("the estimator wrote and printed nothing for " + short_text(timeout_s_) +
                          " s and was ended");
     }
 
-    void tell() {
+    void report() {
         EstimateProgress progress{.step = EstimateStep::estimating,
                                   .done = done_,
                                   .of = frames_,
                                   .counted = done_ > 0,
                                   .elapsed_s = seconds_since(begun_),
-                                  .said = spoken_.last_line()};
-        const auto told = spoken_.done_of(frames_ - before_);
-        if (told && before_ + *told > progress.done) {
-            progress.done = before_ + *told;
+                                  .said = printed_.last_line()};
+        const auto printed = printed_.done_of(frames_ - before_);
+        if (printed && before_ + *printed > progress.done) {
+            progress.done = before_ + *printed;
             progress.counted = true;
         }
         progress.left_s = left_s(progress);
-        watch_.tell(progress);
+        watch_.report(progress);
     }
 
     /// From the speed since the first new frame: before that the estimator loads its model.
@@ -152,7 +151,7 @@ class Run {
         return each_s * static_cast<double>(frames_ - now.done);
     }
 
-    struct FirstOnes {
+    struct FirstFrames {
         std::size_t done{0};
         double at_s{0.0};
     };
@@ -160,27 +159,27 @@ class Run {
     const EstimateFolder& folder_;
     std::size_t frames_;
     EstimateWatch& watch_;
-    double patience_s_;
-    SaidFile said_;
-    SpokenProgress spoken_{};
+    double timeout_s_;
+    OutputLog output_log_;
+    PrintedProgress printed_{};
     std::size_t before_{0};  ///< frames of earlier runs
     std::size_t done_{0};
-    FirstOnes first_{};
+    FirstFrames first_{};
     std::uintmax_t bytes_{0};
     steady_clock::time_point begun_{steady_clock::now()};
-    steady_clock::time_point alive_{begun_}, looked_{begun_};
+    steady_clock::time_point last_sign_at_{begun_}, checked_at_{begun_};
     ChildProgram child_;
 };
 
-FramesTold teller(EstimateWatch& watch, EstimateStep step) {
+ReportFrames frame_reporter(EstimateWatch& watch, EstimateStep step) {
     return [&watch, step](std::size_t done, std::size_t of) {
-        watch.tell({.step = step, .done = done, .of = of});
+        watch.report({.step = step, .done = done, .of = of});
     };
 }
 
 /// At which frame it failed, for the message.
-std::string how_far(const EstimatorCommand& command, const EstimateFolder& folder,
-                    std::size_t frames) {
+std::string progress_text(const EstimatorCommand& command, const EstimateFolder& folder,
+                          std::size_t frames) {
     const std::size_t done = row_so_far(folder.output()).size();
     if (done == 0 || done >= frames) return "";
     std::string words = " at frame " + std::to_string(done + 1) + " of " + std::to_string(frames);
@@ -223,11 +222,11 @@ class Estimation {
             const fs::path depth = folder_->path() / before->depth;
             const auto is = fs::exists(depth) ? sha256_of_file(depth, watch_.stopped()) : "";
             if (!is) return std::nullopt;
-            if (*is == before->sha256) return opened(*before, true);
+            if (*is == before->sha256) return save_result(*before, true);
             print_warning("the depth kept for " + shown(request_.colour) +
                           " has changed since it was written, and is made anew");
         }
-        if (!has_frames()) return std::nullopt;
+        if (!prepare_frames()) return std::nullopt;
         const bool all_there = command_.takes_frames() && done_.size() >= colour_.count();
         if (!all_there && !run()) return std::nullopt;
         return written();
@@ -235,17 +234,17 @@ class Estimation {
 
   private:
     /// Reads the colour, and writes frames that are not done yet. False when it was stopped.
-    bool has_frames() {
-        const FramesTold tell = teller(watch_, EstimateStep::giving_frames);
+    bool prepare_frames() {
+        const ReportFrames report = frame_reporter(watch_, EstimateStep::reading_frames);
         std::error_code failed;
         if (command_.takes_frames()) {
             done_ = whole_outputs(folder_->output()).numbers;
             if (done_.empty()) fs::remove_all(folder_->output(), failed);
             colour_ = write_colour_frames(request_.colour, folder_->frames(), done_,
-                                          watch_.stopped(), tell);
+                                          watch_.stopped(), report);
         } else {
             fs::remove_all(folder_->output(), failed);
-            colour_ = read_colour_frames(request_.colour, watch_.stopped(), tell);
+            colour_ = read_colour_frames(request_.colour, watch_.stopped(), report);
         }
         if (watch_.stopped()) return false;
         colour_.file = fs::absolute(request_.colour);
@@ -259,7 +258,7 @@ class Estimation {
         Run run(request_, *folder_, command_, colour_.count(), watch_);
         std::string failure;
         try {
-            const auto end = run.watched();
+            const auto end = run.wait_for_end();
             if (!end) return false;
             if (!end->well()) failure = "the estimator " + in_words(*end);
         } catch (const InputError& error) {
@@ -276,7 +275,7 @@ class Estimation {
                              ", which is removed: run it again to have it made anew");
         const bool complete = outputs.numbers.size() >= colour_.count();
         if (failure.empty() || complete) return true;
-        failure += how_far(command_, *folder_, colour_.count());
+        failure += progress_text(command_, *folder_, colour_.count());
         if (!run.last_line().empty())
             failure += "; its last line: " + in_quotes(run.last_line(), 160);
         if (fs::exists(folder_->said()) && fs::file_size(folder_->said()) > 0)
@@ -287,22 +286,22 @@ class Estimation {
     std::optional<DepthEstimate> written() {
         const DepthWritten written = write_depth(
             folder_->output(), colour_, request_.meaning.unit.value_or(DepthUnit::levels),
-            folder_->path(), watch_.stopped(), teller(watch_, EstimateStep::checking));
+            folder_->path(), watch_.stopped(), frame_reporter(watch_, EstimateStep::checking));
         if (written.file.empty()) return std::nullopt;
         const auto sum = sha256_of_file(written.file, watch_.stopped());
         if (!sum) return std::nullopt;
-        const DepthEstimate made = opened({.colour = colour_,
-                                           .command = command_.text(),
-                                           .depth = written.file.filename().string(),
-                                           .sha256 = *sum,
-                                           .levels = written.levels},
-                                          false);
-        folder_->drop_work();
+        const DepthEstimate made = save_result({.colour = colour_,
+                                                .command = command_.text(),
+                                                .depth = written.file.filename().string(),
+                                                .sha256 = *sum,
+                                                .levels = written.levels},
+                                               false);
+        folder_->remove_work_files();
         return made;
     }
 
     /// Stores the record, and a sidecar by this request's statement, completed by the last one's.
-    DepthEstimate opened(EstimateRecord record, bool kept_before) {
+    DepthEstimate save_result(EstimateRecord record, bool kept_before) {
         DepthStatement said = request_.meaning;
         said.fill_in(record.said);
         record.said = said;
@@ -334,7 +333,7 @@ void copy_whole(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 std::optional<DepthEstimate> estimate_depth(const EstimateRequest& request, EstimateWatch& watch) {
-    if (request.manner == ChildManner::polite) give_way(0);  // and the decoder's threads
+    if (request.priority == ChildPriority::low) lower_priority(0);  // and the decoder's threads
     try {
         return Estimation(request, watch).made();
     } catch (const fs::filesystem_error& error) {

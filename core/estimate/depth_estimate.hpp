@@ -20,9 +20,10 @@ struct EstimateRequest {
     /// most estimators.
     DepthStatement meaning{};
     std::filesystem::path cache{};
-    double patience_s{600.0};                   ///< without output or new bytes
-    bool again{false};                          ///< ignore the cache
-    ChildManner manner{ChildManner::ordinary};  ///< of the estimator, and of the thread that waits
+    double timeout_s{600.0};  ///< without output or new bytes
+    bool again{false};        ///< ignore the cache
+    ChildPriority priority{
+        ChildPriority::normal};  ///< of the estimator, and of the thread that waits
 };
 
 struct DepthEstimate {

@@ -101,7 +101,7 @@ bool lasts_as_long(const fs::path& file, const Survey& survey, const ColourFrame
 
 /// Throws InputError where it does not fit. Incomplete when `stop` became true.
 Survey surveyed(const DepthOutput& output, const ColourFrames& colour,
-                const std::atomic<bool>& stop, const FramesTold& tell) {
+                const std::atomic<bool>& stop, const ReportFrames& report) {
     const auto source = output.open();
     const SourceFacts& facts = source->facts();
     const double aspect = pixel_aspect_of(output.file(), facts.columns, facts.rows, colour);
@@ -119,7 +119,7 @@ Survey surveyed(const DepthOutput& output, const ColourFrames& colour,
         const auto picture = source->next();
         if (!picture) break;
         take_in(*picture, survey);
-        tell(survey.times_s.size(), 2 * colour.count());
+        report(survey.times_s.size(), 2 * colour.count());
     }
     if (stop) return survey;
     if (survey.times_s.size() != colour.count() && !lasts_as_long(output.file(), survey, colour))
@@ -173,7 +173,7 @@ cv::Mat levels_by(const LevelRule& rule, const cv::Mat& picture) {
 /// False when `stop` became true.
 bool write_video(PictureSource& source, const LevelRule& rule, const Survey& survey,
                  const ColourFrames& colour, const fs::path& file, const std::atomic<bool>& stop,
-                 const FramesTold& tell) {
+                 const ReportFrames& report) {
     const bool frame_by_frame = survey.times_s.size() == colour.count();
     const std::vector<double>& times_s = frame_by_frame ? colour.times_s : survey.times_s;
     OutputFile out(file);
@@ -184,7 +184,7 @@ bool write_video(PictureSource& source, const LevelRule& rule, const Survey& sur
         const std::size_t next = std::min(k + 1, times_s.size() - 1);
         const double interval_s = next > k ? times_s[next] - times_s[k] : colour.interval_s();
         video.add(levels_by(rule, picture->picture), colour.start_s + times_s[k], interval_s);
-        tell(times_s.size() + k + 1, 2 * times_s.size());
+        report(times_s.size() + k + 1, 2 * times_s.size());
     }
     video.finish();
     out.commit();
@@ -195,11 +195,11 @@ bool write_video(PictureSource& source, const LevelRule& rule, const Survey& sur
 
 DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, DepthUnit unit,
                          const fs::path& target, const std::atomic<bool>& stop,
-                         const FramesTold& tell) {
+                         const ReportFrames& report) {
     std::string refusal;
     for (const DepthOutput& form : depth_outputs(output)) {
         try {
-            const Survey survey = surveyed(form, colour, stop, tell);
+            const Survey survey = surveyed(form, colour, stop, report);
             if (stop) return {};
             const LevelRule rule = rule_for(survey, unit);
             const auto source = form.open();
@@ -208,7 +208,7 @@ DepthWritten write_depth(const fs::path& output, const ColourFrames& colour, Dep
                 write_file(
                     file, encoded_png(with_square_pixels(levels_by(rule, source->next()->picture),
                                                          survey.pixel_aspect, PictureRole::depth)));
-            else if (!write_video(*source, rule, survey, colour, file, stop, tell))
+            else if (!write_video(*source, rule, survey, colour, file, stop, report))
                 return {};
             DepthStatement levels{.scale = rule.step};
             if (rule.marks_holes) levels.no_data = std::vector<double>{0.0};

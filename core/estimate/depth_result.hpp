@@ -25,6 +25,6 @@ struct DepthWritten {
 [[nodiscard]] DepthWritten write_depth(const std::filesystem::path& output,
                                        const ColourFrames& colour, DepthUnit unit,
                                        const std::filesystem::path& target,
-                                       const std::atomic<bool>& stop, const FramesTold& tell);
+                                       const std::atomic<bool>& stop, const ReportFrames& report);
 
 }  // namespace dibhr

@@ -41,7 +41,7 @@ void EstimateWatch::stop_at_once() noexcept {
     if (keeper_ > 0) ::kill(keeper_, SIGUSR1);
 }
 
-void EstimateWatch::tell(const EstimateProgress& progress) {
+void EstimateWatch::report(const EstimateProgress& progress) {
     const std::scoped_lock lock(mutex_);
     progress_ = progress;
 }
@@ -51,7 +51,7 @@ EstimateProgress EstimateWatch::progress() const {
     return progress_;
 }
 
-void EstimateWatch::runs(pid_t keeper) {
+void EstimateWatch::set_keeper(pid_t keeper) {
     const std::scoped_lock lock(mutex_);
     keeper_ = keeper;
     if (keeper_ > 0 && at_once_) ::kill(keeper_, SIGUSR1);

@@ -12,10 +12,10 @@
 namespace dibhr {
 
 /// The present step.
-enum class EstimateStep { looking, giving_frames, estimating, checking };
+enum class EstimateStep { inspecting, reading_frames, estimating, checking };
 
 struct EstimateProgress {
-    EstimateStep step{EstimateStep::looking};
+    EstimateStep step{EstimateStep::inspecting};
     std::size_t done{0}, of{0};  ///< frames; of 0: not known yet
     bool counted{false};         ///< `done` is known from the estimator
     std::optional<double> left_s{};
@@ -40,11 +40,11 @@ class EstimateWatch {
     void stop_at_once() noexcept;
     [[nodiscard]] const std::atomic<bool>& stopped() const noexcept { return stop_; }
 
-    void tell(const EstimateProgress& progress);
+    void report(const EstimateProgress& progress);
     [[nodiscard]] EstimateProgress progress() const;
 
     /// Sets the estimator's keeper; 0: none runs.
-    void runs(pid_t keeper);
+    void set_keeper(pid_t keeper);
 
   private:
     std::atomic<bool> stop_{false};

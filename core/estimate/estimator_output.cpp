@@ -37,7 +37,7 @@ int rank_of_form(const fs::path& file) {
 
 /// Whether a word in the name, or in that of a folder above, is for other output of estimators than
 /// depth levels.
-bool says_other(const fs::path& relative) {
+bool names_other_content(const fs::path& relative) {
     constexpr std::array<std::string_view, 4> kOthers{"src", "input", "normal", "confidence"};
     for (const fs::path& part : relative) {
         const std::string name = lower_case(part.string());
@@ -51,7 +51,7 @@ bool says_other(const fs::path& relative) {
 
 int rank_of(const fs::path& folder, const fs::path& file) {
     const int form = named_video(file) ? kVideo + (named_depth(file) ? 0 : 1) : rank_of_form(file);
-    return form + (says_other(file.lexically_relative(folder)) ? kPutLast : 0);
+    return form + (names_other_content(file.lexically_relative(folder)) ? kPutLast : 0);
 }
 
 /// Without hidden files, which are still being written.

@@ -31,9 +31,10 @@ double time_of(const PathRun& path, std::size_t k) noexcept {
 }
 
 /// One path prepared for all algorithms: its surfaces and its friction.
-class Course {
+class PreparedPath {
   public:
-    Course(const PathRun& path, const DepthClip& clip) : path_(path), friction_{path.mu, path.mu} {
+    PreparedPath(const PathRun& path, const DepthClip& clip)
+        : path_(path), friction_{path.mu, path.mu} {
         // Made before the runs: finding a moment's frames is the tick's work, not the algorithm's.
         surfaces_.reserve(path.goals.size());
         for (std::size_t k = 0; k < path.goals.size(); ++k) {
@@ -157,12 +158,12 @@ void survey_path(PathRun& path, const DepthClip& clip) {
 
 void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algorithm> algorithms,
                     Timing timing, const Progress& progress) {
-    const Course course(path, clip);
+    const PreparedPath prepared(path, clip);
     const bool careful = timing == Timing::careful;
     const int rounds = careful ? kWholeRuns : 0;
     const std::size_t passes = algorithms.size() * static_cast<std::size_t>(1 + rounds);
     std::size_t done = 0;
-    const auto tell = [&] {
+    const auto report_progress = [&] {
         if (progress) progress(static_cast<double>(++done) / static_cast<double>(passes));
     };
 
@@ -170,15 +171,15 @@ void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algori
     std::vector<AlgorithmRun> runs;
     for (const Algorithm which : algorithms) {
         ProxyAlgorithm& walker = *walkers.emplace_back(make_algorithm(which));
-        if (careful) static_cast<void>(course.whole_us(walker));
-        runs.push_back(course.recorded(which, walker));
-        tell();
+        if (careful) static_cast<void>(prepared.whole_us(walker));
+        runs.push_back(prepared.recorded(which, walker));
+        report_progress();
     }
     std::vector<std::vector<double>> whole_us(algorithms.size());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t a = 0; a < algorithms.size(); ++a) {
-            whole_us[a].push_back(course.whole_us(*walkers[a]));
-            tell();
+            whole_us[a].push_back(prepared.whole_us(*walkers[a]));
+            report_progress();
         }
     }
     for (std::size_t a = 0; a < algorithms.size(); ++a) {
@@ -280,8 +281,8 @@ ExactError error_against(std::span<const Vec3> exact_proxies, std::span<const Ve
 }
 
 Vec3 linear_goal(const PathPlace& place, int update) noexcept {
-    const double gone = std::fmod(update * kHandStep_px, 4.0 * kHalfLine_px);
-    const double x = gone < 2.0 * kHalfLine_px ? gone : 4.0 * kHalfLine_px - gone;
+    const double travelled = std::fmod(update * kHandStep_px, 4.0 * kHalfLine_px);
+    const double x = travelled < 2.0 * kHalfLine_px ? travelled : 4.0 * kHalfLine_px - travelled;
     return {place.centre_x - kHalfLine_px + x, place.centre_y, place.surface_px - place.depth_px};
 }
 

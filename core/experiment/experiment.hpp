@@ -15,7 +15,7 @@
 #include "core/haptics/proxy.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/metrics/force_variation.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 
 namespace dibhr {
 

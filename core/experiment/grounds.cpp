@@ -145,8 +145,8 @@ PathRun slanted_path(const DepthClip& plane, double step_px) {
     path.name = "slanted";
     const PathPlace middle = middle_of(plane, kOffRow_px);
     for (int k = 0; k < kExperimentUpdates; ++k) {
-        const double gone = std::fmod(k * step_px, 4.0 * kHalf_px);
-        const double along = std::abs(gone - 2.0 * kHalf_px) - kHalf_px;
+        const double travelled = std::fmod(k * step_px, 4.0 * kHalf_px);
+        const double along = std::abs(travelled - 2.0 * kHalf_px) - kHalf_px;
         const double x = middle.centre_x + along * std::cos(kAngle_rad);
         const double y = middle.centre_y + along * std::sin(kAngle_rad);
         path.goals.push_back({x, y, plane.at(0.0).elevation_at(x, y) - kExperimentDepth_px});

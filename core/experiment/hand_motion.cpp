@@ -181,20 +181,20 @@ class HandModel {
         while (motion_.places.size() < updates_) {
             const double next_px = dice_.between(kLightest_px, kDeepest_px);
             const HandStroke stroke = next_stroke(place, area_, dice_);
-            lay(stroke, stroke.duration_s, pressed_px, next_px);
+            append_stroke(stroke, stroke.duration_s, pressed_px, next_px);
             place = stroke.at(1.0);
             const bool lifts = dice_.between(0.0, 1.0) < 0.3;
             pressed_px = lifts ? -kLifted_px : next_px;
             HandStroke pause;
             pause.centre = place;
-            lay(pause, dice_.between(0.1, 0.4), next_px, pressed_px);
+            append_stroke(pause, dice_.between(0.1, 0.4), next_px, pressed_px);
         }
         add_tremor();
         return std::move(motion_);
     }
 
   private:
-    void lay(const HandStroke& stroke, double duration_s, double from_px, double to_px) {
+    void append_stroke(const HandStroke& stroke, double duration_s, double from_px, double to_px) {
         const int count = std::max(static_cast<int>(duration_s / kUpdate_s), 1);
         for (int k = 1; k <= count && motion_.places.size() < updates_; ++k) {
             const double share = minimum_jerk(static_cast<double>(k) / count);

@@ -9,7 +9,7 @@
 
 #include "core/experiment/experiment.hpp"
 #include "core/haptics/vec.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 
 namespace dibhr {
 

@@ -68,7 +68,7 @@ double back_and_forth(double t_s, double duration_s) {
 }
 
 constexpr double kNoPressure = 0.5;
-constexpr const char* kWanted =
+constexpr const char* kExpectedForm =
     "give a CSV file with columns like t_s,x_mm,y_mm and, if known, pressure01,pen_down";
 
 using Names = std::span<const std::string_view>;
@@ -89,7 +89,7 @@ class TraceColumns {
             time = table.find(kMilliseconds);
             per_second_ = 1e3;
         }
-        if (!time) table.refuse(std::string("has no column of times; ") + kWanted);
+        if (!time) table.refuse(std::string("has no column of times; ") + kExpectedForm);
         time_ = *time;
         for (const auto& place : kPlaces) {
             const auto x = table.find(Names(&place[0], 1));
@@ -99,7 +99,7 @@ class TraceColumns {
             y_ = *y;
             return;
         }
-        table.refuse(std::string("has no columns of places; ") + kWanted);
+        table.refuse(std::string("has no columns of places; ") + kExpectedForm);
     }
 
     /// Of the table's row.
@@ -174,7 +174,7 @@ double SmoothCurve::at(double t) const noexcept {
 }
 
 std::vector<TraceSample> read_trace(const std::filesystem::path& file) {
-    CsvTable table(file, kWanted);
+    CsvTable table(file, kExpectedForm);
     const TraceColumns columns(table);
     std::vector<TraceSample> samples;
     while (table.next()) {
@@ -185,7 +185,7 @@ std::vector<TraceSample> read_trace(const std::filesystem::path& file) {
     }
     if (samples.size() < 2 || samples.back().t_s - samples.front().t_s < kOneTime_s) {
         throw InputError(file.string() + ": has fewer than two rows at different times; " +
-                         kWanted);
+                         kExpectedForm);
     }
     return samples;
 }

@@ -47,9 +47,9 @@ std::vector<Vec2> directions(const PathRun& path, std::span<const Vec3> proxies,
 }
 
 /// "turns 4.13 deg per update (sd 6.77), sliding 3.90 (sd 2.10)".
-std::string turning_words(const VariationStatistics& variation) {
+std::string turning_text(const VariationStatistics& variation) {
     return "turns " + fixed_text(variation.mean_deg, 2) + " deg per update (sd " +
-           fixed_text(variation.sd_deg, 2) + "), sliding " + sliding_words(variation);
+           fixed_text(variation.sd_deg, 2) + "), sliding " + sliding_text(variation);
 }
 
 Axis time_axis(UpdateSpan updates, bool numbered) {
@@ -69,9 +69,9 @@ void draw_directions(Canvas& canvas, Box area, const PathRun& path, const Algori
     axes.draw_ground(canvas);
     if (!path.exact_proxies.empty()) {
         axes.draw_series(canvas, directions(path, path.exact_proxies, {}, updates),
-                         look_of_exact().stroke);
+                         style_of_exact().stroke);
     }
-    Stroke stroke{look_of(run.algorithm).stroke.ink, 1.5, Dash::solid};
+    Stroke stroke{style_of(run.algorithm).stroke.ink, 1.5, Dash::solid};
     axes.draw_series(canvas, directions(path, run.proxies, run.contact, updates), stroke);
     axes.draw_frame(canvas);
 }
@@ -116,9 +116,9 @@ Canvas plot_force(const PathRun& path) {
         const Box left{100.0, top, 570.0, top + each};
         const Box right{690.0, top, 1160.0, top + each};
         canvas.text({left.left, top - 10.0},
-                    look_of(run.algorithm).name + ": direction along the image",
+                    style_of(run.algorithm).name + ": direction along the image",
                     {kTextInk, kLabelCap_px, Align::left, true});
-        canvas.text({right.left, top - 10.0}, turning_words(run.variation),
+        canvas.text({right.left, top - 10.0}, turning_text(run.variation),
                     {kTextInk, kLabelCap_px});
         draw_directions(canvas, left, path, run, lowest);
         draw_turning(canvas, right, path, run, {highest, lowest});
@@ -136,9 +136,9 @@ Canvas plot_error(const PathRun& path) {
     y.most_ticks = 9;
     const Axes axes(kArea, time_axis(updates, true), y);
     axes.draw_ground(canvas);
-    std::vector<SeriesLook> entries;
+    std::vector<SeriesStyle> entries;
     for (const AlgorithmRun& run : path.runs) {
-        SeriesLook look = look_of(run.algorithm);
+        SeriesStyle look = style_of(run.algorithm);
         axes.draw_series(canvas, errors_deg(path, run, updates), look.stroke);
         look.marker = Marker::none;
         entries.push_back(look);
@@ -177,7 +177,7 @@ double highest_turn_deg(const PathRun& path) {
     return step * std::ceil(1.05 * wanted / step);
 }
 
-std::string sliding_words(const VariationStatistics& variation) {
+std::string sliding_text(const VariationStatistics& variation) {
     return fixed_text(variation.mean_without_reversals_deg, 2) + " (sd " +
            fixed_text(variation.sd_without_reversals_deg, 2) + ")";
 }
@@ -194,7 +194,7 @@ void draw_turning(Canvas& canvas, Box area, const PathRun& path, const Algorithm
                          {kExactInk, 4.0, Dash::solid});
     }
     axes.draw_series(canvas, turns_deg(path, run.proxies, run.contact, updates),
-                     {look_of(run.algorithm).stroke.ink, 1.0, Dash::solid});
+                     {style_of(run.algorithm).stroke.ink, 1.0, Dash::solid});
     axes.draw_frame(canvas);
 }
 

@@ -56,12 +56,13 @@ UpdateSpan updates_around(const MagnifiedPlace& place, const PathRun& path) {
 }
 
 /// The points as seen from above.
-std::vector<Vec2> way_of(const Axes& axes, std::span<const Vec3> points, UpdateSpan updates) {
-    std::vector<Vec2> way;
+std::vector<Vec2> trajectory_of(const Axes& axes, std::span<const Vec3> points,
+                                UpdateSpan updates) {
+    std::vector<Vec2> trajectory;
     for (std::size_t k = updates.first; k < updates.end; ++k) {
-        way.push_back(axes.at(Vec2(points[k])));
+        trajectory.push_back(axes.at(Vec2(points[k])));
     }
-    return way;
+    return trajectory;
 }
 
 /// Those drawn first are larger, so that markers on one another all show.
@@ -71,12 +72,12 @@ double marker_px(Marker marker) {
     return marker == Marker::triangle ? 11.0 : 8.0;
 }
 
-void draw_way(Canvas& canvas, const std::vector<Vec2>& way, const SeriesLook& look,
-              std::size_t step) {
-    canvas.polyline(way, look.stroke);
+void draw_trajectory(Canvas& canvas, const std::vector<Vec2>& trajectory, const SeriesStyle& look,
+                     std::size_t step) {
+    canvas.polyline(trajectory, look.stroke);
     const double size = marker_px(look.marker);
-    for (std::size_t k = 0; k < way.size(); k += step) {
-        canvas.marker(way[k], look.marker, size, look.stroke.ink, kPaper);
+    for (std::size_t k = 0; k < trajectory.size(); k += step) {
+        canvas.marker(trajectory[k], look.marker, size, look.stroke.ink, kPaper);
     }
 }
 
@@ -85,7 +86,7 @@ void draw_springs(Canvas& canvas, const Axes& axes, const PathRun& path, std::si
     const Vec2 goal = axes.at(Vec2(path.goals[update]));
     for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {  // the first on top
         canvas.line(goal, axes.at(Vec2(run->proxies[update])),
-                    {look_of(run->algorithm).stroke.ink, 1.5, Dash::solid});
+                    {style_of(run->algorithm).stroke.ink, 1.5, Dash::solid});
     }
     if (!path.exact_proxies.empty()) {
         const double radius = path.mu * path.depth_px;
@@ -110,15 +111,16 @@ bool all_in_contact(const PathRun& path, std::size_t update) {
 }
 
 double mean_step_px(const PathRun& path, UpdateSpan updates) {
-    double gone = 0.0;
+    double travelled = 0.0;
     for (std::size_t k = updates.first + 1; k < updates.end; ++k) {
-        gone += glm::distance(path.goals[k - 1], path.goals[k]);
+        travelled += glm::distance(path.goals[k - 1], path.goals[k]);
     }
-    return gone / static_cast<double>(std::max<std::size_t>(updates.end - updates.first, 2) - 1);
+    return travelled /
+           static_cast<double>(std::max<std::size_t>(updates.end - updates.first, 2) - 1);
 }
 
 /// Centres the place on the goal and the proxies of its update, with room around them.
-void frame(const PathRun& path, MagnifiedPlace& place) {
+void centre_on_proxies(const PathRun& path, MagnifiedPlace& place) {
     Vec2 low = Vec2(path.goals[place.update]);
     Vec2 high = low;
     for (const AlgorithmRun& run : path.runs) {
@@ -145,10 +147,10 @@ bool is_long(const PathRun& path) {
     return path.exact_proxies.empty();
 }
 
-std::string overview_words(const PathRun& path) {
+std::string overview_text(const PathRun& path) {
     const UpdateSpan shown = shown_updates(path);
     const std::string seconds = tick_text(seconds_of(shown.end - shown.first)) + " s from above";
-    return (is_long(path) ? look_of(path.runs.front().algorithm).name + ", " : "") + seconds +
+    return (is_long(path) ? style_of(path.runs.front().algorithm).name + ", " : "") + seconds +
            "; the square is magnified";
 }
 
@@ -162,9 +164,9 @@ void draw_overview(Canvas& canvas, Box area, const PathRun& path, const Magnifie
     const UpdateSpan shown = shown_updates(path);
     for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {  // the first on top
         if (is_long(path) && run + 1 != path.runs.rend()) continue;
-        Stroke stroke = look_of(run->algorithm).stroke;
+        Stroke stroke = style_of(run->algorithm).stroke;
         if (is_long(path)) stroke.width_px = 1.0;
-        canvas.polyline(way_of(axes, run->proxies, shown), stroke);
+        canvas.polyline(trajectory_of(axes, run->proxies, shown), stroke);
     }
     const double half = place.side_px / 2.0;
     const Vec2 first = axes.at(place.centre - half);
@@ -175,14 +177,14 @@ void draw_overview(Canvas& canvas, Box area, const PathRun& path, const Magnifie
     axes.draw_frame(canvas);
 }
 
-std::vector<SeriesLook> legend_of(const PathRun& path) {
-    std::vector<SeriesLook> entries{look_of_goal()};
-    if (!path.exact_proxies.empty()) entries.push_back(look_of_exact());
-    for (const AlgorithmRun& run : path.runs) entries.push_back(look_of(run.algorithm));
+std::vector<SeriesStyle> legend_of(const PathRun& path) {
+    std::vector<SeriesStyle> entries{style_of_goal()};
+    if (!path.exact_proxies.empty()) entries.push_back(style_of_exact());
+    for (const AlgorithmRun& run : path.runs) entries.push_back(style_of(run.algorithm));
     return entries;
 }
 
-std::string magnified_words(const PathRun& path, const MagnifiedPlace& place) {
+std::string magnified_text(const PathRun& path, const MagnifiedPlace& place) {
     const std::string side = tick_text(place.side_px);
     const std::size_t step = updates_a_marker(path, place);
     const std::string markers = step == 1 ? "an update" : "in " + std::to_string(step) + " updates";
@@ -208,20 +210,20 @@ MagnifiedPlace typical_place(const PathRun& path) {
         std::nth_element(apart.begin(), middle, apart.end());
         place.update = middle->second;
     }
-    frame(path, place);
+    centre_on_proxies(path, place);
     return place;
 }
 
 std::size_t updates_a_marker(const PathRun& path, const MagnifiedPlace& place) {
     constexpr double kMarkersAcross = 28.0;
     const std::size_t end = updates_around(place, path).end;
-    double gone = 0.0;
+    double travelled = 0.0;
     for (std::size_t k = place.update + 1; k < end; ++k) {
-        gone += glm::distance(Vec2(path.goals[k - 1]), Vec2(path.goals[k]));
+        travelled += glm::distance(Vec2(path.goals[k - 1]), Vec2(path.goals[k]));
     }
     const double apart = place.side_px / kMarkersAcross;
     const double steps = static_cast<double>(std::max<std::size_t>(end - place.update, 2) - 1);
-    const double wanted = gone > 0.0 ? apart * steps / gone : 1.0;
+    const double wanted = travelled > 0.0 ? apart * steps / travelled : 1.0;
     return static_cast<std::size_t>(std::clamp(std::ceil(wanted), 1.0, 20.0));
 }
 
@@ -235,12 +237,13 @@ void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const Magnifi
     if (place.side_px <= kWidestWithCells_px) draw_cells(canvas, axes, place, under != nullptr);
     const UpdateSpan around = updates_around(place, path);
     if (!path.exact_proxies.empty()) {
-        canvas.polyline(way_of(axes, path.exact_proxies, around), look_of_exact().stroke);
+        canvas.polyline(trajectory_of(axes, path.exact_proxies, around), style_of_exact().stroke);
     }
-    draw_way(canvas, way_of(axes, path.goals, around), look_of_goal(), step);
+    draw_trajectory(canvas, trajectory_of(axes, path.goals, around), style_of_goal(), step);
     draw_springs(canvas, axes, path, place.update);
     for (auto run = path.runs.rbegin(); run != path.runs.rend(); ++run) {
-        draw_way(canvas, way_of(axes, run->proxies, around), look_of(run->algorithm), step);
+        draw_trajectory(canvas, trajectory_of(axes, run->proxies, around), style_of(run->algorithm),
+                        step);
     }
     canvas.clip_to_whole();
     axes.draw_frame(canvas);
@@ -252,9 +255,9 @@ Canvas plot_paths(const PathRun& path, const ColourImage* under) {
     draw_title(canvas, "Where the proxy went: " + path.name, settings_of(path));
     const TextStyle head{kTextInk, kLabelCap_px};
     const Box overview = overview_area(path);
-    canvas.text({overview.left, overview.top - 14.0}, overview_words(path), head);
+    canvas.text({overview.left, overview.top - 14.0}, overview_text(path), head);
     draw_overview(canvas, overview, path, place, under);
-    canvas.text({kMagnifiedArea.left, kMagnifiedArea.top - 14.0}, magnified_words(path, place),
+    canvas.text({kMagnifiedArea.left, kMagnifiedArea.top - 14.0}, magnified_text(path, place),
                 head);
     draw_magnified(canvas, kMagnifiedArea, path, place, under);
     draw_legend(canvas, {overview.left, overview.bottom + 60.0}, legend_of(path));

@@ -11,7 +11,7 @@
 
 #include "core/experiment/report.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/plot/axes.hpp"
 
@@ -42,8 +42,8 @@ struct Quantity {
     const char* label{""};
     double (*of)(const SweepPoint&){nullptr};
     ValueSpan span{};
-    double least{0.0};   ///< drawn for less: 0 has no logarithm
-    bool papers{false};  ///< the paper prints numbers for it
+    double least{0.0};     ///< drawn for less: 0 has no logarithm
+    bool in_paper{false};  ///< the paper prints numbers for it
 };
 
 constexpr std::array kQuantities{
@@ -94,9 +94,9 @@ std::vector<Vec2> series_of(const std::vector<SweepPoint>& points, double depth_
 }
 
 /// "DIBHR 0.53, PGA (proxy graph) 4.13, Neighborhood 7.45": Table 1, around the circle [deg].
-std::string printed_means() {
+std::string paper_means() {
     std::string means;
-    for (const Word<Algorithm>& word : words_of(Algorithm{})) {
+    for (const NamedValue<Algorithm>& word : name_table(Algorithm{})) {
         const auto paper = paper_result("circle", word.value);
         if (!paper) continue;
         means.append(means.empty() ? "" : ", ").append(word.label);
@@ -106,19 +106,19 @@ std::string printed_means() {
 }
 
 /// The paper's Table 1.
-void draw_printed(Canvas& canvas, const Axes& axes, ValueSpan mu) {
-    for (const Word<Algorithm>& word : words_of(Algorithm{})) {
+void draw_paper_means(Canvas& canvas, const Axes& axes, ValueSpan mu) {
+    for (const NamedValue<Algorithm>& word : name_table(Algorithm{})) {
         const auto paper = paper_result("circle", word.value);
         if (!paper) continue;
         const double mean_deg = paper->variation_mean_deg;
         canvas.line(axes.at(mu.low, mean_deg), axes.at(mu.high, mean_deg),
-                    {look_of(word.value).stroke.ink, 1.0, Dash::dotted});
+                    {style_of(word.value).stroke.ink, 1.0, Dash::dotted});
     }
 }
 
 void draw_algorithm(Canvas& canvas, const Axes& axes, const std::vector<Vec2>& series,
                     Algorithm algorithm) {
-    const SeriesLook look = look_of(algorithm);
+    const SeriesStyle look = style_of(algorithm);
     Stroke stroke = look.stroke;
     stroke.width_px = 1.5;
     axes.draw_series(canvas, series, stroke);
@@ -129,7 +129,7 @@ void draw_algorithm(Canvas& canvas, const Axes& axes, const std::vector<Vec2>& s
 }
 
 /// The algorithms in drawing order: DIBHR is drawn last, on top.
-std::vector<Algorithm> from_the_back(const std::vector<SweepPoint>& points) {
+std::vector<Algorithm> in_drawing_order(const std::vector<SweepPoint>& points) {
     std::set<Algorithm> all;
     for (const SweepPoint& point : points) all.insert(point.run.algorithm);
     return {all.rbegin(), all.rend()};
@@ -170,10 +170,10 @@ Canvas plot_explanation(const PathRun& circle) {
     double top = kMagnified.top;
     for (const AlgorithmRun& run : circle.runs) {
         const Box area{670.0, top, 1160.0, top + each};
-        const SeriesLook look = look_of(run.algorithm);
+        const SeriesStyle look = style_of(run.algorithm);
         canvas.marker({area.left + 5.0, top - 13.0}, look.marker, 10.0, look.stroke.ink, kPaper);
         canvas.text({area.left + 20.0, top - 8.0},
-                    look.name + ": turns " + sliding_words(run.variation) + " deg", head);
+                    look.name + ": turns " + sliding_text(run.variation) + " deg", head);
         draw_turning(canvas, area, circle, run, {highest, &run == &circle.runs.back()});
         top += each + kGap_px;
     }
@@ -183,10 +183,10 @@ Canvas plot_explanation(const PathRun& circle) {
 Canvas plot_sweep(const std::vector<SweepPoint>& points) {
     Canvas canvas(1600, 960, kPaper);
     draw_title(canvas, "How friction and depth change the force's turning: circle",
-               "thin dotted lines: what the paper prints, " + printed_means() +
+               "thin dotted lines: what the paper prints, " + paper_means() +
                    ", without saying \u03bc or depth");
     const std::vector<double> depths = shown_depths(points);
-    const std::vector<Algorithm> algorithms = from_the_back(points);
+    const std::vector<Algorithm> algorithms = in_drawing_order(points);
     const ValueSpan mu = span_of_mu(points);
     const double columns = static_cast<double>(std::max<std::size_t>(depths.size(), 1));
     const double width = (kPanels.width() - kPanelGap_px * (columns - 1.0)) / columns;
@@ -202,7 +202,7 @@ Canvas plot_sweep(const std::vector<SweepPoint>& points) {
             Axis y{quantity.span, column == 0 ? quantity.label : "", true, column == 0, 9};
             const Axes axes({left, top, left + width, top + height}, x, y);
             axes.draw_ground(canvas);
-            if (quantity.papers) draw_printed(canvas, axes, mu);
+            if (quantity.in_paper) draw_paper_means(canvas, axes, mu);
             for (const Algorithm algorithm : algorithms) {
                 draw_algorithm(canvas, axes, series_of(points, depths[column], algorithm, quantity),
                                algorithm);
@@ -213,7 +213,7 @@ Canvas plot_sweep(const std::vector<SweepPoint>& points) {
     }
     double left = kPanels.left;
     for (auto algorithm = algorithms.rbegin(); algorithm != algorithms.rend(); ++algorithm) {
-        draw_legend(canvas, {left, 900.0}, {look_of(*algorithm)});
+        draw_legend(canvas, {left, 900.0}, {style_of(*algorithm)});
         left += 280.0;
     }
     return canvas;

@@ -66,11 +66,11 @@ struct MagnifiedPlace {
 void draw_magnified(Canvas& canvas, Box area, const PathRun& path, const MagnifiedPlace& place,
                     const ColourImage* under);
 
-[[nodiscard]] inline SeriesLook look_of_exact() {
+[[nodiscard]] inline SeriesStyle style_of_exact() {
     return {"exact answer", {kExactInk, 7.0, Dash::solid}, Marker::none};
 }
 
-[[nodiscard]] inline SeriesLook look_of_goal() {
+[[nodiscard]] inline SeriesStyle style_of_goal() {
     return {"goal (the hand)", {kGoalInk, 1.5, Dash::dotted}, Marker::none};
 }
 
@@ -88,7 +88,7 @@ struct UpdateSpan {
 [[nodiscard]] double highest_turn_deg(const PathRun& path);
 
 /// "3.90 (sd 2.10)": without the updates in which the hand reverses.
-[[nodiscard]] std::string sliding_words(const VariationStatistics& variation);
+[[nodiscard]] std::string sliding_text(const VariationStatistics& variation);
 
 struct TurningScale {
     double highest_deg{1.0};

@@ -34,7 +34,7 @@ void remove_empty(const std::vector<fs::path>& folders) {
 }
 
 /// False, and why in errno: EEXIST when there is a file of that name.
-bool renamed_to_new(const fs::path& from, const fs::path& to) {
+bool rename_to_new(const fs::path& from, const fs::path& to) {
     if (::renameat2(AT_FDCWD, from.c_str(), AT_FDCWD, to.c_str(), RENAME_NOREPLACE) == 0)
         return true;
     if (errno != EINVAL && errno != ENOSYS) return false;
@@ -87,7 +87,7 @@ void remove_left_over(const fs::path& target) {
 
 }  // namespace
 
-bool flushed(int file) noexcept {
+bool flush_to_disk(int file) noexcept {
     while (::fsync(file) != 0) {
         if (errno == EINTR) continue;
         return errno == EINVAL || errno == ENOTSUP || errno == EROFS;  // cannot be flushed
@@ -95,11 +95,11 @@ bool flushed(int file) noexcept {
     return true;
 }
 
-bool flushed_folder(const fs::path& folder) noexcept {
+bool flush_folder(const fs::path& folder) noexcept {
     const char* const name = folder.empty() ? "." : folder.c_str();
     const int opened = ::open(name, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (opened < 0) return errno == EACCES;  // a folder that cannot be listed
-    const bool done = flushed(opened);
+    const bool done = flush_to_disk(opened);
     const int why = errno;
     ::close(opened);
     errno = why;
@@ -117,7 +117,7 @@ std::vector<fs::path> make_folders(const fs::path& folder, std::error_code& fail
         if (failed) break;
         if (!fs::create_directory(one, failed)) continue;
         made.push_back(one);
-        if (!flushed_folder(one.parent_path())) failed.assign(errno, std::generic_category());
+        if (!flush_folder(one.parent_path())) failed.assign(errno, std::generic_category());
     }
     if (!failed && !fs::is_directory(folder, failed) && !failed)
         failed = std::make_error_code(std::errc::not_a_directory);
@@ -179,7 +179,7 @@ void OutputFile::write(std::string_view bytes) {
 /// Flushes the file before it takes the target's name: a power cut must leave one of the two.
 void OutputFile::close() {
     const int file = std::exchange(file_, -1);
-    const bool on_disk = temporary_.empty() || flushed(file);
+    const bool on_disk = temporary_.empty() || flush_to_disk(file);
     const int why = errno;
     if (::close(file) != 0) fail("cannot be written");
     errno = why;
@@ -187,9 +187,9 @@ void OutputFile::close() {
 }
 
 /// Makes the new name survive a power cut.
-void OutputFile::take_name() {
+void OutputFile::finish_rename() {
     temporary_.clear();
-    if (!flushed_folder(target_.parent_path())) fail("cannot be written");
+    if (!flush_folder(target_.parent_path())) fail("cannot be written");
 }
 
 void OutputFile::commit() {
@@ -197,7 +197,7 @@ void OutputFile::commit() {
     close();
     if (temporary_.empty()) return;
     if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail("cannot be replaced");
-    take_name();
+    finish_rename();
 }
 
 fs::path OutputFile::commit_beside() {
@@ -208,12 +208,12 @@ fs::path OutputFile::commit_beside() {
     close();
     constexpr int kMostBeside = 10000;
     const fs::path wanted = target_;
-    for (int number = 2; !renamed_to_new(temporary_, target_); ++number) {
+    for (int number = 2; !rename_to_new(temporary_, target_); ++number) {
         if (errno != EEXIST || number > kMostBeside) fail("cannot be written");
         target_.replace_filename(wanted.stem().string() + "-" + std::to_string(number) +
                                  wanted.extension().string());
     }
-    take_name();
+    finish_rename();
     return target_;
 }
 

@@ -16,10 +16,10 @@ struct OutputClosed {};
 
 /// Waits until all that was written to an open file is on the disk. False: it is not, errno has the
 /// reason. True at once for a file without a disk (a pipe).
-[[nodiscard]] bool flushed(int file) noexcept;
+[[nodiscard]] bool flush_to_disk(int file) noexcept;
 
 /// The same for what was made, renamed and removed in a folder; "" is the present one.
-[[nodiscard]] bool flushed_folder(const std::filesystem::path& folder) noexcept;
+[[nodiscard]] bool flush_folder(const std::filesystem::path& folder) noexcept;
 
 /// As create_directories(), and the folders survive a power cut. Returns those that were made, the
 /// outermost first.
@@ -57,7 +57,7 @@ class OutputFile {
 
   private:
     void close();
-    void take_name();
+    void finish_rename();
     [[noreturn]] void fail(const char* what) const;
 
     std::filesystem::path target_;

@@ -134,13 +134,13 @@ std::string escaped_text(std::string_view text) {
 }
 
 std::string html_text(std::string_view text) {
-    constexpr std::array<std::pair<char, std::string_view>, 5> kMeant{
+    constexpr std::array<std::pair<char, std::string_view>, 5> kEntities{
         {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}}};
     std::string result;
     for (const char c : utf8_text(text)) {
-        const auto* const meant = std::find_if(kMeant.begin(), kMeant.end(),
-                                               [c](const auto& each) { return each.first == c; });
-        result += meant == kMeant.end() ? std::string_view(&c, 1) : meant->second;
+        const auto* const entity = std::find_if(kEntities.begin(), kEntities.end(),
+                                                [c](const auto& each) { return each.first == c; });
+        result += entity == kEntities.end() ? std::string_view(&c, 1) : entity->second;
     }
     return result;
 }

@@ -38,7 +38,7 @@ std::string painted(std::string_view text, Paint paint, int descriptor) {
 
 PlainOutput::~PlainOutput() {
     stream_.rdbuf(to_);
-    static_cast<void>(give(line_.size()));  // a destructor cannot report a failure
+    static_cast<void>(forward(line_.size()));  // a destructor cannot report a failure
 }
 
 std::streambuf::int_type PlainOutput::overflow(int_type letter) {
@@ -50,14 +50,14 @@ std::streambuf::int_type PlainOutput::overflow(int_type letter) {
 std::streamsize PlainOutput::xsputn(const char* text, std::streamsize count) {
     line_.append(text, static_cast<std::size_t>(count));
     const std::size_t end = line_.rfind('\n');
-    return end == std::string::npos || give(end + 1) ? count : 0;
+    return end == std::string::npos || forward(end + 1) ? count : 0;
 }
 
 int PlainOutput::sync() {
-    return give(line_.size()) ? to_->pubsync() : -1;
+    return forward(line_.size()) ? to_->pubsync() : -1;
 }
 
-bool PlainOutput::give(std::size_t count) {
+bool PlainOutput::forward(std::size_t count) {
     constexpr std::array<std::string_view, 2> kOwn{sequence_of(Paint::heading), kUsual};
     const std::string all = line_.substr(0, count);
     line_.erase(0, count);

@@ -27,7 +27,7 @@ class PlainOutput : private std::streambuf {
     int_type overflow(int_type letter) override;
     std::streamsize xsputn(const char* text, std::streamsize count) override;
     int sync() override;
-    [[nodiscard]] bool give(std::size_t count);
+    [[nodiscard]] bool forward(std::size_t count);
 
     std::ostream& stream_;
     std::streambuf* to_;

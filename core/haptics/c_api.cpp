@@ -49,9 +49,9 @@ __attribute__((format(printf, 3, 4))) dibhr_status failed(const dibhr_handle* ha
 }
 
 /// As %g shows it, with a decimal point whatever the host's locale.
-class Shown {
+class NumberText {
   public:
-    explicit Shown(double number) noexcept {
+    explicit NumberText(double number) noexcept {
         std::to_chars(text_.data(), text_.data() + text_.size() - 1, number,
                       std::chars_format::general, 6);
     }
@@ -111,7 +111,7 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
     if (!(highest > 0.0F) || !std::isfinite(highest)) {
         return failed(handle, DIBHR_BAD_ARGUMENT,
                       "a highest level of %s: it must be above 0, and finite as a float",
-                      Shown(image->highest_level).text());
+                      NumberText(image->highest_level).text());
     }
     const std::size_t packed =
         static_cast<std::size_t>(image->columns) * bytes_of_level(image->type);
@@ -125,7 +125,8 @@ dibhr_status read_image(const dibhr_handle* handle, const dibhr_image* image, in
         : image->type == DIBHR_LEVELS_16_BIT ? copy_levels<std::uint16_t>(*image, row_bytes, levels)
                                              : copy_levels<float>(*image, row_bytes, levels);
     if (all_in_range) return DIBHR_OK;
-    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %s", Shown(highest).text());
+    return failed(handle, DIBHR_BAD_ARGUMENT, "a level is not in 0 to %s",
+                  NumberText(highest).text());
 } catch (const std::exception&) {  // bad_alloc, or a size that no vector can have
     return failed(handle, DIBHR_NO_MEMORY, "no memory for %d x %d levels", image->columns,
                   image->rows);
@@ -266,7 +267,7 @@ dibhr_status dibhr_push_depth(dibhr_handle* handle, const dibhr_image* next) {
 dibhr_status dibhr_set_blend(dibhr_handle* handle, double blend) {
     if (!(blend >= 0.0 && blend <= 1.0)) {
         return failed(handle, DIBHR_BAD_ARGUMENT, "a blend of %s: it must be from 0 to 1",
-                      Shown(blend).text());
+                      NumberText(blend).text());
     }
     if (handle == nullptr) return DIBHR_BAD_ARGUMENT;
     handle->blend = blend;
@@ -319,8 +320,8 @@ dibhr_status dibhr_set(dibhr_handle* handle, const char* name, double value) {
     if (entry == nullptr) return DIBHR_UNKNOWN_NAME;
     if (!(value >= entry->lowest && value <= entry->highest)) {
         return failed(handle, DIBHR_OUT_OF_RANGE, "%s = %s: it must be from %s to %s %s", name,
-                      Shown(value).text(), Shown(entry->lowest).text(),
-                      Shown(entry->highest).text(), entry->unit.data());
+                      NumberText(value).text(), NumberText(entry->lowest).text(),
+                      NumberText(entry->highest).text(), entry->unit.data());
     }
     entry->put(value, handle->parameters);
     return DIBHR_OK;
@@ -370,7 +371,8 @@ dibhr_status dibhr_set_safety(dibhr_handle* handle, const dibhr_safety* safety) 
           safety->max_tick_s, safety->max_goal_speed_mm_per_ms}) {
         if (!(limit >= 0.0 && std::isfinite(limit))) {
             return failed(handle, DIBHR_BAD_ARGUMENT,
-                          "a limit of %s: it must be at least 0 and finite", Shown(limit).text());
+                          "a limit of %s: it must be at least 0 and finite",
+                          NumberText(limit).text());
         }
     }
     SafetyLimits& limits = handle->limits;

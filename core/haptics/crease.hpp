@@ -29,7 +29,7 @@ class CreaseAhead {
     /// How many of the EDGEs, `most` or fewer, the walk would follow one after the other. The
     /// goal's foot on the line is at least one EDGE beyond them.
     [[nodiscard]] int count(int most) const noexcept {
-        if (most < kWorthwhile || !goes_on_here()) return 0;
+        if (most < kWorthwhile || !continues_straight()) return 0;
         const VertexFan fan(surface_, at_);
         if (!fan.is_whole() || !is_crease(fan)) return 0;
         most = std::min(most, preferred_for(fan, most));
@@ -59,7 +59,7 @@ class CreaseAhead {
     }
 
     /// The next EDGE has the slope of the last one. On rough ground this one test ends the search.
-    [[nodiscard]] bool goes_on_here() const noexcept {
+    [[nodiscard]] bool continues_straight() const noexcept {
         constexpr Step kHere{0, 0};
         if (!has(1, kHere) || !has(-1, kHere)) return false;
         const double z = elevation(0, kHere);

@@ -116,7 +116,7 @@ class SurfaceWalk : private ProxyWalk {
         // over it, which is |normal| / |EDGE|. The EDGE is the same for both.
         const double gradient2 =
             square(inside) * (1.0 + square(facet.slope_x()) + square(facet.slope_y()));
-        return {facet, goal_on, inside <= kThere_px ? 0.0 : gradient2};
+        return {facet, goal_on, inside <= kArrived_px ? 0.0 : gradient2};
     }
 
     /// Into the TRIANGLE beside the EDGE where the distance to the goal falls fastest, or along it.
@@ -187,7 +187,7 @@ class SurfaceWalk : private ProxyWalk {
     /// if there is one.
     Next visit_vertex() noexcept {
         const VertexFan fan(surface_, proxy_.active);
-        const std::size_t steepest = steepest_spoke(fan, kThere_px, [](Vec3) { return true; });
+        const std::size_t steepest = steepest_spoke(fan, kArrived_px, [](Vec3) { return true; });
         if (steepest == kSpokes.size()) return rest_or_leave();
         proxy_.active = edge_at(proxy_.active, steepest);
         if (proxy_.moves >= last_move()) return Next::visit;  // which ends the walk
@@ -222,7 +222,7 @@ class SurfaceWalk : private ProxyWalk {
     Next rest_or_go_on() noexcept {
         if (proxy_.position == judged_) return Next::rest;
         judged_ = proxy_.position;
-        const Primitive under = lowest_under_proxy();
+        const Primitive under = smallest_primitive_under_proxy();
         if (under.kind == PrimitiveKind::vertex) return go_on_from_vertex(under);
         if (under.kind == PrimitiveKind::edge) return go_on_from_edge(under);
         return Next::rest;
@@ -230,7 +230,7 @@ class SurfaceWalk : private ProxyWalk {
 
     /// The same where neither TRIANGLE beside the active EDGE leads nearer.
     Next rest_on_edge() noexcept {
-        const bool on_vertex = lowest_under_proxy().kind == PrimitiveKind::vertex;
+        const bool on_vertex = smallest_primitive_under_proxy().kind == PrimitiveKind::vertex;
         return on_vertex ? rest_or_go_on() : Next::rest;
     }
 
@@ -271,8 +271,9 @@ class SurfaceWalk : private ProxyWalk {
             const Facet facet = fan.facet(k);
             const Facet::Projection goal_on = facet.project(goal_);
             const Barycentric at_foot = facet.barycentric(goal_on.foot.x, goal_on.foot.y);
-            if (at_foot.across(direction_of_spoke(k)) <= kThere_px) continue;
-            if (at_foot.across(direction_of_spoke((k + 1) % kSpokes.size())) <= kThere_px) continue;
+            if (at_foot.across(direction_of_spoke(k)) <= kArrived_px) continue;
+            if (at_foot.across(direction_of_spoke((k + 1) % kSpokes.size())) <= kArrived_px)
+                continue;
             const double length2 = free_length2(goal_on);
             if (length2 <= farthest2) continue;
             farthest2 = length2;

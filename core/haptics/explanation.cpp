@@ -108,11 +108,12 @@ Proxy above(const DepthSurface& surface, Vec3 goal) {
 
 class Explainer {
   public:
-    Explainer(const DepthSurface& surface, const Proxy& left, Vec3 goal, const Friction& friction)
-        : surface_(surface), asked_goal_(goal) {
+    Explainer(const DepthSurface& surface, const Proxy& last_proxy, Vec3 goal,
+              const Friction& friction)
+        : surface_(surface), requested_goal_(goal) {
         const Vec3 goal_in_frame = surface.clamped_to_frame(surface.clamped_to_reach(goal));
-        const Proxy proxy = fits(surface, left) ? left : above(surface, goal_in_frame);
-        friction_ = felt_friction(surface, proxy, surface.clamped_to_reach(goal), friction);
+        const Proxy proxy = fits(surface, last_proxy) ? last_proxy : above(surface, goal_in_frame);
+        friction_ = local_friction(surface, proxy, surface.clamped_to_reach(goal), friction);
         walk_.resume(proxy, surface.columns(), surface.rows());
         update_.goal = goal_in_frame;
         update_.result = after(Dibhr::kMostMoves);
@@ -134,7 +135,7 @@ class Explainer {
 
   private:
     [[nodiscard]] Proxy after(int moves) const {
-        return walk_.after_moves(surface_, asked_goal_, friction_, moves);
+        return walk_.after_moves(surface_, requested_goal_, friction_, moves);
     }
 
     /// A flight counts as no move.
@@ -201,7 +202,7 @@ class Explainer {
         const bool on_foot = glm::length(step.after.position - step.foot) <= kSame_px;
         if (!has_moved(step)) {
             if (!last) return StepEnd::becomes_active;
-            if (step.piece.kind == PrimitiveKind::vertex) return StepEnd::rests_on_lowest;
+            if (step.piece.kind == PrimitiveKind::vertex) return StepEnd::rests_at_minimum;
             return on_foot ? StepEnd::rests_at_foot : StepEnd::stays_in_cone;
         }
         if (step.after.active == step.piece)
@@ -228,7 +229,7 @@ class Explainer {
     }
 
     const DepthSurface& surface_;
-    Vec3 asked_goal_;
+    Vec3 requested_goal_;
     Friction friction_;
     Dibhr walk_{};
     ExplainedUpdate update_{};
@@ -287,7 +288,7 @@ std::string end_text(const WalkStep& step) {
         case StepEnd::becomes_active:
             return piece + ": the fastest way towards the goal leads over " +
                    text_of(step.after.active) + ", which becomes active.";
-        case StepEnd::rests_on_lowest:
+        case StepEnd::rests_at_minimum:
             return piece + ": no way from here leads nearer to the goal, so the proxy rests.";
         case StepEnd::out_of_moves:
             break;

@@ -15,17 +15,17 @@ namespace dibhr {
 
 /// How a step ended.
 enum class StepEnd {
-    reaches_goal,     ///< through the air: nothing is in the way
-    meets_surface,    ///< through the air: contact begins
-    leaves,           ///< the goal is above the piece: off the surface
-    crosses,          ///< the foot is outside the TRIANGLE: to the EDGE or VERTEX on the way
-    goes_to_end,      ///< the foot is beyond the EDGE: to the VERTEX on the way
-    rests_at_foot,    ///< no point of the piece is nearer to the goal
-    stops_on_cone,    ///< friction stops the proxy on the cone
-    stays_in_cone,    ///< friction holds the proxy where it is
-    becomes_active,   ///< another primitive that meets here becomes active
-    rests_on_lowest,  ///< no way from this VERTEX or EDGE leads nearer to the goal
-    out_of_moves,     ///< the next update goes on from here
+    reaches_goal,      ///< through the air: nothing is in the way
+    meets_surface,     ///< through the air: contact begins
+    leaves,            ///< the goal is above the piece: off the surface
+    crosses,           ///< the foot is outside the TRIANGLE: to the EDGE or VERTEX on the way
+    goes_to_end,       ///< the foot is beyond the EDGE: to the VERTEX on the way
+    rests_at_foot,     ///< no point of the piece is nearer to the goal
+    stops_on_cone,     ///< friction stops the proxy on the cone
+    stays_in_cone,     ///< friction holds the proxy where it is
+    becomes_active,    ///< another primitive that meets here becomes active
+    rests_at_minimum,  ///< no way from this VERTEX or EDGE leads nearer to the goal
+    out_of_moves,      ///< the next update goes on from here
 };
 
 /// From one place of the proxy to the next, along one straight piece, or from one active primitive

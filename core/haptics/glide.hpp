@@ -32,7 +32,7 @@ class Glide {
     };
 
     /// What stays the same during a glide.
-    struct Course {
+    struct Context {
         const DepthSurface& surface;
         Vec3 goal;
         double moving;  ///< squared coefficient of friction for a proxy that moves
@@ -41,9 +41,9 @@ class Glide {
 
     /// The proxy in the TRIANGLE `facet`; `holding` is the squared coefficient while it has not
     /// moved.
-    Glide(const Course& course, Vec3 position, int moves, double holding, const Facet& facet,
+    Glide(const Context& course, Vec3 position, int moves, double holding, const Facet& facet,
           const Facet::Projection& goal_on) noexcept
-        : course_(course),
+        : context_(course),
           position_(position),
           moves_(moves),
           holding_(holding),
@@ -54,7 +54,7 @@ class Glide {
         if (goal_on_.rise > 0.0) return End::above;
         exit_ = exit_of(facet_, position_, goal_on_.foot);
         for (;;) {
-            while (end_ == End::none) go_on();
+            while (end_ == End::none) advance();
             if (end_ != End::plane) return end_;
             end_ = End::none;
             cross_plane();
@@ -85,11 +85,11 @@ class Glide {
 
     /// Crosses one TRIANGLE, unless friction holds the proxy. The two signs alternate; each has its
     /// own code.
-    [[gnu::always_inline]] void go_on() noexcept {
+    [[gnu::always_inline]] void advance() noexcept {
         const Vec3 way = goal_on_.foot - position_;
         length2_ = glm::dot(way, way);
         const double holding2 = holding_ * goal_on_.distance2;
-        if (length2_ <= holding2 * kConeRounding + square(kThere_px)) return end(End::held);
+        if (length2_ <= holding2 * kConeRounding + square(kArrived_px)) return end(End::held);
         if (ends_before(exit_.t)) return end(End::cone);
         if (facet_.sign() > 0) {
             facet_.assume_sign<1>();
@@ -102,7 +102,7 @@ class Glide {
 
     /// Whether the way ends in this TRIANGLE: at the foot, or on the cone around it.
     [[gnu::always_inline, nodiscard]] bool ends_before(double t) const noexcept {
-        return t > kPastFoot || square(1.0 - t) * length2_ < course_.moving * goal_on_.distance2;
+        return t > kPastFoot || square(1.0 - t) * length2_ < context_.moving * goal_on_.distance2;
     }
 
     [[gnu::always_inline]] void cross_exit() noexcept {
@@ -120,8 +120,8 @@ class Glide {
     [[gnu::always_inline]] void cross() noexcept {
         behind_ = kThrough;
         const Facet::Across across =
-            facet_.step_across<kThrough>(course_.surface, elevation_across<kThrough>());
-        if (across == Facet::Across::border || moves_ >= course_.most_moves) {
+            facet_.step_across<kThrough>(context_.surface, elevation_across<kThrough>());
+        if (across == Facet::Across::border || moves_ >= context_.most_moves) {
             move_to_crossing<kThrough>();
             return end(End::stop);
         }
@@ -140,7 +140,7 @@ class Glide {
     /// elevations cost too much.
     template <EdgeDirection kBehind>
     [[gnu::always_inline]] void read_ahead() noexcept {
-        has_read_ = !course_.surface.has_bump();
+        has_read_ = !context_.surface.has_bump();
         if (!has_read_) return;
         if (kBehind != EdgeDirection::along_row) read_across<EdgeDirection::along_row>();
         if (kBehind != EdgeDirection::along_column) read_across<EdgeDirection::along_column>();
@@ -149,13 +149,13 @@ class Glide {
 
     template <EdgeDirection kThrough>
     [[gnu::always_inline]] void read_across() noexcept {
-        across_[index_of(kThrough)] = facet_.elevation_across<kThrough>(course_.surface);
+        across_[index_of(kThrough)] = facet_.elevation_across<kThrough>(context_.surface);
     }
 
     template <EdgeDirection kThrough>
     [[gnu::always_inline]] double elevation_across() const noexcept {
         return has_read_ ? across_[index_of(kThrough)]
-                         : facet_.elevation_across<kThrough>(course_.surface);
+                         : facet_.elevation_across<kThrough>(context_.surface);
     }
 
     [[nodiscard]] static constexpr std::size_t index_of(EdgeDirection direction) noexcept {
@@ -170,9 +170,9 @@ class Glide {
         read_ahead<kThrough>();
         move_to_crossing<kThrough>();
         if (end_ != End::none) return;
-        goal_on_ = facet_.project(course_.goal);
+        goal_on_ = facet_.project(context_.goal);
         const Barycentric at_foot = facet_.barycentric(goal_on_.foot.x, goal_on_.foot.y);
-        if (at_foot.across(kThrough) <= kThere_px) return end(End::crease);
+        if (at_foot.across(kThrough) <= kArrived_px) return end(End::crease);
         if (goal_on_.rise > 0.0) return end(End::above);
         exit_ = exit_of<kThrough>(facet_.barycentric(position_.x, position_.y), at_foot);
     }
@@ -187,8 +187,8 @@ class Glide {
             exit_ = {kThrough, t};
             if (ends_before(t)) return End::cone;
             const Facet::Across across = here.step_across<kThrough>(
-                course_.surface, here.elevation_across<kThrough>(course_.surface));
-            if (across == Facet::Across::border || moves_ >= course_.most_moves) return End::stop;
+                context_.surface, here.elevation_across<kThrough>(context_.surface));
+            if (across == Facet::Across::border || moves_ >= context_.most_moves) return End::stop;
             moves_ += 2;
             return across == Facet::Across::same_plane ? End::none : End::plane;
         };
@@ -243,9 +243,9 @@ class Glide {
         const EdgeElevations z = facet_.elevations_along(kThrough);
         position_.z = z.begin + along * (z.end - z.begin);
         const Vec3 gone = position_ - from;
-        if (!moved_ && glm::dot(gone, gone) > square(kThere_px)) {
+        if (!moved_ && glm::dot(gone, gone) > square(kArrived_px)) {
             moved_ = true;
-            holding_ = course_.moving;
+            holding_ = context_.moving;
         }
     }
 
@@ -259,7 +259,7 @@ class Glide {
 
     [[gnu::always_inline]] void end(End by) noexcept { end_ = by; }
 
-    Course course_;
+    Context context_;
     Vec3 position_;
     int moves_;
     double holding_;

@@ -148,7 +148,8 @@ class ConstraintWalk : private ProxyWalk {
 
     void run() noexcept {
         visit_until_rest([this] {
-            if (planes_.empty() && (gets_nowhere() || !touch_on_way_to_goal())) return Next::rest;
+            if (planes_.empty() && (makes_no_progress() || !touch_on_way_to_goal()))
+                return Next::rest;
             return go_as_near_as_allowed();
         });
         if (proxy_.contact) settle();
@@ -160,7 +161,8 @@ class ConstraintWalk : private ProxyWalk {
     void settle() noexcept {
         Vec3& p = proxy_.position;
         const double ground = surface_.elevation_at(p.x, p.y);
-        if (proxy_.bound_met && p.z > ground + kSettled_px && !stay_on_surface()) return let_go();
+        if (proxy_.bound_met && p.z > ground + kSettled_px && !stay_on_surface())
+            return lose_contact();
         // Round-off of planes that are nearly parallel, with the goal far below them, and of moves
         // to and fro beside a cliff.
         const double off = std::abs(p.z - ground);
@@ -168,15 +170,16 @@ class ConstraintWalk : private ProxyWalk {
         proxy_.active = surface_.triangle_at(p.x, p.y);
     }
 
-    void let_go() noexcept {
+    void lose_contact() noexcept {
         proxy_.contact = false;
         proxy_.slipping = false;
         proxy_.active = Primitive{};
     }
 
     /// In a valley so flat that round-off carries the proxy to and fro between its two sides.
-    bool gets_nowhere() noexcept {
-        const bool is_near = squared_distance(proxy_.position, last_found_) <= square(kNowhere_px);
+    bool makes_no_progress() noexcept {
+        const bool is_near =
+            squared_distance(proxy_.position, last_found_) <= square(kNoProgress_px);
         idle_passes_ = is_near ? idle_passes_ + 1 : 0;
         last_found_ = proxy_.position;
         return idle_passes_ > kMostIdlePasses;
@@ -192,7 +195,7 @@ class ConstraintWalk : private ProxyWalk {
         }
         if (!flight.ground) {
             proxy_.position = flight.end;
-            let_go();
+            lose_contact();
             return false;
         }
         go(flight.end);
@@ -207,14 +210,14 @@ class ConstraintWalk : private ProxyWalk {
         if (is_held(view)) return rest_if_held_here();
         const WayInFrame way = way_in_frame(enters_cone(view) ? place_on_cone(view) : *nearest);
         const Flight flight = fly_to(way.end);
-        if (flight.ground) return be_held_by(plane_of(*flight.ground), flight.end);
-        if (way.wall && !flight.cut_short) return be_held_by(*way.wall, way.end);
+        if (flight.ground) return stop_at_plane(plane_of(*flight.ground), flight.end);
+        if (way.wall && !flight.cut_short) return stop_at_plane(*way.wall, way.end);
         if (!go(flight.end)) return rest_if_held_here();
         planes_.clear();  // what it touches there is found by the next visit
         return Next::visit;
     }
 
-    Next be_held_by(const ConstraintPlane& plane, Vec3 place) noexcept {
+    Next stop_at_plane(const ConstraintPlane& plane, Vec3 place) noexcept {
         if (go(place)) planes_.keep_binding();
         return planes_.add(plane) ? Next::visit : rest_if_held_here();
     }
@@ -270,12 +273,12 @@ class ConstraintWalk : private ProxyWalk {
     static constexpr double kSettled_px = 1e-9;
     static constexpr double kRoundOff_px = 1e-8;
 
-    /// How often the planes may be found anew while the proxy stays within kNowhere_px.
+    /// How often the planes may be found anew while the proxy stays within kNoProgress_px.
     static constexpr int kMostIdlePasses = 8;
-    static constexpr double kNowhere_px = 1e-6;
+    static constexpr double kNoProgress_px = 1e-6;
 
     /// The rise on a cliff of the greatest relief in all these passes.
-    static constexpr double kMostRoundOff_px = (kMostIdlePasses + 1) * kNowhere_px * 4096.0;
+    static constexpr double kMostRoundOff_px = (kMostIdlePasses + 1) * kNoProgress_px * 4096.0;
 
     ConstraintPlanes planes_{};
     Vec3 last_found_{0.0};  ///< where the planes were found last

@@ -70,7 +70,7 @@ class NeighborhoodWalk : private ProxyWalk {
     void run() noexcept {
         visit_until_rest([this] {
             if (proxy_.active.kind == PrimitiveKind::none) return visit_free();
-            stand_on_lowest();
+            activate_smallest_primitive();
             const bool arrived = judged_ && proxy_.position == nearest_.position();
             const unsigned judged = arrived ? judged_before() : 0;
             judged_ = found_ = held_ = false;

@@ -146,8 +146,8 @@ struct TrianglePair {
 
 /// The VERTEX or EDGE of `active`, a TRIANGLE or an EDGE, that the point (x, y) in it lies on to
 /// within `near_px`; else `active` itself.
-[[nodiscard]] inline Primitive lowest_under(const Primitive& active, double x, double y,
-                                            double near_px) noexcept {
+[[nodiscard]] inline Primitive smallest_primitive_under(const Primitive& active, double x, double y,
+                                                        double near_px) noexcept {
     // Not std::round: that is a call into the library, and no coordinate is below -0.5.
     const auto nearest_line = [](double along) {
         const double past_half = along + 0.5;

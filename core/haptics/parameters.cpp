@@ -11,17 +11,17 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::array<Word<Algorithm>, 4> kWords{{
+constexpr std::array<NamedValue<Algorithm>, 4> kAlgorithmNames{{
     {Algorithm::dibhr, "dibhr", "DIBHR"},
     {Algorithm::pga, "pga", "PGA (proxy graph)"},
     {Algorithm::neighborhood, "neighborhood", "Neighborhood"},
     {Algorithm::god_object, "god-object", "God-object"},
 }};
-static_assert(has_all_in_order(kWords, Algorithm::god_object));
+static_assert(has_all_in_order(kAlgorithmNames, Algorithm::god_object));
 
 constexpr auto kAlgorithms = [] {
-    std::array<Algorithm, kWords.size()> all{};
-    for (std::size_t k = 0; k < all.size(); ++k) all[k] = kWords[k].value;
+    std::array<Algorithm, kAlgorithmNames.size()> all{};
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = kAlgorithmNames[k].value;
     return all;
 }();
 
@@ -76,7 +76,7 @@ constexpr std::array kTouchSwitches{
 constexpr std::array kTouchChoices{
     TouchChoice{"algorithm", "Algorithm", "algorithm", "an algorithm", TouchTopic::algorithm,
                 "How the proxy follows the goal",
-                [](P& p) -> TouchWordPlace { return &p.algorithm; }, true},
+                [](P& p) -> TouchChoiceTarget { return &p.algorithm; }, true},
 };
 
 constexpr bool is_plain(const TouchSwitch& entry) {
@@ -106,12 +106,12 @@ std::span<const Algorithm> all_algorithms() noexcept {
     return kAlgorithms;
 }
 
-std::span<const Word<Algorithm>> words_of(Algorithm) noexcept {
-    return kWords;
+std::span<const NamedValue<Algorithm>> name_table(Algorithm) noexcept {
+    return kAlgorithmNames;
 }
 
 const char* name_of(Algorithm algorithm) noexcept {
-    return entry_of(kWords, algorithm).name;
+    return entry_of(kAlgorithmNames, algorithm).name;
 }
 
 std::string_view TouchChoice::of(TouchParameters parameters) const {

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 
 namespace dibhr {
 
@@ -20,7 +20,7 @@ enum class Algorithm { dibhr, pga, neighborhood, god_object };
 /// All of them, in the order of the enumeration.
 [[nodiscard]] std::span<const Algorithm> all_algorithms() noexcept;
 /// The algorithms with their names: named<Algorithm>() finds one by its name.
-[[nodiscard]] std::span<const Word<Algorithm>> words_of(Algorithm) noexcept;
+[[nodiscard]] std::span<const NamedValue<Algorithm>> name_table(Algorithm) noexcept;
 
 /// "dibhr", "pga", "neighborhood" or "god-object": what `--algorithm` takes.
 [[nodiscard]] const char* name_of(Algorithm algorithm) noexcept;
@@ -107,8 +107,8 @@ struct TouchSwitch {
 };
 
 /// Where a TouchChoice is held: a pointer for each enumeration in TouchParameters, all of which
-/// have words_of().
-using TouchWordPlace = std::variant<Algorithm*>;
+/// have name_table().
+using TouchChoiceTarget = std::variant<Algorithm*>;
 
 /// A choice between several names. Name, label and column are as those of a TouchNumber.
 struct TouchChoice {
@@ -118,7 +118,7 @@ struct TouchChoice {
     std::string_view noun;  ///< "an algorithm": what one of the names stands for
     TouchTopic topic;
     std::string_view help;  ///< without the names
-    TouchWordPlace (*in)(TouchParameters&);
+    TouchChoiceTarget (*in)(TouchParameters&);
     bool in_every_session{false};  ///< a session file without its column is damaged
 
     [[nodiscard]] std::string_view of(TouchParameters parameters) const;

@@ -34,7 +34,7 @@ class GraphWalk : private ProxyWalk {
 
     void run() noexcept {
         visit_until_rest([this] {
-            stand_on_lowest();
+            activate_smallest_primitive();
             switch (proxy_.active.kind) {
                 case PrimitiveKind::triangle:
                     return visit_corners(corners_of_triangle());
@@ -109,14 +109,14 @@ class GraphWalk : private ProxyWalk {
                 proxy_.active = vertex(to_i, to_j);
                 return Next::visit;
             } else {
-                stand_towards(vertex(to_i, to_j));
+                activate_triangle_towards(vertex(to_i, to_j));
                 return rest_or_leave();
             }
         }
     }
 
     /// Makes the TRIANGLE active that the proxy crosses from an EDGE to the opposite corner.
-    void stand_towards(const Primitive& corner) noexcept {
+    void activate_triangle_towards(const Primitive& corner) noexcept {
         const Primitive from = proxy_.active;
         if (from.kind != PrimitiveKind::edge) return;
         const TrianglePair sides = triangles_of(surface_, from);

@@ -53,7 +53,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     carried_px_ = Vec3(0.0);
     if (started_ && surface.columns() == columns_ && surface.rows() == rows_) {
         const Vec3 before = proxy_.position;
-        const bool goes_along = proxy_.contact && motion.goes_on();
+        const bool goes_along = proxy_.contact && motion.continues();
         if (!goes_along || !carry(surface, motion)) follow_surface(surface);
         if (goes_along) carried_px_ = proxy_.position - before;
     } else {
@@ -64,7 +64,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
     if (proxy_.contact)
-        material_.stand_at(Vec2(proxy_.position), motion);
+        material_.attach_at(Vec2(proxy_.position), motion);
     else
         material_.forget();
     return proxy_;
@@ -136,8 +136,9 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
 
 ProxyWalk::Next ProxyWalk::leave() noexcept {
     // The last flight from here came down at once: on cliffs round-off can hide the way out.
-    if (squared_distance(proxy_.position, left_) <= square(kTouchDepth_px)) return Next::rest;
-    left_ = proxy_.position;
+    if (squared_distance(proxy_.position, left_surface_at_) <= square(kTouchDepth_px))
+        return Next::rest;
+    left_surface_at_ = proxy_.position;
     proxy_.contact = false;
     proxy_.slipping = false;
     proxy_.active = Primitive{};
@@ -163,15 +164,15 @@ Facet ProxyWalk::ground_towards_goal() const noexcept {
     return {surface_, active};
 }
 
-Primitive ProxyWalk::lowest_under_proxy() const noexcept {
+Primitive ProxyWalk::smallest_primitive_under_proxy() const noexcept {
     const Vec3& p = proxy_.position;
-    return lowest_under(proxy_.active, p.x, p.y, kOnGrid_px);
+    return smallest_primitive_under(proxy_.active, p.x, p.y, kOnGrid_px);
 }
 
-void ProxyWalk::stand_on_lowest() noexcept {
+void ProxyWalk::activate_smallest_primitive() noexcept {
     const PrimitiveKind kind = proxy_.active.kind;
     if (kind != PrimitiveKind::triangle && kind != PrimitiveKind::edge) return;
-    const Primitive lowest = lowest_under_proxy();
+    const Primitive lowest = smallest_primitive_under_proxy();
     if (lowest.kind == kind) return;
     proxy_.active = lowest;
     if (lowest.kind == PrimitiveKind::vertex) {

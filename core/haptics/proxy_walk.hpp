@@ -20,7 +20,7 @@ namespace dibhr {
 inline constexpr double kConeRounding = 1.0 + 1e-12;
 
 /// A proxy nearer than this has arrived [px]: more than round-off of an 8K image's coordinates.
-inline constexpr double kThere_px = 1e-11;
+inline constexpr double kArrived_px = 1e-11;
 
 [[nodiscard]] constexpr double square(double x) noexcept {
     return x * x;
@@ -90,17 +90,17 @@ class ProxyWalk {
     Next rest_or_leave() noexcept;
 
     /// The VERTEX or EDGE of the active primitive that the proxy is on, else the active primitive.
-    [[nodiscard]] Primitive lowest_under_proxy() const noexcept;
+    [[nodiscard]] Primitive smallest_primitive_under_proxy() const noexcept;
 
     /// Makes that primitive active, so that the walk considers all TRIANGLEs around it.
-    void stand_on_lowest() noexcept;
+    void activate_smallest_primitive() noexcept;
 
     /// The TRIANGLE of the active primitive, or around it, on whose side the goal is.
     [[nodiscard]] Facet ground_towards_goal() const noexcept;
 
     /// A change within round-off is no move: it would make a sticking proxy slip.
     void move_to(Vec3 position) noexcept {
-        const bool moves = squared_distance(proxy_.position, position) > square(kThere_px);
+        const bool moves = squared_distance(proxy_.position, position) > square(kArrived_px);
         proxy_.position = position;
         if (!moves) return;
         proxy_.slipping = true;
@@ -125,7 +125,7 @@ class ProxyWalk {
     /// the same `scale2`.
     [[nodiscard]] static bool is_held(const Cone& cone, double to_foot2,
                                       double scale2 = 1.0) noexcept {
-        return to_foot2 <= cone.holding2 * kConeRounding + square(kThere_px) * scale2;
+        return to_foot2 <= cone.holding2 * kConeRounding + square(kArrived_px) * scale2;
     }
 
     /// Where the cone around a known F stops the proxy.
@@ -190,7 +190,8 @@ class ProxyWalk {
     Proxy& proxy_;
     bool moved_{false};
     bool touched_{proxy_.contact};  ///< in contact at the begin of this update or since
-    Vec3 left_{std::numeric_limits<double>::infinity()};  ///< where the proxy left the surface last
+    Vec3 left_surface_at_{
+        std::numeric_limits<double>::infinity()};  ///< where the proxy left the surface last
 };
 
 }  // namespace dibhr

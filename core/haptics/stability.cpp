@@ -16,10 +16,10 @@ constexpr double kMetre_mm = 1000.0;
 // Measured with tests/bench over all its hands: README.md, Stability.
 constexpr double kDampingCutoff_hz = 200.0;
 constexpr double kVideoCutoff_hz = 4.0;
-constexpr double kOwedFor_s = 1.0;  // of energy that nothing takes out
+constexpr double kExcessDecay_s = 1.0;  // of energy that nothing takes out
 constexpr double kTakenOutWithin_s = 0.003;
 constexpr double kRestsAfter_s = 0.1;
-constexpr double kMostOwed_mj = 10.0;
+constexpr double kMostExcess_mj = 10.0;
 constexpr double kFlowTime_s = 1.0;
 
 /// How late a force that is held for a tick acts on average.
@@ -72,9 +72,9 @@ double most_stiffness(const DeviceDynamics& device) noexcept {
     return std::max(0.0, left / lateness_s(device) / kMetre_mm);
 }
 
-Coupling stable_coupling(Coupling coupling, double felt_stiffness,
+Coupling stable_coupling(Coupling coupling, double effective_stiffness,
                          const DeviceDynamics& device) noexcept {
-    const double needed = needed_damping(felt_stiffness, device);
+    const double needed = needed_damping(effective_stiffness, device);
     if (!(needed > 0.0)) return coupling;
     coupling.damping_newton_s_per_m = needed;
     coupling.damping_cutoff_hz = kDampingCutoff_hz;
@@ -120,7 +120,7 @@ bool RestWatch::rests_after(Vec3 way, double dt_s, double resolution) noexcept {
     return rested_s_ > kRestsAfter_s;
 }
 
-double VideoMotion::followed(double rise_px, double dt_s, double most_px) noexcept {
+double VideoMotion::filtered_rise(double rise_px, double dt_s, double most_px) noexcept {
     const double behind = lag_px_ + rise_px;
     const double share = share_of_newest(dt_s, time_constant_of(kVideoCutoff_hz));
     const double step = std::min(behind * share, most_px);
@@ -128,7 +128,7 @@ double VideoMotion::followed(double rise_px, double dt_s, double most_px) noexce
     return step;
 }
 
-Vec3 PassivityControl::acting(double dt_s, double delay_s) const noexcept {
+Vec3 PassivityControl::acting_force(double dt_s, double delay_s) const noexcept {
     const double ticks = std::round(delay_s / dt_s);
     const double held = ticks >= 0.0 ? std::min(ticks, kMostDelay - 1.0) : 0.0;  // also no number
     return sent_newton_[static_cast<std::size_t>(held)];
@@ -136,7 +136,7 @@ Vec3 PassivityControl::acting(double dt_s, double delay_s) const noexcept {
 
 double PassivityControl::damping_for(double speed, const DeviceDynamics& device) const noexcept {
     if (speed == 0.0) return 0.0;
-    const double wanted = kMetre_mm * owed_mj_ / (speed * speed * kTakenOutWithin_s);
+    const double wanted = kMetre_mm * excess_mj_ / (speed * speed * kTakenOutWithin_s);
     return std::min(wanted, most_damping(device));
 }
 
@@ -144,20 +144,20 @@ auto PassivityControl::account_for(const Tick& tick, Vec3 along,
                                    const DeviceDynamics& device) noexcept -> Energy {
     const double stiffness = tick.stiffness_newton_per_mm;
     const double length_mm = glm::length(tick.lag_mm);
-    const double from_video = take_pull(tick, along);
+    const double from_video = update_spring_pull(tick, along);
     // Both with the present stiffness: a stiffness that a person changes creates no energy.
     const double stored = spring_energy(length_mm, stiffness, tick.max_force_newton) -
                           spring_energy(length_mm_, stiffness, tick.max_force_newton);
     const double rubbed =
         spring_energy(glm::length(tick.lag_mm - tick.slid_mm), stiffness, tick.max_force_newton) -
         spring_energy(length_mm, stiffness, tick.max_force_newton);
-    const double worked = glm::dot(acting(tick.dt_s, device.delay_s), tick.goal_step_mm);
+    const double worked = glm::dot(acting_force(tick.dt_s, device.delay_s), tick.goal_step_mm);
     length_mm_ = length_mm;
     return {worked + stored - from_video + rubbed, from_video};
 }
 
 /// Updates the spring's pull on the hand. Gives the video's energy since the last update [mJ].
-double PassivityControl::take_pull(const Tick& tick, Vec3 along) noexcept {
+double PassivityControl::update_spring_pull(const Tick& tick, Vec3 along) noexcept {
     const Vec3 before = pull_newton_;
     pull_newton_ =
         std::min(tick.stiffness_newton_per_mm * glm::length(tick.lag_mm), tick.max_force_newton) *
@@ -177,12 +177,14 @@ Vec3 PassivityControl::force_after(const Tick& tick, const DeviceDynamics& devic
     const double steady = speed_in(steady_velocity_);
     const double margin =
         (device.margin_newton_s_per_m - device.friction_newton_s_per_m) / kMetre_mm;
-    const double still_owed = owed_mj_ * (1.0 - share_of_newest(tick.dt_s, kOwedFor_s));
-    owed_mj_ = std::clamp(still_owed + energy.created + margin * steady * steady * tick.dt_s, 0.0,
-                          kMostOwed_mj);
-    if (rest_.rests_after(tick.goal_step_mm, tick.dt_s, device.resolution_mm)) owed_mj_ = 0.0;
+    const double remaining_excess_mj =
+        excess_mj_ * (1.0 - share_of_newest(tick.dt_s, kExcessDecay_s));
+    excess_mj_ =
+        std::clamp(remaining_excess_mj + energy.created + margin * steady * steady * tick.dt_s, 0.0,
+                   kMostExcess_mj);
+    if (rest_.rests_after(tick.goal_step_mm, tick.dt_s, device.resolution_mm)) excess_mj_ = 0.0;
     const double damping = damping_for(speed, device);
-    follow_flow({energy.from_video / tick.dt_s, std::max(0.0, energy.created) / tick.dt_s,
+    smooth_flow({energy.from_video / tick.dt_s, std::max(0.0, energy.created) / tick.dt_s,
                  damping / kMetre_mm * speed * speed, damping},
                 tick.dt_s);
     return -damping / kMetre_mm * speed * along;
@@ -201,26 +203,26 @@ void PassivityControl::fill_video_tank(double dt_s, double from_video_mj) noexce
     video_mj_ = left_mj > 0.0 ? std::min(left_mj, kVideoAtOnce_mj) : 0.0;  // also no number
 }
 
-void PassivityControl::sent(Vec3 force_newton) noexcept {
+void PassivityControl::record_sent_force(Vec3 force_newton) noexcept {
     std::shift_right(sent_newton_.begin(), sent_newton_.end(), 1);
     sent_newton_.front() = force_newton;
 }
 
-void PassivityControl::pass(double dt_s) noexcept {
+void PassivityControl::skip_tick(double dt_s) noexcept {
     pull_newton_ = Vec3(0.0);
-    pass({.dt_s = dt_s});
+    skip_tick({.dt_s = dt_s});
 }
 
-void PassivityControl::pass(const Tick& tick) noexcept {
+void PassivityControl::skip_tick(const Tick& tick) noexcept {
     quick_velocity_.forget();
     steady_velocity_.forget();
     rest_ = {};
-    length_mm_ = owed_mj_ = 0.0;
-    const double from_video = take_pull(tick, direction_of(tick.lag_mm));
-    follow_flow({.from_video_mw = tick.dt_s > 0.0 ? from_video / tick.dt_s : 0.0}, tick.dt_s);
+    length_mm_ = excess_mj_ = 0.0;
+    const double from_video = update_spring_pull(tick, direction_of(tick.lag_mm));
+    smooth_flow({.from_video_mw = tick.dt_s > 0.0 ? from_video / tick.dt_s : 0.0}, tick.dt_s);
 }
 
-void PassivityControl::follow_flow(const EnergyFlow& now, double dt_s) noexcept {
+void PassivityControl::smooth_flow(const EnergyFlow& now, double dt_s) noexcept {
     const double newest = share_of_newest(dt_s, kFlowTime_s);
     const auto follow = [newest](double& flow_mw, double now_mw) {
         flow_mw += newest * (now_mw - flow_mw);

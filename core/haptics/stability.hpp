@@ -49,9 +49,9 @@ struct DeviceDynamics {
 /// that no force moves, 0 where none is.
 [[nodiscard]] double most_stiffness(const DeviceDynamics& device) noexcept;
 
-/// The coupling with the damping that the device needs at `felt_stiffness` [N/mm], and the low-pass
-/// on it; unchanged for a device that needs none.
-[[nodiscard]] Coupling stable_coupling(Coupling coupling, double felt_stiffness,
+/// The coupling with the damping that the device needs at `effective_stiffness` [N/mm], and the
+/// low-pass on it; unchanged for a device that needs none.
+[[nodiscard]] Coupling stable_coupling(Coupling coupling, double effective_stiffness,
                                        const DeviceDynamics& device) noexcept;
 
 /// The velocity over the longest recent time in which every reading lies within a tolerance of the
@@ -96,7 +96,7 @@ class VideoMotion {
   public:
     /// How far the rendered surface rises in `dt_s` [px], at most by `most_px`, where the recorded
     /// one rose by `rise_px` under the proxy.
-    double followed(double rise_px, double dt_s, double most_px) noexcept;
+    double filtered_rise(double rise_px, double dt_s, double most_px) noexcept;
     /// How far the rendered surface lies below the recorded one [px].
     [[nodiscard]] double lag_px() const noexcept { return lag_px_; }
     /// The rendered surface begins `lag_px` below the recorded one.
@@ -137,7 +137,7 @@ class PassivityControl {
     [[nodiscard]] Vec3 force_after(const Tick& tick, const DeviceDynamics& device) noexcept;
 
     /// Records the force that was sent in the tick [N], without the device's own force.
-    void sent(Vec3 force_newton) noexcept;
+    void record_sent_force(Vec3 force_newton) noexcept;
 
     /// How far the rendered surface may rise in the next tick [mm]: the video puts at most 20 mJ at
     /// once and 20 mW for long into a hand (an energy tank: Franken et al. 2011). Energy that the
@@ -146,9 +146,9 @@ class PassivityControl {
 
     /// A tick out of contact, or with a force that is not the spring's: no energy is stored, and
     /// none is left to be taken out.
-    void pass(double dt_s) noexcept;
+    void skip_tick(double dt_s) noexcept;
     /// A tick in contact while the force rises from zero: only the video's energy is counted.
-    void pass(const Tick& tick) noexcept;
+    void skip_tick(const Tick& tick) noexcept;
 
     [[nodiscard]] const EnergyFlow& flow() const noexcept { return flow_; }
 
@@ -156,7 +156,7 @@ class PassivityControl {
     static constexpr std::size_t kMostDelay = 16;  // ticks
     static constexpr double kVideoAtOnce_mj = 20.0;
 
-    [[nodiscard]] Vec3 acting(double dt_s, double delay_s) const noexcept;
+    [[nodiscard]] Vec3 acting_force(double dt_s, double delay_s) const noexcept;
 
     /// Energy that rendering created in the tick, and what the video put in [mJ].
     struct Energy {
@@ -166,19 +166,19 @@ class PassivityControl {
     [[nodiscard]] Energy account_for(const Tick& tick, Vec3 along,
                                      const DeviceDynamics& device) noexcept;
     void fill_video_tank(double dt_s, double from_video_mj) noexcept;
-    [[nodiscard]] double take_pull(const Tick& tick, Vec3 along) noexcept;
-    void follow_flow(const EnergyFlow& now, double dt_s) noexcept;
+    [[nodiscard]] double update_spring_pull(const Tick& tick, Vec3 along) noexcept;
+    void smooth_flow(const EnergyFlow& now, double dt_s) noexcept;
     /// The damping that takes the created energy out within 3 ms [N s/m].
     [[nodiscard]] double damping_for(double speed_mm_per_s,
                                      const DeviceDynamics& device) const noexcept;
 
     std::array<Vec3, kMostDelay> sent_newton_{};  // latest first
-    AdaptiveWindow quick_velocity_{0.5};  // hardly late, but in steps: for the damper
+    AdaptiveWindow quick_velocity_{0.5};          // hardly late, but in steps: for the damper
     AdaptiveWindow steady_velocity_{};
     RestWatch rest_{};
-    Vec3 pull_newton_{0.0};  // of the spring on the hand, in the tick before
-    double length_mm_{0.0};  // of the spring, in the tick before
-    double owed_mj_{0.0};    // created by rendering and not taken out yet
+    Vec3 pull_newton_{0.0};             // of the spring on the hand, in the tick before
+    double length_mm_{0.0};             // of the spring, in the tick before
+    double excess_mj_{0.0};             // created by rendering and not taken out yet
     double video_mj_{kVideoAtOnce_mj};  ///< that the video may put in now
     EnergyFlow flow_{};
 };

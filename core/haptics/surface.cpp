@@ -122,24 +122,24 @@ bool DepthSurface::seen_at(double x, double y) const noexcept {
     return unseen_[j * static_cast<std::size_t>(columns_) + i] == 0;
 }
 
-double DepthSurface::felt_at(const TouchMap& map, double x, double y,
-                             double otherwise) const noexcept {
+double DepthSurface::map_value_at(const TouchMap& map, double x, double y,
+                                  double otherwise) const noexcept {
     if (map.empty()) return otherwise;
     const Vec3 p = clamped_to_frame({x, y, 0.0});
-    return felt_value(map, p.x, p.y, columns_, rows_, otherwise);
+    return map_value(map, p.x, p.y, columns_, rows_, otherwise);
 }
 
 Friction DepthSurface::friction_at(double x, double y, Friction everywhere) const noexcept {
     if (maps_ == nullptr || maps_->friction.empty()) return everywhere;
     const double as_static = everywhere.static_coefficient;
     const double ratio = as_static > 0.0 ? everywhere.dynamic_coefficient / as_static : 1.0;
-    const double here = felt_at(maps_->friction, x, y, as_static);
+    const double here = map_value_at(maps_->friction, x, y, as_static);
     if (here == as_static) return everywhere;
     return {here, ratio * here};
 }
 
 double DepthSurface::stiffness_at(double x, double y, double everywhere) const noexcept {
-    return maps_ == nullptr ? everywhere : felt_at(maps_->stiffness, x, y, everywhere);
+    return maps_ == nullptr ? everywhere : map_value_at(maps_->stiffness, x, y, everywhere);
 }
 
 double DepthSurface::bump_height(int i, int j) const noexcept {

@@ -93,7 +93,7 @@ class DepthSurface {
         if (to_ != from_) level += blend_ * (static_cast<double>(to_[k]) - level);
         // Dividing last keeps whole levels exact: relief * level / highest level.
         const double z = relief_px_ * level / highest_level_;
-        return is_bare_ ? z : z + laid_on(i, j, k);
+        return is_bare_ ? z : z + added_height(i, j, k);
     }
 
     [[nodiscard]] bool has_bump() const noexcept { return bump_ != nullptr; }
@@ -156,7 +156,7 @@ class DepthSurface {
     }
 
     /// Bumps and painted height at vertex (i, j), the k-th [px].
-    [[nodiscard]] double laid_on(int i, int j, std::size_t k) const noexcept {
+    [[nodiscard]] double added_height(int i, int j, std::size_t k) const noexcept {
         const double height = heights_ == nullptr ? 0.0 : static_cast<double>(heights_[k]);
         if (bump_ == nullptr) return height;
         const double bump = stretched_ == nullptr ? bump_height(i, j) : stretched_[k];
@@ -166,8 +166,8 @@ class DepthSurface {
     /// Bilinear height of the bump map at vertex (i, j), in [0, 1].
     [[nodiscard]] double bump_height(int i, int j) const noexcept;
 
-    [[nodiscard]] double felt_at(const TouchMap& map, double x, double y,
-                                 double otherwise) const noexcept;
+    [[nodiscard]] double map_value_at(const TouchMap& map, double x, double y,
+                                      double otherwise) const noexcept;
 
     const float* from_{nullptr};
     const float* to_{nullptr};

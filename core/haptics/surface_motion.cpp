@@ -69,11 +69,11 @@ double SurfaceMotion::farthest_px() const noexcept {
 Vec2 MaterialPoint::step_from(Vec2 place, const SurfaceMotion& motion) noexcept {
     if (!motion.crossed) return (motion.to_blend - motion.from_blend) * way_px_;
     const Vec2 rest_of_last = (1.0 - motion.from_blend) * way_px_;
-    stand_at(place + rest_of_last, {.field = motion.field});
+    attach_at(place + rest_of_last, {.field = motion.field});
     return rest_of_last + motion.to_blend * way_px_;
 }
 
-void MaterialPoint::stand_at(Vec2 place, const SurfaceMotion& motion) noexcept {
+void MaterialPoint::attach_at(Vec2 place, const SurfaceMotion& motion) noexcept {
     if (motion.field == nullptr) return forget();
     way_px_ = way_through(*motion.field, place, motion.to_blend, way_px_);
 }

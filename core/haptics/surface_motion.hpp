@@ -44,11 +44,11 @@ struct SurfaceMotion {
     double dt_s{0.001};  ///< since the last update
 
     /// The same for an update that does not go on from the last one.
-    [[nodiscard]] SurfaceMotion begun_anew() const noexcept {
+    [[nodiscard]] SurfaceMotion restarted() const noexcept {
         return {field, to_blend, to_blend, false, dt_s};
     }
     /// There may be something to carry: the update goes on from one before it.
-    [[nodiscard]] bool goes_on() const noexcept {
+    [[nodiscard]] bool continues() const noexcept {
         return field != nullptr && (crossed || from_blend != to_blend);
     }
     /// The same without a field that does not fit images of that size.
@@ -70,7 +70,7 @@ class MaterialPoint {
     [[nodiscard]] Vec2 step_from(Vec2 place, const SurfaceMotion& motion) noexcept;
 
     /// Becomes the point that is at `place` in this update.
-    void stand_at(Vec2 place, const SurfaceMotion& motion) noexcept;
+    void attach_at(Vec2 place, const SurfaceMotion& motion) noexcept;
 
     /// There is no such point, or its motion is not known.
     void forget() noexcept { way_px_ = Vec2(0.0); }

@@ -39,14 +39,14 @@ Vec3 coupling_force(const Proxy& proxy, Vec3 goal, Vec3 goal_velocity,
            coupling.damping_newton_s_per_m * 1e-3 * mm * goal_velocity;
 }
 
-Friction felt_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
-                       Friction everywhere) noexcept {
+Friction local_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
+                        Friction everywhere) noexcept {
     const Vec3& place = proxy.contact ? proxy.position : goal;
     return surface.friction_at(place.x, place.y, everywhere);
 }
 
-Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy, Coupling everywhere,
-                       const SafetyLimits& limits) noexcept {
+Coupling local_coupling(const DepthSurface& surface, const Proxy& proxy, Coupling everywhere,
+                        const SafetyLimits& limits) noexcept {
     const double k = surface.stiffness_at(proxy.position.x, proxy.position.y,
                                           everywhere.stiffness_newton_per_mm);
     if (k == everywhere.stiffness_newton_per_mm) return everywhere;
@@ -85,28 +85,28 @@ void TouchRenderer::reset() noexcept {
     passivity_ = {};
     safety_ = {};
     last_ = {};
-    felt_share_ = 1.0;
+    rendered_share_ = 1.0;
     contact_s_ = 0.0;
-    goes_on_ = started_ = false;
+    continues_last_ = started_ = false;
 }
 
-void TouchRenderer::let_go() noexcept {
+void TouchRenderer::release_contact() noexcept {
     algorithms_[static_cast<std::size_t>(running_)]->reset();
-    goes_on_ = false;
+    continues_last_ = false;
 }
 
 void TouchRenderer::pause() noexcept {
     goal_velocity_.forget();
-    passivity_.sent(Vec3(0.0));
+    passivity_.record_sent_force(Vec3(0.0));
     safety_.drop_to_zero();
-    goes_on_ = false;
+    continues_last_ = false;
 }
 
-bool TouchRenderer::run_with(Algorithm algorithm) noexcept {
+bool TouchRenderer::select_algorithm(Algorithm algorithm) noexcept {
     if (algorithm == running_) return false;
-    const ProxyAlgorithm& left = *algorithms_[static_cast<std::size_t>(running_)];
+    const ProxyAlgorithm& previous = *algorithms_[static_cast<std::size_t>(running_)];
     running_ = algorithm;
-    algorithms_[static_cast<std::size_t>(running_)]->resume(left);
+    algorithms_[static_cast<std::size_t>(running_)]->resume(previous);
     return true;
 }
 
@@ -115,21 +115,21 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
                                    const SafetyLimits& limits,
                                    const SurfaceMotion& given) noexcept {
     if (!is_finite(hand)) {
-        goes_on_ = false;
+        continues_last_ = false;
         goal_velocity_.forget();  // the next step takes longer than its tick
         last_.proxy.bound_met = false;
         last_.spring_force_newton = Vec3(0.0);
         last_.carried = Vec3(0.0);
         last_.sent_force_newton = safety_.limit(Vec3(NAN), input, limits);
-        passivity_.sent(Vec3(0.0));
+        passivity_.record_sent_force(Vec3(0.0));
         last_.cut = safety_.last_cut();
         return last_;
     }
-    motion_ = carrying(given, parameters, input);
+    motion_ = motion_of_update(given, parameters, input);
     const Vec3 goal = surface.clamped_to_reach(hand);
     const Vec3 goal_step = started_ ? goal - last_.goal : Vec3(0.0);
     input.goal_step_mm = glm::length(goal_step) * parameters.coupling.pixel_pitch_mm;
-    const bool changed = run_with(parameters.algorithm);
+    const bool changed = select_algorithm(parameters.algorithm);
     input.from_zero = input.from_zero || changed || !started_;
     started_ = true;
 
@@ -137,8 +137,8 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     ProxyAlgorithm& algorithm = *algorithms_[static_cast<std::size_t>(running_)];
     last_.goal = goal;
     last_.proxy = algorithm.update(
-        surface, goal, felt_friction(surface, before, goal, parameters.friction), motion_);
-    Steps steps{.goal = goal_step, .carries = before.contact && motion_.goes_on()};
+        surface, goal, local_friction(surface, before, goal, parameters.friction), motion_);
+    Steps steps{.goal = goal_step, .carries = before.contact && motion_.continues()};
     if (steps.carries)
         steps.rise = rise_of(before, algorithm.carried_px().z);
     else if (limits.watched.moves())
@@ -148,29 +148,30 @@ const Touch& TouchRenderer::update(const DepthSurface& surface, Vec3 hand,
     if (along != Vec2(0.0))
         steps.slid = last_.proxy.position - before.position - algorithm.carried_px();
     if (limits.watched.moves() &&
-        comes_as_cut(before, steps.rise * parameters.coupling.pixel_pitch_mm, input.dt_s))
+        is_video_cut(before, steps.rise * parameters.coupling.pixel_pitch_mm, input.dt_s))
         input.from_zero = true;
     fade_unseen(surface, parameters.coupling.unseen_share, input.dt_s);
-    if (felt_share_ == 0.0) last_.proxy.contact = false;
-    const Coupling coupling = felt_coupling(surface, last_.proxy, parameters.coupling, limits);
-    last_.spring_force_newton = felt_share_ * rendered_force(steps, coupling, input, limits);
+    if (rendered_share_ == 0.0) last_.proxy.contact = false;
+    const Coupling coupling = local_coupling(surface, last_.proxy, parameters.coupling, limits);
+    last_.spring_force_newton = rendered_share_ * rendered_force(steps, coupling, input, limits);
     last_.sent_force_newton =
         safety_.limit(last_.spring_force_newton + input.device_force_newton, input, limits);
-    passivity_.sent(last_.sent_force_newton - input.device_force_newton);
+    passivity_.record_sent_force(last_.sent_force_newton - input.device_force_newton);
     last_.cut = safety_.last_cut();
     last_.energy = passivity_.flow();
     return last_;
 }
 
-SurfaceMotion TouchRenderer::carrying(SurfaceMotion motion, const TouchParameters& parameters,
-                                      const SafetyInput& input) noexcept {
-    const bool goes_on = std::exchange(goes_on_, true) && !input.from_zero;
+SurfaceMotion TouchRenderer::motion_of_update(SurfaceMotion motion,
+                                              const TouchParameters& parameters,
+                                              const SafetyInput& input) noexcept {
+    const bool continues = std::exchange(continues_last_, true) && !input.from_zero;
     if (!parameters.carry) return {};
     motion.dt_s = input.dt_s;
-    return goes_on ? motion : motion.begun_anew();
+    return continues ? motion : motion.restarted();
 }
 
-bool TouchRenderer::comes_as_cut(const Proxy& before, double rise_mm, double dt_s) noexcept {
+bool TouchRenderer::is_video_cut(const Proxy& before, double rise_mm, double dt_s) noexcept {
     constexpr double kFastest_mm_per_ms = 0.2;
     constexpr double kNewContact_s = 0.1;  // longer than the frames between which a cut is blended
     contact_s_ = before.contact ? contact_s_ + dt_s : 0.0;
@@ -182,15 +183,15 @@ void TouchRenderer::fade_unseen(const DepthSurface& surface, double unseen_share
     const Vec3& goal = last_.goal;
     const double wanted = surface.seen_at(goal.x, goal.y) ? 1.0 : unseen_share;
     const double step = dt_s > 0.0 ? dt_s / SafetyStage::kFade_s : 0.0;
-    felt_share_ += std::clamp(wanted - felt_share_, -step, step);
+    rendered_share_ += std::clamp(wanted - rendered_share_, -step, step);
 }
 
 Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
                                    const SafetyInput& input, const SafetyLimits& limits) noexcept {
     const DeviceDynamics& device = limits.watched;
     const double mm = coupling.pixel_pitch_mm;
-    const bool goes_on = !input.from_zero && !goal_jumped(input, limits);
-    if (!goes_on) {
+    const bool continues = !input.from_zero && !goal_jumped(input, limits);
+    if (!continues) {
         goal_velocity_.forget();
         surface_velocity_.forget();
     }
@@ -209,16 +210,16 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
 
     const Proxy& proxy = last_.proxy;
     const double depth_px = std::max(0.0, proxy.position.z - last_.goal.z);
-    if (!proxy.contact || !goes_on || !(input.dt_s > 0.0)) {
+    if (!proxy.contact || !continues || !(input.dt_s > 0.0)) {
         // Where the surface is suddenly above the hand, the rendered surface begins at the hand.
         video_motion_.begin(proxy.contact ? depth_px : 0.0);
         carried_motion_ = {};
-        passivity_.pass(input.dt_s);
+        passivity_.skip_tick(input.dt_s);
         return coupling_force(proxy, last_.goal, seen_from(last_.carried), coupling);
     }
     const double most_px = passivity_.most_rise_mm(coupling.stiffness_newton_per_mm) / mm;
     const auto felt_step = [&](VideoMotion& motion, double rise_px) {
-        const double rise = motion.followed(rise_px, input.dt_s, most_px);
+        const double rise = motion.filtered_rise(rise_px, input.dt_s, most_px);
         if (motion.lag_px() > depth_px) motion.begin(depth_px);  // never pulls the hand down
         return Vec3(last_.carried.x, last_.carried.y, rise);
     };
@@ -235,7 +236,7 @@ Vec3 TouchRenderer::rendered_force(const Steps& steps, const Coupling& coupling,
                                       .video_step_mm = video_step * mm,
                                       .slid_mm = steps.slid * mm};
     if (!safety_.rising(limits)) return force + passivity_.force_after(tick, device);
-    passivity_.pass(tick);
+    passivity_.skip_tick(tick);
     return force;
 }
 

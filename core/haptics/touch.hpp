@@ -33,13 +33,13 @@ struct Touch {
 
 /// The friction of an update: from the friction map, at the proxy before the update, or under the
 /// goal where that proxy is in the air; `everywhere` without a map.
-[[nodiscard]] Friction felt_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
-                                     Friction everywhere) noexcept;
+[[nodiscard]] Friction local_friction(const DepthSurface& surface, const Proxy& proxy, Vec3 goal,
+                                      Friction everywhere) noexcept;
 
 /// The spring and damper with the stiffness map's stiffness at the proxy, no stiffer than the
 /// device can stand, and with the damping that it needs there; `everywhere` without a map.
-[[nodiscard]] Coupling felt_coupling(const DepthSurface& surface, const Proxy& proxy,
-                                     Coupling everywhere, const SafetyLimits& limits) noexcept;
+[[nodiscard]] Coupling local_coupling(const DepthSurface& surface, const Proxy& proxy,
+                                      Coupling everywhere, const SafetyLimits& limits) noexcept;
 
 /// The difference of two goals over time, through an adaptive window and a first-order low-pass. A
 /// device's coarse steps make the plain difference jump: a step of 0.06 mm in a millisecond is 60
@@ -96,15 +96,16 @@ class TouchRenderer {
     void reset() noexcept;
 
     /// The proxy leaves the surface: the next update begins above its goal, in free space.
-    void let_go() noexcept;
+    void release_contact() noexcept;
 
     /// Zero force is sent until the next update, whose force begins from zero.
     void pause() noexcept;
 
   private:
     /// The motion that carries the proxy in this update, which may not go on from the last one.
-    [[nodiscard]] SurfaceMotion carrying(SurfaceMotion motion, const TouchParameters& parameters,
-                                         const SafetyInput& input) noexcept;
+    [[nodiscard]] SurfaceMotion motion_of_update(SurfaceMotion motion,
+                                                 const TouchParameters& parameters,
+                                                 const SafetyInput& input) noexcept;
     /// What moved in a tick [px].
     struct Steps {
         Vec3 goal{0.0};
@@ -119,11 +120,11 @@ class TouchRenderer {
                                       const SafetyLimits& limits) noexcept;
     /// The surface rises faster than 0.2 m/s into a hand that did not touch it, as when the video
     /// was cut: the force begins by the ramp.
-    [[nodiscard]] bool comes_as_cut(const Proxy& before, double rise_mm, double dt_s) noexcept;
+    [[nodiscard]] bool is_video_cut(const Proxy& before, double rise_mm, double dt_s) noexcept;
     /// Fades the share of the force that is rendered to its value at the goal.
     void fade_unseen(const DepthSurface& surface, double unseen_share, double dt_s) noexcept;
     /// Makes the algorithm the running one; true: another one ran before.
-    bool run_with(Algorithm algorithm) noexcept;
+    bool select_algorithm(Algorithm algorithm) noexcept;
 
     std::vector<std::unique_ptr<ProxyAlgorithm>> algorithms_{};  ///< by their enumeration
     Algorithm running_{Algorithm::dibhr};
@@ -135,9 +136,9 @@ class TouchRenderer {
     SafetyStage safety_{};
     Touch last_{};
     SurfaceMotion motion_{};
-    double felt_share_{1.0};  ///< of the force: less where no surface was ever seen
-    double contact_s_{0.0};   ///< time in contact
-    bool goes_on_{false};     ///< the next update goes on from the last one, and may carry
+    double rendered_share_{1.0};  ///< of the force: less where no surface was ever seen
+    double contact_s_{0.0};       ///< time in contact
+    bool continues_last_{false};  ///< the next update goes on from the last one, and may carry
     bool started_{false};
 };
 

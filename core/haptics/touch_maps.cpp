@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 
 namespace dibhr {
 
@@ -87,8 +87,8 @@ TouchMap bare_map(TouchMapKind kind, int columns, int rows) {
     return {columns, rows, standard_limits(kind), std::vector<TouchMap::Pixel>(count)};
 }
 
-double felt_value(const TouchMap& map, double x, double y, int columns, int rows,
-                  double otherwise) noexcept {
+double map_value(const TouchMap& map, double x, double y, int columns, int rows,
+                 double otherwise) noexcept {
     const PixelPair across = pixels_around(x, columns, map.columns);
     const PixelPair down = pixels_around(y, rows, map.rows);
     const auto at = [&](int i, int j) { return covering_value(map, map.at(i, j), otherwise); };
@@ -108,7 +108,7 @@ const TouchMap& TouchMaps::of(TouchMapKind kind) const noexcept {
     return kind == TouchMapKind::friction ? friction : height;
 }
 
-void lay(TouchMaps& maps, int columns, int rows) {
+void lay_heights(TouchMaps& maps, int columns, int rows) {
     maps.at_vertices = {};
     if (maps.height.empty()) return;
     TouchMaps::AtVertices laid{columns, rows, 0.0, {}};
@@ -117,7 +117,7 @@ void lay(TouchMaps& maps, int columns, int rows) {
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const double felt = same_size ? covering_value(maps.height, maps.height.at(i, j), 0.0)
-                                          : felt_value(maps.height, i, j, columns, rows, 0.0);
+                                          : map_value(maps.height, i, j, columns, rows, 0.0);
             const auto height = static_cast<float>(felt);
             laid.heights_px.push_back(height);
             laid.highest_px = std::max(laid.highest_px, static_cast<double>(height));

@@ -79,15 +79,15 @@ struct TouchMap {
 /// Bilinear, at (x, y) of a depth image of columns x rows [px], held at its border: the map's value
 /// where it covers, `otherwise` where it does not, and between them in proportion. Of a map as
 /// large as the image its pixels are the VERTEXes.
-[[nodiscard]] double felt_value(const TouchMap& map, double x, double y, int columns, int rows,
-                                double otherwise) noexcept;
+[[nodiscard]] double map_value(const TouchMap& map, double x, double y, int columns, int rows,
+                               double otherwise) noexcept;
 
 /// The maps of a recording. Immutable once frames carry them.
 struct TouchMaps {
     TouchMap stiffness{};  ///< [N/mm] instead of Coupling::stiffness_newton_per_mm
     TouchMap friction{};  ///< instead of Friction::static_coefficient; the dynamic one in its ratio
     TouchMap height{};    ///< [px] on top of the elevation
-    /// Of the height map at every VERTEX of a depth image of one size; see lay().
+    /// Of the height map at every VERTEX of a depth image of one size; see lay_heights().
     struct AtVertices {
         int columns{0};
         int rows{0};
@@ -107,6 +107,6 @@ struct TouchMaps {
 
 /// Computes the height map at the VERTEXes of depth images of columns x rows; over other sizes it
 /// has no effect. To be called again when the map changes.
-void lay(TouchMaps& maps, int columns, int rows);
+void lay_heights(TouchMaps& maps, int columns, int rows);
 
 }  // namespace dibhr

@@ -38,10 +38,11 @@ struct HandReading {
     std::uint8_t buttons{0};  ///< bit 0: the main button; a Falcon's: plus, forward, centre, minus
     bool ready{true};         ///< attached, homed, and giving poses; false: no force
     bool lifted{false};       ///< taken off the surface: a contact is released
-    bool taken_over{false};   ///< another hand than in the last reading: the force begins from zero
-    bool force_off{false};    ///< a button that takes the force off is down
-    bool stand_in{false};     ///< the mouse, while the requested device is not ready
-    std::uint8_t which{0};    ///< number of the device among several, from 1; 0: the mouse
+    bool hand_changed{
+        false};             ///< another hand than in the last reading: the force begins from zero
+    bool force_off{false};  ///< a button that takes the force off is down
+    bool mouse_fallback{false};     ///< the mouse, while the requested device is not ready
+    std::uint8_t device_number{0};  ///< number of the device among several, from 1; 0: the mouse
     /// What this hand can stand now, where it differs from the specification: another scale, or
     /// another hand.
     std::optional<DeviceLimits> limits{};
@@ -56,7 +57,9 @@ class Device {
     virtual ~Device() = default;
     [[nodiscard]] virtual const DeviceSpecification& specification() const noexcept = 0;
     /// The hand's reading while there is no surface.
-    [[nodiscard]] virtual HandReading unread() const noexcept { return {.ready = false}; }
+    [[nodiscard]] virtual HandReading reading_without_surface() const noexcept {
+        return {.ready = false};
+    }
     virtual HandReading read(const HandContext& context) noexcept = 0;
     /// Force on the hand [N], axes of grid space.
     virtual void send(Vec3 force_newton) noexcept = 0;

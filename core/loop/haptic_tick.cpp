@@ -18,18 +18,18 @@ double seconds(std::chrono::steady_clock::duration span) {
 
 }  // namespace
 
-HapticTick::HapticTick(const HapticConnections& connections) : to_(connections) {
-    state_.hand = to_.device.unread();
+HapticTick::HapticTick(const HapticConnections& connections) : connections_(connections) {
+    state_.hand = connections_.device.reading_without_surface();
 }
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
-    const FrameWindow& frames = to_.frames.front();
-    const HapticSettings& settings = to_.settings.front();
+    const FrameWindow& frames = connections_.frames.front();
+    const HapticSettings& settings = connections_.settings.front();
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
     const bool touched = state_.touchable && state_.touch.proxy.contact;
-    standstill_ = watch_.look(timing.begin, touched) || frames.silent;
+    standstill_ = watch_.poll(timing.begin, touched) || frames.silent;
     state_.standstill = watch_.last();
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
@@ -42,15 +42,15 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     row.settings = settings.version;
     if (settings.recording) record(row, timing);
     // A goal of another hand or context is not a motion.
-    const double moved_s = row.from_zero || row.lets_go ? 0.0 : timing.dt_s;
+    const double moved_s = row.from_zero || row.releases_contact ? 0.0 : timing.dt_s;
     TickStrip strip =
         strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), context_.pitch_mm);
     if (!row.surface) strip.penetration_mm = 0.0F;  // of the last surface
-    to_.strips.push(strip);
-    let_hear(settings);
-    let_follow(pair, settings, row);
+    connections_.strips.push(strip);
+    push_sound(settings);
+    push_walked_tick(pair, settings, row);
     count(timing, row.update_us);
-    to_.state.publish(state_);
+    connections_.state.publish(state_);
 }
 
 void HapticTick::notice_changes(const HapticSettings& settings,
@@ -72,7 +72,7 @@ void HapticTick::notice_changes(const HapticSettings& settings,
 }
 
 void HapticTick::send_zero_force() noexcept {
-    to_.device.send(Vec3{0.0});
+    connections_.device.send(Vec3{0.0});
     state_.touch = runner_.pause();
     from_zero_ = true;
 }
@@ -82,42 +82,46 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     // The hand's limits come with its reading, and the parameters glide only after that: the hand
     // is read over the last shape.
     const SurfaceShape& last_shape =
-        from_zero_ ? settings.parameters.shape : runner_.felt().parameters.shape;
-    const HandReading hand = to_.device.read(
+        from_zero_ ? settings.parameters.shape : runner_.effective_values().parameters.shape;
+    const HandReading hand = connections_.device.read(
         {timing.dt_s, pair.surface(last_shape, settings.bump.get()), context_.pitch_mm});
-    const DeviceLimits limits_now = usable(hand.limits.value_or(to_.device.specification().limits));
+    const DeviceLimits limits_now =
+        usable(hand.limits.value_or(connections_.device.specification().limits));
     const bool other_limits = limits_ != limits_now;  // which hold at once, without gliding
     limits_ = limits_now;
     ParameterGlide::Values wanted{settings.parameters, held_limits(settings.limits, *limits_)};
     wanted.parameters.coupling = held_coupling(settings.parameters.coupling, *limits_);
-    const TickInput input{.pair = pair,
-                          .bump = settings.bump.get(),
-                          .goal = hand.goal_in_grid,
-                          .safety = {.dt_s = timing.dt_s,
-                                     .force_enabled = settings.force_enabled,
-                                     .device_ready = hand.ready && !taken_off(hand, settings),
-                                     .device_force_newton = hand.own_force_newton,
-                                     .from_zero = from_zero_ || hand.taken_over || other_limits,
-                                     .standstill = standstill_},
-                          .lets_go = hand.lifted || hand.taken_over};
+    const TickInput input{
+        .pair = pair,
+        .bump = settings.bump.get(),
+        .goal = hand.goal_in_grid,
+        .safety = {.dt_s = timing.dt_s,
+                   .force_enabled = settings.force_enabled,
+                   .device_ready = hand.ready && !update_force_off(hand, settings),
+                   .device_force_newton = hand.own_force_newton,
+                   .from_zero = from_zero_ || hand.hand_changed || other_limits,
+                   .standstill = standstill_},
+        .releases_contact = hand.lifted || hand.hand_changed};
     state_.touch = runner_.run(input, wanted);
-    to_.device.send(state_.touch.sent_force_newton);
-    state_.shape = runner_.felt().parameters.shape;
+    connections_.device.send(state_.touch.sent_force_newton);
+    state_.shape = runner_.effective_values().parameters.shape;
     state_.hand = hand;
     from_zero_ = false;
     TickRecord row = runner_.record_of(input);
     row.update_us = microseconds(runner_.update_time());
     row.buttons = hand.buttons;
-    row.stand_in = hand.stand_in;
+    row.mouse_fallback = hand.mouse_fallback;
     row.motion_unknown = runner_.lacks_motion();
     return row;
 }
 
-bool HapticTick::taken_off(const HandReading& hand, const HapticSettings& settings) noexcept {
+bool HapticTick::update_force_off(const HandReading& hand,
+                                  const HapticSettings& settings) noexcept {
     const bool pressed = hand.force_off && !force_off_pressed_;
     force_off_pressed_ = hand.force_off;
-    taken_off_ = (taken_off_ || pressed) && settings.force_enabled;
-    return taken_off_ || (to_.leaving != nullptr && to_.leaving->load(std::memory_order_relaxed));
+    force_off_by_button_ = (force_off_by_button_ || pressed) && settings.force_enabled;
+    return force_off_by_button_ || (connections_.without_force != nullptr &&
+                                    connections_.without_force->load(std::memory_order_relaxed));
 }
 
 void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
@@ -127,28 +131,28 @@ void HapticTick::record(TickRecord& row, const TickTiming& timing) noexcept {
     row.lateness_us = microseconds(timing.lateness);
     row.limits = limits_;
     add_result(row, state_.touch);
-    to_.ticks.push(row);
+    connections_.ticks.push(row);
 }
 
-void HapticTick::let_hear(const HapticSettings& settings) noexcept {
-    if (to_.sound == nullptr) return;
+void HapticTick::push_sound(const HapticSettings& settings) noexcept {
+    if (connections_.sound == nullptr) return;
     const Touch& touch = state_.touch;
     const bool may_act = settings.limits.max_force_newton > 0.0 && touch.cut == SafetyCut::none;
     carried_px_ += touch.carried;
-    to_.sound->push({.proxy_mm = context_.pitch_mm * (touch.proxy.position - carried_px_),
-                     .force_newton = glm::length(touch.sent_force_newton),
-                     .contact = touch.proxy.contact,
-                     .force_on = state_.touchable && may_act});
+    connections_.sound->push({.proxy_mm = context_.pitch_mm * (touch.proxy.position - carried_px_),
+                              .force_newton = glm::length(touch.sent_force_newton),
+                              .contact = touch.proxy.contact,
+                              .force_on = state_.touchable && may_act});
 }
 
-void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settings,
-                            const TickRecord& row) noexcept {
-    if (to_.walked == nullptr || !settings.followed) return;
+void HapticTick::push_walked_tick(const DepthBlend& pair, const HapticSettings& settings,
+                                  const TickRecord& row) noexcept {
+    if (connections_.walked == nullptr || !settings.compare_algorithms) return;
     WalkedTick walked{.tick = state_.ticks,
                       .updates = row.surface && !row.goal_refused,
                       .begins = reset_,
-                      .lets_go = row.lets_go,
-                      .parameters = runner_.felt().parameters,
+                      .releases_contact = row.releases_contact,
+                      .parameters = runner_.effective_values().parameters,
                       .proxy = state_.touch.proxy,
                       .goal = state_.touch.goal,
                       .blend = pair.blend,
@@ -159,7 +163,7 @@ void HapticTick::let_follow(const DepthBlend& pair, const HapticSettings& settin
         walked.from = mark_of(*pair.from);
         walked.to = mark_of(*pair.to);
     }
-    to_.walked->push(walked);
+    connections_.walked->push(walked);
 }
 
 void HapticTick::count(const TickTiming& timing, double update_us) noexcept {

@@ -32,7 +32,7 @@ struct HapticSettings {
     bool force_enabled{true};
     std::shared_ptr<const BumpMap> bump{};  ///< null: none
     bool recording{false};                  ///< every tick is pushed into the recorder's ring
-    bool followed{false};                   ///< and into the ring of the other algorithms
+    bool compare_algorithms{false};         ///< and into the ring of the other algorithms
     std::uint64_t version{0};               ///< counts changes, for the recorder
 };
 
@@ -78,7 +78,7 @@ struct HapticConnections {
     TickRing& ticks;  ///< for the recorder
     Heartbeats hearts{};
     /// Once true, no force is sent any more; null: never.
-    const std::atomic<bool>* leaving{nullptr};
+    const std::atomic<bool>* without_force{nullptr};
     SoundRing* sound{nullptr};        ///< null: no sound
     WalkedTickRing* walked{nullptr};  ///< for OtherProxies; null: none
 };
@@ -114,27 +114,28 @@ class HapticTick {
     [[nodiscard]] TickRecord touch_surface(const DepthBlend& pair, const HapticSettings& settings,
                                            const TickTiming& timing) noexcept;
     /// The hand's force-off button acts in this tick, and until the window switches the force off.
-    [[nodiscard]] bool taken_off(const HandReading& hand, const HapticSettings& settings) noexcept;
+    [[nodiscard]] bool update_force_off(const HandReading& hand,
+                                        const HapticSettings& settings) noexcept;
     /// Adds the tick's result, and pushes the row.
     void record(TickRecord& row, const TickTiming& timing) noexcept;
-    void let_hear(const HapticSettings& settings) noexcept;
+    void push_sound(const HapticSettings& settings) noexcept;
     /// Pushes the input that the other algorithms' proxies need to walk to this tick's goal.
-    void let_follow(const DepthBlend& pair, const HapticSettings& settings,
-                    const TickRecord& row) noexcept;
+    void push_walked_tick(const DepthBlend& pair, const HapticSettings& settings,
+                          const TickRecord& row) noexcept;
     void count(const TickTiming& timing, double update_us) noexcept;
 
-    HapticConnections to_;
+    HapticConnections connections_;
     TickRunner runner_{};
     HapticState state_{};
-    ForceContext context_{};  // of the last tick
-    Vec3 carried_px_{0.0};    // sum of what carried the proxy, which makes no sound
+    ForceContext context_{};                // of the last tick
+    Vec3 carried_px_{0.0};                  // sum of what carried the proxy, which makes no sound
     std::optional<DeviceLimits> limits_{};  // what the hand of the last reading can stand
     bool from_zero_{true};
     bool force_off_pressed_{false};
-    bool taken_off_{false};
+    bool force_off_by_button_{false};
     bool recording_{false};
     bool reset_{false};  // in this tick: a recording begins
-    StandstillWatch watch_{to_.hearts};
+    StandstillWatch watch_{connections_.hearts};
     bool standstill_{false};  // in this tick
     std::chrono::steady_clock::time_point start_{};
     std::chrono::steady_clock::time_point second_begin_{};

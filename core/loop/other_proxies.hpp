@@ -24,7 +24,7 @@ struct FrameMark {
     double time_s{0.0};
     const TouchMaps* maps{nullptr};
     const MotionField* motion{nullptr};
-    const std::vector<Frame>* between{nullptr};
+    const std::vector<Frame>* in_betweens{nullptr};
 
     bool operator==(const FrameMark&) const = default;
 };
@@ -36,7 +36,7 @@ struct WalkedTick {
     std::uint64_t tick{0};
     bool updates{false};  ///< there was a surface and a goal; else all proxies stay where they are
     bool begins{false};   ///< all proxies are reset
-    bool lets_go{false};  ///< a proxy in contact begins anew, above the goal
+    bool releases_contact{false};  ///< a proxy in contact begins anew, above the goal
     TouchParameters parameters{};
     Proxy proxy{};  ///< of the algorithm that ran
     Vec3 goal{0.0};
@@ -47,7 +47,7 @@ struct WalkedTick {
     const BumpMap* bump{nullptr};  ///< only identifies a map
 };
 
-/// One value a tick, while HapticSettings::followed is set.
+/// One value a tick, while HapticSettings::compare_algorithms is set.
 using WalkedTickRing = SpscRing<WalkedTick, 1024>;
 
 /// Runs every tick's goal, over the surface of that tick, through the algorithms that do not run.
@@ -68,8 +68,8 @@ class OtherProxies {
     [[nodiscard]] std::vector<AlgorithmProxy> proxies() const;
 
   private:
-    void see(const FrameWindow& window);
-    void take(const WalkedTick& tick);
+    void remember_frames(const FrameWindow& window);
+    void walk_tick(const WalkedTick& tick);
     [[nodiscard]] std::optional<DepthSurface> surface_of(const WalkedTick& tick) const;
 
     struct Walker {
@@ -78,13 +78,13 @@ class OtherProxies {
         Proxy proxy{};  ///< after its last update
     };
     /// Null: the frame was never published, or is dropped already.
-    [[nodiscard]] const Frame* known(const FrameMark& mark) const;
+    [[nodiscard]] const Frame* frame_of_mark(const FrameMark& mark) const;
 
     std::vector<Walker> walkers_{};  // of all algorithms: any of them may run next
-    std::vector<Frame> seen_{};      // the newest last
+    std::vector<Frame> frames_{};    // the newest last
     std::array<std::shared_ptr<const BumpMap>, 2> bumps_{};  // the newest first
-    std::vector<WalkedTick> due_{};
-    std::uint64_t awaited_{0};  // the next tick
+    std::vector<WalkedTick> batch_{};
+    std::uint64_t next_tick_{0};  // the next tick
     Algorithm running_{Algorithm::dibhr};
     bool begun_{false};
 };

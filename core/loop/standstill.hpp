@@ -25,9 +25,9 @@ inline constexpr std::chrono::milliseconds kLongestSilence{200};
 
 /// A standstill that is over, during which there was a contact.
 struct Standstill {
-    enum class Of : std::uint8_t { window, video, recorder };
+    enum class Thread : std::uint8_t { window, video, recorder };
 
-    Of of{Of::window};
+    Thread thread{Thread::window};
     double seconds{0.0};     ///< without a heartbeat
     std::uint64_t count{0};  ///< of standstills since the loop began, with this one
 };
@@ -36,37 +36,37 @@ struct Standstill {
 class StandstillWatch {
   public:
     explicit StandstillWatch(const Heartbeats& hearts) noexcept
-        : listeners_{HeartbeatListener(hearts.window), HeartbeatListener(hearts.video),
-                     HeartbeatListener(hearts.recorder), HeartbeatListener(hearts.decoder)} {}
+        : monitors_{HeartbeatMonitor(hearts.window), HeartbeatMonitor(hearts.video),
+                    HeartbeatMonitor(hearts.recorder), HeartbeatMonitor(hearts.decoder)} {}
 
     /// Once a tick: whether a thread stands still. `contact`: there is a force, which goes to zero.
-    [[nodiscard]] bool look(std::chrono::steady_clock::time_point now, bool contact) noexcept {
-        std::array<std::chrono::steady_clock::duration, kListeners> silence{};
-        for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = listeners_[k].silence(now);
+    [[nodiscard]] bool poll(std::chrono::steady_clock::time_point now, bool contact) noexcept {
+        std::array<std::chrono::steady_clock::duration, kMonitors> silence{};
+        for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = monitors_[k].silence(now);
         const auto longest = std::max_element(silence.begin(), silence.end());
         if (*longest >= kLongestSilence) {
-            running_.of = kOf[static_cast<std::size_t>(longest - silence.begin())];
+            running_.thread = kThreads[static_cast<std::size_t>(longest - silence.begin())];
             running_.seconds = std::chrono::duration<double>(*longest).count();
-            felt_ = felt_ || contact;
+            had_contact_ = had_contact_ || contact;
             return true;
         }
-        if (felt_) last_ = {running_.of, running_.seconds, last_.count + 1};
-        felt_ = false;
+        if (had_contact_) last_ = {running_.thread, running_.seconds, last_.count + 1};
+        had_contact_ = false;
         return false;
     }
 
     [[nodiscard]] const Standstill& last() const noexcept { return last_; }
 
   private:
-    static constexpr std::size_t kListeners = 4;
-    static constexpr std::array<Standstill::Of, kListeners> kOf{
-        Standstill::Of::window, Standstill::Of::video, Standstill::Of::recorder,
-        Standstill::Of::video};
+    static constexpr std::size_t kMonitors = 4;
+    static constexpr std::array<Standstill::Thread, kMonitors> kThreads{
+        Standstill::Thread::window, Standstill::Thread::video, Standstill::Thread::recorder,
+        Standstill::Thread::video};
 
-    std::array<HeartbeatListener, kListeners> listeners_;
+    std::array<HeartbeatMonitor, kMonitors> monitors_;
     Standstill running_{};
     Standstill last_{};
-    bool felt_{false};
+    bool had_contact_{false};
 };
 
 }  // namespace dibhr

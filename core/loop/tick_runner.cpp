@@ -20,7 +20,7 @@ FramePair frames_of(const DepthBlend& pair) noexcept {
              .colour_edges = steps.colour_edges,
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
-             .in_betweens = from.between != nullptr && &from != &to,
+             .in_betweens = from.in_betweens != nullptr && &from != &to,
              .motion = from.motion != nullptr && &from != &to,
              .finger_px = from.cleaning.finger.radius_px,
              .finger_relief_px = from.cleaning.finger.relief_px,
@@ -41,9 +41,9 @@ const Touch& TickRunner::run(const TickInput& input,
         glide_.towards(target, safety.dt_s, safety.from_zero || input.at_once);
     const DepthSurface surface = input.pair.surface(parameters.shape, input.bump);
     const MotionField* const field = input.motion_unknown ? nullptr : input.pair.from->motion.get();
-    const SurfaceMotion motion = track_.go_on_to(input.pair, field, safety.dt_s);
+    const SurfaceMotion motion = track_.follow_to(input.pair, field, safety.dt_s);
     lacks_motion_ = parameters.carry && motion.field == nullptr;
-    if (input.lets_go && touch_.proxy.contact) renderer_.let_go();
+    if (input.releases_contact && touch_.proxy.contact) renderer_.release_contact();
     const auto begin = std::chrono::steady_clock::now();
     touch_ = renderer_.update(surface, input.goal, parameters, safety, limits, motion);
     update_time_ = std::chrono::steady_clock::now() - begin;
@@ -70,7 +70,7 @@ TickRecord TickRunner::record_of(const TickInput& input) const noexcept {
             .own_newton = input.safety.device_force_newton,
             .device_ready = input.safety.device_ready,
             .from_zero = input.safety.from_zero,
-            .lets_go = input.lets_go,
+            .releases_contact = input.releases_contact,
             .goal_refused = !is_finite(input.goal),
             .gliding = glide_.under_way(),
             .standstill = input.safety.standstill};

@@ -21,7 +21,7 @@ struct TickInput {
     const BumpMap* bump{nullptr};  ///< laid over that surface; null: none
     Vec3 goal{0.0};                ///< [px], grid space; not finite: refused
     SafetyInput safety{};          ///< with the length of the tick
-    bool lets_go{false};           ///< the hand was lifted or replaced: a contact is released first
+    bool releases_contact{false};  ///< the hand was lifted or replaced: a contact is released first
     /// The parameters do not glide. Nor do they where the force begins from zero.
     bool at_once{false};
     /// The motion between the two frames is left out: it was not known when they were recorded.
@@ -40,10 +40,12 @@ class TickRunner {
     /// Back to the state before the first tick. The next force must begin from zero.
     void reset() noexcept;
     /// The proxy, in contact or not, begins above the next goal.
-    void let_go() noexcept { renderer_.let_go(); }
+    void release_contact() noexcept { renderer_.release_contact(); }
 
     /// The parameters and limits of the last tick, which may still glide to the target.
-    [[nodiscard]] const ParameterGlide::Values& felt() const noexcept { return glide_.now(); }
+    [[nodiscard]] const ParameterGlide::Values& effective_values() const noexcept {
+        return glide_.now();
+    }
     /// Carrying was on, but the motion between the two frames was not known.
     [[nodiscard]] bool lacks_motion() const noexcept { return lacks_motion_; }
     /// What carried the proxy, and the material point under it.

@@ -9,11 +9,11 @@
 namespace dibhr {
 
 struct TickStrip {
-    float force_newton{0.0F};      ///< length of the force sent
-    float penetration_mm{0.0F};    ///< of the goal, from the proxy; 0 out of contact
-    float speed_mm_per_s{0.0F};    ///< of the goal
-    float given_millijoule{0.0F};  ///< work of the last tick's force on the hand's motion since
-    float lateness_us{0.0F};       ///< after the tick's deadline
+    float force_newton{0.0F};     ///< length of the force sent
+    float penetration_mm{0.0F};   ///< of the goal, from the proxy; 0 out of contact
+    float speed_mm_per_s{0.0F};   ///< of the goal
+    float work_millijoule{0.0F};  ///< work of the last tick's force on the hand's motion since
+    float lateness_us{0.0F};      ///< after the tick's deadline
 };
 
 /// One value a tick, for the strip charts.
@@ -31,7 +31,7 @@ using StripRing = SpscRing<TickStrip, 4096>;
     if (!(dt_s > 0.0)) return strip;
     const Vec3 way_mm = pitch_mm * (now.goal - before.goal);
     strip.speed_mm_per_s = static_cast<float>(glm::length(way_mm) / dt_s);
-    strip.given_millijoule = static_cast<float>(glm::dot(before.sent_force_newton, way_mm));
+    strip.work_millijoule = static_cast<float>(glm::dot(before.sent_force_newton, way_mm));
     return strip;
 }
 

@@ -189,8 +189,8 @@ void Axes::draw_series(Canvas& canvas, std::span<const Vec2> values, const Strok
     canvas.clip_to_whole();
 }
 
-SeriesLook look_of(Algorithm algorithm) {
-    const char* const name = entry_of(words_of(algorithm), algorithm).label;
+SeriesStyle style_of(Algorithm algorithm) {
+    const char* const name = entry_of(name_table(algorithm), algorithm).label;
     switch (algorithm) {
         case Algorithm::dibhr:
             return {name, {kBlue, 2.5, Dash::solid}, Marker::circle};
@@ -204,12 +204,12 @@ SeriesLook look_of(Algorithm algorithm) {
     return {};
 }
 
-void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesLook>& entries) {
+void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesStyle>& entries) {
     constexpr double kRow_px = 26.0;
     constexpr double kSample_px = 46.0;
     const TextStyle style{kTextInk, kLabelCap_px};
     double y = corner.y + kRow_px / 2.0;
-    for (const SeriesLook& entry : entries) {
+    for (const SeriesStyle& entry : entries) {
         canvas.line({corner.x, y}, {corner.x + kSample_px, y}, entry.stroke);
         canvas.marker({corner.x + kSample_px / 2.0, y}, entry.marker, 10.0, entry.stroke.ink,
                       kPaper);

@@ -86,16 +86,16 @@ inline constexpr double kLabelCap_px = 10.0;
 inline constexpr double kNumberCap_px = 9.0;
 
 /// An algorithm's style: not colour alone, also its own dashes and its own marker.
-struct SeriesLook {
+struct SeriesStyle {
     std::string name{};  ///< as shown in the legend
     Stroke stroke{};
     Marker marker{Marker::none};
 };
 
-[[nodiscard]] SeriesLook look_of(Algorithm algorithm);
+[[nodiscard]] SeriesStyle style_of(Algorithm algorithm);
 
 /// One entry under the other, from `corner` on: a piece of line with its marker, and the name.
-void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesLook>& entries);
+void draw_legend(Canvas& canvas, Vec2 corner, const std::vector<SeriesStyle>& entries);
 
 /// The title and, under it in paler ink, the settings of the measurement.
 void draw_title(Canvas& canvas, const std::string& title, const std::string& settings);

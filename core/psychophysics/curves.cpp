@@ -26,12 +26,12 @@ double standard_quantile(Curve curve, double share) {
     return std::log(-std::log1p(-share));
 }
 
-double on_axis(Curve curve, double x) noexcept {
+double to_axis(Curve curve, double x) noexcept {
     if (curve != Curve::weibull) return x;
     return std::log(std::fmax(x, std::numeric_limits<double>::min()));
 }
 
-double off_axis(Curve curve, double place) noexcept {
+double from_axis(Curve curve, double place) noexcept {
     return curve == Curve::weibull ? std::exp(place) : place;
 }
 

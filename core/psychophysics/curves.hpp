@@ -16,7 +16,7 @@ struct CurvePoint {
 [[nodiscard]] double standard_quantile(Curve curve, double share);
 
 /// From x to the curve's axis, which is x or ln x, and back.
-[[nodiscard]] double on_axis(Curve curve, double x) noexcept;
-[[nodiscard]] double off_axis(Curve curve, double place) noexcept;
+[[nodiscard]] double to_axis(Curve curve, double x) noexcept;
+[[nodiscard]] double from_axis(Curve curve, double place) noexcept;
 
 }  // namespace dibhr

@@ -23,7 +23,7 @@ const char* name_of(Curve curve) noexcept {
 
 double PsychometricFunction::share(double x) const {
     const double u =
-        (on_axis(curve, x) - on_axis(curve, threshold)) / scale + standard_quantile(curve, level);
+        (to_axis(curve, x) - to_axis(curve, threshold)) / scale + standard_quantile(curve, level);
     return guess + (1.0 - guess - lapse) * standard_curve(curve, u).share;
 }
 

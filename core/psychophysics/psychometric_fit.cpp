@@ -51,7 +51,7 @@ Problem problem_of(const LevelCounts& counts, const FitSettings& settings) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (LevelCount& level : problem.counts) {
-        level.x = on_axis(settings.curve, level.x);
+        level.x = to_axis(settings.curve, level.x);
         low = std::fmin(low, level.x);
         high = std::fmax(high, level.x);
     }
@@ -204,7 +204,7 @@ Point best_with(Problem problem, Parameter held, double value, const Point& near
 PsychometricFunction function_of(const Problem& problem, const Point& point) {
     const FitSettings& settings = problem.settings;
     return {settings.curve,
-            off_axis(settings.curve, point.values[kThreshold]),
+            from_axis(settings.curve, point.values[kThreshold]),
             std::exp(point.values[kLogScale]),
             settings.level,
             settings.guess,
@@ -212,7 +212,7 @@ PsychometricFunction function_of(const Problem& problem, const Point& point) {
 }
 
 Values values_of(const PsychometricFunction& function) {
-    return {on_axis(function.curve, function.threshold), std::log(function.scale), function.lapse};
+    return {to_axis(function.curve, function.threshold), std::log(function.scale), function.lapse};
 }
 
 double likelihood_of_own_shares(const LevelCounts& counts) {
@@ -319,7 +319,7 @@ PsychometricFit fitted_roughly(const LevelCounts& counts, const FitSettings& set
         const Point there = best_with(problem, kThreshold, bound, best);
         const bool refused = 2.0 * (best.log_likelihood - there.log_likelihood) > kUsualCritical;
         const bool low = bound == problem.bounds.low[kThreshold];
-        return off_axis(settings.curve, refused ? bound : low ? -kNoEnd : kNoEnd);
+        return from_axis(settings.curve, refused ? bound : low ? -kNoEnd : kNoEnd);
     };
     fit.threshold = {end(problem.bounds.low[kThreshold]), end(problem.bounds.high[kThreshold])};
     return fit;
@@ -341,8 +341,8 @@ PsychometricFit fitted(const LevelCounts& counts, const FitSettings& settings,
     };
     const Interval threshold = interval(kThreshold);
     const Interval log_scale = interval(kLogScale);
-    fit.threshold = {off_axis(settings.curve, threshold.low),
-                     off_axis(settings.curve, threshold.high)};
+    fit.threshold = {from_axis(settings.curve, threshold.low),
+                     from_axis(settings.curve, threshold.high)};
     fit.scale = {std::exp(log_scale.low), std::exp(log_scale.high)};
     const auto worse = std::count_if(bootstrap.deviances.begin(), bootstrap.deviances.end(),
                                      [&](double deviance) { return deviance >= fit.deviance; });

@@ -16,7 +16,7 @@ Heartbeat::~Heartbeat() {
     if (const int file = system_call_; file >= 0) close(file);
 }
 
-void Heartbeat::also_computes() noexcept {
+void Heartbeat::count_computing_as_beat() noexcept {
     const int of_this_thread = open("/proc/thread-self/syscall", O_RDONLY | O_CLOEXEC);
     const int before = system_call_;
     if (before < 0 || of_this_thread < 0) {
@@ -30,25 +30,25 @@ void Heartbeat::also_computes() noexcept {
 
 /// The file (proc_pid_syscall(5)) says "running", or begins with the number of the call in which
 /// the thread waits: in futex() it waits for another thread.
-Heartbeat::Doing Heartbeat::doing() const noexcept {
+Heartbeat::Activity Heartbeat::activity() const noexcept {
     const int file = system_call_.load(std::memory_order_acquire);  // it was opened before
     std::array<char, 16> text{};
-    if (file < 0 || pread(file, text.data(), text.size() - 1, 0) <= 0) return Doing::waits;
-    if (std::string_view(text.data()).starts_with("running")) return Doing::computes;
-    return std::strtol(text.data(), nullptr, 10) == SYS_futex ? Doing::waits_for_threads
-                                                              : Doing::waits;
+    if (file < 0 || pread(file, text.data(), text.size() - 1, 0) <= 0) return Activity::waits;
+    if (std::string_view(text.data()).starts_with("running")) return Activity::computes;
+    return std::strtol(text.data(), nullptr, 10) == SYS_futex ? Activity::waits_for_threads
+                                                              : Activity::waits;
 }
 
-Heartbeat::Clock::duration HeartbeatListener::silence(Heartbeat::Clock::time_point now) noexcept {
+Heartbeat::Clock::duration HeartbeatMonitor::silence(Heartbeat::Clock::time_point now) noexcept {
     if (heart_ == nullptr) return {};
     const auto last = heart_->last_.load(std::memory_order_relaxed);
-    if (last == Heartbeat::kResting || now < last) return {};
-    if (now - last >= kPatience && now - looked_ >= kBetweenLooks) {
-        looked_ = now;
-        const auto doing = heart_->doing();
+    if (last == Heartbeat::kIdle || now < last) return {};
+    if (now - last >= kKernelCheckAfter && now - checked_ >= kKernelCheckInterval) {
+        checked_ = now;
+        const auto activity = heart_->activity();
         const bool waits_in_vain = now - last >= kLongestWaitForThreads;
-        if (doing == Heartbeat::Doing::computes ||
-            (doing == Heartbeat::Doing::waits_for_threads && !waits_in_vain)) {
+        if (activity == Heartbeat::Activity::computes ||
+            (activity == Heartbeat::Activity::waits_for_threads && !waits_in_vain)) {
             computed_ = now;
         }
     }

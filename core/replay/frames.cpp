@@ -29,7 +29,7 @@ bool is_media(const fs::path& file) {
 }
 
 /// Whether the cleaning of this program differs from that of the recording.
-bool is_of_other_surfaces(const Session& session) {
+bool cleaned_by_other_version(const Session& session) {
     if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return false;
     const bool is_cleaned = session.fact("fill-holes") == "yes" ||
                             session.fact("remove-spikes") == "yes" ||
@@ -55,7 +55,7 @@ constexpr std::size_t kLeastKept = 16;
 
 }  // namespace
 
-bool names_session(const std::filesystem::path& file) {
+bool is_session_file(const std::filesystem::path& file) {
     if (file.extension() == ".dibhr") return true;
     if (file.extension() == ".db3") return false;  // a ROS 2 bag: SQLite's, too
     return is_database(file);
@@ -111,7 +111,7 @@ FrameCleaning cleaning_of(const FrameSource& source) {
 SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions& options)
     : options_(options), finder_(session.file(), options.any_media) {
     find_videos(session);
-    if (!options.cleaning && is_of_other_surfaces(session))
+    if (!options.cleaning && cleaned_by_other_version(session))
         finder_.warn(
             "its surfaces were made by an earlier dibhr, which treated holes and spikes otherwise: "
             "proxies may differ from those recorded");
@@ -143,7 +143,7 @@ void SessionFrames::find_videos(const Session& session) {
 void SessionFrames::read_bumps(const Session& session) {
     if (!options_.bump.empty()) {
         other_bump_ = std::make_shared<const BumpMap>(read_bump_map(options_.bump));
-        lay(other_bump_, options_.bump_size_px);
+        stretch_over_video(other_bump_, options_.bump_size_px);
         return;
     }
     for (const SessionParameters& parameters : session.parameters()) {
@@ -158,12 +158,12 @@ std::shared_ptr<const BumpMap> SessionFrames::bump(const SessionParameters& para
     if (other_bump_) return other_bump_;
     const auto found = bumps_.find(parameters.bump.file);
     if (found == bumps_.end()) return nullptr;
-    lay(found->second, parameters.touch.shape.bump_size_px);
+    stretch_over_video(found->second, parameters.touch.shape.bump_size_px);
     return found->second;
 }
 
 /// For the first video: mostly there is no other, and a video of another size works as well.
-void SessionFrames::lay(std::shared_ptr<const BumpMap>& bump, double size_px) const {
+void SessionFrames::stretch_over_video(std::shared_ptr<const BumpMap>& bump, double size_px) const {
     stretch(bump, description_.depth_columns, description_.depth_rows, size_px);
 }
 
@@ -193,7 +193,7 @@ std::shared_ptr<const TouchMaps> SessionFrames::maps_of(const FrameSource& sourc
         maps->of(*kind) =
             touch_map_in(map.png, {map.lowest, map.highest}, finder_.session().string());
     }
-    dibhr::lay(*maps, media.depth_columns, media.depth_rows);
+    lay_heights(*maps, media.depth_columns, media.depth_rows);
     decoded_maps_ = std::move(maps);
     return decoded_maps_;
 }
@@ -249,7 +249,7 @@ const SessionFrames::Kept* SessionFrames::find(const FrameSource& source, double
 
 void SessionFrames::keep(const FrameSource& source, const Frame& frame) {
     std::size_t bytes = frame.depth->levels.size() * sizeof(float) + frame.colour->rgb.size();
-    if (frame.beneath) bytes += frame.beneath->levels.size() * sizeof(float);
+    if (frame.undilated) bytes += frame.undilated->levels.size() * sizeof(float);
     if (frame.unseen) bytes += frame.unseen->size();
     const std::size_t room = options_.colour ? kMostOfWindow : kMostOfRun;
     const std::size_t most = std::max(room / std::max<std::size_t>(bytes, 1), kLeastKept);

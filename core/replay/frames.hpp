@@ -21,7 +21,7 @@
 namespace dibhr {
 
 /// Whether a file is a session: by its name, or by its first bytes.
-[[nodiscard]] bool names_session(const std::filesystem::path& file);
+[[nodiscard]] bool is_session_file(const std::filesystem::path& file);
 
 /// Finds a recorded file: in its recorded place, else beside the session.
 class SessionMediaFinder {
@@ -68,7 +68,7 @@ class SessionFrames final : public RecordedFrames {
     SessionFrames(const Session& session, const SessionFramesOptions& options);
 
     [[nodiscard]] Frame frame(const FrameSource& source, double media_s) override;
-    void connect(Frame& from, const Frame& to, const MotionWanted& wanted) override {
+    void connect(Frame& from, const Frame& to, const MotionRequest& wanted) override {
         motion_.connect(from, to, wanted);
     }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
@@ -94,7 +94,7 @@ class SessionFrames final : public RecordedFrames {
 
     void find_videos(const Session& session);
     void read_bumps(const Session& session);
-    void lay(std::shared_ptr<const BumpMap>& bump, double size_px) const;
+    void stretch_over_video(std::shared_ptr<const BumpMap>& bump, double size_px) const;
     void read_maps(const Session& session);
     /// Null: the source has no touch maps.
     [[nodiscard]] std::shared_ptr<const TouchMaps> maps_of(const FrameSource& source,

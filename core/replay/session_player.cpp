@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kTicksAhead = 400.0;  // at speed 1: longer than decoding a frame takes
 constexpr std::size_t kBatch = 25;
-constexpr double kRunIn_s = 1.0;
+constexpr double kWarmUp_s = 1.0;
 
 /// What is computed for each moment.
 struct ComputedRuns {
@@ -53,13 +53,13 @@ class SessionMoments {
         runs_ = runs;
         from_s_ = from_s;
         replay_.emplace(opened_.session, opened_.frames, std::move(changes),
-                        runs.any() ? from_s - kRunIn_s : from_s);
+                        runs.any() ? from_s - kWarmUp_s : from_s);
     }
 
     /// Nothing after the last one, or when cancelled before the proxy had found its place. Throws
     /// InputError for a session or video that cannot be read on.
-    [[nodiscard]] std::optional<SessionMoment> next(const std::atomic<bool>& given_up) {
-        while (replay_ && !given_up && replay_->next()) {
+    [[nodiscard]] std::optional<SessionMoment> next(const std::atomic<bool>& cancelled) {
+        while (replay_ && !cancelled && replay_->next()) {
             const TickRecord& tick = replay_->recorded();
             if (tick.t_s >= from_s_) return moment_of(tick);
         }
@@ -105,15 +105,15 @@ class SessionMoments {
 };
 
 std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double begin_s,
-                                       double end_s, const std::atomic<bool>& leaving) {
+                                       double end_s, const std::atomic<bool>& stopping) {
     auto band = std::make_unique<ContactBand>();
     const double pieces_per_s =
         static_cast<double>(ContactBand::kPieces) / std::max(end_s - begin_s, 1e-3);
     const SessionReader reader(file);
     auto query = reader.rows("SELECT t, contact, stand_in FROM tick WHERE surface ORDER BY tick");
-    while (!leaving && query.next()) {
+    while (!stopping && query.next()) {
         ++band->hand.all;
-        band->hand.stand_in += query.integer(2);
+        band->hand.mouse_fallback += query.integer(2);
         if (query.integer(1) == 0) continue;
         const double at = std::max(0.0, (query.real(0) - begin_s) * pieces_per_s);
         band->contact.at(std::min(static_cast<std::size_t>(at), ContactBand::kPieces - 1)) = true;
@@ -131,7 +131,7 @@ OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
 
 struct SessionPlayer::Implementation {
     /// A request to the reading thread: where to go on.
-    struct Order {
+    struct ReadRequest {
         double from_s{0.0};
         std::optional<std::int64_t> before_tick{};  ///< instead: the tick before this one
         ComputedRuns runs{};
@@ -149,9 +149,9 @@ struct SessionPlayer::Implementation {
     ~Implementation() {
         {
             const std::lock_guard lock(mutex);
-            leaving = superseded = true;
+            stopping = superseded = true;
         }
-        asked.notify_one();
+        wake_reader.notify_one();
         thread.join();
     }
 
@@ -161,7 +161,7 @@ struct SessionPlayer::Implementation {
     // The window's thread.
 
     /// A jump waits until the last one has arrived, so that pictures keep coming during a drag.
-    void go_to(Order wanted) {
+    void go_to(ReadRequest wanted) {
         playback.now_s = wanted.from_s;
         if (jumping) {
             next_jump = wanted;
@@ -171,13 +171,13 @@ struct SessionPlayer::Implementation {
         steps = 0;
         {
             const std::lock_guard lock(mutex);
-            waiting_order = wanted;
+            pending_request = wanted;
             superseded = true;
             ahead.clear();
             complete = false;
             failure.clear();
         }
-        asked.notify_one();
+        wake_reader.notify_one();
     }
 
     void anchor(double at_s) {
@@ -207,9 +207,9 @@ struct SessionPlayer::Implementation {
             playback.waiting = ahead.empty() && !complete;
             all_taken = (ahead.empty() && complete) || (leaves_part && !playback.waiting);
         }
-        asked.notify_one();
+        wake_reader.notify_one();
         if (jumping) return;
-        if (playback.playing) go_on(due_s, all_taken);
+        if (playback.playing) advance_clock(due_s, all_taken);
         if (next_jump) go_to(*std::exchange(next_jump, std::nullopt));
     }
 
@@ -233,10 +233,10 @@ struct SessionPlayer::Implementation {
         due_now = due_now || moment->preview;
     }
 
-    void go_on(double due_s, bool all_taken) {
+    void advance_clock(double due_s, bool all_taken) {
         playback.now_s = std::clamp(due_s, playback.begin_s, playback.end_s);
         if (all_taken && playback.looping && playback.failure.empty()) {
-            go_to({lap_begins_s(), {}, runs, true});
+            go_to({loop_begin_s(), {}, runs, true});
         } else if (all_taken) {
             playback.playing = false;
         } else if (playback.waiting && moment) {
@@ -245,7 +245,7 @@ struct SessionPlayer::Implementation {
     }
 
     /// Where a lap begins: with the played part, beyond that part with the session.
-    [[nodiscard]] double lap_begins_s() const {
+    [[nodiscard]] double loop_begin_s() const {
         const std::optional<MediaPart>& part = playback.part;
         return part && playback.now_s <= part->to_s ? part->from_s : playback.begin_s;
     }
@@ -256,16 +256,16 @@ struct SessionPlayer::Implementation {
         pthread_setname_np(pthread_self(), "dibhr-session");
         std::unique_lock lock(mutex);
         for (;;) {
-            asked.wait(lock, [this] { return leaving || waiting_order || wants_more(); });
-            if (leaving) return;
-            if (waiting_order) order = *std::exchange(waiting_order, std::nullopt);
+            wake_reader.wait(lock, [this] { return stopping || pending_request || wants_more(); });
+            if (stopping) return;
+            if (pending_request) request = *std::exchange(pending_request, std::nullopt);
             superseded = false;
             lock.unlock();
             std::vector<SessionMoment> read;
             bool at_end = false;
             const std::string trouble = attempt([&] { at_end = !read_on(read); });
             lock.lock();
-            if (waiting_order) continue;  // these are out of date
+            if (pending_request) continue;  // these are out of date
             std::move(read.begin(), read.end(), std::back_inserter(ahead));
             complete = at_end || !trouble.empty();
             if (!trouble.empty()) failure = trouble;
@@ -278,13 +278,13 @@ struct SessionPlayer::Implementation {
 
     /// False at the end.
     bool read_on(std::vector<SessionMoment>& read) {
-        const bool preview = order && order->preview && order->runs.any();
+        const bool preview = request && request->preview && request->runs.any();
         // After a jump one moment is enough to show.
-        const std::size_t most = order ? 1 : kBatch;
-        if (order) {
-            if (order->before_tick) order->from_s = moments.time_before(*order->before_tick);
-            order->before_tick.reset();
-            moments.begin(order->from_s, preview ? ComputedRuns{} : order->runs);
+        const std::size_t most = request ? 1 : kBatch;
+        if (request) {
+            if (request->before_tick) request->from_s = moments.time_before(*request->before_tick);
+            request->before_tick.reset();
+            moments.begin(request->from_s, preview ? ComputedRuns{} : request->runs);
         }
         while (read.size() < most) {
             std::optional<SessionMoment> next = moments.next(superseded);
@@ -292,8 +292,8 @@ struct SessionPlayer::Implementation {
             next->preview = preview;
             read.push_back(std::move(*next));
         }
-        order =
-            preview ? std::optional(Order{order->from_s, {}, order->runs, false}) : std::nullopt;
+        request = preview ? std::optional(ReadRequest{request->from_s, {}, request->runs, false})
+                          : std::nullopt;
         return true;
     }
 
@@ -313,13 +313,13 @@ struct SessionPlayer::Implementation {
 
     // The reading thread's.
     SessionMoments moments;
-    std::optional<Order> order{};  // where to begin with the next reading
+    std::optional<ReadRequest> request{};  // where to begin with the next reading
 
     // The window's thread's.
     SessionPlayback playback{};
     std::optional<SessionMoment> moment{};
     ComputedRuns runs{};
-    std::optional<Order> next_jump{};
+    std::optional<ReadRequest> next_jump{};
     Time now{};  // of the last picture
     Time anchored{};
     double anchored_s{0.0};
@@ -329,13 +329,13 @@ struct SessionPlayer::Implementation {
 
     // Of both threads, under the mutex.
     std::mutex mutex{};
-    std::condition_variable asked{};
-    std::optional<Order> waiting_order{};
+    std::condition_variable wake_reader{};
+    std::optional<ReadRequest> pending_request{};
     std::deque<SessionMoment> ahead{};
     double ticks_ahead{kTicksAhead};
     bool complete{false};  // no tick follows those that are ahead
     std::string failure{};
-    bool leaving{false};
+    bool stopping{false};
     std::atomic<bool> superseded{false};  // the running read is out of date
 
     std::thread thread{};
@@ -347,36 +347,36 @@ SessionPlayer::SessionPlayer(std::unique_ptr<OpenedSession> opened)
 SessionPlayer::~SessionPlayer() = default;
 
 void SessionPlayer::play() {
-    Implementation& here = *implementation_;
-    if (here.playback.playing) return;
-    here.playback.playing = true;
-    here.anchor(here.playback.now_s);
-    const std::optional<MediaPart>& part = here.playback.part;
-    const double ends_s = part ? std::min(part->to_s, here.playback.end_s) : here.playback.end_s;
-    if (here.playback.now_s >= ends_s) seek(here.lap_begins_s());
+    Implementation& impl = *implementation_;
+    if (impl.playback.playing) return;
+    impl.playback.playing = true;
+    impl.anchor(impl.playback.now_s);
+    const std::optional<MediaPart>& part = impl.playback.part;
+    const double ends_s = part ? std::min(part->to_s, impl.playback.end_s) : impl.playback.end_s;
+    if (impl.playback.now_s >= ends_s) seek(impl.loop_begin_s());
 }
 
 void SessionPlayer::pause() {
-    Implementation& here = *implementation_;
-    here.playback.playing = false;
-    if (here.moment && !here.jumping) here.playback.now_s = here.moment->tick.t_s;
+    Implementation& impl = *implementation_;
+    impl.playback.playing = false;
+    if (impl.moment && !impl.jumping) impl.playback.now_s = impl.moment->tick.t_s;
 }
 
 void SessionPlayer::seek(double t_s) {
-    Implementation& here = *implementation_;
-    const double within_s = std::clamp(t_s, here.playback.begin_s, here.playback.end_s);
-    here.go_to({within_s, {}, here.runs, true});
+    Implementation& impl = *implementation_;
+    const double within_s = std::clamp(t_s, impl.playback.begin_s, impl.playback.end_s);
+    impl.go_to({within_s, {}, impl.runs, true});
 }
 
 void SessionPlayer::step(int ticks) {
-    Implementation& here = *implementation_;
+    Implementation& impl = *implementation_;
     pause();
-    if (!here.moment || here.jumping) return;
+    if (!impl.moment || impl.jumping) return;
     if (ticks > 0) {
-        here.steps += ticks;
-        here.due_now = true;
+        impl.steps += ticks;
+        impl.due_now = true;
     } else if (ticks < 0) {
-        here.go_to({here.playback.now_s, here.moment->tick.tick, here.runs, true});
+        impl.go_to({impl.playback.now_s, impl.moment->tick.tick, impl.runs, true});
     }
 }
 
@@ -389,24 +389,24 @@ void SessionPlayer::set_part(const std::optional<MediaPart>& part) {
 }
 
 void SessionPlayer::set_speed(double speed) {
-    Implementation& here = *implementation_;
-    here.anchor(here.playback.now_s);
-    here.playback.speed = std::clamp(speed, kSlowestSpeed, kFastestSpeed);
-    const std::lock_guard lock(here.mutex);
-    here.ticks_ahead = kTicksAhead * std::max(1.0, here.playback.speed);
+    Implementation& impl = *implementation_;
+    impl.anchor(impl.playback.now_s);
+    impl.playback.speed = std::clamp(speed, kSlowestSpeed, kFastestSpeed);
+    const std::lock_guard lock(impl.mutex);
+    impl.ticks_ahead = kTicksAhead * std::max(1.0, impl.playback.speed);
 }
 
 void SessionPlayer::compute(const std::optional<TouchParameters>& other) {
-    Implementation& here = *implementation_;
-    here.runs.other = other;
-    here.go_to({here.playback.now_s, {}, here.runs, false});
+    Implementation& impl = *implementation_;
+    impl.runs.other = other;
+    impl.go_to({impl.playback.now_s, {}, impl.runs, false});
 }
 
 void SessionPlayer::compare(bool algorithms) {
-    Implementation& here = *implementation_;
-    if (here.runs.algorithms == algorithms) return;
-    here.runs.algorithms = algorithms;
-    here.go_to({here.playback.now_s, {}, here.runs, false});
+    Implementation& impl = *implementation_;
+    if (impl.runs.algorithms == algorithms) return;
+    impl.runs.algorithms = algorithms;
+    impl.go_to({impl.playback.now_s, {}, impl.runs, false});
 }
 
 void SessionPlayer::advance(Time now, const std::function<void(const SessionMoment&)>& passed) {
@@ -423,17 +423,18 @@ const SessionPlayback& SessionPlayer::playback() const {
     return implementation_->playback;
 }
 
-SessionOutline::SessionOutline(const std::filesystem::path& file, double begin_s, double end_s)
+ContactBandReader::ContactBandReader(const std::filesystem::path& file, double begin_s,
+                                     double end_s)
     : result_(std::async(std::launch::async, [this, file, begin_s, end_s] {
-          return read_band(file, begin_s, end_s, leaving_);
+          return read_band(file, begin_s, end_s, stopping_);
       })) {}
 
-SessionOutline::~SessionOutline() {
-    leaving_ = true;
+ContactBandReader::~ContactBandReader() {
+    stopping_ = true;
     if (result_.valid()) result_.wait();
 }
 
-const ContactBand* SessionOutline::band() {
+const ContactBand* ContactBandReader::band() {
     using std::chrono::seconds;
     if (result_.valid() && result_.wait_for(seconds(0)) == std::future_status::ready) {
         try {

@@ -46,8 +46,8 @@ struct SessionMoment {
 };
 
 /// The state of the player, for the window. Times are those of the ticks.
-struct SessionPlayback : Course {
-    SessionPlayback() noexcept : Course{.playing = true} {}
+struct SessionPlayback : PlayState {
+    SessionPlayback() noexcept : PlayState{.playing = true} {}
 
     bool waiting{false};    ///< for ticks that are being read
     std::string failure{};  ///< a plain sentence when reading broke off; empty otherwise
@@ -100,18 +100,18 @@ struct ContactBand {
 };
 
 /// Reads the session once, on a thread of its own, from construction on.
-class SessionOutline {
+class ContactBandReader {
   public:
-    SessionOutline(const std::filesystem::path& file, double begin_s, double end_s);
-    ~SessionOutline();  ///< breaks off
-    SessionOutline(const SessionOutline&) = delete;
-    SessionOutline& operator=(const SessionOutline&) = delete;
+    ContactBandReader(const std::filesystem::path& file, double begin_s, double end_s);
+    ~ContactBandReader();  ///< breaks off
+    ContactBandReader(const ContactBandReader&) = delete;
+    ContactBandReader& operator=(const ContactBandReader&) = delete;
 
     /// Null until it is read, or when reading failed: the player reports why.
     [[nodiscard]] const ContactBand* band();
 
   private:
-    std::atomic<bool> leaving_{false};
+    std::atomic<bool> stopping_{false};
     std::future<std::unique_ptr<ContactBand>> result_;
     std::unique_ptr<ContactBand> band_{};
 };

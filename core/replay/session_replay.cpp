@@ -96,7 +96,7 @@ void SessionReplay::run_tick(Run& run) {
                                      .device_force_newton = tick_.own_newton,
                                      .from_zero = tick_.from_zero,
                                      .standstill = tick_.standstill},
-                          .lets_go = tick_.lets_go,
+                          .releases_contact = tick_.releases_contact,
                           .at_once = !tick_.gliding,
                           .motion_unknown = tick_.motion_unknown};
     run.touch = run.runner.run(input, {run.parameters, parameters_->limits});

@@ -30,7 +30,7 @@ class RecordedFrames {
     [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
     /// Adds to `from` the motion to `to`, the next frame, as when they were touched. A frame that
     /// has its motion is left as it is.
-    virtual void connect(Frame& /*from*/, const Frame& /*to*/, const MotionWanted& /*wanted*/) {}
+    virtual void connect(Frame& /*from*/, const Frame& /*to*/, const MotionRequest& /*wanted*/) {}
     /// Null: none was laid over the surface.
     [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
         const SessionParameters& parameters) = 0;

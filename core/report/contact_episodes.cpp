@@ -43,15 +43,15 @@ std::vector<std::size_t> longest_first(const std::vector<Episode>& episodes) {
 }
 
 void ContactEpisodes::add(const TickRecord& tick, double held_s, double pitch_mm) {
-    if (open_ &&
-        (tick.lets_go || (tick.surface && tick.frames.source.media != open_->episode.media))) {
+    if (open_ && (tick.releases_contact ||
+                  (tick.surface && tick.frames.source.media != open_->episode.media))) {
         end();
     }
     if (!touches(tick)) return;
     const bool gap = open_ && tick.tick != open_->last_tick + 1;
     if (gap && tick.t_s - open_->episode.end_s >= kJoinedGap_s - kRounding_s) end();
     if (open_)
-        go_on(tick, gap ? 0.0 : pitch_mm);
+        extend(tick, gap ? 0.0 : pitch_mm);
     else
         begin(tick);
     Episode& episode = open_->episode;
@@ -80,7 +80,7 @@ void ContactEpisodes::begin(const TickRecord& tick) {
 
 /// A force that begins from zero again follows a jump of the video or of the surface, which is no
 /// path.
-void ContactEpisodes::go_on(const TickRecord& tick, double pitch_mm) {
+void ContactEpisodes::extend(const TickRecord& tick, double pitch_mm) {
     if (tick.from_zero) return;
     open_->episode.path_mm += pitch_mm * glm::length(tick.proxy - open_->last_proxy_px);
 }
@@ -103,7 +103,7 @@ void ContactEpisodes::end() {
 std::optional<Speeds> SpeedWindow::add(const TickRecord& tick, double pitch_mm) {
     const Place now{tick.t_s, tick.goal, tick.proxy};
     // No speed is measured across a jump.
-    if (!tick.surface || tick.lets_go || tick.from_zero) places_.clear();
+    if (!tick.surface || tick.releases_contact || tick.from_zero) places_.clear();
     if (!tick.surface || !is_finite(now.goal_px) || !is_finite(now.proxy_px)) return std::nullopt;
     places_.push_back(now);
     const double begin_s = now.t_s - kSpeedWindow_s + kRounding_s;

@@ -72,7 +72,7 @@ class ContactEpisodes {
 
   private:
     void begin(const TickRecord& tick);
-    void go_on(const TickRecord& tick, double pitch_mm);
+    void extend(const TickRecord& tick, double pitch_mm);
     void end();
 
     std::vector<Episode> episodes_{};

@@ -47,7 +47,7 @@ void Fields::fixed(const FieldName& name, double value, int digits, const char* 
     show(head, number_text(value, digits));
 }
 
-void Fields::brief(const FieldName& name, double value, int digits, const char* head) {
+void Fields::significant(const FieldName& name, double value, int digits, const char* head) {
     add(name, value);
     show(head, number_cell(value, digits));
 }

@@ -34,7 +34,7 @@ struct Fields {
     // with `digits` significant digits.
     void plain(const FieldName& name, const Json& value, const char* head);
     void fixed(const FieldName& name, double value, int digits, const char* head);
-    void brief(const FieldName& name, double value, int digits, const char* head);
+    void significant(const FieldName& name, double value, int digits, const char* head);
 };
 
 /// A table with a row of fields from `describe` for each item; empty without items.

@@ -10,7 +10,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "core/report/fields.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 
 namespace dibhr {
 
@@ -39,7 +39,7 @@ Json ticks_json(const TickCounts& ticks) {
             {"in_contact", ticks.in_contact},
             {"without_surface", ticks.without_surface},
             {"device_not_ready", ticks.device_not_ready},
-            {"stand_in", ticks.stand_in},
+            {"stand_in", ticks.mouse_fallback},
             {"goal_refused", ticks.goal_refused},
             {"catching_up", ticks.catching_up},
             {"late", ticks.late},
@@ -185,7 +185,7 @@ Fields parameters_fields(const SessionReport& report, SessionParameters paramete
 std::string json_of(const SessionReport& report) {
     const Session& session = report.session;
     const SessionNumbers& numbers = report.numbers;
-    const double way_mm = path_mm(numbers);
+    const double path_length_mm = path_mm(numbers);
     SessionFacts meanings;
     for (const Definition& each : definitions()) meanings[each.name] = each.meaning;
     return json_text(
@@ -203,8 +203,9 @@ std::string json_of(const SessionReport& report) {
          {"contact_s", numbers.contact_s},
          {"contact_share", numbers.contact_share()},
          {"episode_count", numbers.episodes.size()},
-         {"path_mm", way_mm},
-         {"mean_speed_mm_per_s", numbers.contact_s > 0.0 ? way_mm / numbers.contact_s : 0.0},
+         {"path_mm", path_length_mm},
+         {"mean_speed_mm_per_s",
+          numbers.contact_s > 0.0 ? path_length_mm / numbers.contact_s : 0.0},
          {"force_sent_newton", values_json(numbers.sent_newton)},
          {"force_spring_newton", values_json(numbers.spring_newton)},
          {"speed_goal_mm_per_s", values_json(numbers.goal_mm_per_s)},

@@ -29,7 +29,7 @@ double highest_of(const std::vector<Bar>& bars) {
 }
 
 void draw_bars(Canvas& canvas, const Axes& axes, const std::vector<Bar>& bars) {
-    const Ink ink = look_of(Algorithm::dibhr).stroke.ink;
+    const Ink ink = style_of(Algorithm::dibhr).stroke.ink;
     for (const Bar& bar : bars) {
         if (!(bar.height > 0.0)) continue;
         const Vec2 corner = axes.at(bar.from, bar.height);
@@ -59,7 +59,7 @@ void draw_values(Canvas& canvas, const Axes& axes,
 /// Time per value, with median, 95 % and what is beyond the plot.
 Canvas plot_distribution(const std::string& title, const std::string& quantity,
                          const std::string& unit, const Distribution& values, double upto,
-                         const PlotWords& words) {
+                         const PlotContext& context) {
     const Bars bars = values.bars(upto, kMostBars);
     std::vector<Bar> drawn;
     for (std::size_t k = 0; k < bars.seconds.size(); ++k) {
@@ -67,7 +67,7 @@ Canvas plot_distribution(const std::string& title, const std::string& quantity,
         drawn.push_back({from, from + bars.width, bars.seconds[k]});
     }
     Canvas canvas(kColumns, kRows, kPaper);
-    draw_title(canvas, title, words.subtitle);
+    draw_title(canvas, title, context.subtitle);
     const Axes axes(kArea, {{0.0, drawn.back().to}, quantity + " [" + unit + "]"},
                     {{0.0, 1.05 * highest_of(drawn)}, "time [s]"});
     axes.draw_ground(canvas);
@@ -116,19 +116,19 @@ std::vector<double> whole_ticks(double highest) {
 
 }  // namespace
 
-Canvas plot_force_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_force_histogram(const SessionNumbers& numbers, const PlotContext& context) {
     return plot_distribution("Force sent while in contact", "force", "N", numbers.sent_newton,
-                             numbers.sent_newton.peak(), words);
+                             numbers.sent_newton.peak(), context);
 }
 
-Canvas plot_speed_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_speed_histogram(const SessionNumbers& numbers, const PlotContext& context) {
     constexpr double kNearlyAll = 0.995;  // a single fast move does not squeeze the rest
     return plot_distribution("Speed on the surface while in contact", "speed of the proxy", "mm/s",
                              numbers.proxy_mm_per_s, numbers.proxy_mm_per_s.quantile(kNearlyAll),
-                             words);
+                             context);
 }
 
-Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& words) {
+Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotContext& context) {
     std::vector<double> lengths;
     for (const Episode& episode : numbers.episodes) {
         lengths.push_back(std::max(episode.length_s(), 1e-4));  // no tick is shorter
@@ -148,7 +148,7 @@ Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& wo
     Axis y{{0.0, 1.05 * highest_of(bars)}, "contacts"};
     y.ticks = whole_ticks(y.span.high);
     Canvas canvas(kColumns, kRows, kPaper);
-    draw_title(canvas, "How long contacts lasted", words.subtitle);
+    draw_title(canvas, "How long contacts lasted", context.subtitle);
     const Axes axes(kArea, std::move(x), std::move(y));
     axes.draw_ground(canvas);
     draw_bars(canvas, axes, bars);

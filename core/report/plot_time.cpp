@@ -27,7 +27,7 @@ constexpr Ink kContactInk{213, 94, 0};  // Okabe and Ito's vermillion
 /// One quantity of the pieces.
 struct Curve {
     ValueRange TimePiece::*range;
-    SeriesLook look{};
+    SeriesStyle look{};
 };
 
 /// A round number at or above the highest value.
@@ -128,15 +128,15 @@ void draw_contacts(Canvas& canvas, Box strip, const Axes& axes, const SessionNum
 }
 
 /// A line through all panels for each mark, and its name above where there is room.
-void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWords& words) {
+void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotContext& context) {
     constexpr std::size_t kLongestName = 18;
     constexpr double kRow_px = 17.0;
     constexpr int kNameRows = 3;
     const TextStyle style{kTextInk, kNumberCap_px, Align::left};
     const Box area = axes.area();
     std::vector<double> taken_px(kNameRows, area.left);  // how far each row of names is full
-    for (const SessionMark& mark : words.marks) {
-        const double x = axes.at(mark.t_s - words.begin_s, 0.0).x;
+    for (const SessionMark& mark : context.marks) {
+        const double x = axes.at(mark.t_s - context.begin_s, 0.0).x;
         if (!(x >= area.left - 0.5 && x <= area.right + 0.5)) continue;
         canvas.line({x, area.top}, {x, bottom_px}, {kTextInk, 1.0, Dash::dashed});
         const std::string name = one_line(mark.tag, kLongestName);
@@ -154,17 +154,17 @@ void draw_marks(Canvas& canvas, const Axes& axes, double bottom_px, const PlotWo
 
 Canvas plot_over_time(const std::string& title, const std::string& label,
                       const std::vector<Curve>& curves, const SessionNumbers& numbers,
-                      const PlotWords& words) {
-    const double down_px = words.marks.empty() ? 0.0 : kMarkNames_px;
+                      const PlotContext& context) {
+    const double down_px = context.marks.empty() ? 0.0 : kMarkNames_px;
     Canvas canvas(1200, 652 + static_cast<int>(down_px), kPaper);
-    draw_title(canvas, title, words.subtitle);
+    draw_title(canvas, title, context.subtitle);
     double highest = 0.0;
     for (const Curve& curve : curves)
         highest = std::max(highest, highest_of(numbers.time_line, curve.range));
     const Axes axes(lowered(kPanel, down_px), time_axis(numbers.duration_s, false),
                     {{0.0, round_top(1.02 * highest)}, label});
     axes.draw_ground(canvas);
-    std::vector<SeriesLook> entries;
+    std::vector<SeriesStyle> entries;
     const bool means = shows_means(numbers.time_line);
     for (const Curve& curve : curves) {
         Stroke stroke = curve.look.stroke;
@@ -174,12 +174,12 @@ Canvas plot_over_time(const std::string& title, const std::string& label,
     }
     if (means) {
         const Curve& felt = curves.back();
-        SeriesLook mean{"its mean", {kTextInk, 2.0, Dash::solid}, {}};
+        SeriesStyle mean{"its mean", {kTextInk, 2.0, Dash::solid}, {}};
         axes.draw_series(canvas, mean_line(numbers.time_line, felt.range), mean.stroke);
         entries.push_back(mean);
     }
     axes.draw_frame(canvas);
-    draw_contacts(canvas, lowered(kContacts, down_px), axes, numbers, words.begin_s);
+    draw_contacts(canvas, lowered(kContacts, down_px), axes, numbers, context.begin_s);
 
     Axis video_time{{0.0, round_top(highest_video_s(numbers.time_line))}, "video [s]"};
     video_time.most_ticks = 4;
@@ -188,7 +188,7 @@ Canvas plot_over_time(const std::string& title, const std::string& label,
     video.draw_ground(canvas);
     video.draw_series(canvas, video_line(numbers.time_line), {kGoalInk, 1.5, Dash::solid});
     video.draw_frame(canvas);
-    draw_marks(canvas, axes, video.area().bottom, words);
+    draw_marks(canvas, axes, video.area().bottom, context);
     draw_legend(canvas, {920.0, 12.0}, entries);
     return canvas;
 }
@@ -200,22 +200,22 @@ bool shows_means(const TimeLine& line) {
     return line.piece_s() >= kLong_s;
 }
 
-Canvas plot_force_over_time(const SessionNumbers& numbers, const PlotWords& words) {
-    const Stroke sent = look_of(Algorithm::dibhr).stroke;
+Canvas plot_force_over_time(const SessionNumbers& numbers, const PlotContext& context) {
+    const Stroke sent = style_of(Algorithm::dibhr).stroke;
     return plot_over_time(
         "Force over time", "force [N]",
         {{&TimePiece::spring_newton, {"spring", {kExactInk, 4.5, Dash::solid}, {}}},
          {&TimePiece::sent_newton, {"sent to the hand", {sent.ink, 1.5}, {}}}},
-        numbers, words);
+        numbers, context);
 }
 
-Canvas plot_speed_over_time(const SessionNumbers& numbers, const PlotWords& words) {
-    const Stroke proxy = look_of(Algorithm::dibhr).stroke;
+Canvas plot_speed_over_time(const SessionNumbers& numbers, const PlotContext& context) {
+    const Stroke proxy = style_of(Algorithm::dibhr).stroke;
     return plot_over_time(
         "Speed in contact over time", "speed [mm/s]",
         {{&TimePiece::goal_mm_per_s, {"goal (the hand)", {kExactInk, 4.5, Dash::solid}, {}}},
          {&TimePiece::proxy_mm_per_s, {"proxy (on the surface)", {proxy.ink, 1.5}, {}}}},
-        numbers, words);
+        numbers, context);
 }
 
 }  // namespace dibhr

@@ -10,7 +10,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/report/fields.hpp"
 #include "core/report/page_parts.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 
 namespace dibhr {
 
@@ -119,9 +119,9 @@ std::string parameters_section(const SessionReport& report) {
 std::string files_section(const SessionReport& report) {
     std::vector<Cells> rows;
     std::set<std::string> cleanings;
-    std::set<std::filesystem::path> told;
+    std::set<std::filesystem::path> printed;
     const auto add = [&](const char* what, const SessionMedia& media) {
-        if (!media.file.empty() && told.insert(media.file).second)
+        if (!media.file.empty() && printed.insert(media.file).second)
             rows.push_back(media_row(what, media));
     };
     for (const SessionSource& source : report.session.sources()) {

@@ -40,7 +40,7 @@ struct HeatMapGround {
                                    const std::string& subtitle);
 
 /// Text and marks of the plots over time and the histograms.
-struct PlotWords {
+struct PlotContext {
     std::string subtitle{};
     double begin_s{0.0};  ///< the first tick, on the marks' clock
     std::vector<SessionMark> marks{};
@@ -51,15 +51,20 @@ struct PlotWords {
 [[nodiscard]] bool shows_means(const TimeLine& line);
 
 /// Spring force and force sent, with the times in contact, the video's time and the marks.
-[[nodiscard]] Canvas plot_force_over_time(const SessionNumbers& numbers, const PlotWords& words);
+[[nodiscard]] Canvas plot_force_over_time(const SessionNumbers& numbers,
+                                          const PlotContext& context);
 /// Likewise the speeds of goal and proxy; there must be some.
-[[nodiscard]] Canvas plot_speed_over_time(const SessionNumbers& numbers, const PlotWords& words);
+[[nodiscard]] Canvas plot_speed_over_time(const SessionNumbers& numbers,
+                                          const PlotContext& context);
 
 /// There must be a contact of some time.
-[[nodiscard]] Canvas plot_force_histogram(const SessionNumbers& numbers, const PlotWords& words);
+[[nodiscard]] Canvas plot_force_histogram(const SessionNumbers& numbers,
+                                          const PlotContext& context);
 /// There must be a contact.
-[[nodiscard]] Canvas plot_contact_histogram(const SessionNumbers& numbers, const PlotWords& words);
+[[nodiscard]] Canvas plot_contact_histogram(const SessionNumbers& numbers,
+                                            const PlotContext& context);
 /// There must be speeds.
-[[nodiscard]] Canvas plot_speed_histogram(const SessionNumbers& numbers, const PlotWords& words);
+[[nodiscard]] Canvas plot_speed_histogram(const SessionNumbers& numbers,
+                                          const PlotContext& context);
 
 }  // namespace dibhr

@@ -52,7 +52,7 @@ class Counter {
         ticks.in_contact += tick.contact ? 1 : 0;
         ticks.without_surface += tick.surface ? 0 : 1;
         ticks.device_not_ready += tick.device_ready ? 0 : 1;
-        ticks.stand_in += tick.stand_in ? 1 : 0;
+        ticks.mouse_fallback += tick.mouse_fallback ? 1 : 0;
         ticks.late += tick.lateness_us >= kLate_us ? 1 : 0;
         ticks.goal_refused += tick.goal_refused ? 1 : 0;
         ticks.catching_up += tick.catching_up ? 1 : 0;

@@ -157,7 +157,7 @@ struct TickCounts {
     std::int64_t in_contact{0};
     std::int64_t without_surface{0};
     std::int64_t device_not_ready{0};
-    std::int64_t stand_in{0};  ///< of the mouse, while the device was not ready
+    std::int64_t mouse_fallback{0};  ///< of the mouse, while the device was not ready
     std::int64_t late{0};
     std::int64_t goal_refused{0};
     std::int64_t catching_up{0};  ///< ended before the proxy had caught up with its goal

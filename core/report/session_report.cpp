@@ -10,7 +10,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
 #include "core/report/report_plots.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {
@@ -33,7 +33,7 @@ std::vector<std::string> all_names() {
 }
 
 /// A report that is being made: its data, its pictures and the request.
-struct Making {
+struct ReportDraft {
     SessionReport& report;
     FigureMaker figures;
     const ReportRequest& request;
@@ -88,17 +88,17 @@ std::string map_caption(const HeatMapFacts& map) {
            " px; the numbers are those of the contacts below.";
 }
 
-void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t media) {
-    SessionReport& report = making.report;
+void draw_map(const ReportDraft& draft, const TouchedPlaces& places, std::uint32_t media) {
+    SessionReport& report = draft.report;
     const PixelBounds touched = places.bounds();
     if (touched.right == 0 || !(places.total_s() > 0.0)) return;  // no place that could be shown
     HeatMapFacts map;
     const std::string name = map_name(report.maps.size() + 1);
-    map.picture = picture_file(name, making.request.plot_formats.front());
+    map.picture = picture_file(name, draft.request.plot_formats.front());
     map.source = source_of(report.session, media);
     map.frame_s = places.longest_frame_s();
     map.contact_s = places.total_s();
-    RecordedPicture picture = making.request.pictures(map.source, map.frame_s);
+    RecordedPicture picture = draft.request.pictures(map.source, map.frame_s);
     map.remark = picture.remark;
     const std::string warning = picture.warning;
     const bool size_known = picture.columns > 0;
@@ -124,22 +124,22 @@ void draw_map(const Making& making, const TouchedPlaces& places, std::uint32_t m
                                   " at " + number_text(map.frame_s, 2) + " s"
                             : "plain ground") +
         ", " + number_text(map.contact_s, 1) + " s in contact";
-    making.figures.add(name, "Heat map of where the surface was touched", map_caption(map),
-                       plot_heat_map(places, ground, report.numbers.episodes, media, under));
+    draft.figures.add(name, "Heat map of where the surface was touched", map_caption(map),
+                      plot_heat_map(places, ground, report.numbers.episodes, media, under));
     report.maps.push_back(std::move(map));
 }
 
-void draw_maps(const Making& making) {
-    const SessionNumbers& numbers = making.report.numbers;
+void draw_maps(const ReportDraft& draft) {
+    const SessionNumbers& numbers = draft.report.numbers;
     std::vector<std::pair<double, std::uint32_t>> longest;
     for (const auto& [media, places] : numbers.places)
         longest.emplace_back(-places.total_s(), media);
     std::sort(longest.begin(), longest.end());
     if (longest.size() > kMostMaps) longest.resize(kMostMaps);
-    for (const auto& [time, media] : longest) draw_map(making, numbers.places.at(media), media);
+    for (const auto& [time, media] : longest) draw_map(draft, numbers.places.at(media), media);
 }
 
-PlotWords plot_words(const SessionReport& report) {
+PlotContext plot_context(const SessionReport& report) {
     const Session& session = report.session;
     std::string subtitle = one_line(session.file().filename().string(), kLongestFile);
     const std::string who = one_line(session.fact("participant"), kLongestName);
@@ -151,35 +151,35 @@ PlotWords plot_words(const SessionReport& report) {
     return {subtitle, session.begin_s(), session.marks()};
 }
 
-void draw_plots(const Making& making) {
-    const SessionReport& report = making.report;
+void draw_plots(const ReportDraft& draft) {
+    const SessionReport& report = draft.report;
     const SessionNumbers& numbers = report.numbers;
-    const FigureMaker& figures = making.figures;
-    const PlotWords words = plot_words(report);
+    const FigureMaker& figures = draft.figures;
+    const PlotContext context = plot_context(report);
     const std::string range =
         shows_means(numbers.time_line) ? " Pale: the range of the values; dark: the mean." : "";
     figures.add("force-over-time", "Force over time",
                 "Spring force and force sent to the hand; below, when there was contact and which "
                 "moment of the video was touched. Dashed lines are marks." +
                     range,
-                plot_force_over_time(numbers, words));
+                plot_force_over_time(numbers, context));
     const bool speeds = numbers.proxy_mm_per_s.total_s() > 0.0;
     if (speeds)
         figures.add("speed-over-time", "Speed over time",
                     "Speed of the hand and of the point on the surface, while in contact." + range,
-                    plot_speed_over_time(numbers, words));
+                    plot_speed_over_time(numbers, context));
     if (numbers.sent_newton.total_s() > 0.0)
         figures.add("force-histogram", "Histogram of the force sent",
                     "For how long which force was sent while in contact.",
-                    plot_force_histogram(numbers, words));
+                    plot_force_histogram(numbers, context));
     if (numbers.episodes.empty()) return;
     figures.add("contact-histogram", "Histogram of the contacts' lengths",
                 "How many contacts lasted how long (logarithmic).",
-                plot_contact_histogram(numbers, words));
+                plot_contact_histogram(numbers, context));
     if (speeds)
         figures.add("speed-histogram", "Histogram of the speed",
                     "For how long the point on the surface had which speed.",
-                    plot_speed_histogram(numbers, words));
+                    plot_speed_histogram(numbers, context));
 }
 
 }  // namespace
@@ -194,9 +194,9 @@ void write_session_report(const Session& session, const ReportRequest& request) 
                          .numbers = numbers_of(session, request.progress),
                          .program = request.program,
                          .device_kinds = request.device_kinds};
-    const Making making{report, {files, request.plot_formats, report.figures}, request};
-    draw_maps(making);
-    draw_plots(making);
+    const ReportDraft draft{report, {files, request.plot_formats, report.figures}, request};
+    draw_maps(draft);
+    draw_plots(draft);
     files.add("report.json", json_of(report));
     files.add("report.html", page_of(report));
     files.commit();

@@ -17,7 +17,7 @@ namespace {
 
 constexpr auto kBetweenFlushes = std::chrono::seconds(1);
 constexpr auto kLongestPause = std::chrono::milliseconds(150);
-constexpr auto kPatience = std::chrono::milliseconds(500);
+constexpr auto kPauseTimeout = std::chrono::milliseconds(500);
 constexpr off_t kLongLog = off_t{4} << 20;  // [bytes]
 
 [[noreturn]] void throw_system_error(const char* what) {
@@ -43,7 +43,7 @@ LogKeeper::LogKeeper(const std::filesystem::path& session) try : database_(sessi
 LogKeeper::~LogKeeper() {
     {
         const std::lock_guard lock(mutex_);
-        leaving_ = true;
+        stopping_ = true;
     }
     changed_.notify_all();
     thread_.join();
@@ -51,24 +51,24 @@ LogKeeper::~LogKeeper() {
 
 void LogKeeper::begin(Database& writer) {
     std::unique_lock lock(mutex_);
-    if (wanted_) {
+    if (pause_requested_) {
         paused_ = true;
         changed_.notify_all();
-        changed_.wait_for(lock, kLongestPause, [this] { return !wanted_; });
-        paused_ = wanted_ = false;
+        changed_.wait_for(lock, kLongestPause, [this] { return !pause_requested_; });
+        paused_ = pause_requested_ = false;
     }
     if (!failure_.empty()) throw DatabaseError(failure_);
     // Before the log is overwritten its new beginning is flushed: a power cut must not leave the
     // old beginning with some of the old pages. No other transaction waits for the disk.
-    writer.execute(may_be_written_over_ ? "PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE"
-                                        : "PRAGMA synchronous = OFF; BEGIN IMMEDIATE");
+    writer.execute(may_be_overwritten_ ? "PRAGMA synchronous = NORMAL; BEGIN IMMEDIATE"
+                                       : "PRAGMA synchronous = OFF; BEGIN IMMEDIATE");
 }
 
 void LogKeeper::run() {
     pthread_setname_np(pthread_self(), "dibhr-log");
     std::unique_lock lock(mutex_);
     while (failure_.empty() &&
-           !changed_.wait_for(lock, kBetweenFlushes, [this] { return leaving_; })) {
+           !changed_.wait_for(lock, kBetweenFlushes, [this] { return stopping_; })) {
         lock.unlock();
         std::string failure;
         try {
@@ -91,21 +91,21 @@ void LogKeeper::flush() {
 void LogKeeper::empty() {
     {
         const std::lock_guard lock(mutex_);
-        may_be_written_over_ = true;
+        may_be_overwritten_ = true;
     }
     database_.merge_log(false);
     std::unique_lock lock(mutex_);
-    wanted_ = true;
-    changed_.wait_for(lock, kPatience, [this] { return paused_ || leaving_; });
+    pause_requested_ = true;
+    changed_.wait_for(lock, kPauseTimeout, [this] { return paused_ || stopping_; });
     if (paused_) {
         lock.unlock();
         const LogState state = database_.merge_log(false);
         lock.lock();
         // Nothing is left to be merged or flushed: cutting waits for no disk.
         const bool all = !state.busy && state.merged == state.pages;
-        if (paused_ && all) may_be_written_over_ = database_.merge_log(true).busy;
+        if (paused_ && all) may_be_overwritten_ = database_.merge_log(true).busy;
     }
-    wanted_ = false;
+    pause_requested_ = false;
     changed_.notify_all();
 }
 

@@ -43,11 +43,11 @@ class LogKeeper {
 
     std::mutex mutex_{};
     std::condition_variable changed_{};
-    bool leaving_{false};  // under the mutex, as the rest
-    bool wanted_{false};   ///< a pause of the writer
+    bool stopping_{false};         // under the mutex, as the rest
+    bool pause_requested_{false};  ///< a pause of the writer
     bool paused_{false};
     /// All of the log may be merged: the next transaction may write over it from its beginning.
-    bool may_be_written_over_{false};
+    bool may_be_overwritten_{false};
     std::string failure_{};
     std::thread thread_{};
 };

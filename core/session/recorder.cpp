@@ -39,7 +39,7 @@ std::int64_t nanoseconds(Clock::time_point time) {
 }
 
 /// The absolute path; the path as given where the working directory is gone.
-std::filesystem::path whole_path(const std::filesystem::path& file) {
+std::filesystem::path absolute_path(const std::filesystem::path& file) {
     std::error_code gone;
     std::filesystem::path whole = std::filesystem::absolute(file, gone);
     return file.empty() || gone ? file : whole;
@@ -47,10 +47,10 @@ std::filesystem::path whole_path(const std::filesystem::path& file) {
 
 /// Nothing when the file cannot be read or `leaving` became true.
 std::optional<SessionMedia> content_of(const std::filesystem::path& file,
-                                       const std::atomic<bool>& leaving) {
+                                       const std::atomic<bool>& cancelled) {
     try {
         const std::uintmax_t bytes = content_bytes(file);
-        auto sum = sha256_of_file(file, leaving);
+        auto sum = sha256_of_file(file, cancelled);
         if (!sum) return std::nullopt;
         return SessionMedia{file, bytes, std::move(*sum)};
     } catch (const std::exception&) {
@@ -60,18 +60,20 @@ std::optional<SessionMedia> content_of(const std::filesystem::path& file,
 
 /// Computes the SHA-256 of files on threads of their own, so that no caller waits for large ones.
 /// For one thread. Files that cannot be read are left out.
-class FileSums {
+class FileHashes {
   public:
-    FileSums() = default;
-    ~FileSums() { leaving_ = true; }  // gives up the sums that are not ready, and waits for that
-    FileSums(const FileSums&) = delete;
-    FileSums& operator=(const FileSums&) = delete;
+    FileHashes() = default;
+    ~FileHashes() {
+        cancelled_ = true;
+    }  // gives up the sums that are not ready, and waits for that
+    FileHashes(const FileHashes&) = delete;
+    FileHashes& operator=(const FileHashes&) = delete;
 
-    void ask(const std::filesystem::path& file) try {
+    void request(const std::filesystem::path& file) try {
         sums_.push_back(
             std::async(std::launch::async, [this, file]() -> std::optional<SessionMedia> {
                 const std::lock_guard one_after_the_other(disk_);
-                return content_of(file, leaving_);
+                return content_of(file, cancelled_);
             }));
     } catch (const std::system_error&) {  // no thread for it: left out, too
     }
@@ -94,7 +96,7 @@ class FileSums {
         return sum.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     }
 
-    std::atomic<bool> leaving_{false};
+    std::atomic<bool> cancelled_{false};
     std::mutex disk_{};
     std::vector<Sum> sums_{};
 };
@@ -103,10 +105,10 @@ class FileSums {
 
 struct Recorder::Implementation {
     Implementation(const std::filesystem::path& file, TickRing& ticks, const SessionFacts& facts,
-                   Heartbeat* beaten, Now time)
+                   Heartbeat* given_heart, Now time)
         : ring(ticks),
           now(std::move(time)),
-          heart(beaten != nullptr ? *beaten : own_heart),
+          heart(given_heart != nullptr ? *given_heart : own_heart),
           dropped_before(ticks.dropped()),
           session(std::in_place, file, facts) {
         batch.reserve(kMostInDrain);
@@ -130,7 +132,7 @@ struct Recorder::Implementation {
     }
 
     /// Queues a note that is written before the ticks that are pushed from now on.
-    void leave(std::function<void(Implementation&)> note) {
+    void enqueue(std::function<void(Implementation&)> note) {
         const std::lock_guard lock(mutex);
         notes.push_back(std::move(note));
     }
@@ -142,20 +144,20 @@ struct Recorder::Implementation {
 
     void run() {
         pthread_setname_np(pthread_self(), "dibhr-recorder");
-        heart.also_computes();
+        heart.count_computing_as_beat();
         try {
-            while (!stop_asked()) drain();
+            while (!stop_requested()) drain();
             drain();
             close();
         } catch (const std::exception& error) {
-            break_off(error.what());
+            abort_recording(error.what());
         }
-        heart.rest();
+        heart.set_idle();
     }
 
-    bool stop_asked() {
+    bool stop_requested() {
         std::unique_lock lock(mutex);
-        heart.rest();
+        heart.set_idle();
         const bool asked = wake.wait_for(lock, kBetweenDrains, [this] { return stopping; });
         heart.beat();
         return asked;
@@ -167,7 +169,7 @@ struct Recorder::Implementation {
             heart.beat();
             take_ticks();
             write([this] { add_batch(); });
-            write([this] { commit_in_time(); });
+            write([this] { commit_if_due(); });
         } while (batch.size() == kMostInDrain);
         const std::lock_guard lock(mutex);
         status.dropped = ring.dropped() - dropped_before;
@@ -184,12 +186,12 @@ struct Recorder::Implementation {
 
     /// The notes to which a tick of the batch refers were queued before the tick was pushed.
     void add_batch() {
-        std::vector<std::function<void(Implementation&)>> left;
+        std::vector<std::function<void(Implementation&)>> queued;
         {
             const std::lock_guard lock(mutex);
-            left.swap(notes);
+            queued.swap(notes);
         }
-        if (left.empty() && batch.empty() && sums.all_ready()) return;
+        if (queued.empty() && batch.empty() && sums.all_ready()) return;
         open_transaction();
         if (!zero_ns && !batch.empty()) {
             zero_ns = batch.front().zero_ns;
@@ -197,7 +199,7 @@ struct Recorder::Implementation {
             set_clock(std::llround(first_s * kNanosecondsPerSecond));
             add_early_marks();
         }
-        for (const auto& note : left) note(*this);
+        for (const auto& note : queued) note(*this);
         for (const TickRecord& record : batch) session->add(record);
         uncommitted += batch.size();
         if (zero_ns && now() - clock_set >= kBetweenClocks)
@@ -222,7 +224,7 @@ struct Recorder::Implementation {
     }
 
     void add_contents() {
-        for (const auto& file : session->take_new_files()) sums.ask(file);
+        for (const auto& file : session->take_new_files()) sums.request(file);
         for (const SessionMedia& content : sums.take()) session->set_content(content);
     }
 
@@ -246,7 +248,7 @@ struct Recorder::Implementation {
         early_marks.clear();
     }
 
-    void commit_in_time() {
+    void commit_if_due() {
         if (transaction_begin && now() - *transaction_begin >= kLongestTransaction) commit();
     }
 
@@ -295,7 +297,7 @@ struct Recorder::Implementation {
         try {
             step();
         } catch (const std::exception& error) {
-            break_off(error.what());
+            abort_recording(error.what());
         }
     }
 
@@ -304,7 +306,7 @@ struct Recorder::Implementation {
         return status.rows > 0 && std::filesystem::exists(session->path(), failed);
     }
 
-    void break_off(const std::string& reason) {
+    void abort_recording(const std::string& reason) {
         {
             const std::lock_guard lock(mutex);
             status.recording = false;
@@ -324,7 +326,7 @@ struct Recorder::Implementation {
     const std::uint64_t dropped_before;
     const Clock::time_point begin{now()};
     std::optional<SessionFile> session;  // none once writing broke off
-    FileSums sums{};
+    FileHashes sums{};
     std::vector<TickRecord> batch{};
     std::optional<Clock::time_point> transaction_begin{};
     std::optional<std::int64_t> zero_ns{};  // of the ticks' clock; none before the first
@@ -357,46 +359,47 @@ Recorder::~Recorder() {
 
 void Recorder::parameters(const SessionParameters& parameters) {
     SessionParameters known = parameters;
-    known.bump.file = whole_path(parameters.bump.file);
-    implementation_->leave(
-        [known = std::move(known)](Implementation& writer) { writer.session->know(known); });
+    known.bump.file = absolute_path(parameters.bump.file);
+    implementation_->enqueue([known = std::move(known)](Implementation& writer) {
+        writer.session->register_parameters(known);
+    });
 }
 
 void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,
                      const std::filesystem::path& depth, const std::string& depth_meaning,
                      bool grow) {
-    implementation_->leave([number, colour = whole_path(colour), depth = whole_path(depth),
-                            depth_meaning, grow](Implementation& writer) {
-        writer.session->know_media(number, colour, depth, depth_meaning, grow);
+    implementation_->enqueue([number, colour = absolute_path(colour), depth = absolute_path(depth),
+                              depth_meaning, grow](Implementation& writer) {
+        writer.session->register_media(number, colour, depth, depth_meaning, grow);
     });
 }
 
-void Recorder::media_is_whole(std::vector<SessionMedia> contents) {
-    for (SessionMedia& content : contents) content.file = whole_path(content.file);
-    implementation_->leave([contents = std::move(contents)](Implementation& writer) {
-        writer.session->media_is_whole(contents);
+void Recorder::complete_media(std::vector<SessionMedia> contents) {
+    for (SessionMedia& content : contents) content.file = absolute_path(content.file);
+    implementation_->enqueue([contents = std::move(contents)](Implementation& writer) {
+        writer.session->complete_media(contents);
     });
 }
 
 void Recorder::maps(std::uint32_t version, std::vector<SessionMap> maps) {
-    implementation_->leave([version, maps = std::move(maps)](Implementation& writer) {
+    implementation_->enqueue([version, maps = std::move(maps)](Implementation& writer) {
         writer.session->add_maps(version, maps);
     });
 }
 
 void Recorder::mark(const std::string& tag, const std::string& text,
                     std::optional<std::chrono::steady_clock::time_point> moment) {
-    implementation_->leave([moment = moment.value_or(implementation_->now()), tag,
-                            text](Implementation& writer) { writer.add_mark(moment, tag, text); });
+    implementation_->enqueue([moment = moment.value_or(implementation_->now()), tag, text](
+                                 Implementation& writer) { writer.add_mark(moment, tag, text); });
 }
 
 void Recorder::mark_at(double t_s, const std::string& tag, const std::string& text) {
-    implementation_->leave(
+    implementation_->enqueue(
         [t_s, tag, text](Implementation& writer) { writer.add_mark_at(t_s, tag, text); });
 }
 
 void Recorder::set_fact(const std::string& key, const std::string& value) {
-    implementation_->leave(
+    implementation_->enqueue(
         [key, value](Implementation& writer) { writer.session->set_fact(key, value); });
 }
 

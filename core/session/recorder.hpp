@@ -49,12 +49,12 @@ class Recorder {
     /// The files that ticks may refer to from now on as media `number`; either may be empty.
     /// `depth_meaning`: see SessionSource. The files' SHA-256 is computed on a thread of its own
     /// once a tick touches them; of files that `grow`, which are still being written, after
-    /// media_is_whole().
+    /// complete_media().
     void media(std::uint32_t number, const std::filesystem::path& colour,
                const std::filesystem::path& depth, const std::string& depth_meaning = {},
                bool grow = false);
     /// The growing files are complete. `contents`: of those whose writer knows them already.
-    void media_is_whole(std::vector<SessionMedia> contents = {});
+    void complete_media(std::vector<SessionMedia> contents = {});
     /// The touch maps that ticks refer to by that version. May come after them.
     void maps(std::uint32_t version, std::vector<SessionMap> maps);
     /// Marks this moment, or `moment`.

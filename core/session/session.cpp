@@ -46,8 +46,8 @@ void require_in_range(const TouchParameters& touch, const std::filesystem::path&
 }
 
 /// Throws InputError for a name of a later version.
-void take_word(const std::string& word, const TouchChoice& choice, TouchParameters& touch,
-               const std::filesystem::path& file) {
+void set_choice(const std::string& word, const TouchChoice& choice, TouchParameters& touch,
+                const std::filesystem::path& file) {
     if (choice.choose(word, touch)) return;
     throw InputError(file.string() + ": was recorded with " + std::string(choice.noun) + ' ' +
                      in_quotes(word) + " that is not known here; update dibhr");
@@ -74,7 +74,7 @@ class Row {
 
     double real() { return query_.real(column_++); }
     std::int64_t integer() { return query_.integer(column_++); }
-    bool yes() { return integer() != 0; }
+    bool flag() { return integer() != 0; }
     std::string text() { return query_.text(column_++); }
 
   private:
@@ -82,7 +82,7 @@ class Row {
     void take_one(Integer& value) {
         value = static_cast<Integer>(integer());
     }
-    void take_one(bool& value) { value = yes(); }
+    void take_one(bool& value) { value = flag(); }
     void take_one(double& value) { value = real(); }
     void take_one(std::string& value) { value = text(); }
     void take_one(Vec3& value) { take(value.x, value.y, value.z); }
@@ -118,9 +118,9 @@ std::string source_columns(const SessionReader& reader) {
 }
 
 // In the order in which Ticks::next takes them; after them the columns of the source, and then:
-constexpr const char* kTickQuestion =
+constexpr const char* kTickQueryBegin =
     "SELECT t.tick, t.t, t.dt_s, t.lateness_us, t.ns, t.settings, ";
-constexpr const char* kTickQuestionOn =
+constexpr const char* kTickQueryEnd =
     ", t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.blend, t.utc_s, t.video_s, "
     "t.gx, t.gy, t.gz, t.px, t.py, t.pz, t.fx, t.fy, t.fz, t.cx, t.cy, t.cz, t.ox, t.oy, t.oz, "
     "t.moves, t.i, t.j, t.contact, t.primitive, t.buttons, t.cut, "
@@ -132,7 +132,7 @@ static_assert(tick_state::kCatchingUp == 20 && tick_state::kGliding == 21 &&
               tick_state::kStandstill == 22 && tick_state::kMotionUnknown == 23);
 
 std::string ticks_from(const SessionReader& reader, std::int64_t tick) {
-    return kTickQuestion + source_columns(reader) + kTickQuestionOn + std::to_string(tick) +
+    return kTickQueryBegin + source_columns(reader) + kTickQueryEnd + std::to_string(tick) +
            " ORDER BY t.tick";
 }
 
@@ -215,7 +215,7 @@ void Session::read_parameters() {
         row.take(parameters.version, parameters.first_tick, parameters.force_enabled,
                  parameters.bump);
         for (const TouchChoice& choice : touch_choices())
-            if (is_read(choice)) take_word(row.text(), choice, parameters.touch, file());
+            if (is_read(choice)) set_choice(row.text(), choice, parameters.touch, file());
         for (const TouchSwitch& entry : touch_switches())
             if (has(entry.column)) row.take(entry.in(parameters.touch));
         visit_numbers(parameters, [&](std::string_view column, double& number) {
@@ -355,7 +355,7 @@ bool Session::Ticks::next(TickRecord& tick) {
                      frames.span_s, tick.blend, tick.utc_s, tick.video_s, tick.goal, tick.proxy,
                      tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves, tick.i,
                      tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
-                     tick.device_ready, tick.stand_in, tick.from_zero, tick.lets_go,
+                     tick.device_ready, tick.mouse_fallback, tick.from_zero, tick.releases_contact,
                      tick.goal_refused, state);
     tick.catching_up = (state & 1) != 0;
     tick.gliding = (state & 2) != 0;

@@ -89,7 +89,7 @@ class Session {
 /// The ticks in which a hand was read: those with a surface.
 struct HandTicks {
     std::int64_t all{0};
-    std::int64_t stand_in{0};  ///< the mouse's, for a device that was not ready
+    std::int64_t mouse_fallback{0};  ///< the mouse's, for a device that was not ready
 };
 
 /// Reads every tick. Throws InputError for a damaged file.

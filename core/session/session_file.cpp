@@ -97,8 +97,9 @@ std::int64_t state_of(const TickRecord& record) {
     const std::int64_t primitive = record.primitive > kLast ? 0 : record.primitive;
     return bit(record.contact, at::kContact) | primitive << at::kPrimitive |
            std::int64_t{record.buttons} << at::kButtons | bit(!record.surface, at::kNoSurface) |
-           bit(!record.device_ready, at::kNotReady) | bit(record.stand_in, at::kStandIn) |
-           bit(record.from_zero, at::kFromZero) | bit(record.lets_go, at::kLetsGo) |
+           bit(!record.device_ready, at::kNotReady) |
+           bit(record.mouse_fallback, at::kMouseFallback) | bit(record.from_zero, at::kFromZero) |
+           bit(record.releases_contact, at::kReleasesContact) |
            bit(record.goal_refused, at::kRefused) | std::int64_t{record.cut} << at::kCut |
            bit(record.catching_up, at::kCatchingUp) | bit(record.gliding, at::kGliding) |
            bit(record.standstill, at::kStandstill) | bit(record.motion_unknown, at::kMotionUnknown);
@@ -244,23 +245,23 @@ void SessionFile::commit() {
     if (now != place_) throw DatabaseError("another file is in its place");
 }
 
-void SessionFile::know(const SessionParameters& parameters) {
+void SessionFile::register_parameters(const SessionParameters& parameters) {
     known_parameters_[parameters.version] = parameters;
 }
 
-void SessionFile::know_media(std::uint32_t number, const std::filesystem::path& colour,
-                             const std::filesystem::path& depth, const std::string& depth_meaning,
-                             bool grows) {
+void SessionFile::register_media(std::uint32_t number, const std::filesystem::path& colour,
+                                 const std::filesystem::path& depth,
+                                 const std::string& depth_meaning, bool grows) {
     known_media_[number] = {colour, depth, depth_meaning, grows};
 }
 
-void SessionFile::media_is_whole(const std::vector<SessionMedia>& contents) {
+void SessionFile::complete_media(const std::vector<SessionMedia>& contents) {
     for (auto& [number, files] : known_media_) files.grows = false;
     for (const SessionMedia& content : contents) known_contents_[content.file] = content;
-    for (const std::filesystem::path& file : std::exchange(growing_files_, {})) take_whole(file);
+    for (const std::filesystem::path& file : std::exchange(growing_files_, {})) complete_file(file);
 }
 
-void SessionFile::take_whole(const std::filesystem::path& file) {
+void SessionFile::complete_file(const std::filesystem::path& file) {
     const auto known = known_contents_.find(file);
     if (known == known_contents_.end())
         new_files_.push_back(file);
@@ -367,7 +368,7 @@ std::optional<std::int64_t> SessionFile::media_row(const std::filesystem::path& 
     if (grows)
         growing_files_.push_back(file);
     else
-        take_whole(file);
+        complete_file(file);
     return id;
 }
 

@@ -35,12 +35,12 @@ class SessionFile {
     void commit();
 
     // Registered here, and written with the first tick that uses them; files by absolute paths.
-    void know(const SessionParameters& parameters);
-    void know_media(std::uint32_t number, const std::filesystem::path& colour,
-                    const std::filesystem::path& depth, const std::string& depth_meaning,
-                    bool grows = false);
+    void register_parameters(const SessionParameters& parameters);
+    void register_media(std::uint32_t number, const std::filesystem::path& colour,
+                        const std::filesystem::path& depth, const std::string& depth_meaning,
+                        bool grows = false);
     /// The growing files are complete: files that are not in `contents` are to be summed up.
-    void media_is_whole(const std::vector<SessionMedia>& contents = {});
+    void complete_media(const std::vector<SessionMedia>& contents = {});
 
     /// Adds the touch maps to which ticks refer by that version; once.
     void add_maps(std::uint32_t version, const std::vector<SessionMap>& maps);
@@ -83,7 +83,7 @@ class SessionFile {
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
     [[nodiscard]] std::optional<std::int64_t> media_row(const std::filesystem::path& file,
                                                         bool grows = false);
-    void take_whole(const std::filesystem::path& file);
+    void complete_file(const std::filesystem::path& file);
     [[nodiscard]] static Place place_of(const std::filesystem::path& file);
 
     std::filesystem::path path_;

@@ -130,7 +130,7 @@ void SessionReader::refuse(const DatabaseError& error) const {
     using Cause = DatabaseError::Cause;
     const std::string words = error.what();
     if (error.cause() == Cause::damaged) refuse_damaged(words);
-    if (error.cause() == Cause::endless) refuse("reading it would not end");
+    if (error.cause() == Cause::too_much_work) refuse("reading it would not end");
     if (error.cause() == Cause::too_long) refuse("it holds a value of more than a megabyte");
     if (error.cause() == Cause::cannot_open)
         throw InputError(file_.string() +

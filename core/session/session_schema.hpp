@@ -37,9 +37,9 @@ inline constexpr int kPrimitive = 1;  // 2 bits
 inline constexpr int kButtons = 3;    // 8 bits
 inline constexpr int kNoSurface = 11;
 inline constexpr int kNotReady = 12;
-inline constexpr int kStandIn = 13;
+inline constexpr int kMouseFallback = 13;
 inline constexpr int kFromZero = 14;
-inline constexpr int kLetsGo = 15;
+inline constexpr int kReleasesContact = 15;
 inline constexpr int kRefused = 16;
 inline constexpr int kCut = 17;  // 3 bits
 // Not in the view: scripts depend on its columns.

@@ -30,7 +30,7 @@ struct FrameSource {
     bool motion{false};            ///< the motion of the first one is known
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
     double finger_relief_px{0.0};  ///< for which elevation of the highest level
-    std::uint32_t maps{0};  ///< version of the touch maps on them; 0: none
+    std::uint32_t maps{0};         ///< version of the touch maps on them; 0: none
 
     bool operator==(const FrameSource&) const = default;
 };
@@ -92,11 +92,12 @@ struct TickRecord {
     std::uint8_t buttons{0};
     std::uint8_t cut{0};  ///< SafetyCut
 
-    bool surface{true};        ///< there was a surface; without, nothing was updated
-    bool device_ready{true};   ///< attached and homed
-    bool stand_in{false};      ///< the mouse, for a device that was not ready
-    bool from_zero{false};     ///< the force began from zero again
-    bool lets_go{false};       ///< the hand was lifted or replaced: a contact was released first
+    bool surface{true};          ///< there was a surface; without, nothing was updated
+    bool device_ready{true};     ///< attached and homed
+    bool mouse_fallback{false};  ///< the mouse, for a device that was not ready
+    bool from_zero{false};       ///< the force began from zero again
+    bool releases_contact{
+        false};                ///< the hand was lifted or replaced: a contact was released first
     bool goal_refused{false};  ///< the hand's reading was no number: `goal` is the one before
     bool catching_up{false};   ///< the tick ended before the proxy had caught up with its goal
     bool gliding{false};       ///< parameters were gliding to those of `settings`

@@ -7,7 +7,7 @@
 namespace dibhr {
 
 /// 0 for an inaudible value: denormal numbers make a processor slow.
-[[nodiscard]] inline double audible(double value) noexcept {
+[[nodiscard]] inline double flush_denormal(double value) noexcept {
     constexpr double kNothing = 1e-15;
     return std::abs(value) < kNothing ? 0.0 : value;
 }
@@ -25,11 +25,11 @@ class HighPass {
 
     [[nodiscard]] double next(double in) noexcept {
         const double out = b0_ * in + s1_;
-        s1_ = audible(-2.0 * b0_ * in - a1_ * out + s2_);
-        s2_ = audible(b0_ * in - a2_ * out);
+        s1_ = flush_denormal(-2.0 * b0_ * in - a1_ * out + s2_);
+        s2_ = flush_denormal(b0_ * in - a2_ * out);
         return out;
     }
-    void be_quiet() noexcept { s1_ = s2_ = 0.0; }
+    void reset() noexcept { s1_ = s2_ = 0.0; }
 
   private:
     double b0_{1.0}, a1_{0.0}, a2_{0.0};
@@ -56,10 +56,10 @@ class Resonance {
     [[nodiscard]] double next(double in) noexcept {
         const double out = gain_ * in + a1_ * y1_ + a2_ * y2_;
         y2_ = y1_;
-        y1_ = audible(out);
+        y1_ = flush_denormal(out);
         return out;
     }
-    void be_quiet() noexcept { y1_ = y2_ = 0.0; }
+    void reset() noexcept { y1_ = y2_ = 0.0; }
 
   private:
     double gain_{0.0}, a1_{0.0}, a2_{0.0};
@@ -79,11 +79,11 @@ class BandPass {
         constexpr double kDamping = 1.25;  // 1 / Q
         const double band = (s1_ + g_ * (in - s2_)) / (1.0 + g_ * (kDamping + g_));
         const double low = s2_ + g_ * band;
-        s1_ = audible(2.0 * band - s1_);
-        s2_ = audible(2.0 * low - s2_);
+        s1_ = flush_denormal(2.0 * band - s1_);
+        s2_ = flush_denormal(2.0 * low - s2_);
         return kDamping * band;
     }
-    void be_quiet() noexcept { s1_ = s2_ = 0.0; }
+    void reset() noexcept { s1_ = s2_ = 0.0; }
 
   private:
     double g_{0.1};

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "core/sound/filters.hpp"
-#include "core/sound/heard_ticks.hpp"
+#include "core/sound/tick_history.hpp"
 
 namespace dibhr {
 
-inline constexpr double kScrapingHeard = 0.8;  ///< of the hiss of a material
+inline constexpr double kScrapingGain = 0.8;  ///< of the hiss of a material
 
 /// 0 .. 1: how loud scraping is, by speed and force.
-[[nodiscard]] double scraping_of(const HeardTick& tick) noexcept;
+[[nodiscard]] double scraping_of(const TickFeatures& tick) noexcept;
 
 /// Texture: force and height, above 30 Hz.
 class Texture {
@@ -18,15 +18,15 @@ class Texture {
     explicit Texture(double rate_hz) noexcept;
 
     /// The next value, limited softly to +-0.6, as the force may jump by newtons over an edge.
-    [[nodiscard]] double next(const HeardTick& felt) noexcept;
+    [[nodiscard]] double next(const TickFeatures& tick) noexcept;
 
     /// Clears the filters: a constant force and height are no texture.
-    void be_quiet() noexcept;
+    void reset() noexcept;
 
   private:
     HighPass force_, height_;
     bool begins_{true};
-    HeardTick rest_{};  ///< where force and height were when it began
+    TickFeatures origin_{};  ///< where force and height were when it began
 };
 
 }  // namespace dibhr

@@ -8,7 +8,7 @@ namespace dibhr {
 
 inline constexpr double kSoundTicks_hz = 1000.0;
 /// Timeout of ticks: after it nothing is touched.
-inline constexpr double kSoundPatience_s = 0.02;
+inline constexpr double kSoundTimeout_s = 0.02;
 
 /// One millisecond of touch.
 struct SoundTick {

@@ -11,10 +11,10 @@ namespace {
 constexpr double kKnock_ticks = 25.0;      // a motor needs some time to be felt at all
 constexpr double kSlowForce_ticks = 30.0;  // a hand presses more slowly
 constexpr double kRubbed_ticks = 15.0;
-constexpr double kKnockFelt = 1.2;
-constexpr double kJoltFelt_per_newton = 0.25;
-constexpr double kRubbingFelt = 3.0;
-constexpr double kUnfelt = 0.02;  // no motor turns for it
+constexpr double kKnockGain = 1.2;
+constexpr double kJoltGain_per_newton = 0.25;
+constexpr double kRubbingGain = 3.0;
+constexpr double kLeastStrength = 0.02;  // no motor turns for it
 
 double share_of(double value) noexcept {
     return std::isfinite(value) ? std::clamp(value, 0.0, 1.0) : 0.0;
@@ -22,7 +22,7 @@ double share_of(double value) noexcept {
 
 double strength(double felt) noexcept {
     const double strength = std::tanh(felt);
-    return strength < kUnfelt ? 0.0 : strength;
+    return strength < kLeastStrength ? 0.0 : strength;
 }
 
 }  // namespace
@@ -37,16 +37,16 @@ void TouchRumble::choose(const SoundMaterial& material) noexcept {
 }
 
 void TouchRumble::add(const SoundTick& tick) noexcept {
-    unheard_s_ = 0.0;
+    since_tick_s_ = 0.0;
     ticks_.add(tick);
     if (ticks_.force_on()) {
-        feel(ticks_.at(ticks_.newest()));
+        update_levels(ticks_.at(ticks_.newest()));
     } else {
-        be_quiet();
+        reset();
     }
 }
 
-void TouchRumble::feel(const HeardTick& tick) noexcept {
+void TouchRumble::update_levels(const TickFeatures& tick) noexcept {
     knock_ = std::max(tick.tap, knock_ - knock_ / kKnock_ticks);
     slow_newton_ += (tick.force_newton - slow_newton_) / kSlowForce_ticks;
     jolt_newton_ = std::abs(tick.force_newton - slow_newton_);
@@ -55,15 +55,15 @@ void TouchRumble::feel(const HeardTick& tick) noexcept {
 }
 
 Rumble TouchRumble::after(double span_s) noexcept {
-    unheard_s_ += span_s;
-    if (unheard_s_ > kSoundPatience_s) be_quiet();
-    const double rubbing = rubbed_ + kScrapingHeard * hiss_ * scraping_;
-    return {.low = strength(kKnockFelt * knock_ + kJoltFelt_per_newton * jolt_newton_),
-            .high = strength(kRubbingFelt * loudness_ * rubbing)};
+    since_tick_s_ += span_s;
+    if (since_tick_s_ > kSoundTimeout_s) reset();
+    const double rubbing = rubbed_ + kScrapingGain * hiss_ * scraping_;
+    return {.low = strength(kKnockGain * knock_ + kJoltGain_per_newton * jolt_newton_),
+            .high = strength(kRubbingGain * loudness_ * rubbing)};
 }
 
-void TouchRumble::be_quiet() noexcept {
-    texture_.be_quiet();
+void TouchRumble::reset() noexcept {
+    texture_.reset();
     knock_ = slow_newton_ = jolt_newton_ = rubbed_ = scraping_ = 0.0;
 }
 

@@ -1,9 +1,9 @@
 // Touch for the two motors of a game pad: ticks in, strengths out; no device, no clock.
 #pragma once
 
-#include "core/sound/heard_ticks.hpp"
 #include "core/sound/rubbing.hpp"
 #include "core/sound/sound_tick.hpp"
+#include "core/sound/tick_history.hpp"
 #include "core/sound/touch_sound.hpp"
 
 namespace dibhr {
@@ -37,17 +37,17 @@ class TouchRumble {
     [[nodiscard]] Rumble after(double span_s) noexcept;
 
   private:
-    void feel(const HeardTick& tick) noexcept;
-    void be_quiet() noexcept;
+    void update_levels(const TickFeatures& tick) noexcept;
+    void reset() noexcept;
 
     double loudness_, hiss_;
-    HeardTicks ticks_{};
+    TickHistory ticks_{};
     Texture texture_;
-    double unheard_s_{0.0};    ///< since the last tick came in
-    double knock_{0.0};        ///< of the last tap, fading
-    double slow_newton_{0.0};  ///< the force, as it changes slowly
-    double jolt_newton_{0.0};  ///< difference of the force from `slow_newton_`
-    double rubbed_{0.0};       ///< of the texture, fading
+    double since_tick_s_{0.0};  ///< since the last tick came in
+    double knock_{0.0};         ///< of the last tap, fading
+    double slow_newton_{0.0};   ///< the force, as it changes slowly
+    double jolt_newton_{0.0};   ///< difference of the force from `slow_newton_`
+    double rubbed_{0.0};        ///< of the texture, fading
     double scraping_{0.0};
 };
 

@@ -11,7 +11,7 @@ namespace {
 constexpr double kLowestScraping_hz = 150.0;
 constexpr double kHighestScraping = 0.4;  // of the rate
 
-constexpr double kTapHeard = 0.8;
+constexpr double kTapGain = 0.8;
 constexpr double kBurst_s = 0.002;
 constexpr double kGain = 7.0;  // a slow stroke over sandpaper: about -30 dB at half the volume
 
@@ -64,41 +64,41 @@ void TouchSound::tune_resonances() noexcept {
 }
 
 void TouchSound::add(const SoundTick& tick) noexcept {
-    unheard_s_ = 0.0;
+    since_tick_s_ = 0.0;
     ticks_.add(tick);
 }
 
 void TouchSound::render(std::span<float> samples) noexcept {
     const double block_s = static_cast<double>(samples.size()) / rate_hz_;
-    patience_s_ = kSoundPatience_s + 2.0 * block_s;
-    settle(block_s * kSoundTicks_hz);
+    timeout_s_ = kSoundTimeout_s + 2.0 * block_s;
+    adjust_pace(block_s * kSoundTicks_hz);
     for (float& sample : samples) sample = static_cast<float>(next_sample());
 }
 
 /// Keeps the place behind the newest tick no farther than the block needs, so that the sound is not
 /// late. Small differences are corrected by the pace.
-void TouchSound::settle(double block_ticks) noexcept {
-    constexpr double kMost = HeardTicks::kKept - 2.0 * kTooFarBehind_ticks;
+void TouchSound::adjust_pace(double block_ticks) noexcept {
+    constexpr double kMost = TickHistory::kKept - 2.0 * kTooFarBehind_ticks;
     const double wanted = std::min(block_ticks + kJitter_ticks, kMost);
     const auto newest = static_cast<double>(ticks_.newest());
     const double behind = newest - at_;
     if (behind > wanted + kTooFarBehind_ticks) at_ = newest - wanted;
-    if (behind >= wanted) waits_ = false;
+    if (behind >= wanted) waiting_ = false;
     const double change = std::clamp(kPaceGain * (behind - wanted), -kMostPace, kMostPace);
     pace_ = (1.0 + change) * kSoundTicks_hz / rate_hz_;
 }
 
 void TouchSound::advance() noexcept {
-    if (waits_) return;
+    if (waiting_) return;
     const auto before = static_cast<std::int64_t>(std::floor(at_));
     const auto newest = static_cast<double>(ticks_.newest());
-    waits_ = at_ + pace_ > newest;
+    waiting_ = at_ + pace_ > newest;
     at_ = std::min(at_ + pace_, newest);
     const auto now = static_cast<std::int64_t>(std::floor(at_));
-    for (std::int64_t tick = before + 1; tick <= now; ++tick) reach(ticks_.at(tick));
+    for (std::int64_t tick = before + 1; tick <= now; ++tick) apply_tick(ticks_.at(tick));
 }
 
-void TouchSound::reach(const HeardTick& tick) noexcept {
+void TouchSound::apply_tick(const TickFeatures& tick) noexcept {
     impulse_ += tick.tap;
     burst_ = std::max(burst_, tick.tap);
     scraping_ = scraping_of(tick);
@@ -109,29 +109,29 @@ void TouchSound::reach(const HeardTick& tick) noexcept {
 
 double TouchSound::next_sample() noexcept {
     advance();
-    unheard_s_ += 1.0 / rate_hz_;
-    const bool open = ticks_.force_on() && unheard_s_ < patience_s_;
+    since_tick_s_ += 1.0 / rate_hz_;
+    const bool open = ticks_.force_on() && since_tick_s_ < timeout_s_;
     gate_ = std::clamp(gate_ + (open ? 1.0 : -1.0) / (kGate_s * rate_hz_), 0.0, 1.0);
     if (gate_ <= 0.0) {
-        be_quiet();
+        reset();
         return 0.0;
     }
-    const double texture = texture_.next(ticks_.between(at_ - HeardTicks::kLookAhead_ticks));
-    burst_ = audible(burst_ - burst_ / (kBurst_s * rate_hz_));
+    const double texture = texture_.next(ticks_.between(at_ - TickHistory::kLookAhead_ticks));
+    burst_ = flush_denormal(burst_ - burst_ / (kBurst_s * rate_hz_));
     const double hiss =
-        kScrapingHeard * choice_.material.hiss * hiss_.next((scraping_ + burst_) * noise());
+        kScrapingGain * choice_.material.hiss * hiss_.next((scraping_ + burst_) * noise());
     double ringing = 0.0;
     for (Resonance& resonance : resonances_) ringing += resonance.next(impulse_);
     impulse_ = 0.0;
     volume_ += (choice_.volume * choice_.material.loudness - volume_) / (kVolumeFade_s * rate_hz_);
-    return gate_ * std::tanh(kGain * volume_ * (texture + hiss + kTapHeard * ringing));
+    return gate_ * std::tanh(kGain * volume_ * (texture + hiss + kTapGain * ringing));
 }
 
 /// A ring from before the force went off must not sound when it is on again.
-void TouchSound::be_quiet() noexcept {
-    for (Resonance& resonance : resonances_) resonance.be_quiet();
-    texture_.be_quiet();
-    hiss_.be_quiet();
+void TouchSound::reset() noexcept {
+    for (Resonance& resonance : resonances_) resonance.reset();
+    texture_.reset();
+    hiss_.reset();
     impulse_ = burst_ = scraping_ = 0.0;
     volume_ = choice_.volume * choice_.material.loudness;
 }

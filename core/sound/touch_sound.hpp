@@ -7,8 +7,8 @@
 #include <span>
 
 #include "core/sound/filters.hpp"
-#include "core/sound/heard_ticks.hpp"
 #include "core/sound/rubbing.hpp"
+#include "core/sound/tick_history.hpp"
 
 namespace dibhr {
 
@@ -55,21 +55,21 @@ class TouchSound {
 
   private:
     void tune_resonances() noexcept;
-    void settle(double block_ticks) noexcept;
+    void adjust_pace(double block_ticks) noexcept;
     void advance() noexcept;
-    void reach(const HeardTick& tick) noexcept;
+    void apply_tick(const TickFeatures& tick) noexcept;
     [[nodiscard]] double noise() noexcept;
     [[nodiscard]] double next_sample() noexcept;
-    void be_quiet() noexcept;
+    void reset() noexcept;
 
     double rate_hz_;
     SoundChoice choice_{};
-    HeardTicks ticks_{};
-    double at_{0.0};         ///< the present place among the ticks, for taps
-    double pace_{0.0};       ///< ticks a sample
-    bool waits_{true};       ///< for ticks
-    double unheard_s_{0.0};  ///< since the last tick came in
-    double patience_s_{0.0};
+    TickHistory ticks_{};
+    double at_{0.0};            ///< the present place among the ticks, for taps
+    double pace_{0.0};          ///< ticks a sample
+    bool waiting_{true};        ///< for ticks
+    double since_tick_s_{0.0};  ///< since the last tick came in
+    double timeout_s_{0.0};
     double gate_{0.0};      ///< 0: silent, 1: open
     double impulse_{0.0};   ///< for the resonances
     double burst_{0.0};     ///< level of the noise of an impact

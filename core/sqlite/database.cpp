@@ -21,7 +21,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kStepsPerLook = 10'000;  ///< of SQLite's machine
+constexpr int kStepsPerCheck = 10'000;  ///< of SQLite's machine
 
 /// Infinity for no number, which a database cannot store.
 double storable(double value) noexcept {
@@ -65,8 +65,8 @@ std::uint64_t work_worth(const std::filesystem::path& file) {
     return kStepsAnyway + kStepsPerByte * database_bytes(file);
 }
 
-int is_work_over(void* looks_left) noexcept {
-    std::uint64_t& left = *static_cast<std::uint64_t*>(looks_left);
+int is_work_over(void* checks_left) noexcept {
+    std::uint64_t& left = *static_cast<std::uint64_t*>(checks_left);
     if (left == 0) return 1;
     --left;
     return 0;
@@ -82,7 +82,7 @@ DatabaseError::Cause cause_of(int code) noexcept {
         case SQLITE_CORRUPT:
             return Cause::damaged;
         case SQLITE_INTERRUPT:
-            return Cause::endless;
+            return Cause::too_much_work;
         case SQLITE_TOOBIG:
             return Cause::too_long;
         case SQLITE_CANTOPEN:
@@ -131,40 +131,40 @@ void SqliteCloser::operator()(sqlite3_blob* blob) const noexcept {
     sqlite3_blob_close(blob);
 }
 
-Database::Database(const std::filesystem::path& file, Refusal refuse)
-    : file_(file), refuse_(std::move(refuse)), writes_(true) {
-    open(file.string(), SQLITE_OPEN_READWRITE, kPatience_ms);
+Database::Database(const std::filesystem::path& file, ErrorHandler refuse)
+    : file_(file), on_error_(std::move(refuse)), writes_(true) {
+    open(file.string(), SQLITE_OPEN_READWRITE, kBusyTimeout_ms);
 }
 
-Database::Database(const std::filesystem::path& file, const ReadOnly& how, Refusal refuse)
-    : file_(file), refuse_(std::move(refuse)) {
+Database::Database(const std::filesystem::path& file, const ReadOnly& how, ErrorHandler refuse)
+    : file_(file), on_error_(std::move(refuse)) {
     open(read_only_uri(file, how.complete), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI,
-         how.patience_ms);
-    distrust(how.longest_bytes);
+         how.busy_timeout_ms);
+    restrict_untrusted(how.longest_bytes);
 }
 
-void Database::open(const std::string& name, int flags, int patience_ms) {
+void Database::open(const std::string& name, int flags, int busy_timeout_ms) {
     sqlite3* opened = nullptr;
     const int result = sqlite3_open_v2(name.c_str(), &opened, flags, nullptr);
     handle_.reset(opened);
     if (opened == nullptr) fail(DatabaseError(sqlite3_errstr(result)));
     if (result != SQLITE_OK) fail();
     sqlite3_extended_result_codes(opened, 1);
-    sqlite3_busy_timeout(opened, patience_ms);
+    sqlite3_busy_timeout(opened, busy_timeout_ms);
 }
 
-void Database::distrust(int longest_bytes) {
-    if (!looks_left_) looks_left_ = std::make_unique<std::uint64_t>(0);
+void Database::restrict_untrusted(int longest_bytes) {
+    if (!checks_left_) checks_left_ = std::make_unique<std::uint64_t>(0);
     sqlite3* const database = handle_.get();
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
     sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
     sqlite3_exec(database, "PRAGMA cell_size_check = ON", nullptr, nullptr, nullptr);
     sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longest_bytes);
-    sqlite3_progress_handler(database, kStepsPerLook, is_work_over, looks_left_.get());
+    sqlite3_progress_handler(database, kStepsPerCheck, is_work_over, checks_left_.get());
 }
 
 void Database::allow_work() const {
-    if (looks_left_) *looks_left_ = work_worth(file_) / kStepsPerLook;
+    if (checks_left_) *checks_left_ = work_worth(file_) / kStepsPerCheck;
 }
 
 SqliteHandle<sqlite3_stmt> Database::prepared(std::string_view sql) const {
@@ -211,7 +211,7 @@ DatabaseError Database::last_error() const {
 }
 
 void Database::fail(const DatabaseError& error) const {
-    if (refuse_) refuse_(error);
+    if (on_error_) on_error_(error);
     throw error;
 }
 

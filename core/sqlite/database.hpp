@@ -26,9 +26,9 @@ class DatabaseError : public std::runtime_error {
     enum class Cause {
         other,
         damaged,
-        endless,      ///< a query took more steps than its limit
-        too_long,     ///< a value is longer than the limit
-        cannot_open,  ///< the file, or its log
+        too_much_work,  ///< a query took more steps than its limit
+        too_long,       ///< a value is longer than the limit
+        cannot_open,    ///< the file, or its log
     };
 
     explicit DatabaseError(const std::string& words, Cause cause = Cause::other)
@@ -64,31 +64,31 @@ struct LogState {
 };
 
 /// One connection, for one thread at a time. Every failure, of its statements too, throws
-/// DatabaseError, or the exception of the connection's Refusal.
+/// DatabaseError, or the exception of the connection's ErrorHandler.
 class Database {
   public:
     /// Throws the owner's exception, mostly an InputError with the file and the error.
-    using Refusal = std::function<void(const DatabaseError& error)>;
+    using ErrorHandler = std::function<void(const DatabaseError& error)>;
 
     /// How long a call waits for another connection's transaction.
-    static constexpr int kPatience_ms = 2000;
+    static constexpr int kBusyTimeout_ms = 2000;
 
     /// Options to read a file from an unknown source.
     struct ReadOnly {
         bool complete{false};  ///< no log belongs to it: no file beside it is made or read
         int longest_bytes{0};  ///< as for distrust()
-        int patience_ms{kPatience_ms};
+        int busy_timeout_ms{kBusyTimeout_ms};
     };
 
     /// Opens an existing file for reading and writing; an empty file is an empty database.
-    explicit Database(const std::filesystem::path& file, Refusal refuse = {});
+    explicit Database(const std::filesystem::path& file, ErrorHandler refuse = {});
     /// Opens an existing file, which stays as it is.
-    Database(const std::filesystem::path& file, const ReadOnly& how, Refusal refuse = {});
+    Database(const std::filesystem::path& file, const ReadOnly& how, ErrorHandler refuse = {});
 
     /// Treats the file as untrusted from now on: its tables run no code, every cell is checked, no
     /// value is longer than `longest_bytes`, and the steps of a query are limited by the size of
     /// the file and its log.
-    void distrust(int longest_bytes);
+    void restrict_untrusted(int longest_bytes);
     /// Runs statements that give no rows.
     void execute(const std::string& sql) const;
     /// The number that is the result of a query.
@@ -101,7 +101,7 @@ class Database {
     friend class Statement;
     friend class BlobReader;
 
-    void open(const std::string& name, int flags, int patience_ms);
+    void open(const std::string& name, int flags, int busy_timeout_ms);
     [[nodiscard]] SqliteHandle<sqlite3_stmt> prepared(std::string_view sql) const;
     /// Sets the step limit of the next query.
     void allow_work() const;
@@ -111,10 +111,10 @@ class Database {
     [[noreturn]] void fail() const { fail(last_error()); }
 
     std::filesystem::path file_;
-    Refusal refuse_;
+    ErrorHandler on_error_;
     bool writes_{false};
     /// Checks left to the running query; null: trusted, no limit. Outlives the connection.
-    std::unique_ptr<std::uint64_t> looks_left_{};
+    std::unique_ptr<std::uint64_t> checks_left_{};
     SqliteHandle<sqlite3> handle_{};
 };
 

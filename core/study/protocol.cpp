@@ -20,19 +20,19 @@ std::string in_words(const TouchValues& values) {
     return all.empty() ? "the program's defaults" : listed(all);
 }
 
-TouchValues laid_over(const TouchValues& under, const TouchValues& over) {
-    TouchValues all = under;
-    if (over.numbers.contains("friction")) {
+TouchValues with_overrides(const TouchValues& base, const TouchValues& overrides) {
+    TouchValues all = base;
+    if (overrides.numbers.contains("friction")) {
         all.numbers.erase("static-friction");
         all.numbers.erase("dynamic-friction");
     }
-    for (const auto& [name, number] : over.numbers) all.numbers[name] = number;
-    for (const auto& [name, word] : over.words) all.words[name] = word;
+    for (const auto& [name, number] : overrides.numbers) all.numbers[name] = number;
+    for (const auto& [name, word] : overrides.words) all.words[name] = word;
     return all;
 }
 
-TouchValues felt_values(const Condition& condition, const Variation& vary, double value) {
-    return laid_over(condition.values, {.numbers = {{vary.parameter, value}}});
+TouchValues interval_values(const Condition& condition, const Variation& vary, double value) {
+    return with_overrides(condition.values, {.numbers = {{vary.parameter, value}}});
 }
 
 int Block::intervals() const noexcept {

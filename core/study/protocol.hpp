@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/psychophysics/staircase.hpp"
 
 namespace dibhr {
@@ -35,7 +35,7 @@ struct TouchValues {
 
 /// `under`, with the values of `over` in place of its own. In one table a single coefficient has
 /// priority over "friction"; "friction" of `over` removes both coefficients of `under`.
-[[nodiscard]] TouchValues laid_over(const TouchValues& under, const TouchValues& over);
+[[nodiscard]] TouchValues with_overrides(const TouchValues& base, const TouchValues& overrides);
 
 /// Text, a picture, or both; empty: nothing is shown.
 struct StudyPage {
@@ -63,7 +63,7 @@ struct Condition {
 };
 
 enum class TrialForm : std::uint8_t { explore, two_interval, three_interval, adjust, rating };
-inline constexpr std::array<Word<TrialForm>, 5> kTrialForms{
+inline constexpr std::array<NamedValue<TrialForm>, 5> kTrialForms{
     {{TrialForm::explore, "explore", "Free exploration"},
      {TrialForm::two_interval, "two-interval", "Two-interval forced choice"},
      {TrialForm::three_interval, "three-interval", "Three-interval oddity"},
@@ -73,7 +73,7 @@ inline constexpr std::array<Word<TrialForm>, 5> kTrialForms{
 /// How the items of a block follow each other: any order; balanced over participants, each after
 /// each other equally often (Williams 1949); or as listed.
 enum class TrialOrder : std::uint8_t { random, latin, listed };
-inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
+inline constexpr std::array<NamedValue<TrialOrder>, 3> kTrialOrders{
     {{TrialOrder::random, "random", "Random"},
      {TrialOrder::latin, "latin", "Latin square"},
      {TrialOrder::listed, "listed", "As listed"}}};
@@ -81,7 +81,7 @@ inline constexpr std::array<Word<TrialOrder>, 3> kTrialOrders{
 /// What is drawn during an interval. `relief`: the relief, and the point under the hand. `touch`:
 /// also goal, proxy and normal, as in the viewer, which shows friction and stiffness.
 enum class StudyView : std::uint8_t { relief, blank, touch };
-inline constexpr std::array<Word<StudyView>, 3> kStudyViews{
+inline constexpr std::array<NamedValue<StudyView>, 3> kStudyViews{
     {{StudyView::relief, "relief", "The relief"},
      {StudyView::blank, "blank", "Nothing"},
      {StudyView::touch, "touch", "The relief and the touch"}}};
@@ -170,8 +170,8 @@ struct Protocol {
 };
 
 /// The values of an interval: the condition's, with the varied parameter at `value`.
-[[nodiscard]] TouchValues felt_values(const Condition& condition, const Variation& vary,
-                                      double value);
+[[nodiscard]] TouchValues interval_values(const Condition& condition, const Variation& vary,
+                                          double value);
 
 /// Checks by other rooms, which make surfaces and open files. Each throws Error with what is wrong
 /// (a number's name first); the reader adds the line. Empty: not checked.
@@ -184,7 +184,7 @@ struct StudyChecks {
 };
 
 /// The names that a protocol may use, from other rooms: passed in, so that none is included.
-struct StudyNames {
+struct AllowedNames {
     /// Nothing: the page is from a study file. Any name is then accepted, and checks that only
     /// protect a future study are skipped, so that recorded answers stay readable.
     std::optional<std::vector<std::string>> materials{};
@@ -195,10 +195,10 @@ struct StudyNames {
 
 /// Reads and checks a page. Relative files are beside `file`. Throws InputError of one line:
 /// "FILE:LINE: what is wrong, and what is allowed".
-[[nodiscard]] Protocol read_protocol(const std::filesystem::path& file, const StudyNames& names);
+[[nodiscard]] Protocol read_protocol(const std::filesystem::path& file, const AllowedNames& names);
 
 /// The same for a text; `file` gives its name and folder.
 [[nodiscard]] Protocol protocol_of(const std::string& text, const std::filesystem::path& file,
-                                   const StudyNames& names);
+                                   const AllowedNames& names);
 
 }  // namespace dibhr

@@ -10,8 +10,8 @@
 #include "core/files/spelling.hpp"
 #include "core/files/text_file.hpp"
 #include "core/haptics/parameters.hpp"
-#include "core/study/block_sense.hpp"
 #include "core/study/protocol.hpp"
+#include "core/study/protocol_validation.hpp"
 #include "core/study/toml_page.hpp"
 
 namespace dibhr {
@@ -21,11 +21,11 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t kMostConditions = 1000;
-constexpr double kAnyNumber = 1e9;
+constexpr double kLargestNumber = 1e9;
 
 /// The range of a number by its name; nothing: there is none.
 std::optional<std::pair<double, double>> range_of(const std::string& name,
-                                                  const StudyNames& names) {
+                                                  const AllowedNames& names) {
     if (name == "finger") return std::pair(0.0, names.thickest_finger_mm);
     const TouchNumber* const number = touch_number(name == "friction" ? "static-friction" : name);
     if (number == nullptr) return std::nullopt;
@@ -47,26 +47,26 @@ std::vector<std::string> switch_names() {
 /// Fills in a protocol from its page.
 class ProtocolReading {
   public:
-    ProtocolReading(PageTable& page, const StudyNames& names, Protocol& protocol)
+    ProtocolReading(PageTable& page, const AllowedNames& names, Protocol& protocol)
         : page_(page), names_(names), to_(protocol) {}
 
     void read() {
-        to_.title = page_.needed_name("title");
-        to_.version = page_.whole("version", 1, 1).value_or(1);
+        to_.title = page_.required_name("title");
+        to_.version = page_.integer("version", 1, 1).value_or(1);
         to_.seed = static_cast<std::uint64_t>(
-            page_.whole("seed", 0, std::numeric_limits<int>::max()).value_or(1));
+            page_.integer("seed", 0, std::numeric_limits<int>::max()).value_or(1));
         to_.instructions = read_page(page_, "instructions");
         to_.thanks = read_page(page_, "thanks");
         read_media();
         if (auto base = page_.table("base", "[base]")) {
             base_ = read_values(*base);
-            base->done();
+            base->refuse_unknown_keys();
         }
         read_conditions();
         for (PageTable& block : page_.tables("block", "a block")) read_block(block);
         if (to_.blocks.empty())
             page_.refuse("block", "there is no block: add [[block]] with form and question");
-        page_.done();
+        page_.refuse_unknown_keys();
     }
 
   private:
@@ -78,7 +78,7 @@ class ProtocolReading {
         StudyPage page{.text = table.text(key).value_or("")};
         if (const auto picture = table.text(key + "-picture")) {
             page.picture = beside(*picture);
-            require(names_.checks.picture, page.picture, table, key + "-picture");
+            require_usable(names_.checks.picture, page.picture, table, key + "-picture");
         }
         return page;
     }
@@ -86,20 +86,20 @@ class ProtocolReading {
     void read_media() {
         to_.media.push_back({.name = kSampleMedia});
         for (PageTable& table : page_.tables("media", "[[media]]")) {
-            StudyMedia media{.name = table.needed_name("name"),
-                             .colour = beside(table.needed_text("colour"))};
+            StudyMedia media{.name = table.required_name("name"),
+                             .colour = beside(table.required_text("colour"))};
             if (const auto depth = table.text("depth")) media.depth = beside(*depth);
             if (std::ranges::find(to_.media, media.name, &StudyMedia::name) != to_.media.end())
                 table.refuse("name", "there are two media of that name");
-            require(names_.checks.media, media, table, "colour");
+            require_usable(names_.checks.media, media, table, "colour");
             to_.media.push_back(std::move(media));
-            table.done();
+            table.refuse_unknown_keys();
         }
     }
 
-    void take_word(PageTable& table, const std::string& key, const std::vector<std::string>& words,
-                   TouchValues& values) const {
-        if (const auto place = table.word(key, words)) values.words[key] = words[*place];
+    void read_choice(PageTable& table, const std::string& key,
+                     const std::vector<std::string>& words, TouchValues& values) const {
+        if (const auto place = table.choice_index(key, words)) values.words[key] = words[*place];
     }
 
     TouchValues read_values(PageTable& table) const {
@@ -110,21 +110,21 @@ class ProtocolReading {
                 values.numbers[name] = *number;
         }
         for (const TouchChoice& choice : touch_choices())
-            take_word(table, std::string(choice.name), choice.names(), values);
-        take_word(table, "cleaning", names_.cleanings, values);
-        take_word(table, "media", all_names(to_.media), values);
+            read_choice(table, std::string(choice.name), choice.names(), values);
+        read_choice(table, "cleaning", names_.cleanings, values);
+        read_choice(table, "media", all_names(to_.media), values);
         if (names_.materials)
-            take_word(table, "material", *names_.materials, values);
+            read_choice(table, "material", *names_.materials, values);
         else if (const auto material = table.text("material"))
             values.words["material"] = *material;
         if (const auto bump = table.text("bump")) {
             values.words["bump"] = beside(*bump).string();
-            require(names_.checks.bump, beside(*bump), table, "bump");
+            require_usable(names_.checks.bump, beside(*bump), table, "bump");
         }
         for (const std::string& name : switch_names())
             if (table.node(name) != nullptr)
-                values.words[name] = table.yes(name, false) ? "on" : "off";
-        require_friction(table, laid_over(base_, values));
+                values.words[name] = table.boolean(name, false) ? "on" : "off";
+        require_friction(table, with_overrides(base_, values));
         return values;
     }
 
@@ -140,7 +140,7 @@ class ProtocolReading {
     void add_condition(const PageTable& table, Condition condition) {
         if (to_.condition_named(condition.name) != nullptr)
             table.refuse("name", "there are two conditions " + in_quotes(condition.name));
-        condition.values = laid_over(base_, condition.values);
+        condition.values = with_overrides(base_, condition.values);
         require_values(names_.checks, condition.values, table, "name",
                        "the condition " + in_quotes(condition.name));
         to_.conditions.push_back(std::move(condition));
@@ -151,8 +151,8 @@ class ProtocolReading {
 
     void read_conditions() {
         for (PageTable& table : page_.tables("condition", "a condition")) {
-            Condition condition{.name = table.needed_name("name"), .values = read_values(table)};
-            table.done();
+            Condition condition{.name = table.required_name("name"), .values = read_values(table)};
+            table.refuse_unknown_keys();
             add_condition(table, std::move(condition));
         }
         read_factors();
@@ -166,7 +166,7 @@ class ProtocolReading {
         if (factors.empty()) return;
         std::vector<Condition> crossed{Condition{}};
         for (PageTable& factor : factors) {
-            const std::string name = factor.needed_name("name");
+            const std::string name = factor.required_name("name");
             if (std::find(to_.factors.begin(), to_.factors.end(), name) != to_.factors.end())
                 factor.refuse("name", "there are two factors " + in_quotes(name));
             to_.factors.push_back(name);
@@ -178,7 +178,7 @@ class ProtocolReading {
             if (crossed.size() > kMostConditions)
                 factor.refuse("levels", "the factors cross to more than " +
                                             std::to_string(kMostConditions) + " conditions");
-            factor.done();
+            factor.refuse_unknown_keys();
         }
         for (Condition& condition : crossed) add_condition(factors.front(), std::move(condition));
     }
@@ -186,11 +186,11 @@ class ProtocolReading {
     std::vector<Condition> read_levels(PageTable& factor) const {
         std::vector<Condition> levels;
         for (PageTable& table : factor.tables("levels", "a level")) {
-            Condition level{.name = table.needed_name("name"), .values = read_values(table)};
+            Condition level{.name = table.required_name("name"), .values = read_values(table)};
             if (std::ranges::find(levels, level.name, &Condition::name) != levels.end())
                 table.refuse("name", "there are two levels " + in_quotes(level.name));
             levels.push_back(std::move(level));
-            table.done();
+            table.refuse_unknown_keys();
         }
         if (levels.size() < 2)
             factor.refuse("levels",
@@ -202,7 +202,7 @@ class ProtocolReading {
     static Condition joined(const Condition& a, const Condition& b, const std::string& factor) {
         Condition both = a;
         both.name += (a.name.empty() ? "" : "+") + b.name;
-        both.values = laid_over(a.values, b.values);
+        both.values = with_overrides(a.values, b.values);
         both.levels[factor] = b.name;
         return both;
     }
@@ -210,30 +210,31 @@ class ProtocolReading {
     void read_block(PageTable& table) {
         Block block;
         block.name = table.name("name").value_or("block " + std::to_string(to_.blocks.size() + 1));
-        block.practice = table.yes("practice", false);
-        block.feedback = table.yes("feedback", block.practice);
-        const auto form = table.word("form", all_names(kTrialForms));
+        block.practice = table.boolean("practice", false);
+        block.feedback = table.boolean("feedback", block.practice);
+        const auto form = table.choice_index("form", all_names(kTrialForms));
         if (!form)
             table.refuse("form",
                          "a block has no form: it is one of " + listed(all_names(kTrialForms)));
         block.form = static_cast<TrialForm>(*form);
-        block.order =
-            static_cast<TrialOrder>(table.word("order", all_names(kTrialOrders)).value_or(0));
-        block.view = static_cast<StudyView>(table.word("view", all_names(kStudyViews)).value_or(0));
+        block.order = static_cast<TrialOrder>(
+            table.choice_index("order", all_names(kTrialOrders)).value_or(0));
+        block.view =
+            static_cast<StudyView>(table.choice_index("view", all_names(kStudyViews)).value_or(0));
         block.instructions = read_page(table, "instructions");
-        block.again = table.yes("again", false);
+        block.again = table.boolean("again", false);
         block.interval_s = table.number("interval-s", 0.0, 3600.0).value_or(0.0);
         block.answer_s = table.number("answer-s", 0.0, 3600.0).value_or(0.0);
-        block.break_after = table.whole("break-after", 0, kMostTrials).value_or(0);
-        block.question.text = table.needed_text("question");
+        block.break_after = table.integer("break-after", 0, kMostTrials).value_or(0);
+        block.question.text = table.required_text("question");
         require_keys_of_form(table, block.form);
         read_items(table, block);
         read_variation(table, block);
         read_question(table, block);
-        block.repetitions = table.whole("repetitions", 1, kMostTrials).value_or(1);
-        require_sense(table, block);
-        if (!is_run_already()) require_worth(table, to_, base_, block, names_.checks);
-        table.done();
+        block.repetitions = table.integer("repetitions", 1, kMostTrials).value_or(1);
+        require_valid_block(table, block);
+        if (!is_from_study_file()) require_useful_block(table, to_, base_, block, names_.checks);
+        table.refuse_unknown_keys();
         to_.blocks.push_back(std::move(block));
     }
 
@@ -288,7 +289,7 @@ class ProtocolReading {
             const auto same = [&item](const StudyItem& other) {
                 return other == item || other == StudyItem{item.comparison, item.reference};
             };
-            if (!is_run_already() && std::any_of(block.items.begin(), block.items.end(), same))
+            if (!is_from_study_file() && std::any_of(block.items.begin(), block.items.end(), same))
                 refuse_at(table.file(), entry,
                           "this pair is there already, in this order or the other: give "
                           "repetitions instead, the order of the intervals is balanced");
@@ -299,11 +300,11 @@ class ProtocolReading {
     void read_variation(PageTable& table, Block& block) const {
         Variation& vary = block.variation;
         const auto all = number_names();
-        const auto parameter = table.word("vary", all);
-        vary.levels = table.numbers("levels", -kAnyNumber, kAnyNumber);
+        const auto parameter = table.choice_index("vary", all);
+        vary.levels = table.numbers("levels", -kLargestNumber, kLargestNumber);
         auto stairs = table.table("staircase", "[block.staircase]");
         auto adjust = table.table("adjust", "[block.adjust]");
-        const auto reference = table.number("reference", -kAnyNumber, kAnyNumber);
+        const auto reference = table.number("reference", -kLargestNumber, kLargestNumber);
         if (!parameter) {
             for (const char* const key : {"levels", "staircase", "adjust", "reference"})
                 if (table.raw().contains(key))
@@ -326,7 +327,7 @@ class ProtocolReading {
                 adjust->number("highest", range.first, range.second).value_or(range.second);
             if (!(vary.lowest < vary.highest))
                 adjust->refuse("highest", "highest is not above lowest");
-            adjust->done();
+            adjust->refuse_unknown_keys();
         }
         const double lowest = range.first - vary.reference;
         const double highest = range.second - vary.reference;
@@ -349,7 +350,7 @@ class ProtocolReading {
     void read_staircase(PageTable& table, Variation& vary) const {
         StaircaseRule rule;
         const auto needed = [&](const char* key) {
-            const auto number = table.number_above(key, 0.0, kAnyNumber);
+            const auto number = table.number_above(key, 0.0, kLargestNumber);
             if (!number)
                 table.refuse(
                     key, std::string("a staircase has no ") + key + ": add " + key + " = NUMBER");
@@ -357,7 +358,7 @@ class ProtocolReading {
         };
         rule.start = needed("start");
         rule.high = needed("highest");
-        const auto step = table.number_above("step", 0.0, kAnyNumber);
+        const auto step = table.number_above("step", 0.0, kLargestNumber);
         const auto factor = table.number_above("factor", 1.0, 100.0);
         if (step.has_value() == factor.has_value())
             table.refuse("step",
@@ -367,13 +368,13 @@ class ProtocolReading {
         rule.factors = factor.has_value();
         rule.step_down = step ? *step : *factor - 1.0;
         rule.step_up = rule.step_down * table.number("up-weight", 0.01, 100.0).value_or(1.0);
-        rule.down_after = table.whole("down-after", 1, 10).value_or(2);
-        rule.first_reversals = table.whole("halve-after", 0, 100).value_or(0);
+        rule.down_after = table.integer("down-after", 1, 10).value_or(2);
+        rule.first_reversals = table.integer("halve-after", 0, 100).value_or(0);
         rule.first_steps = 2.0;
-        rule.stop_reversals = table.whole("reversals", 0, 1000).value_or(0);
-        rule.most_trials = table.whole("trials", 1, 1000).value_or(60);
-        vary.tracks = table.whole("tracks", 1, 10).value_or(1);
-        table.done();
+        rule.stop_reversals = table.integer("reversals", 0, 1000).value_or(0);
+        rule.most_trials = table.integer("trials", 1, 1000).value_or(60);
+        vary.tracks = table.integer("tracks", 1, 10).value_or(1);
+        table.refuse_unknown_keys();
         vary.staircase = rule;
     }
 
@@ -383,8 +384,8 @@ class ProtocolReading {
                      StaircaseRule& rule) const {
         const double smallest = step ? *step : 0.01 * rule.start;
         const char* const otherwise = step ? "one step" : "a hundredth of start";
-        const auto given = table.number("lowest", 0.0, kAnyNumber);
-        if (is_run_already()) {
+        const auto given = table.number("lowest", 0.0, kLargestNumber);
+        if (is_from_study_file()) {
             rule.low = std::min(given.value_or(0.0) > 0.0 ? *given : smallest, rule.high);
             return;
         }
@@ -413,27 +414,27 @@ class ProtocolReading {
         if (scale && block.form != TrialForm::rating)
             table.refuse("scale", "only the form rating has a scale");
         if (!scale) return;
-        question.lowest = scale->whole("lowest", 0, 1000).value_or(1);
-        question.highest = scale->whole("highest", 0, 1000).value_or(7);
+        question.lowest = scale->integer("lowest", 0, 1000).value_or(1);
+        question.highest = scale->integer("highest", 0, 1000).value_or(7);
         if (question.highest <= question.lowest)
             scale->refuse("highest", "highest is not above lowest");
         question.lowest_label = scale->name("lowest-label").value_or("");
         question.highest_label = scale->name("highest-label").value_or("");
-        scale->done();
+        scale->refuse_unknown_keys();
     }
 
-    /// Whether the page is from a study file: StudyNames::materials.
-    bool is_run_already() const noexcept { return !names_.materials; }
+    /// Whether the page is from a study file: AllowedNames::materials.
+    bool is_from_study_file() const noexcept { return !names_.materials; }
 
     PageTable& page_;
-    const StudyNames& names_;
+    const AllowedNames& names_;
     Protocol& to_;
     TouchValues base_{};
 };
 
 }  // namespace
 
-Protocol read_protocol(const fs::path& file, const StudyNames& names) {
+Protocol read_protocol(const fs::path& file, const AllowedNames& names) {
     const auto text = small_text_in(file);
     std::error_code failed;
     if (fs::is_directory(file, failed))
@@ -444,7 +445,7 @@ Protocol read_protocol(const fs::path& file, const StudyNames& names) {
     return protocol_of(*text, file, names);
 }
 
-Protocol protocol_of(const std::string& text, const fs::path& file, const StudyNames& names) {
+Protocol protocol_of(const std::string& text, const fs::path& file, const AllowedNames& names) {
     const toml::table table = page_of(text, file);
     Protocol protocol;
     protocol.text = text;

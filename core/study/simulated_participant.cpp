@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/psychophysics/random.hpp"
 
 namespace dibhr {

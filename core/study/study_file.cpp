@@ -71,7 +71,7 @@ constexpr const char* kExplainEarly =
 }
 
 /// Turns SQLite's error into an InputError with the file and the next step.
-Database::Refusal refusal_of(const fs::path& file) {
+Database::ErrorHandler refusal_of(const fs::path& file) {
     return [file](const DatabaseError& error) {
         const std::string words = error.what();
         if (words.find("locked") != std::string::npos)
@@ -217,7 +217,7 @@ void require_kind(const Database& database, const fs::path& file) {
 /// Opens a study file for reading, and checks it like a new one.
 Database opened_study(const fs::path& file) {
     Database database(file, refusal_of(file));
-    database.distrust(kLongestSession_bytes);
+    database.restrict_untrusted(kLongestSession_bytes);
     require_kind(database, file);
     return database;
 }
@@ -231,11 +231,11 @@ std::string bytes_of(const fs::path& file) {
 }
 
 /// Writes participant and trial into a session, as the facts of an ordinary recording.
-void sign_session(Database database, const StudyIdentity& identity, int trial,
-                  const fs::path& study) {
+void label_session(Database database, const StudyIdentity& identity, int trial,
+                   const fs::path& study) {
     const std::string title =
         page_of(identity.protocol_text, study)["title"].value_or(std::string());
-    database.distrust(kLongestSession_bytes);
+    database.restrict_untrusted(kLongestSession_bytes);
     Statement row(database, "INSERT OR REPLACE INTO session VALUES (?, ?)");
     row.run("participant", identity.participant);
     row.run("note", title + ", trial " + std::to_string(trial + 1));
@@ -266,7 +266,7 @@ fs::path study_file_of(const fs::path& folder, const std::string& label) {
     return folder / (label + kStudyEnding);
 }
 
-std::vector<std::string> others_of_number(const fs::path& folder, const StudyIdentity& identity) {
+std::vector<std::string> labels_of_number(const fs::path& folder, const StudyIdentity& identity) {
     std::vector<std::string> labels;
     std::error_code failed;
     for (const auto& entry : fs::directory_iterator(folder, failed)) {
@@ -297,11 +297,11 @@ struct StudyFile::Implementation {
 
     /// Locks the file until the process ends. A pilot can be run again, so only a person's answers
     /// wait for the disk.
-    void hold(bool pilot) {
+    void lock(bool pilot) {
         database.execute(std::string("PRAGMA busy_timeout = 0; PRAGMA locking_mode = EXCLUSIVE; "
                                      "PRAGMA synchronous = ") +
                          (pilot ? "OFF" : "FULL"));
-        database.distrust(kLongestSession_bytes);
+        database.restrict_untrusted(kLongestSession_bytes);
         database.execute("BEGIN EXCLUSIVE; COMMIT");
     }
 
@@ -316,7 +316,7 @@ struct StudyFile::Implementation {
         identity = wanted;
     }
 
-    void go_on(const StudyIdentity& wanted) {
+    void resume(const StudyIdentity& wanted) {
         require_kind(database, file);
         identity = identity_in(database, file);
         if (identity.protocol_sha256 != wanted.protocol_sha256)
@@ -365,11 +365,11 @@ StudyFile::StudyFile(const fs::path& file, const StudyIdentity& identity) {
     require_label(identity.participant);
     make_if_missing(file);
     implementation_ = std::make_unique<Implementation>(file);
-    implementation_->hold(!identity.pilot.empty());
+    implementation_->lock(!identity.pilot.empty());
     if (implementation_->database.number("SELECT count(*) FROM sqlite_master") == 0)
         implementation_->begin(identity);
     else
-        implementation_->go_on(identity);
+        implementation_->resume(identity);
 }
 
 StudyFile::~StudyFile() = default;
@@ -403,7 +403,7 @@ void StudyFile::finish() {
     implementation_->database.execute("INSERT OR REPLACE INTO study VALUES ('finished', '1')");
 }
 
-fs::path StudyFile::fresh_session() const {
+fs::path StudyFile::new_session_file() const {
     fs::path session = file().string() + ".trial.dibhr";
     remove_database(session);
     return session;
@@ -443,7 +443,7 @@ bool write_study_session(const fs::path& study, int trial, const fs::path& sessi
     if (bytes.empty()) return false;
     OutputFile out(session);
     out.write(bytes);
-    sign_session(Database(out.written(), refusal_of(session)), identity, trial, study);
+    label_session(Database(out.written(), refusal_of(session)), identity, trial, study);
     out.commit();
     return true;
 }

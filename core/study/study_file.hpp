@@ -48,7 +48,7 @@ void require_label(const std::string& label);
 
 /// Labels of other study files in that folder whose order the same number chooses. For a file that
 /// another program has open, the number in its label counts.
-[[nodiscard]] std::vector<std::string> others_of_number(const std::filesystem::path& folder,
+[[nodiscard]] std::vector<std::string> labels_of_number(const std::filesystem::path& folder,
                                                         const StudyIdentity& identity);
 
 /// The file of a running study. One program at a time holds its lock, until that process ends.
@@ -74,7 +74,7 @@ class StudyFile {
     void finish();
     /// Where the running trial's session is recorded: a path beside the file. Removes what a killed
     /// program left there.
-    [[nodiscard]] std::filesystem::path fresh_session() const;
+    [[nodiscard]] std::filesystem::path new_session_file() const;
 
   private:
     struct Implementation;

@@ -81,7 +81,7 @@ void StudyRun::go_on() {
     }
 }
 
-void StudyRun::feel_again(int interval) {
+void StudyRun::repeat_interval(int interval) {
     const bool may = step_ == StudyStep::question && block().again;
     if (!may || interval < 0 || interval >= block().intervals()) return;
     interval_ = interval;
@@ -92,11 +92,11 @@ void StudyRun::compare(int interval) {
     if (step_ == StudyStep::adjust) interval_ = std::clamp(interval, 0, block().intervals() - 1);
 }
 
-bool StudyRun::takes(const StudyAnswer& answer) const noexcept {
-    return (step_ == StudyStep::question || step_ == StudyStep::adjust) && would_take(answer);
+bool StudyRun::accepts(const StudyAnswer& answer) const noexcept {
+    return (step_ == StudyStep::question || step_ == StudyStep::adjust) && would_accept(answer);
 }
 
-bool StudyRun::would_take(const StudyAnswer& answer) const noexcept {
+bool StudyRun::would_accept(const StudyAnswer& answer) const noexcept {
     const Block& now = block();
     const bool none = answer.choice < 0 && !answer.number;
     if (none) return now.answer_s > 0.0;
@@ -118,7 +118,7 @@ bool StudyRun::would_take(const StudyAnswer& answer) const noexcept {
 }
 
 AnsweredTrial StudyRun::judged(const StudyAnswer& answer, double utc_s) const {
-    assert(takes(answer));
+    assert(accepts(answer));
     return {.trial = trial_, .answer = answer, .right = is_right(trial_, answer), .utc_s = utc_s};
 }
 

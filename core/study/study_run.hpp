@@ -18,7 +18,7 @@ enum class StudyStep : std::uint8_t {
     block_instructions,  ///< a block's page; go_on()
     interval,            ///< something is felt; go_on()
     adjust,              ///< felt and changed until equal; accept() with a number
-    question,            ///< accept(); with Block::again also feel_again()
+    question,            ///< accept(); with Block::again also repeat_interval()
     feedback,            ///< whether it was right; go_on()
     pause,               ///< a break; go_on()
     thanks,              ///< the end page; go_on()
@@ -54,7 +54,7 @@ class StudyRun {
     /// Does nothing at a question, at an adjustment and at the end.
     void go_on();
     /// At a question with Block::again: back to that interval, and from there to the question.
-    void feel_again(int interval);
+    void repeat_interval(int interval);
     /// At an adjustment: feels the reference (0) or what is turned (1).
     void compare(int interval);
     /// The running trial with that answer, and whether it is right: to be stored before accept().
@@ -64,9 +64,9 @@ class StudyRun {
     void accept(const AnsweredTrial& answered);
     /// Whether the trial's question takes that answer once it is asked: an existing choice, a
     /// rating in its range, a value in the range of the adjustment, or (with a time limit) none.
-    [[nodiscard]] bool would_take(const StudyAnswer& answer) const noexcept;
+    [[nodiscard]] bool would_accept(const StudyAnswer& answer) const noexcept;
     /// The same, and the question is asked now.
-    [[nodiscard]] bool takes(const StudyAnswer& answer) const noexcept;
+    [[nodiscard]] bool accepts(const StudyAnswer& answer) const noexcept;
 
   private:
     /// The trial after those answered: its block's page first, or thanks.

@@ -53,9 +53,9 @@ std::optional<std::string> PageTable::text(const std::string& key) {
     return value;
 }
 
-std::string PageTable::needed_text(const std::string& key) {
+std::string PageTable::required_text(const std::string& key) {
     if (auto value = text(key)) return *value;
-    refuse(key, called_ + " has no " + key + ": add " + key + " = \"...\"");
+    refuse(key, label_ + " has no " + key + ": add " + key + " = \"...\"");
 }
 
 std::optional<std::string> PageTable::name(const std::string& key) {
@@ -65,9 +65,9 @@ std::optional<std::string> PageTable::name(const std::string& key) {
     return value;
 }
 
-std::string PageTable::needed_name(const std::string& key) {
+std::string PageTable::required_name(const std::string& key) {
     static_cast<void>(name(key));
-    return needed_text(key);
+    return required_text(key);
 }
 
 std::optional<double> PageTable::number(const std::string& key, double lowest, double highest) {
@@ -90,7 +90,7 @@ std::optional<double> PageTable::number_above(const std::string& key, double bou
     return value;
 }
 
-std::optional<int> PageTable::whole(const std::string& key, int lowest, int highest) {
+std::optional<int> PageTable::integer(const std::string& key, int lowest, int highest) {
     const toml::node* const found = node(key);
     if (found == nullptr) return std::nullopt;
     const auto value = found->value_exact<std::int64_t>();
@@ -100,7 +100,7 @@ std::optional<int> PageTable::whole(const std::string& key, int lowest, int high
     return static_cast<int>(*value);
 }
 
-bool PageTable::yes(const std::string& key, bool otherwise) {
+bool PageTable::boolean(const std::string& key, bool otherwise) {
     const toml::node* const found = node(key);
     if (found == nullptr) return otherwise;
     const auto value = found->value_exact<bool>();
@@ -108,8 +108,8 @@ bool PageTable::yes(const std::string& key, bool otherwise) {
     return *value;
 }
 
-std::optional<std::size_t> PageTable::word(const std::string& key,
-                                           const std::vector<std::string>& words) {
+std::optional<std::size_t> PageTable::choice_index(const std::string& key,
+                                                   const std::vector<std::string>& words) {
     const auto value = text(key);
     if (!value) return std::nullopt;
     const auto found = std::find(words.begin(), words.end(), *value);
@@ -154,14 +154,14 @@ std::vector<double> PageTable::numbers(const std::string& key, double lowest, do
     return values;
 }
 
-std::optional<PageTable> PageTable::table(const std::string& key, const std::string& called) {
+std::optional<PageTable> PageTable::table(const std::string& key, const std::string& label) {
     const toml::node* const found = node(key);
     if (found == nullptr) return std::nullopt;
     if (!found->is_table()) refuse(key, key + " is not a table [" + key + "]");
-    return PageTable(*found->as_table(), file_, called);
+    return PageTable(*found->as_table(), file_, label);
 }
 
-std::vector<PageTable> PageTable::tables(const std::string& key, const std::string& called) {
+std::vector<PageTable> PageTable::tables(const std::string& key, const std::string& label) {
     const toml::node* const found = node(key);
     if (found == nullptr) return {};
     std::vector<PageTable> all;
@@ -169,19 +169,19 @@ std::vector<PageTable> PageTable::tables(const std::string& key, const std::stri
     if (list == nullptr) refuse(key, key + " is not a list of tables [[" + key + "]]");
     for (const toml::node& entry : *list) {
         if (!entry.is_table()) refuse_at(file_, entry, "an entry of " + key + " is not a table");
-        all.emplace_back(*entry.as_table(), file_, called);
+        all.emplace_back(*entry.as_table(), file_, label);
     }
     return all;
 }
 
-void PageTable::done() const {
+void PageTable::refuse_unknown_keys() const {
     const std::vector<std::string> names(known_.begin(), known_.end());
     for (const auto& [key, value] : table_) {
         const std::string name(key.str());
         if (known_.contains(name)) continue;
         const std::string nearest = did_you_mean(name, names);
         refuse_at(file_, value,
-                  in_quotes(name) + " is not known in " + called_ +
+                  in_quotes(name) + " is not known in " + label_ +
                       (nearest.empty() ? ": known are " + listed(names) : nearest));
     }
 }

@@ -42,7 +42,7 @@ int balanced_kind(int kinds, int n, int chunk, int turn, Random draws) {
 }
 
 /// The plan of a trial; with constant stimuli a cell of the order.
-struct Task {
+struct TrialPlan {
     int item{0};
     int repetition{0};  ///< how often that task came before
     int track{-1};
@@ -51,28 +51,28 @@ struct Task {
     std::optional<double> level{};
 };
 
-Task constant_task(const Protocol& protocol, int block_number, int number, int position) {
+TrialPlan constant_trial(const Protocol& protocol, int block_number, int number, int position) {
     const Block& block = block_at(protocol, block_number);
     const std::vector<int> order = order_of(protocol, block_number, number);
     const auto here = order.begin() + position;
     const int levels = levels_of(block);
-    Task task{.item = *here / levels, .chunk = block.repetitions, .cell = *here};
-    task.repetition = static_cast<int>(std::count(order.begin(), here, *here));
+    TrialPlan plan{.item = *here / levels, .chunk = block.repetitions, .cell = *here};
+    plan.repetition = static_cast<int>(std::count(order.begin(), here, *here));
     if (!block.variation.levels.empty())
-        task.level = block.variation.levels[static_cast<std::size_t>(*here % levels)];
-    return task;
+        plan.level = block.variation.levels[static_cast<std::size_t>(*here % levels)];
+    return plan;
 }
 
 /// Removes rounding errors of steps (0.1 + 0.2 is not 0.3): equal levels are equal numbers.
-double without_dust(const StaircaseRule& rule, double level) {
+double without_rounding_error(const StaircaseRule& rule, double level) {
     constexpr int kDigits = 12;
     const double clean = number_of_text(short_text(level, kDigits)).value_or(level);
     return std::clamp(clean, rule.low, rule.high);
 }
 
 /// A trial of a track with the fewest trials, drawn at random; nothing: all have ended.
-std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, int number,
-                                  std::span<const AnsweredTrial> in_block) {
+std::optional<TrialPlan> adaptive_trial(const Protocol& protocol, int block_number, int number,
+                                        std::span<const AnsweredTrial> in_block) {
     const Block& block = block_at(protocol, block_number);
     const int tracks = block.variation.tracks;
     std::vector<Staircase> runs(block.items.size() * static_cast<std::size_t>(tracks),
@@ -98,31 +98,31 @@ std::optional<Task> adaptive_task(const Protocol& protocol, int block_number, in
                            : draws.below(static_cast<std::uint32_t>(behind.size()));
     const int cell = behind[drawn];
     constexpr int kChunk = 12;  // a multiple of two and of three intervals, too long to predict
-    return Task{.item = cell / tracks,
-                .repetition = static_cast<int>(fewest),
-                .track = cell % tracks,
-                .chunk = kChunk,
-                .cell = cell,
-                .level = without_dust(*block.variation.staircase,
-                                      runs[static_cast<std::size_t>(cell)].level())};
+    return TrialPlan{.item = cell / tracks,
+                     .repetition = static_cast<int>(fewest),
+                     .track = cell % tracks,
+                     .chunk = kChunk,
+                     .cell = cell,
+                     .level = without_rounding_error(*block.variation.staircase,
+                                                     runs[static_cast<std::size_t>(cell)].level())};
 }
 
 StudyInterval interval_of(const Protocol& protocol, const Block& block, std::size_t condition,
                           std::optional<double> value) {
     const Condition& one = protocol.conditions[condition];
     StudyInterval interval{.condition = one.name, .values = one.values, .value = value};
-    if (value) interval.values = felt_values(one, block.variation, *value);
+    if (value) interval.values = interval_values(one, block.variation, *value);
     return interval;
 }
 
 /// The intervals, and which of them is the target.
-void fill_intervals(const Protocol& protocol, int number, const Task& task, Trial& trial) {
+void fill_intervals(const Protocol& protocol, int number, const TrialPlan& plan, Trial& trial) {
     const Block& block = block_at(protocol, trial.block);
-    const StudyItem& item = block.items[static_cast<std::size_t>(task.item)];
+    const StudyItem& item = block.items[static_cast<std::size_t>(plan.item)];
     const Variation& vary = block.variation;
     const auto reference = vary.any() ? std::optional(vary.reference) : std::nullopt;
     std::optional<double> value = reference;
-    if (task.level) value = vary.reference + *task.level;
+    if (plan.level) value = vary.reference + *plan.level;
     if (trial.form == TrialForm::adjust) {
         Random draws = draws_of(protocol, number, trial.block, Draw::start, trial.position);
         value = vary.lowest + (vary.highest - vary.lowest) * draws.uniform();
@@ -131,8 +131,8 @@ void fill_intervals(const Protocol& protocol, int number, const Task& task, Tria
     const StudyInterval compared = interval_of(protocol, block, item.comparison, value);
     const auto kind = [&](int kinds, Draw what) {
         return balanced_kind(
-            kinds, task.repetition, task.chunk, number + task.cell,
-            draws_of(protocol, number, trial.block, what, task.cell, task.repetition / task.chunk));
+            kinds, plan.repetition, plan.chunk, number + plan.cell,
+            draws_of(protocol, number, trial.block, what, plan.cell, plan.repetition / plan.chunk));
     };
     trial.intervals.assign(static_cast<std::size_t>(block.intervals()), plain);
     if (block.intervals() == 1) {
@@ -143,7 +143,7 @@ void fill_intervals(const Protocol& protocol, int number, const Task& task, Tria
     trial.target = turned ? 1 : kind(block.intervals(), Draw::target);
     trial.intervals[static_cast<std::size_t>(trial.target)] = compared;
     // Where the surfaces differ without a level, either may be the odd one.
-    const bool either = trial.form == TrialForm::three_interval && !task.level;
+    const bool either = trial.form == TrialForm::three_interval && !plan.level;
     if (either && kind(2, Draw::odd_ones) == 1)
         for (StudyInterval& one : trial.intervals) one = one == plain ? compared : plain;
 }
@@ -190,22 +190,22 @@ std::optional<Trial> next_trial(const Protocol& protocol, int number,
             answered, block_number, [](const AnsweredTrial& one) { return one.trial.block; });
         const auto in_block = answered.subspan(static_cast<std::size_t>(first - answered.begin()));
         const int position = static_cast<int>(in_block.size());
-        std::optional<Task> task;
+        std::optional<TrialPlan> plan;
         if (block.variation.staircase)
-            task = adaptive_task(protocol, block_number, number, in_block);
+            plan = adaptive_trial(protocol, block_number, number, in_block);
         else if (position < block.most_trials())
-            task = constant_task(protocol, block_number, number, position);
-        if (!task) continue;
+            plan = constant_trial(protocol, block_number, number, position);
+        if (!plan) continue;
         Trial trial{.number = static_cast<int>(answered.size()),
                     .block = block_number,
                     .position = position,
                     .practice = block.practice,
                     .form = block.form,
-                    .item = task->item,
-                    .repetition = task->repetition,
-                    .track = task->track,
-                    .level = task->level};
-        fill_intervals(protocol, number, *task, trial);
+                    .item = plan->item,
+                    .repetition = plan->repetition,
+                    .track = plan->track,
+                    .level = plan->level};
+        fill_intervals(protocol, number, *plan, trial);
         return trial;
     }
     return std::nullopt;

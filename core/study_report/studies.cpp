@@ -83,7 +83,7 @@ void require_one_protocol(const std::vector<StudyRecord>& records) {
     throw InputError(text);
 }
 
-void require_other_labels(const std::vector<StudyRecord>& records) {
+void require_distinct_labels(const std::vector<StudyRecord>& records) {
     std::map<std::string, std::string> files;
     for (const StudyRecord& record : records) {
         const auto [known, is_new] =
@@ -109,7 +109,7 @@ Study read_studies(const std::vector<std::filesystem::path>& files) {
     }
     if (study.participants.empty()) return study;
     require_one_protocol(study.participants);
-    require_other_labels(study.participants);
+    require_distinct_labels(study.participants);
     const StudyRecord& first = study.participants.front();
     study.protocol = protocol_of(first.identity.protocol_text, first.file, {});
     for (const StudyRecord& record : study.participants) require_trials_of(study.protocol, record);

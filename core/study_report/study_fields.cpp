@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "core/files/plain_text.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study_report/study_report.hpp"
-#include "core/study_report/study_words.hpp"
+#include "core/study_report/study_sentences.hpp"
 
 namespace dibhr {
 
@@ -85,17 +85,17 @@ void add_motion(Fields& row, const IntervalMotion& motion) {
     row.add("contact_updates", motion.contact_updates);
     row.add({"", "moves"}, motion.moves);
     row.add({"/moves_per_update", ""}, motion.updates > 0 ? moves / updates : 0.0);
-    row.brief({"/force_sent_newton/mean", "sent_newton"}, motion.sent_newton, 3,
-              "force sent, mean [N]");
-    row.brief({"/force_sent_newton/peak", "sent_peak_newton"}, motion.sent_peak_newton, 3,
-              "peak [N]");
+    row.significant({"/force_sent_newton/mean", "sent_newton"}, motion.sent_newton, 3,
+                    "force sent, mean [N]");
+    row.significant({"/force_sent_newton/peak", "sent_peak_newton"}, motion.sent_peak_newton, 3,
+                    "peak [N]");
     row.add({"/force_spring_newton/mean", "spring_newton"}, motion.spring_newton);
     row.add({"/force_spring_newton/peak", "spring_peak_newton"}, motion.spring_peak_newton);
     row.add("path_mm", motion.path_mm);
-    row.brief("speed_mm_per_s", motion.speed_mm_per_s(), 3, "speed [mm/s]");
-    row.brief({"/variation_deg/mean", "turning_mean_deg"}, turning.mean_deg, 4,
-              "turning of the force [deg]");
-    row.brief({"/variation_deg/sd", "turning_sd_deg"}, turning.sd_deg, 4, "sd [deg]");
+    row.significant("speed_mm_per_s", motion.speed_mm_per_s(), 3, "speed [mm/s]");
+    row.significant({"/variation_deg/mean", "turning_mean_deg"}, turning.mean_deg, 4,
+                    "turning of the force [deg]");
+    row.significant({"/variation_deg/sd", "turning_sd_deg"}, turning.sd_deg, 4, "sd [deg]");
     row.add({"/variation_deg/pairs", "turning_pairs"}, turning.pairs);
 }
 
@@ -160,7 +160,7 @@ Json test_json(const std::optional<TestResult>& test) {
 }
 
 Fields fields_of(const ShareFinding& share) {
-    const bool several = share.across.count > 1;
+    const bool several = share.participants_mean.count > 1;
     const auto& test = share.test;
     const auto& d_prime = share.d_prime;
     Fields row;
@@ -172,9 +172,10 @@ Fields fields_of(const ShareFinding& share) {
     row.add("share", interval_json(share.all.share(), share.interval));
     row.show("of all", unbroken(percent_text(share.all.share())));
     row.show(kIntervalHead, share_cell(share.interval));
-    row.add("participants_mean", estimate_json(share.across));
-    row.show("mean over participants", several ? percent_text(share.across.value) : kNoCell);
-    row.show(kIntervalHead, several ? share_cell(share.across.interval) : kNoCell);
+    row.add("participants_mean", estimate_json(share.participants_mean));
+    row.show("mean over participants",
+             several ? percent_text(share.participants_mean.value) : kNoCell);
+    row.show(kIntervalHead, several ? share_cell(share.participants_mean.interval) : kNoCell);
     row.add("chance", or_null(share.chance));
     row.add("test", test_json(test));
     row.add("adjusted_p", test ? Json(share.adjusted_p) : Json());
@@ -200,13 +201,13 @@ Fields fields_of(const Study& study, const ParticipantThreshold& one) {
     row.show("threshold", number_cell(function.threshold));
     row.show(kIntervalHead, interval_cell(fit.threshold));
     row.add("scale", interval_json(function.scale, fit.scale));
-    row.brief("slope", function.slope(), 3, "slope");
-    row.brief("guess", function.guess, 2, "guess rate");
-    row.brief("lapse", function.lapse, 2, "lapse rate");
+    row.significant("slope", function.slope(), 3, "slope");
+    row.significant("guess", function.guess, 2, "guess rate");
+    row.significant("lapse", function.lapse, 2, "lapse rate");
     row.add("deviance", fit.deviance);
-    row.brief("fit_p", fit.fit_p, 2, "p of the fit");
+    row.significant("fit_p", fit.fit_p, 2, "p of the fit");
     row.plain("trials", fit.trials, "trials");
-    row.brief("reversal_mean", one.reversal_mean, 3, "mean of reversals");
+    row.significant("reversal_mean", one.reversal_mean, 3, "mean of reversals");
     row.add(
         "levels", json_list(one.counts, [](const LevelCount& level) -> Json {
             return {{"level", level.x}, {"hits", level.count.hits}, {"trials", level.count.trials}};

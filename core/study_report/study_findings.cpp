@@ -44,7 +44,7 @@ struct BlockAnswers {
     std::size_t block{0};
     std::vector<Answers> by_participant{};
 
-    [[nodiscard]] const Block& rule() const { return study.protocol.blocks[block]; }
+    [[nodiscard]] const Block& block_definition() const { return study.protocol.blocks[block]; }
 
     /// As count_of(), of each participant.
     template <typename IsOne, typename IsHit>
@@ -65,7 +65,7 @@ bool has_answer(const AnsweredTrial& one) {
     return one.answer.choice >= 0 || one.answer.number.has_value();
 }
 
-bool says_first(const AnsweredTrial& one) {
+bool chose_first(const AnsweredTrial& one) {
     return one.answer.choice == 0;
 }
 
@@ -79,7 +79,7 @@ struct OfItem {
 };
 
 /// Picks one item's trials without a difference (level 0).
-auto of_nothing(std::size_t item) {
+auto without_difference(std::size_t item) {
     return
         [item](const AnsweredTrial& one) { return OfItem{item}(one) && *one.trial.level == 0.0; };
 }
@@ -109,7 +109,7 @@ BlockAnswers answers_in(const Study& study, std::size_t block) {
     return all;
 }
 
-std::vector<double> known(std::span<const double> values) {
+std::vector<double> finite_only(std::span<const double> values) {
     std::vector<double> kept;
     for (const double value : values)
         if (std::isfinite(value)) kept.push_back(value);
@@ -129,10 +129,11 @@ ShareFinding share_finding(std::string name, std::vector<Count> counts,
         if (count.trials > 0) shares.push_back(count.share());
     found.all = sum_of(found.by_participant);
     found.interval = exact_interval(found.all);
-    found.across = mean_of(shares);
-    const bool alike = shares.size() > 1 && std::isinf(found.across.interval.low);
+    found.participants_mean = mean_of(shares);
+    const bool alike = shares.size() > 1 && std::isinf(found.participants_mean.interval.low);
     // Where all shares are equal, only the variation of trials gives an interval.
-    found.across.interval = alike ? found.interval : clamped(found.across.interval, 0.0, 1.0);
+    found.participants_mean.interval =
+        alike ? found.interval : clamped(found.participants_mean.interval, 0.0, 1.0);
     return found;
 }
 
@@ -160,7 +161,7 @@ std::string condition_name(const Protocol& protocol, std::size_t condition) {
 
 /// Shares where no parameter varies: which of two was chosen, and whether the odd one was found.
 void add_plain_choices(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     const Protocol& protocol = answers.study.protocol;
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         const bool oddity = block.form == TrialForm::three_interval;
@@ -191,16 +192,16 @@ std::string level_name(const Variation& vary, double level) {
 
 /// Share right at each constant level.
 void add_levels(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     const bool yes_no = block.form == TrialForm::explore;
     for (std::size_t item = 0; item < block.items.size(); ++item) {
-        const Count false_alarms = sum_of(answers.counts(of_nothing(item), says_first));
+        const Count false_alarms = sum_of(answers.counts(without_difference(item), chose_first));
         for (const double level : block.variation.levels) {
             const auto at_level = [&](const AnsweredTrial& one) {
                 return OfItem{item}(one) && one.trial.level == level && (yes_no || one.right);
             };
             const auto hit = [yes_no](const AnsweredTrial& one) {
-                return yes_no ? says_first(one) : *one.right;
+                return yes_no ? chose_first(one) : *one.right;
             };
             const std::vector<Count> counts = answers.counts(at_level, hit);
             if (with_trials(counts) == 0) continue;
@@ -224,7 +225,7 @@ void add_levels(const BlockAnswers& answers, BlockFindings& found) {
 /// A participant's guess rate: given by the form; of yes and no measured in the trials at level 0.
 double guess_rate(const Block& block, const Answers& own, std::size_t item) {
     if (block.form != TrialForm::explore) return chance_of(block.form);
-    const Count caught = count_of(own, of_nothing(item), says_first);
+    const Count caught = count_of(own, without_difference(item), chose_first);
     constexpr double kMostGuessed = 0.9;
     return caught.trials > 0 ? std::min(caught.share(), kMostGuessed) : 0.0;
 }
@@ -293,19 +294,19 @@ void summarize(ThresholdFinding& finding) {
     std::vector<double> or_sides;
     for (const ParticipantThreshold& one : finding.fits) {
         thresholds.push_back(one.fit.function.threshold);
-        or_sides.push_back(one.threshold_or_side());
+        or_sides.push_back(one.threshold_or_infinite());
         finding.unbounded += one.bounded() ? 0 : 1;
         finding.below += std::isinf(or_sides.back()) && or_sides.back() < 0.0 ? 1 : 0;
         finding.above += std::isinf(or_sides.back()) && or_sides.back() > 0.0 ? 1 : 0;
     }
     if (finding.unbounded > 0) thresholds.clear();
-    finding.across = mean_of(thresholds);
+    finding.participants_mean = mean_of(thresholds);
     finding.median = median_of(or_sides);
 }
 
 ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
                               const AnalysisSettings& settings, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     const Variation& vary = block.variation;
     const std::string of = item_name(answers.study.protocol, block, item);
     ThresholdFinding finding{
@@ -314,11 +315,11 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
         .parameter = vary.parameter,
         .reference = vary.reference,
         .settings = {.curve = settings.curve, .bootstraps = settings.bootstraps}};
-    for (std::size_t who = 0; who < answers.by_participant.size(); ++who) {
-        const auto& own = answers.by_participant[who];
+    for (std::size_t participant = 0; participant < answers.by_participant.size(); ++participant) {
+        const auto& own = answers.by_participant[participant];
         const LevelCounts counts = counts_by_size(block, own, item);
         add_all(finding.all, counts);
-        const StudyRecord& record = answers.study.participants[who];
+        const StudyRecord& record = answers.study.participants[participant];
         if (!can_be_fitted(counts)) {
             found.remarks.push_back(record.identity.participant + " has too few answers of " + of +
                                     " for a psychometric function.");
@@ -329,7 +330,8 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
             vary.staircase ? same_staircases(*vary.staircase, vary.tracks) : same_levels(counts);
         const auto seed =
             static_cast<std::uint64_t>(record.identity.number) * 1000 + answers.block * 100 + item;
-        finding.fits.push_back({who, counts, fit_of(counts, finding.settings, simulate, seed),
+        finding.fits.push_back({participant, counts,
+                                fit_of(counts, finding.settings, simulate, seed),
                                 vary.staircase ? mean_of_reversals(block, own, item) : kNotKnown});
     }
     summarize(finding);
@@ -338,7 +340,7 @@ ThresholdFinding threshold_of(const BlockAnswers& answers, std::size_t item,
 
 /// Adds remarks on trials that are in no threshold, and on a guess rate that was not measured.
 void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     const bool yes_no = block.form == TrialForm::explore;
     const int nothing =
         answers.count([](const AnsweredTrial& one) { return *one.trial.level == 0.0; }).hits;
@@ -365,14 +367,14 @@ void remark_on_levels(const BlockAnswers& answers, BlockFindings& found) {
 /// Adds a remark where participants gave different numbers of answers, because each still counts as
 /// one. The trials of staircases always differ.
 void remark_on_answers(const BlockAnswers& answers, BlockFindings& found) {
-    if (answers.rule().variation.staircase) return;
+    if (answers.block_definition().variation.staircase) return;
     std::size_t most = 0;
     for (const auto& own : answers.by_participant) most = std::max(most, own.size());
     std::vector<std::string> fewer;
-    for (std::size_t who = 0; who < answers.by_participant.size(); ++who) {
-        const std::size_t count = answers.by_participant[who].size();
+    for (std::size_t participant = 0; participant < answers.by_participant.size(); ++participant) {
+        const std::size_t count = answers.by_participant[participant].size();
         if (count > 0 && count < most)
-            fewer.push_back(answers.study.participants[who].identity.participant + " " +
+            fewer.push_back(answers.study.participants[participant].identity.participant + " " +
                             std::to_string(count));
     }
     if (!fewer.empty())
@@ -397,7 +399,7 @@ ValueFinding value_finding(const BlockAnswers& answers, std::string name, const 
         found.by_participant.push_back(mean_of(values).value);
     }
     found.trials = static_cast<int>(all.size());
-    std::vector<double> each = known(found.by_participant);
+    std::vector<double> each = finite_only(found.by_participant);
     if (each.size() == 1) each = all;
     found.mean = mean_of(each);
     found.median = median_of(each);
@@ -406,7 +408,7 @@ ValueFinding value_finding(const BlockAnswers& answers, std::string name, const 
 }
 
 void add_adjustments(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         const Variation& vary = block.variation;
         const auto off = [&vary](const AnsweredTrial& one) {
@@ -425,10 +427,11 @@ void compare_conditions(BlockFindings& found) {
     const std::vector<ValueFinding>& values = found.values;
     if (values.size() < 2) return;
     std::vector<std::vector<double>> rows;
-    for (std::size_t who = 0; who < values.front().by_participant.size(); ++who) {
+    for (std::size_t participant = 0; participant < values.front().by_participant.size();
+         ++participant) {
         std::vector<double> row;
-        for (const ValueFinding& value : values) row.push_back(value.by_participant[who]);
-        if (known(row).size() == row.size()) rows.push_back(std::move(row));
+        for (const ValueFinding& value : values) row.push_back(value.by_participant[participant]);
+        if (finite_only(row).size() == row.size()) rows.push_back(std::move(row));
     }
     if (static_cast<int>(rows.size()) < kFewestForRanks) {
         found.remarks.push_back("Conditions are not tested against each other: signed ranks need " +
@@ -452,7 +455,7 @@ void compare_conditions(BlockFindings& found) {
 }
 
 void add_ratings(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         found.values.push_back(
             value_finding(answers, item_name(answers.study.protocol, block, item), OfItem{item},
@@ -463,7 +466,7 @@ void add_ratings(const BlockAnswers& answers, BlockFindings& found) {
 
 /// How often each condition got each answer; compares conditions by their first answer.
 void add_answers(const BlockAnswers& answers, BlockFindings& found) {
-    const Block& block = answers.rule();
+    const Block& block = answers.block_definition();
     for (std::size_t item = 0; item < block.items.size(); ++item) {
         const std::string of = item_name(answers.study.protocol, block, item);
         // With two answers, the share of the second follows from the first.
@@ -479,7 +482,7 @@ void add_answers(const BlockAnswers& answers, BlockFindings& found) {
         }
         found.values.push_back(
             value_finding(answers, of, with_choice(item),
-                          [](const AnsweredTrial& one) { return says_first(one) ? 1.0 : 0.0; }));
+                          [](const AnsweredTrial& one) { return chose_first(one) ? 1.0 : 0.0; }));
     }
     compare_conditions(found);
     found.compared = "share of " + in_quotes(block.question.answers.front());
@@ -502,24 +505,24 @@ Estimate median_reaction(const BlockAnswers& answers) {
 BlockFindings block_findings(const Study& study, std::size_t block,
                              const AnalysisSettings& settings) {
     const BlockAnswers answers = answers_in(study, block);
-    const Block& rule = answers.rule();
+    const Block& block_definition = answers.block_definition();
     const Count answered = answers.count(has_answer);
     BlockFindings found{
         .block = block, .trials = answered.trials, .unanswered = answered.trials - answered.hits};
     if (found.trials == 0) return found;
-    const bool adaptive = rule.variation.staircase.has_value();
-    const bool leveled = adaptive || !rule.variation.levels.empty();
-    if (rule.form == TrialForm::adjust) {
+    const bool adaptive = block_definition.variation.staircase.has_value();
+    const bool leveled = adaptive || !block_definition.variation.levels.empty();
+    if (block_definition.form == TrialForm::adjust) {
         add_adjustments(answers, found);
-    } else if (rule.form == TrialForm::rating) {
+    } else if (block_definition.form == TrialForm::rating) {
         add_ratings(answers, found);
     } else if (!leveled) {
-        rule.form == TrialForm::explore ? add_answers(answers, found)
-                                        : add_plain_choices(answers, found);
+        block_definition.form == TrialForm::explore ? add_answers(answers, found)
+                                                    : add_plain_choices(answers, found);
     } else {
         remark_on_levels(answers, found);
         if (!adaptive) add_levels(answers, found);
-        for (std::size_t item = 0; item < rule.items.size(); ++item)
+        for (std::size_t item = 0; item < block_definition.items.size(); ++item)
             found.thresholds.push_back(threshold_of(answers, item, settings, found));
     }
     remark_on_answers(answers, found);
@@ -537,7 +540,7 @@ bool ParticipantThreshold::bounded() const noexcept {
     return low && std::isfinite(fit.threshold.high);
 }
 
-double ParticipantThreshold::threshold_or_side() const noexcept {
+double ParticipantThreshold::threshold_or_infinite() const noexcept {
     const double threshold = fit.function.threshold;
     if (bounded() || counts.empty()) return threshold;
     const auto [low, high] = std::ranges::minmax_element(counts, {}, &LevelCount::x);

@@ -25,7 +25,7 @@ struct ShareFinding {
     std::vector<Count> by_participant{};  ///< as Study::participants; no trials: had none
     Count all{};
     Interval interval{};                   ///< exact, of all trials together
-    Estimate across{};                     ///< mean of the participants' shares
+    Estimate participants_mean{};          ///< mean of the participants' shares
     std::optional<double> chance{};        ///< share by guessing; nothing: not defined
     std::optional<TestResult> test{};      ///< against chance
     double adjusted_p{1.0};                ///< of the tests of one block (Holm)
@@ -45,7 +45,7 @@ struct ParticipantThreshold {
     [[nodiscard]] bool bounded() const noexcept;
     /// The threshold. Infinite where it is not bounded and its most likely value lies below or
     /// above all tested levels: then only the side is known.
-    [[nodiscard]] double threshold_or_side() const noexcept;
+    [[nodiscard]] double threshold_or_infinite() const noexcept;
 };
 
 /// The threshold of one item of a block.
@@ -60,7 +60,7 @@ struct ThresholdFinding {
     LevelCounts all{};  ///< of all participants
     /// Mean of the participants' thresholds; NaN where one of them is not bounded. Bounded ones are
     /// no random selection, so a mean of them alone would be biased.
-    Estimate across{};
+    Estimate participants_mean{};
     /// Of all fits; one outside the levels counts as below or above them: may be infinite.
     Estimate median{};
     int below{0}, above{0};            ///< of the fits, outside the levels

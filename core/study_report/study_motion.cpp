@@ -188,8 +188,8 @@ std::vector<IntervalRow> motion_of(const Study& study,
                                    const std::function<void(double)>& progress) {
     std::vector<IntervalRow> rows;
     const ScratchFolder scratch;
-    for (std::size_t who = 0; who < study.participants.size(); ++who) {
-        const StudyRecord& record = study.participants[who];
+    for (std::size_t participant = 0; participant < study.participants.size(); ++participant) {
+        const StudyRecord& record = study.participants[participant];
         for (std::size_t k = 0; k < record.answered.size(); ++k) {
             const Trial& trial = record.answered[k].trial;
             if (record.session_bytes[k] == 0) continue;
@@ -198,12 +198,12 @@ std::vector<IntervalRow> motion_of(const Study& study,
             const std::vector<IntervalMotion> motion = motion_in(session, trial.intervals.size());
             const Block& block = study.protocol.blocks[static_cast<std::size_t>(trial.block)];
             for (std::size_t n = 0; n < motion.size(); ++n)
-                rows.push_back({who, trial.number, static_cast<int>(n),
+                rows.push_back({participant, trial.number, static_cast<int>(n),
                                 motion_condition(block, trial.intervals[n]), trial.practice,
                                 motion[n], trial.intervals[n].value});
             if (progress)
                 progress(
-                    (static_cast<double>(who) +
+                    (static_cast<double>(participant) +
                      static_cast<double>(k + 1) / static_cast<double>(record.answered.size())) /
                     static_cast<double>(study.participants.size()));
         }
@@ -224,10 +224,10 @@ std::vector<MotionFinding> motion_findings(const std::vector<IntervalRow>& rows)
     for (const auto& [condition, by_participant] : by_condition) {
         MotionFinding found{.condition = condition, .intervals = intervals[condition]};
         const auto& people = by_participant;
-        for (const auto& [who, motion] : people) found.all = joined(found.all, motion);
+        for (const auto& [participant, motion] : people) found.all = joined(found.all, motion);
         const auto mean = [&people](const auto& quantity) {
             std::vector<double> values;
-            for (const auto& [who, motion] : people) values.push_back(quantity(motion));
+            for (const auto& [participant, motion] : people) values.push_back(quantity(motion));
             return mean_of(values);
         };
         found.contact_share = mean([](const IntervalMotion& m) { return m.contact_share(); });

@@ -6,7 +6,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/study_report/study_fields.hpp"
 #include "core/study_report/study_report.hpp"
-#include "core/study_report/study_words.hpp"
+#include "core/study_report/study_sentences.hpp"
 
 namespace dibhr {
 
@@ -24,7 +24,7 @@ Json threshold_json(const Study& study, const ThresholdFinding& finding) {
             {"curve", name_of(finding.settings.curve)},
             {"bootstraps", finding.settings.bootstraps},
             {"most_lapse", finding.settings.most_lapse},
-            {"participants_mean", estimate_json(finding.across)},
+            {"participants_mean", estimate_json(finding.participants_mean)},
             {"participants_median", finding.median.value},
             {"participants_median_interval",
              {{"low", finding.median.interval.low},

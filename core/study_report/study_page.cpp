@@ -4,10 +4,10 @@
 
 #include "core/files/plain_text.hpp"
 #include "core/report/page_parts.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study_report/study_fields.hpp"
 #include "core/study_report/study_report.hpp"
-#include "core/study_report/study_words.hpp"
+#include "core/study_report/study_sentences.hpp"
 
 namespace dibhr {
 

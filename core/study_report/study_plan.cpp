@@ -12,7 +12,7 @@
 
 #include "core/error.hpp"
 #include "core/psychophysics/random.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study_report/study_findings.hpp"
 
 namespace dibhr {
@@ -35,7 +35,7 @@ Protocol with_one_block(Protocol protocol, std::size_t block, int repetitions) {
 
 /// Simulates participants until there are `count`. `number` gives the protocol another seed, and so
 /// other orders and other people.
-void fill_up(Study& study, const PlanSettings& settings, int number, int count) {
+void add_participants(Study& study, const PlanSettings& settings, int number, int count) {
     Protocol protocol = study.protocol;
     protocol.seed = draws_for(settings.seed, {static_cast<std::uint64_t>(number)}).bits();
     for (int who = static_cast<int>(study.participants.size()) + 1; who <= count; ++who)
@@ -57,7 +57,7 @@ bool is_of_effect(const std::string& name, const Condition& condition) {
 /// The estimate as reported: the median of several participants; of one its bounded threshold.
 double estimate_of(const ThresholdFinding& threshold) {
     const bool alone = threshold.fits.size() == 1;
-    return alone ? threshold.across.value : threshold.median.value;
+    return alone ? threshold.participants_mean.value : threshold.median.value;
 }
 
 /// Outcomes by the finding's name, without findings that the effect does not concern.
@@ -65,12 +65,13 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
     const BlockFindings found = findings_of(study, {.bootstraps = 0}).front();
     const Block& block = study.protocol.blocks.front();
     const bool leveled = block.variation.staircase || !block.variation.levels.empty();
-    const Condition* const liked = settings.effect.prefers.empty()
-                                       ? nullptr
-                                       : study.protocol.condition_named(settings.effect.prefers);
+    const Condition* const preferred =
+        settings.effect.prefers.empty() ? nullptr
+                                        : study.protocol.condition_named(settings.effect.prefers);
     std::map<std::string, Outcome> outcomes;
     for (const ShareFinding& share : found.shares) {
-        const bool of_effect = leveled || (liked != nullptr && is_of_effect(share.name, *liked));
+        const bool of_effect =
+            leveled || (preferred != nullptr && is_of_effect(share.name, *preferred));
         if (share.test && of_effect) outcomes[share.name].found = share.adjusted_p < kSignificance;
     }
     for (const ThresholdFinding& threshold : found.thresholds)
@@ -85,7 +86,8 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
         for (std::size_t b = a + 1; b < items; ++b) {
             const std::string first = item_name(study.protocol, block, a);
             const std::string second = item_name(study.protocol, block, b);
-            if (liked == nullptr || (first != liked->name && second != liked->name)) continue;
+            if (preferred == nullptr || (first != preferred->name && second != preferred->name))
+                continue;
             std::string name = first;
             Outcome& outcome = outcomes[name.append(" against ").append(second)];
             for (const PairTest& pair : found.pairs)
@@ -97,7 +99,7 @@ std::map<std::string, Outcome> outcomes_of(const Study& study, const PlanSetting
 }
 
 /// Outcomes of all studies of one size, by finding.
-using Gathered = std::map<std::string, std::vector<Outcome>>;
+using OutcomesByFinding = std::map<std::string, std::vector<Outcome>>;
 
 PlannedStudies summed(int participants, const std::vector<Outcome>& outcomes, double truth) {
     PlannedStudies planned{.participants = participants, .precision = kNotKnown};
@@ -145,25 +147,26 @@ std::vector<PlanLine> lines_of(const Protocol& whole, std::size_t block_number, 
     std::map<std::string, PlanLine> lines;
     for (const int count : kCounts) {
         if (count > settings.most_participants) break;
-        Gathered gathered;
+        OutcomesByFinding by_finding;
         for (int number = 0; number < settings.studies; ++number) {
             // The larger study contains all participants of the smaller one.
             Study& study = studies[static_cast<std::size_t>(number)];
-            fill_up(study, settings, number, count);
+            add_participants(study, settings, number, count);
             for (const auto& [name, outcome] : outcomes_of(study, settings))
-                gathered[name].push_back(outcome);
+                by_finding[name].push_back(outcome);
         }
         // The effect concerns no finding. (One participant alone may have no test yet.)
-        if (gathered.empty() && count >= kFewestForRanks) break;
-        bool all_enough = !gathered.empty();
-        for (const auto& [name, outcomes] : gathered) {
+        if (by_finding.empty() && count >= kFewestForRanks) break;
+        bool all_enough = !by_finding.empty();
+        for (const auto& [name, outcomes] : by_finding) {
             PlanLine& line = lines[name];
             line.finding = name;
             line.studies.push_back(summed(count, outcomes, settings.effect.threshold));
             const bool of_people = count >= kFewestForRanks || line.studies.back().of_threshold();
-            if (line.enough == 0 && of_people && is_enough(line.studies.back(), settings.power))
-                line.enough = count;
-            all_enough = all_enough && line.enough > 0;
+            if (line.needed_participants == 0 && of_people &&
+                is_enough(line.studies.back(), settings.power))
+                line.needed_participants = count;
+            all_enough = all_enough && line.needed_participants > 0;
         }
         if (progress) progress(static_cast<double>(count) / settings.most_participants);
         if (all_enough) break;
@@ -177,7 +180,7 @@ std::vector<PlanLine> lines_of(const Protocol& whole, std::size_t block_number, 
         line.block = block.name;
         line.repetitions = repetitions;
         line.trials = static_cast<int>(std::lround(trials));
-        line.as_on_the_page =
+        line.as_in_protocol =
             repetitions == (block.variation.staircase ? block.variation.tracks : block.repetitions);
         all.push_back(std::move(line));
     }
@@ -232,11 +235,11 @@ std::string plan_text(const std::vector<PlanLine>& lines, const PlanSettings& se
         if (line.block != block) text << (block.empty() ? "" : "\n") << line.block << '\n';
         block = line.block;
         text << "  " << line.finding << ", " << counted(line.trials, "trial") << " each"
-             << (line.as_on_the_page ? " (as on the page)" : "") << ": ";
+             << (line.as_in_protocol ? " (as on the page)" : "") << ": ";
         const bool threshold = line.studies.back().of_threshold();
         thresholds = thresholds || threshold;
-        if (line.enough > 0)
-            text << counted(line.enough, "participant") << '\n';
+        if (line.needed_participants > 0)
+            text << counted(line.needed_participants, "participant") << '\n';
         else
             text << "more than " << line.studies.back().participants << " participants\n";
         text << "    " << (threshold ? "within" : "found");

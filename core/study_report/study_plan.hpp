@@ -41,11 +41,11 @@ struct PlanLine {
     std::string finding{};  ///< "dibhr rather than pga"
     int repetitions{1};     ///< of the block; of staircases: tracks
     int trials{0};          ///< of one participant in the block, on average
-    bool as_on_the_page{false};
+    bool as_in_protocol{false};
     std::vector<PlannedStudies> studies{};  ///< by rising number of participants
     /// The fewest participants with that power in a test that is valid for people in general; of a
     /// threshold with a precision of 10 %; 0: none.
-    int enough{0};
+    int needed_participants{0};
 };
 
 /// Half, all and twice the repetitions of each block that counts. The same arguments give the same

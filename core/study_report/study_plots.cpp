@@ -22,7 +22,7 @@ constexpr Box kArea{100.0, kTop_px, 960.0, 560.0};
 constexpr int kRows = 640;
 
 Ink found_ink() {
-    return look_of(Algorithm::dibhr).stroke.ink;
+    return style_of(Algorithm::dibhr).stroke.ink;
 }
 
 Ink faint(Ink ink, double opacity) {
@@ -206,7 +206,7 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
     // Of few people only the mean has an interval; else the median is drawn.
     const bool has_median =
         std::isfinite(finding.median.value) && finding.fits.size() >= kFewestForRanks;
-    const Estimate& of_people = has_median ? finding.median : finding.across;
+    const Estimate& of_people = has_median ? finding.median : finding.participants_mean;
     const Interval interval = alone ? finding.fits.front().fit.threshold : of_people.interval;
     const double threshold = alone ? first.threshold : of_people.value;
     const double height = first.share(first.threshold);  // half of what is not guessed nor lapsed
@@ -216,16 +216,16 @@ Canvas plot_threshold(const ThresholdFinding& finding, const std::string& title,
         if (std::isfinite(interval.low) || std::isfinite(interval.high))
             canvas.line({axes.at(std::max(interval.low, span.low), height).x, at.y},
                         {axes.at(std::min(interval.high, span.high), height).x, at.y},
-                        {look_of(Algorithm::pga).stroke.ink, 4.0});
+                        {style_of(Algorithm::pga).stroke.ink, 4.0});
         canvas.line(at, {at.x, kArea.bottom},
-                    {look_of(Algorithm::pga).stroke.ink, 1.5, Dash::dashed});
+                    {style_of(Algorithm::pga).stroke.ink, 1.5, Dash::dashed});
         canvas.clip_to_whole();
     }
     axes.draw_frame(canvas);
     draw_legend(canvas, {kArea.right - 330.0, kArea.bottom - 104.0},
                 {{"answers, all participants", {kTextInk, 1.5}, Marker::circle},
                  {alone ? "fitted" : "fitted, one each", {found_ink(), 2.5}, Marker::none},
-                 {"threshold, 95 %", {look_of(Algorithm::pga).stroke.ink, 4.0}, Marker::none}});
+                 {"threshold, 95 %", {style_of(Algorithm::pga).stroke.ink, 4.0}, Marker::none}});
     return canvas;
 }
 
@@ -235,13 +235,13 @@ Canvas plot_tracks(const Study& study, std::size_t block, std::size_t item,
     std::map<std::pair<std::size_t, int>, std::vector<Vec2>> tracks;
     std::vector<double> levels;
     std::size_t longest = 2;
-    for (std::size_t who = 0; who < study.participants.size(); ++who) {
-        for (const AnsweredTrial& one : study.participants[who].answered) {
+    for (std::size_t participant = 0; participant < study.participants.size(); ++participant) {
+        for (const AnsweredTrial& one : study.participants[participant].answered) {
             const Trial& trial = one.trial;
             if (static_cast<std::size_t>(trial.block) != block ||
                 static_cast<std::size_t>(trial.item) != item)
                 continue;
-            std::vector<Vec2>& track = tracks[{who, trial.track}];
+            std::vector<Vec2>& track = tracks[{participant, trial.track}];
             track.emplace_back(static_cast<double>(track.size() + 1), *trial.level);
             longest = std::max(longest, track.size());
             levels.push_back(*trial.level);

@@ -9,7 +9,7 @@
 #include "core/error.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/report/report_words.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/study_report/study_plots.hpp"
 
 namespace dibhr {

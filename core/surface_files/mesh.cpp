@@ -75,11 +75,11 @@ std::vector<GridPlace> border_of(const DepthSurface& surface) {
 /// A closed body of triangles, whose normals point outwards; its underside is at z = 0.
 class Plate {
   public:
-    Plate(const FeltSurface& felt, OutputFile& file)
-        : felt_(felt),
-          lift_mm_(static_cast<float>(kPlate_mm - elevation_range(felt.surface).lowest_px *
-                                                      felt.pixel_pitch_mm)),
-          border_(border_of(felt.surface)),
+    Plate(const ExportedSurface& exported, OutputFile& file)
+        : felt_(exported),
+          lift_mm_(static_cast<float>(kPlate_mm - elevation_range(exported.surface).lowest_px *
+                                                      exported.pixel_pitch_mm)),
+          border_(border_of(exported.surface)),
           pieces_(file) {}
 
     void write() {
@@ -125,7 +125,7 @@ class Plate {
         pieces_.add(kNoAttributes);
     }
 
-    const FeltSurface& felt_;
+    const ExportedSurface& felt_;
     float lift_mm_;
     std::vector<GridPlace> border_;
     Pieces pieces_;
@@ -133,15 +133,15 @@ class Plate {
 
 }  // namespace
 
-void write_ply(const FeltSurface& felt, OutputFile& file) {
-    const DepthSurface& surface = felt.surface;
-    const bool has_colour = felt.colour != nullptr && !felt.colour->rgb.empty();
+void write_ply(const ExportedSurface& exported, OutputFile& file) {
+    const DepthSurface& surface = exported.surface;
+    const bool has_colour = exported.colour != nullptr && !exported.colour->rgb.empty();
     Pieces pieces(file);
     pieces.add(ply_header(surface, has_colour));
     for (int j = 0; j < surface.rows(); ++j) {
         for (int i = 0; i < surface.columns(); ++i) {
-            pieces.add(place_mm(felt, i, j));
-            if (has_colour) pieces.add(colour_under(*felt.colour, surface, {i, j}));
+            pieces.add(place_mm(exported, i, j));
+            if (has_colour) pieces.add(colour_under(*exported.colour, surface, {i, j}));
         }
     }
     const auto number_of = [&surface](GridPlace at) {
@@ -155,8 +155,8 @@ void write_ply(const FeltSurface& felt, OutputFile& file) {
     pieces.send();
 }
 
-void write_stl(const FeltSurface& felt, OutputFile& file) {
-    Plate(felt, file).write();
+void write_stl(const ExportedSurface& exported, OutputFile& file) {
+    Plate(exported, file).write();
 }
 
 }  // namespace dibhr

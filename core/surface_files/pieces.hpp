@@ -22,11 +22,11 @@ namespace dibhr {
 }
 
 /// Where a VERTEX is [mm]: x to the right, y up from the lowest row, z to the viewer.
-[[nodiscard]] inline glm::vec3 place_mm(const FeltSurface& felt, int i, int j) noexcept {
-    const double pitch_mm = felt.pixel_pitch_mm;
+[[nodiscard]] inline glm::vec3 place_mm(const ExportedSurface& exported, int i, int j) noexcept {
+    const double pitch_mm = exported.pixel_pitch_mm;
     return {static_cast<float>(i * pitch_mm),
-            static_cast<float>((felt.surface.rows() - 1 - j) * pitch_mm),
-            static_cast<float>(written_px(felt.surface, i, j) * pitch_mm)};
+            static_cast<float>((exported.surface.rows() - 1 - j) * pitch_mm),
+            static_cast<float>(written_px(exported.surface, i, j) * pitch_mm)};
 }
 
 /// Buffers bytes for a file; numbers are little-endian.
@@ -64,9 +64,9 @@ class Pieces {
     std::string bytes_{};
 };
 
-void write_pfm(const FeltSurface& felt, OutputFile& file);
-void write_relief_png(const FeltSurface& felt, OutputFile& file);
-void write_ply(const FeltSurface& felt, OutputFile& file);
-void write_stl(const FeltSurface& felt, OutputFile& file);
+void write_pfm(const ExportedSurface& exported, OutputFile& file);
+void write_relief_png(const ExportedSurface& exported, OutputFile& file);
+void write_ply(const ExportedSurface& exported, OutputFile& file);
+void write_stl(const ExportedSurface& exported, OutputFile& file);
 
 }  // namespace dibhr

@@ -24,7 +24,7 @@ constexpr double kHighestGrey = 65535.0;
                      "): choose another form, such as .pfm");
 }
 
-void be_silent(png_structp /*png*/, png_const_charp /*why*/) {}
+void ignore_warning(png_structp /*png*/, png_const_charp /*why*/) {}
 
 void take(png_structp png, png_bytep bytes, std::size_t count) {
     auto& taken = *static_cast<std::string*>(png_get_io_ptr(png));
@@ -38,7 +38,7 @@ class PngWriter {
   public:
     explicit PngWriter(OutputFile& file)
         : file_(file),
-          png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, be_silent)) {
+          png_(png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, fail, ignore_warning)) {
         info_ = png_ == nullptr ? nullptr : png_create_info_struct(png_);
         if (info_ == nullptr) {
             png_destroy_write_struct(&png_, nullptr);
@@ -52,14 +52,14 @@ class PngWriter {
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
 
-    void begin(const FeltSurface& felt) {
-        png_set_IHDR(png_, info_, static_cast<png_uint_32>(felt.surface.columns()),
-                     static_cast<png_uint_32>(felt.surface.rows()), 16, PNG_COLOR_TYPE_GRAY,
+    void begin(const ExportedSurface& exported) {
+        png_set_IHDR(png_, info_, static_cast<png_uint_32>(exported.surface.columns()),
+                     static_cast<png_uint_32>(exported.surface.rows()), 16, PNG_COLOR_TYPE_GRAY,
                      PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         const auto pixels_per_m =
-            static_cast<png_uint_32>(std::lround(1000.0 / felt.pixel_pitch_mm));
+            static_cast<png_uint_32>(std::lround(1000.0 / exported.pixel_pitch_mm));
         png_set_pHYs(png_, info_, pixels_per_m, pixels_per_m, PNG_RESOLUTION_METER);
-        say("Relief", scale_of(felt));
+        add_text("Relief", scale_of(exported));
         png_write_info(png_, info_);
         send();
     }
@@ -73,14 +73,14 @@ class PngWriter {
     }
 
   private:
-    static std::string scale_of(const FeltSurface& felt) {
-        const double ceiling_px = felt.surface.ceiling();
+    static std::string scale_of(const ExportedSurface& exported) {
+        const double ceiling_px = exported.surface.ceiling();
         return "0: 0 px; 65535: " + short_text(ceiling_px) + " px, " +
-               short_text(ceiling_px * felt.pixel_pitch_mm) +
-               " mm; a pixel: " + short_text(felt.pixel_pitch_mm) + " mm";
+               short_text(ceiling_px * exported.pixel_pitch_mm) +
+               " mm; a pixel: " + short_text(exported.pixel_pitch_mm) + " mm";
     }
 
-    void say(std::string keyword, std::string words) {
+    void add_text(std::string keyword, std::string words) {
         png_text text{};
         text.compression = PNG_TEXT_COMPRESSION_NONE;
         text.key = keyword.data();
@@ -114,12 +114,12 @@ void grey_row(const DepthSurface& surface, int j, std::vector<png_byte>& row) {
 
 }  // namespace
 
-void write_relief_png(const FeltSurface& felt, OutputFile& file) {
+void write_relief_png(const ExportedSurface& exported, OutputFile& file) {
     PngWriter png(file);
-    png.begin(felt);
+    png.begin(exported);
     std::vector<png_byte> row;
-    for (int j = 0; j < felt.surface.rows(); ++j) {
-        grey_row(felt.surface, j, row);
+    for (int j = 0; j < exported.surface.rows(); ++j) {
+        grey_row(exported.surface, j, row);
         png.add_row(row);
     }
     png.end();

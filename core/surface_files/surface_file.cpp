@@ -13,7 +13,7 @@ namespace {
 
 struct Form {
     std::string_view name;
-    void (*write)(const FeltSurface&, OutputFile&);
+    void (*write)(const ExportedSurface&, OutputFile&);
 };
 
 /// In the order of SurfaceFormat.
@@ -52,8 +52,8 @@ ElevationRange elevation_range(const DepthSurface& surface) {
 }
 
 /// The lowest row comes first; a negative scale means little-endian.
-void write_pfm(const FeltSurface& felt, OutputFile& file) {
-    const DepthSurface& surface = felt.surface;
+void write_pfm(const ExportedSurface& exported, OutputFile& file) {
+    const DepthSurface& surface = exported.surface;
     Pieces pieces(file);
     pieces.add("Pf\n" + std::to_string(surface.columns()) + ' ' + std::to_string(surface.rows()) +
                "\n-1.0\n");
@@ -65,8 +65,8 @@ void write_pfm(const FeltSurface& felt, OutputFile& file) {
     pieces.send();
 }
 
-void write_surface(const FeltSurface& felt, SurfaceFormat format, OutputFile& file) {
-    form_of(format).write(felt, file);
+void write_surface(const ExportedSurface& exported, SurfaceFormat format, OutputFile& file) {
+    form_of(format).write(exported, file);
 }
 
 }  // namespace dibhr

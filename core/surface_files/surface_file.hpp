@@ -33,7 +33,7 @@ inline constexpr SurfaceFormat kSurfaceFormats[]{SurfaceFormat::pfm, SurfaceForm
 inline constexpr double kPlate_mm = 2.0;
 
 /// The surface to write. A place without a finite elevation is written as ground, 0 px.
-struct FeltSurface {
+struct ExportedSurface {
     DepthSurface surface;
     double pixel_pitch_mm;
     const ColourImage* colour{nullptr};  ///< of the whole surface, any size; null, empty: none
@@ -48,6 +48,6 @@ struct ElevationRange {
 [[nodiscard]] ElevationRange elevation_range(const DepthSurface& surface);
 
 /// Writes all of it; the caller commits the file. Holds a few rows in memory. Throws InputError.
-void write_surface(const FeltSurface& felt, SurfaceFormat format, OutputFile& file);
+void write_surface(const ExportedSurface& exported, SurfaceFormat format, OutputFile& file);
 
 }  // namespace dibhr

@@ -42,7 +42,7 @@ milliseconds left_until(Clock::time_point end) {
 }
 
 template <typename Action>
-void unless_it_fails(const Action& act) noexcept {
+void ignore_errors(const Action& act) noexcept {
     try {
         act();
     } catch (const std::exception& failure) {
@@ -75,9 +75,9 @@ class Try {
 
     End run() {
         prepare();
-        if (!ended("hello", heard_hello())) return stopped() ? End::stopped : End::no_hello;
+        if (!ended("hello", receives_hello())) return stopped() ? End::stopped : End::no_hello;
         if (!ended("autobaud", locked_on())) return stopped() ? End::stopped : End::no_autobaud;
-        heard_.clear();
+        received_.clear();
         if (!ended("echo", all_echoed())) return stopped() ? End::stopped : End::echo;
         if (ended("answer", answers(port_, stop_))) return End::answers;  // step 6
         return stopped() ? End::stopped : End::silent;
@@ -89,7 +89,7 @@ class Try {
     [[nodiscard]] bool stopped() const { return stop_.stop_requested(); }
 
     bool ended(const char* step, bool done) const {
-        options_.watch({number_, step, done, baud_, heard_});
+        options_.on_step({number_, step, done, baud_, received_});
         return done;
     }
 
@@ -105,25 +105,25 @@ class Try {
 
     /// Waits until `wanted` was received. Other bytes may come first: some hosts see a 00 before
     /// the hello, a 13 before the A.
-    bool hears(Bytes wanted, milliseconds limit) {
+    bool receives(Bytes wanted, milliseconds limit) {
         const auto end = Clock::now() + limit;
         while (!stopped()) {
             const auto found =
-                std::search(heard_.begin(), heard_.end(), wanted.begin(), wanted.end());
-            if (found != heard_.end()) return true;
+                std::search(received_.begin(), received_.end(), wanted.begin(), wanted.end());
+            if (found != received_.end()) return true;
             const auto left = left_until(end);
             if (left <= milliseconds(0)) return false;
             const Bytes came = port_.read(std::min(left, kListen)).bytes;
-            heard_.insert(heard_.end(), came.begin(), came.end());
+            received_.insert(received_.end(), came.begin(), came.end());
         }
         return false;
     }
 
     /// Step 2.
-    bool heard_hello() {
+    bool receives_hello() {
         for (int k = 0; k < kHellos && !stopped(); ++k) {
             port_.write(kHello);
-            if (hears(kHelloAnswer, kHelloLimit)) return true;
+            if (receives(kHelloAnswer, kHelloLimit)) return true;
         }
         return false;
     }
@@ -132,17 +132,17 @@ class Try {
     bool locked_on() {
         port_.request(kDtrLow);
         port_.request(baud_);
-        heard_.clear();
+        received_.clear();
         port_.write(kAutobaud);
-        return hears(kAutobaud, kAutobaudLimit);
+        return receives(kAutobaud, kAutobaudLimit);
     }
 
     bool all_echoed() {
         for (std::size_t at = 0; at < image_.size(); at += kMostDataBytes) {
             if (!echoed(at)) return false;
-            options_.tell(static_cast<double>(std::min(at + kMostDataBytes, image_.size())) /
-                              static_cast<double>(image_.size()),
-                          number_);
+            options_.on_progress(static_cast<double>(std::min(at + kMostDataBytes, image_.size())) /
+                                     static_cast<double>(image_.size()),
+                                 number_);
         }
         return true;
     }
@@ -178,7 +178,7 @@ class Try {
     int number_;
     FtdiRequest baud_;
     const std::stop_token& stop_;
-    std::vector<std::uint8_t> heard_{};
+    std::vector<std::uint8_t> received_{};
     std::string echo_fault_{};
 };
 
@@ -202,7 +202,7 @@ std::string sentence_of(End end, const std::string& echo_fault) {
 
 }  // namespace
 
-std::optional<Reply> ask(FtdiPort& port, const Command& command, milliseconds limit) {
+std::optional<Reply> request_reply(FtdiPort& port, const Command& command, milliseconds limit) {
     port.write(encode(command));
     ReplyStream stream;
     const auto end = Clock::now() + limit;
@@ -219,24 +219,24 @@ bool answers(FtdiPort& port, const std::stop_token& stop) {
     port.request(kBaudRunTime);
     port.purge();
     for (int k = 0; k < kQuestions && !stop.stop_requested(); ++k) {
-        if (ask(port, Command{}, kAnswerLimit)) return true;
+        if (request_reply(port, Command{}, kAnswerLimit)) return true;
     }
     return false;
 }
 
-void leave_without_force(FtdiPort& port) noexcept {
+void send_stop_packets(FtdiPort& port) noexcept {
     for (int k = 0; k < kLastPackets; ++k) {
-        unless_it_fails([&] {
+        ignore_errors([&] {
             port.write(encode(no_force(Led::off)), kLastLimit);
             (void)port.read(kLastLimit);
         });
     }
-    unless_it_fails([&] { port.request(kNoEventCharacter); });
+    ignore_errors([&] { port.request(kNoEventCharacter); });
 }
 
-Farewell farewell() noexcept {
-    Farewell last{.over = Farewell::Over::usb, .endpoint = kOutEndpoint};
-    last.say(encode(no_force(Led::off)));
+StopPacket stop_packet() noexcept {
+    StopPacket last{.channel = StopPacket::Channel::usb, .endpoint = kOutEndpoint};
+    last.set_message(encode(no_force(Led::off)));
     return last;
 }
 
@@ -249,7 +249,7 @@ bool upload(FtdiPort& port, Bytes image, const UploadOptions& options,
     }
     int silent = 0;
     for (int number = 1;; ++number) {
-        options.tell(0.0, number);
+        options.on_progress(0.0, number);
         Try load(port, image, options, number, stop);
         const End end = load.run();
         if (end == End::answers) return true;
@@ -271,7 +271,7 @@ BroughtUp bring_up(FtdiPort& port, const FirmwareImage& firmware, const UploadOp
     return upload(port, firmware.bytes, options, stop) ? BroughtUp::answers : BroughtUp::stopped;
 }
 
-std::string firmware_is_wanted(const AttachedFalcon& falcon) {
+std::string missing_firmware_advice(const AttachedFalcon& falcon) {
     return full_name_of(falcon) +
            " does not answer: check its power adapter; if that is in, it has no firmware: " +
            where_firmware_comes_from();

@@ -19,8 +19,8 @@
 namespace dibhr::falcon {
 
 /// Sends `command` and waits at most `limit` for a whole reply. Throws UsbError.
-[[nodiscard]] std::optional<Reply> ask(FtdiPort& port, const Command& command,
-                                       std::chrono::milliseconds limit);
+[[nodiscard]] std::optional<Reply> request_reply(FtdiPort& port, const Command& command,
+                                                 std::chrono::milliseconds limit);
 
 /// Sets the chip to run-time speed and sends packets without force: whether a reply comes. Does not
 /// touch DTR and RTS, which could start the boot ROM. At most 0.4 s; false also after a stop
@@ -29,9 +29,9 @@ namespace dibhr::falcon {
 
 /// Sends five packets without force, the last ones of a connection. Clears the event character of
 /// the chip, as other programs expect it. USB errors are ignored.
-void leave_without_force(FtdiPort& port) noexcept;
+void send_stop_packets(FtdiPort& port) noexcept;
 /// The same packet, for the guardian.
-[[nodiscard]] Farewell farewell() noexcept;
+[[nodiscard]] StopPacket stop_packet() noexcept;
 
 /// The upload failed; the text names the failed step and what to do.
 class UploadError : public DeviceError {
@@ -44,16 +44,17 @@ struct UploadStep {
     int number{1};         ///< of the try
     const char* name{""};  ///< "hello", "autobaud", "echo", "answer"
     bool done{false};
-    FtdiRequest baud{};                     ///< baud rate of the image in this try
-    std::span<const std::uint8_t> heard{};  ///< bytes received in hello and autobaud, all of them
+    FtdiRequest baud{};  ///< baud rate of the image in this try
+    std::span<const std::uint8_t>
+        received{};  ///< bytes received in hello and autobaud, all of them
 };
 
 struct UploadOptions {
     bool slower{false};  ///< 140 351 instead of 142 857 baud
     /// Called with the loaded part, 0 .. 1, and the number of the try, from 1.
-    std::function<void(double, int)> tell{[](double, int) {}};
+    std::function<void(double, int)> on_progress{[](double, int) {}};
     /// Called after every step, for a log.
-    std::function<void(const UploadStep&)> watch{[](const UploadStep&) {}};
+    std::function<void(const UploadStep&)> on_step{[](const UploadStep&) {}};
 };
 
 /// Loads `image` and probes the Falcon. Sends no byte of an image that fails fault_of_firmware().
@@ -70,6 +71,6 @@ enum class BroughtUp { answers, no_firmware, stopped };
                                  const UploadOptions& options, const std::stop_token& stop);
 
 /// What the user has to do when `falcon` has no firmware and there is no file to load.
-[[nodiscard]] std::string firmware_is_wanted(const AttachedFalcon& falcon);
+[[nodiscard]] std::string missing_firmware_advice(const AttachedFalcon& falcon);
 
 }  // namespace dibhr::falcon

@@ -25,11 +25,11 @@ constexpr milliseconds kAskAgainAfter{2000};   // so that another program can lo
 
 }  // namespace
 
-Driver::Driver(ConnectionOptions options, FirmwareImage firmware, Exchange& exchange)
-    : options_(std::move(options)), exchange_(exchange), firmware_(std::move(firmware)) {
+Driver::Driver(ConnectionOptions options, FirmwareImage firmware, ThreadBuffers& buffers)
+    : options_(std::move(options)), buffers_(buffers), firmware_(std::move(firmware)) {
     board_.draft().unguarded = guardian_.fault();
     board_.enter(Stage::looking, "looking for a Falcon");
-    thread_ = std::jthread([this](const std::stop_token& stop) { live(stop); });
+    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
 Driver::~Driver() {
@@ -43,7 +43,7 @@ void Driver::use_firmware(FirmwareImage image) {
         firmware_ = std::move(image);
         new_firmware_ = true;
     }
-    news_.notify_all();
+    changed_.notify_all();
 }
 
 FirmwareImage Driver::firmware() {
@@ -52,7 +52,7 @@ FirmwareImage Driver::firmware() {
     return firmware_;
 }
 
-void Driver::live(const std::stop_token& stop) {
+void Driver::run(const std::stop_token& stop) {
     // A refusal is shown in the Loop panel, because the haptic thread requests the same.
     (void)become_realtime("dibhr falcon");
     std::optional<UsbContext> usb;
@@ -60,12 +60,12 @@ void Driver::live(const std::stop_token& stop) {
         pause_ = kLookAgainAfter;
         try {
             if (!usb) usb.emplace();
-            look(*usb, stop);
+            find_device(*usb, stop);
         } catch (const UsbError& failure) {
             board_.enter(Stage::cannot_open, failure.what(), true);
         } catch (const std::exception& failure) {
-            lose(std::string("the Falcon's thread failed (") + failure.what() +
-                 ") and begins again: close other programs if this happens again");
+            handle_loss(std::string("the Falcon's thread failed (") + failure.what() +
+                        ") and begins again: close other programs if this happens again");
         }
         wait_to_look_again(stop);
     }
@@ -74,10 +74,11 @@ void Driver::live(const std::stop_token& stop) {
 void Driver::wait_to_look_again(const std::stop_token& stop) {
     std::unique_lock lock(mutex_);
     // The flag ends only one wait: without a Falcon, firmware() would not reset it for long.
-    if (news_.wait_for(lock, stop, pause_, [this] { return new_firmware_; })) new_firmware_ = false;
+    if (changed_.wait_for(lock, stop, pause_, [this] { return new_firmware_; }))
+        new_firmware_ = false;
 }
 
-void Driver::look(const UsbContext& usb, const std::stop_token& stop) {
+void Driver::find_device(const UsbContext& usb, const std::stop_token& stop) {
     const std::vector<AttachedFalcon> attached = attached_falcons(usb);
     const auto falcon = choose(attached, options_.serial);
     board_.draft().serial = falcon ? falcon->serial : "";
@@ -97,14 +98,14 @@ void Driver::use(const UsbContext& usb, const AttachedFalcon& falcon, const std:
     } catch (const UsbError& refusal) {
         // The Falcon was unplugged just now: the next search finds none.
         const bool going = refusal.code() == LIBUSB_ERROR_IO && !trouble_.empty();
-        if (!refusal.gone() && !going) board_.enter(Stage::cannot_open, refusal.what(), true);
+        if (!refusal.unplugged() && !going) board_.enter(Stage::cannot_open, refusal.what(), true);
         return;
     }
     try {
-        bring_up_and_talk(usb, *port, stop);
+        bring_up_and_run(usb, *port, stop);
     } catch (const UsbError& loss) {
         if (loss.code() == LIBUSB_ERROR_PIPE) port->clear_stall();
-        lose(loss.what());
+        handle_loss(loss.what());
     } catch (const UploadError& failure) {
         trouble_ = failure.what();
         pause_ = kLoadAgainAfter;
@@ -112,11 +113,11 @@ void Driver::use(const UsbContext& usb, const AttachedFalcon& falcon, const std:
     }
 }
 
-void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
+void Driver::bring_up_and_run(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
     const FirmwareImage image = firmware();
     UploadOptions upload_options;
     upload_options.slower = options_.slower_upload;
-    upload_options.tell = [&](double part, int number) {
+    upload_options.on_progress = [&](double part, int number) {
         board_.draft().loaded = part;
         board_.draft().load_try = number;
         board_.enter(Stage::loading, trouble_.empty() ? "loading " + image.name : trouble_,
@@ -125,42 +126,42 @@ void Driver::bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std:
     switch (bring_up(port, image, upload_options, stop)) {
         case BroughtUp::answers:
             trouble_.clear();
-            talk(usb, port, stop);
+            run_exchanges(usb, port, stop);
             break;
         case BroughtUp::no_firmware:
             trouble_.clear();
             pause_ = kAskAgainAfter;
-            board_.enter(Stage::no_firmware, firmware_is_wanted(port.falcon()));
+            board_.enter(Stage::no_firmware, missing_firmware_advice(port.falcon()));
             break;
         case BroughtUp::stopped:
             break;
     }
 }
 
-void Driver::talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
+void Driver::run_exchanges(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop) {
     // Guarded until the last packet is sent.
-    const Guarded guarded(guardian_, port.descriptor(usb), farewell());
+    const Guarded guarded(guardian_, port.descriptor(usb), stop_packet());
     board_.draft().unguarded = guardian_.fault();
     std::optional<UsbError> loss;
     try {
         port.request(options_.event_character ? kFlushOnReplyEnd : kNoEventCharacter);
-        Conversation conversation(usb, port, exchange_, board_, memory_, guardian_);
-        loss = conversation.run(stop);
+        ExchangeLoop exchange_loop(usb, port, buffers_, board_, driver_state_, guardian_);
+        loss = exchange_loop.run(stop);
     } catch (...) {
-        leave_without_force(port);
+        send_stop_packets(port);
         throw;
     }
     if (loss && loss->code() == LIBUSB_ERROR_PIPE) port.clear_stall();
-    if (!loss || !loss->gone()) leave_without_force(port);
-    if (loss) lose(loss->what());
+    if (!loss || !loss->unplugged()) send_stop_packets(port);
+    if (loss) handle_loss(loss->what());
     if (guardian_.died()) {
-        lose(
+        handle_loss(
             "the process that takes the force off when dibhr dies was ended: another one is "
             "started, and the force comes back");
     }
 }
 
-void Driver::lose(const std::string& why) {
+void Driver::handle_loss(const std::string& why) {
     trouble_ = why;
     board_.draft().replies_per_s = 0.0;
     board_.draft().reply = {};

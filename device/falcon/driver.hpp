@@ -9,10 +9,10 @@
 #include <string>
 #include <thread>
 
-#include "device/falcon/conversation.hpp"
-#include "device/falcon/exchange.hpp"
+#include "device/falcon/exchange_loop.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/status.hpp"
+#include "device/falcon/thread_buffers.hpp"
 #include "device/falcon/usb.hpp"
 #include "device/hand/guardian.hpp"
 
@@ -22,7 +22,7 @@ namespace dibhr::falcon {
 class Driver {
   public:
     /// `exchange` must outlive it.
-    Driver(ConnectionOptions options, FirmwareImage firmware, Exchange& exchange);
+    Driver(ConnectionOptions options, FirmwareImage firmware, ThreadBuffers& buffers);
     ~Driver();  ///< five packets without force, then the port is closed
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
@@ -32,27 +32,27 @@ class Driver {
     void use_firmware(FirmwareImage image);
 
   private:
-    void live(const std::stop_token& stop);
-    void look(const UsbContext& usb, const std::stop_token& stop);
+    void run(const std::stop_token& stop);
+    void find_device(const UsbContext& usb, const std::stop_token& stop);
     void use(const UsbContext& usb, const AttachedFalcon& falcon, const std::stop_token& stop);
-    void bring_up_and_talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
-    void talk(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
-    void lose(const std::string& why);
+    void bring_up_and_run(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
+    void run_exchanges(const UsbContext& usb, FtdiPort& port, const std::stop_token& stop);
+    void handle_loss(const std::string& why);
     void wait_to_look_again(const std::stop_token& stop);
     [[nodiscard]] FirmwareImage firmware();
 
     const ConnectionOptions options_;
-    Exchange& exchange_;
+    ThreadBuffers& buffers_;
     StatusBoard board_{};
 
     // Used by the USB thread only.
     Guardian guardian_{"Falcon"};
-    Memory memory_{};
+    DriverState driver_state_{};
     std::string trouble_{};              // the last failure, until a Falcon answers again
     std::chrono::milliseconds pause_{};  // before the next search
 
     std::mutex mutex_{};
-    std::condition_variable_any news_{};
+    std::condition_variable_any changed_{};
     FirmwareImage firmware_{};  // guarded by mutex_
     bool new_firmware_{false};  // guarded by mutex_
 

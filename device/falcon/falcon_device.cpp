@@ -43,7 +43,7 @@ FalconDevice::FalconDevice(ConnectionOptions options, FirmwareImage firmware,
     : GripDevice(specification_of(options)),
       firmware_(firmware.name),
       firmware_trouble_(std::move(firmware_trouble)),
-      driver_(std::move(options), std::move(firmware), exchange_) {}
+      driver_(std::move(options), std::move(firmware), buffers_) {}
 
 DeviceState FalconDevice::state() {
     DeviceState now = state_of(driver_.status());
@@ -62,12 +62,12 @@ std::string FalconDevice::use_firmware(const std::filesystem::path& file) {
 
 HandReading FalconDevice::read(const HandContext& context) noexcept {
     take_tuning();
-    const TimedReply& newest = exchange_.replies.front();
+    const TimedReply& newest = buffers_.replies.front();
     if (take_epoch(newest.epoch)) position_m_.reset();  // the counters have jumped
     reply_number_ = newest.number;
 
     std::optional<Vec3> grip_mm;
-    if (in_hand() && Clock::now() - newest.at < kOldestReply && find_pose(newest.reply.encoder))
+    if (can_touch() && Clock::now() - newest.at < kOldestReply && find_pose(newest.reply.encoder))
         grip_mm = *position_m_ * kMetre_mm;
     HandReading reading =
         reading_at(grip_mm, newest.reply.buttons,
@@ -91,12 +91,12 @@ bool FalconDevice::find_pose(const Counts& encoder) noexcept {
 }
 
 void FalconDevice::send(Vec3 force_newton) noexcept {
-    TimedCommand& command = exchange_.commands.back();
+    TimedCommand& command = buffers_.commands.back();
     command.at = Clock::now();
     command.epoch = may_push() ? epoch() : kNoEpoch;
     command.motor = may_push() ? motors_for(force_newton) : Counts{};
-    exchange_.commands.publish();
-    exchange_.wake.signal();
+    buffers_.commands.publish();
+    buffers_.wake.signal();
 }
 
 Counts FalconDevice::motors_for(Vec3 force_newton) const noexcept {

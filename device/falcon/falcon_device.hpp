@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "device/falcon/driver.hpp"
-#include "device/falcon/exchange.hpp"
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/settings.hpp"
 #include "device/falcon/status.hpp"
+#include "device/falcon/thread_buffers.hpp"
 #include "device/grip_device.hpp"
 
 namespace dibhr::falcon {
@@ -36,7 +36,7 @@ class FalconDevice final : public GripDevice<FalconSettings, Tuning> {
     /// The newest pose. `ready` is false, and no force will be sent, unless all three axes are
     /// homed, the last reply is younger than 20 ms, and the clutch is open. Before the first pose
     /// the goal is above the middle of the image, higher than the relief; without a pose it stays.
-    /// A change of geometry, motors, workspace or centre sets `taken_over`, because the same pose
+    /// A change of geometry, motors, workspace or centre sets `hand_changed`, because the same pose
     /// would now give another force.
     HandReading read(const HandContext& context) noexcept override;
 
@@ -60,7 +60,7 @@ class FalconDevice final : public GripDevice<FalconSettings, Tuning> {
 
     std::string firmware_;  // name of the image that is loaded when needed; empty: none
     std::string firmware_trouble_;
-    Exchange exchange_{};
+    ThreadBuffers buffers_{};
 
     // Used by the haptic thread only.
     std::uint64_t reply_number_{0};

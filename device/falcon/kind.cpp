@@ -17,19 +17,19 @@ namespace dibhr::falcon {
 
 namespace {
 
-const FalconSettings& own(const DeviceSettings& settings) {
+const FalconSettings& falcon_settings(const DeviceSettings& settings) {
     return static_cast<const FalconSettings&>(settings);
 }
 
 /// The firmware to load into a Falcon that has none.
-struct FirmwareAtHand {
+struct AvailableFirmware {
     FirmwareImage image{};
     std::string trouble{};  ///< why the kept file cannot be used
 };
 
 /// `given`, checked and kept for later starts; if empty, the kept image. Throws InputError when
 /// `given` is no firmware.
-FirmwareAtHand firmware_at_hand(const std::filesystem::path& given = {}) {
+AvailableFirmware available_firmware(const std::filesystem::path& given = {}) {
     if (!given.empty()) return {keep_firmware(given), {}};
     try {
         return {kept_firmware(), {}};
@@ -38,20 +38,20 @@ FirmwareAtHand firmware_at_hand(const std::filesystem::path& given = {}) {
     }
 }
 
-ConnectionOptions connection_of(const DeviceSettings& settings, const DeviceGiven& given) {
-    ConnectionOptions connection = own(settings).connection;
+ConnectionOptions connection_of(const DeviceSettings& settings, const DeviceArguments& given) {
+    ConnectionOptions connection = falcon_settings(settings).connection;
     if (!given.which.empty()) connection.serial = given.which;
     return connection;
 }
 
-std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceGiven& given) {
-    FirmwareAtHand firmware = firmware_at_hand(given.file);
+std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceArguments& given) {
+    AvailableFirmware firmware = available_firmware(given.file);
     return std::make_unique<FalconDevice>(connection_of(settings, given), std::move(firmware.image),
                                           std::move(firmware.trouble));
 }
 
 /// Firmware and homing are not checked here: the window guides the user through them.
-std::string why_none_to_open(const DeviceSettings& settings, const DeviceGiven& given) {
+std::string why_none_to_open(const DeviceSettings& settings, const DeviceArguments& given) {
     const std::string serial = connection_of(settings, given).serial;
     const std::vector<AttachedFalcon> attached = attached_falcons();
     if (attached.empty()) {
@@ -63,40 +63,40 @@ std::string why_none_to_open(const DeviceSettings& settings, const DeviceGiven& 
                serials_of(attached) +
                "): choose one with --device falcon:SERIAL or in the settings";
     }
-    const auto meant = choose(attached, serial);
-    return meant ? why_it_cannot_be_opened(*meant)
-                 : why_none(attached, serial) + " with --device falcon:SERIAL";
+    const auto requested = choose(attached, serial);
+    return requested ? why_it_cannot_be_opened(*requested)
+                     : why_none(attached, serial) + " with --device falcon:SERIAL";
 }
 
 std::string name_of(const AttachedFalcon& falcon) {
     return "Novint Falcon " + (falcon.serial.empty() ? "(serial unknown)" : falcon.serial);
 }
 
-std::string state_of(const SurveyedFalcon& falcon, const FirmwareAtHand& firmware) {
+std::string state_of(const SurveyedFalcon& falcon, const AvailableFirmware& firmware) {
     const bool wants_file = falcon.stage == Stage::no_firmware && firmware.image.empty();
     return (falcon.usable() ? "usable, " : "not usable yet, ") + falcon.sentence +
            (wants_file ? "; then: dibhr devices --firmware FILE" : "");
 }
 
 /// A failure to list the USB devices is only printed, because the mouse can still be used.
-DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
+DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
     try {
         if (attached_falcons().empty()) {
-            tell("Novint Falcon: none attached");
+            print("Novint Falcon: none attached");
             return {};
         }
     } catch (const DeviceError& error) {
-        tell(std::string("Novint Falcon: not known whether one is attached, ") + error.what());
+        print(std::string("Novint Falcon: not known whether one is attached, ") + error.what());
         return {};
     }
-    const FirmwareAtHand firmware = firmware_at_hand();
-    if (!firmware.trouble.empty()) tell("kept firmware: " + firmware.trouble);
-    ConnectionOptions options = own(settings).connection;
+    const AvailableFirmware firmware = available_firmware();
+    if (!firmware.trouble.empty()) print("kept firmware: " + firmware.trouble);
+    ConnectionOptions options = falcon_settings(settings).connection;
     options.serial.clear();  // all of them
     const std::vector<SurveyedFalcon> falcons = survey_falcons(options, firmware.image);
     for (const SurveyedFalcon& one : falcons) {
-        tell(name_of(one.attached) + " at USB bus " + std::to_string(one.attached.bus) +
-             " address " + std::to_string(one.attached.address) + ": " + state_of(one, firmware));
+        print(name_of(one.attached) + " at USB bus " + std::to_string(one.attached.bus) +
+              " address " + std::to_string(one.attached.address) + ": " + state_of(one, firmware));
     }
     const bool usable = std::any_of(falcons.begin(), falcons.end(),
                                     [](const SurveyedFalcon& one) { return one.usable(); });
@@ -107,26 +107,26 @@ DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
                        state_of(falcons.front(), firmware) + more};
 }
 
-bool glance(const DeviceSettings& /*settings*/, const TellLine& tell) {
+bool print_attached(const DeviceSettings& /*settings*/, const PrintLine& print) {
     try {
         if (attached_falcons().empty()) return false;
-        tell("a Novint Falcon is attached; dibhr devices says whether it can be used");
+        print("a Novint Falcon is attached; dibhr devices says whether it can be used");
     } catch (const DeviceError& error) {
-        tell(std::string("it is not known whether a Novint Falcon is attached: ") + error.what());
+        print(std::string("it is not known whether a Novint Falcon is attached: ") + error.what());
     }
     return true;
 }
 
-CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const TellLine& tell,
-                  CheckGuide& guide) {
-    FirmwareAtHand firmware = firmware_at_hand();
-    if (!firmware.trouble.empty()) tell("kept firmware: " + firmware.trouble);
-    return run_check({.serial = own(settings).connection.serial,
+CheckResult check(const DeviceSettings& settings, const CheckRecordOptions& record_options,
+                  const PrintLine& print, CheckConsole& console) {
+    AvailableFirmware firmware = available_firmware();
+    if (!firmware.trouble.empty()) print("kept firmware: " + firmware.trouble);
+    return run_check({.serial = falcon_settings(settings).connection.serial,
                       .firmware = std::move(firmware.image),
-                      .geometry = own(settings).geometry,
-                      .record = paper.record,
-                      .facts = paper.facts},
-                     guide);
+                      .geometry = falcon_settings(settings).geometry,
+                      .record = record_options.record,
+                      .facts = record_options.facts},
+                     console);
 }
 
 }  // namespace
@@ -134,10 +134,10 @@ CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const
 extern const ForceDeviceKind device_kind{
     .name = "falcon",
     .title = "Novint Falcon",
-    .called = "Falcon",
+    .short_name = "Falcon",
     .article = "a Falcon",
     .which = "SERIAL",
-    .no_pose = "no pose: pull the grip in, or see Calibration",
+    .no_pose_advice = "no pose: pull the grip in, or see Calibration",
     .check_needs_consent = true,
     .make_settings = make_settings<FalconSettings>,
     .make = make,
@@ -145,7 +145,7 @@ extern const ForceDeviceKind device_kind{
     .why_none = why_none_to_open,
     .attached = [](const DeviceSettings& /*settings*/) { return !attached_falcons().empty(); },
     .survey = survey,
-    .glance = glance,
+    .print_attached = print_attached,
     .check = check,
 };
 

@@ -19,10 +19,10 @@ struct Leg {
     double cos{0.0};
     double sin{0.0};
 };
-constexpr double kNear = 0.965925826289068286749743199728897;  // cos 15 degrees
-constexpr double kFar = 0.258819045102520762348898837624048;   // sin 15 degrees
+constexpr double kCos15 = 0.965925826289068286749743199728897;  // cos 15 degrees
+constexpr double kSin15 = 0.258819045102520762348898837624048;  // sin 15 degrees
 constexpr double kDiagonal = 0.707106781186547524400844362104849;
-constexpr std::array<Leg, 3> kLegs{Leg{-kFar, kNear}, Leg{kNear, -kFar},
+constexpr std::array<Leg, 3> kLegs{Leg{-kSin15, kCos15}, Leg{kCos15, -kSin15},
                                    Leg{-kDiagonal, -kDiagonal}};
 
 /// The grip in the frame of a leg [m]: u along the leg's direction, v across, w out of the base.

@@ -16,10 +16,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kSendAgainAfter{8};  // README.md, Reply rate
-constexpr milliseconds kGiveUpAfter{1000};  // README.md, Reply rate
-constexpr int kMostCancelWaits = 20;        // of 100 ms: the kernel answers at once
-constexpr std::size_t kUsualReplies = 64;   // in one wait, at most
+constexpr milliseconds kResendAfter{8};      // README.md, Reply rate
+constexpr milliseconds kReplyTimeout{1000};  // README.md, Reply rate
+constexpr int kMostCancelWaits = 20;         // of 100 ms: the kernel answers at once
+constexpr std::size_t kUsualReplies = 64;    // in one wait, at most
 
 int code_of(libusb_transfer_status status) {
     switch (status) {
@@ -108,7 +108,7 @@ Link::Link(const UsbContext& usb, FtdiPort& port, const Wake& wake)
       falcon_(port.falcon()),
       wake_(wake),
       transfers_(std::make_unique<Transfers>(port.handle(), this)),
-      heard_(Clock::now()) {
+      last_reply_at_(Clock::now()) {
     replies_.reserve(kUsualReplies);
     libusb_set_pollfd_notifiers(
         usb_.get(),
@@ -165,12 +165,12 @@ void Link::wait(Time until) {
     }
     if (lost_code_ != 0) lose(lost_code_);
     const Time now = Clock::now();
-    if (!loss_ && !idle() && now - heard_ > kGiveUpAfter) loss_ = silence(now);
+    if (!loss_ && !idle() && now - last_reply_at_ > kReplyTimeout) loss_ = timeout_error(now);
 }
 
-UsbError Link::silence(Time now) const {
+UsbError Link::timeout_error(Time now) const {
     // Only if the pending command is old: one that was sent again just now proves nothing.
-    if (transfers_->out_busy && now - sent_ > kGiveUpAfter / 2) {
+    if (transfers_->out_busy && now - sent_ > kReplyTimeout / 2) {
         return {LIBUSB_ERROR_TIMEOUT,
                 "the USB took no command for " + full_name_of(falcon_) +
                     " for a second: plug the Falcon in again, into another USB socket if this "
@@ -185,12 +185,13 @@ bool Link::idle() const noexcept {
     return !awaits_reply_ && !transfers_->out_busy;
 }
 
-bool Link::takes_command(Time now) const noexcept {
-    return !loss_ && !transfers_->out_busy && (!awaits_reply_ || now >= sent_ + kSendAgainAfter);
+bool Link::can_send(Time now) const noexcept {
+    return !loss_ && !transfers_->out_busy && (!awaits_reply_ || now >= sent_ + kResendAfter);
 }
 
-Link::Time Link::patience_ends() const noexcept {
-    return transfers_->out_busy ? heard_ + kGiveUpAfter + milliseconds(1) : sent_ + kSendAgainAfter;
+Link::Time Link::retry_at() const noexcept {
+    return transfers_->out_busy ? last_reply_at_ + kReplyTimeout + milliseconds(1)
+                                : sent_ + kResendAfter;
 }
 
 void Link::send(const Packet& packet, Time now) {
@@ -221,7 +222,7 @@ void Link::take(std::span<std::uint8_t> packet) {
     while (const auto reply = stream_.add(bytes)) {
         replies_.push_back(*reply);
         awaits_reply_ = false;
-        heard_ = Clock::now();
+        last_reply_at_ = Clock::now();
     }
 }
 

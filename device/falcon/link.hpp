@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "device/falcon/exchange.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/falcon/thread_buffers.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
@@ -46,11 +46,11 @@ class Link {
     /// The last command was sent and has its reply.
     [[nodiscard]] bool idle() const noexcept;
     /// A command may be sent: the link is idle, or the last command has had no reply for 8 ms.
-    [[nodiscard]] bool takes_command(Time now) const noexcept;
+    [[nodiscard]] bool can_send(Time now) const noexcept;
     /// When a link that is not idle has to be checked: to send the command again, or to report that
     /// the Falcon is lost.
-    [[nodiscard]] Time patience_ends() const noexcept;
-    /// Only when takes_command().
+    [[nodiscard]] Time retry_at() const noexcept;
+    /// Only when can_send().
     void send(const Packet& packet, Time now);
 
     /// Why the link has ended; a new one may be tried.
@@ -64,7 +64,7 @@ class Link {
     void lose(int code);
     void note_loss(int code) noexcept { lost_code_ = lost_code_ == 0 ? code : lost_code_; }
     /// The error after a second without a reply.
-    [[nodiscard]] UsbError silence(Time now) const;
+    [[nodiscard]] UsbError timeout_error(Time now) const;
     void take(std::span<std::uint8_t> packet);
 
     const UsbContext& usb_;
@@ -79,8 +79,8 @@ class Link {
     LinkCounts counts_{};
     bool awaits_reply_{false};
     Time sent_{};
-    Time heard_{};      // time of the last whole reply, or of construction
-    int lost_code_{0};  // of a transfer that failed in this wait; LIBUSB_ERROR_...
+    Time last_reply_at_{};  // time of the last whole reply, or of construction
+    int lost_code_{0};      // of a transfer that failed in this wait; LIBUSB_ERROR_...
     std::optional<UsbError> loss_{};
 };
 

@@ -10,15 +10,15 @@
 namespace dibhr::falcon {
 
 /// In the order of Status::presses.
-inline constexpr GripButtons kGrip{
+inline constexpr DeviceButtons kDeviceButtons{
     {{"button-plus", "Plus (right)", ButtonAction::record},
      {"button-forward", "Forward (top)", ButtonAction::play_or_pause},
      {"button-centre", "Centre (logo)", ButtonAction::clutch},
      {"button-minus", "Minus (left)", ButtonAction::force_off,
-      Protection{Less::other, "Falcon's minus button"}}}};
+      Protection{WeakerWhen::other, "Falcon's minus button"}}}};
 
 struct FalconSettings final : DeviceSettings {
-    FalconSettings() : DeviceSettings(kGrip) {}
+    FalconSettings() : DeviceSettings(kDeviceButtons) {}
 
     ConnectionOptions connection{};  ///< takes effect at the next start of the program
     Geometry geometry{};

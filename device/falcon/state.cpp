@@ -58,8 +58,8 @@ DeviceState state_of(const Status& status) {
     state.ready = ready;
     state.id = status.serial;
     state.facts = {{"serial", status.serial}};
-    state.who = {.label = "Falcon", .text = serial_text(status)};
-    state.firmware = DeviceFirmware{.wanted = stage == Stage::no_firmware};
+    state.name_line = {.label = "Falcon", .text = serial_text(status)};
+    state.firmware = DeviceFirmware{.needed = stage == Stage::no_firmware};
     if (stage == Stage::loading) state.progress = loading(status);
     if (homing) {
         state.homing = axes_of(status.reply);

@@ -28,12 +28,12 @@ struct Tuning {
     WorkspaceOptions workspace{};
     std::uint8_t clutch_buttons{static_cast<std::uint8_t>(Button::centre)};    ///< bits of Button
     std::uint8_t force_off_buttons{static_cast<std::uint8_t>(Button::minus)};  ///< bits of Button
-    std::uint32_t centred{0};  ///< a new value resets the clutch's shift
+    std::uint32_t centre_count{0};  ///< a new value resets the clutch's shift
 
     bool operator==(const Tuning&) const = default;
     /// The values that change the goal of a pose, or the commands of a force.
     [[nodiscard]] auto felt() const noexcept {
-        return std::tie(geometry, motors, workspace, centred);
+        return std::tie(geometry, motors, workspace, centre_count);
     }
 };
 

@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "device/falcon/bring_up.hpp"
-#include "device/falcon/reply_watch.hpp"
+#include "device/falcon/homing_watch.hpp"
 #include "device/falcon/usb.hpp"
 
 namespace dibhr::falcon {
@@ -24,7 +24,7 @@ std::optional<Reply> homing_reply(FtdiPort& port) {
     const auto end = std::chrono::steady_clock::now() + kLookFor;
     std::optional<Reply> last;
     while (std::chrono::steady_clock::now() < end && !(last && homed_axes(last->homed) == 3)) {
-        if (const auto reply = ask(port, no_force(Led::red), kAnswerLimit)) last = reply;
+        if (const auto reply = request_reply(port, no_force(Led::red), kAnswerLimit)) last = reply;
         std::this_thread::sleep_for(kBetweenQuestions);
     }
     return last;
@@ -33,7 +33,7 @@ std::optional<Reply> homing_reply(FtdiPort& port) {
 void ask_for_homing(FtdiPort& port, SurveyedFalcon& found) {
     found.stage = Stage::homing;
     const auto reply = homing_reply(port);
-    leave_without_force(port);
+    send_stop_packets(port);
     const int axes = reply ? homed_axes(reply->homed) : 0;
     if (axes == 3) found.stage = Stage::ready;
     found.sentence = axes == 3 ? "ready to touch" : how_to_home(axes);
@@ -46,7 +46,7 @@ void survey(const UsbContext& usb, const ConnectionOptions& options, const Firmw
     UploadOptions upload_options;
     upload_options.slower = options.slower_upload;
     if (bring_up(port, firmware, upload_options, std::stop_token()) == BroughtUp::no_firmware) {
-        found.sentence = firmware_is_wanted(found.attached);
+        found.sentence = missing_firmware_advice(found.attached);
         return;
     }
     ask_for_homing(port, found);

@@ -179,7 +179,7 @@ std::string serials_of(std::span<const AttachedFalcon> attached) {
     return serials;
 }
 
-bool UsbError::gone() const noexcept {
+bool UsbError::unplugged() const noexcept {
     return code_ == LIBUSB_ERROR_NO_DEVICE || code_ == LIBUSB_ERROR_NOT_FOUND;
 }
 

@@ -117,7 +117,7 @@ class UsbError : public DeviceError {
     /// LIBUSB_ERROR_...
     [[nodiscard]] int code() const noexcept { return code_; }
     /// Not attached any more.
-    [[nodiscard]] bool gone() const noexcept;
+    [[nodiscard]] bool unplugged() const noexcept;
 
   private:
     int code_;

@@ -7,7 +7,7 @@ namespace dibhr {
 
 std::uint8_t ButtonDebounce::add(std::uint8_t buttons, Time at) noexcept {
     held_ = std::exchange(begins_, false) ? buttons : static_cast<std::uint8_t>(held_ & buttons);
-    for (std::size_t k = 0; k < kGripButtonCount; ++k) {
+    for (std::size_t k = 0; k < kDeviceButtonCount; ++k) {
         const auto bit = static_cast<std::uint8_t>(1U << k);
         if (((buttons ^ steady_) & bit) == 0) {
             changing_ = static_cast<std::uint8_t>(changing_ & ~bit);

@@ -9,11 +9,11 @@
 namespace dibhr {
 
 /// Most buttons of a device: bits of HandReading::buttons.
-inline constexpr std::size_t kGripButtonCount = 4;
+inline constexpr std::size_t kDeviceButtonCount = 4;
 /// Number of presses of each button since the start.
-using ButtonPresses = std::array<std::uint32_t, kGripButtonCount>;
+using ButtonPresses = std::array<std::uint32_t, kDeviceButtonCount>;
 /// Time of the last press of each button, on the steady clock.
-using ButtonPressTimes = std::array<std::chrono::steady_clock::time_point, kGripButtonCount>;
+using ButtonPressTimes = std::array<std::chrono::steady_clock::time_point, kDeviceButtonCount>;
 
 /// The state of a button changes once every reading has shown the new state for kSteady.
 class ButtonDebounce {

@@ -12,24 +12,24 @@
 #include <variant>
 #include <vector>
 
+#include "core/haptics/enum_names.hpp"
 #include "core/haptics/safety.hpp"
-#include "core/haptics/words.hpp"
-#include "device/hand/grip_buttons.hpp"
+#include "device/hand/button_actions.hpp"
 #include "device/hand/workspace.hpp"
 
 namespace dibhr {
 
 /// A value of an enumeration of one byte; the value is also the index of its name and label.
-struct DeviceWord {
+struct DeviceEnum {
     std::uint8_t* value;
     std::vector<const char*> names{};   ///< in the settings file
     std::vector<const char*> labels{};  ///< on the panel
 
     /// `held` must outlive this object. Its table of names must pass has_all_in_order().
-    template <HasWords Enum>
-    explicit DeviceWord(Enum& held) : value(reinterpret_cast<std::uint8_t*>(&held)) {
+    template <HasNameTable Enum>
+    explicit DeviceEnum(Enum& held) : value(reinterpret_cast<std::uint8_t*>(&held)) {
         static_assert(sizeof(Enum) == 1);
-        for (const Word<Enum>& word : words_of(held)) {
+        for (const NamedValue<Enum>& word : name_table(held)) {
             names.push_back(word.name);
             labels.push_back(word.label);
         }
@@ -42,11 +42,12 @@ struct DeviceRow {
     std::string_view topic;  ///< a heading of the panel
     const char* label;       ///< on the panel; of a text: the placeholder of the empty field
     const char* help;        ///< meaning, and where the default comes from
-    std::variant<bool*, int*, double*, std::string*, ButtonAction*, DeviceWord> value;
+    std::variant<bool*, int*, double*, std::string*, ButtonAction*, DeviceEnum> value;
     double lowest{0.0};      ///< of a number, as stored; every value of the range is safe
     double highest{0.0};     ///< likewise; of a text: the most bytes that can be typed
     const char* format{""};  ///< printf format of a number on the panel, with the unit
-    double shown{1.0};       ///< panel units per stored unit: 1000 for metres shown as millimetres
+    double panel_factor{
+        1.0};  ///< panel units per stored unit: 1000 for metres shown as millimetres
     std::optional<Protection> protection{};
 };
 
@@ -60,7 +61,7 @@ struct DeviceTopic {
 
 /// The settings of one kind of device; a new object holds the defaults.
 struct DeviceSettings {
-    explicit DeviceSettings(const GripButtons& grip = {}, const WorkspaceOptions& usual = {})
+    explicit DeviceSettings(const DeviceButtons& grip = {}, const WorkspaceOptions& usual = {})
         : buttons(standard_actions(grip)), workspace(usual) {}
     DeviceSettings(const DeviceSettings&) = default;
     DeviceSettings& operator=(const DeviceSettings&) = default;
@@ -85,7 +86,7 @@ struct DeviceSettings {
 
   protected:
     /// Appends the rows of the device's buttons.
-    void add_buttons(std::vector<DeviceRow>& rows, const GripButtons& grip,
+    void add_buttons(std::vector<DeviceRow>& rows, const DeviceButtons& grip,
                      std::string_view topic) {
         for (std::size_t k = 0; k < buttons.size(); ++k) {
             if (grip[k].setting.empty()) continue;
@@ -123,7 +124,7 @@ struct DeviceSettings {
 /// What tunes every device, in addition to the settings of its kind.
 struct HandTuning {
     double max_force_newton;
-    std::uint32_t centred;  ///< a new value resets the clutch's shift
+    std::uint32_t centre_count;  ///< a new value resets the clutch's shift
 };
 
 /// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centred` set.
@@ -133,7 +134,7 @@ template <typename Tuning>
     tuning.workspace = settings.workspace;
     tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
     tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
-    tuning.centred = hand.centred;
+    tuning.centre_count = hand.centre_count;
     return tuning;
 }
 

@@ -40,11 +40,11 @@ using std::chrono::milliseconds;
 
 // ../falcon/README.md, Safety numbers.
 constexpr milliseconds kSilentAfter{50};
-constexpr milliseconds kLooksEvery{10};
-constexpr milliseconds kSendsEvery{5};
+constexpr milliseconds kCheckPeriod{10};
+constexpr milliseconds kSendPeriod{5};
 constexpr int kLastPackets = 5;
 constexpr unsigned kPacketLimit_ms = 10;
-constexpr milliseconds kLingers{1000};  // for bytes that the stream has not delivered yet
+constexpr milliseconds kLingerTimeout{1000};  // for bytes that the stream has not delivered yet
 constexpr int kDismissLimit_ms = 100;
 
 // Requests to the guardian; it sends kDismiss back as its answer.
@@ -53,8 +53,8 @@ constexpr char kDismiss = 'd';
 constexpr char kAlarm = 'a';
 
 struct Message {
-    char word{0};
-    Farewell farewell{};
+    char request{0};
+    StopPacket stop_packet{};
 };
 
 /// A message in the form of sendmsg() and recvmsg(), with room for one descriptor.
@@ -110,22 +110,22 @@ class Watch {
 
     /// Returns after the program has ended and the last packets are sent.
     void run() noexcept {
-        while (listen()) {
+        while (wait_for_request()) {
             if (file_ < 0) continue;
-            look();
+            check_beats();
             if (sending_) send();
         }
         for (int k = 0; k < kLastPackets && file_ >= 0; ++k) {
-            if (k > 0) (void)poll(nullptr, 0, kSendsEvery.count());
+            if (k > 0) (void)poll(nullptr, 0, kSendPeriod.count());
             send();
         }
-        if (file_ >= 0 && farewell_.over == Farewell::Over::stream) linger();
+        if (file_ >= 0 && stop_packet_.channel == StopPacket::Channel::stream) linger();
     }
 
   private:
     /// Sleeps until a request comes or the next check is due; false when the program has ended.
-    bool listen() noexcept {
-        const milliseconds period = sending_ ? kSendsEvery : kLooksEvery;
+    bool wait_for_request() noexcept {
+        const milliseconds period = sending_ ? kSendPeriod : kCheckPeriod;
         pollfd end{socket_, POLLIN, 0};
         if (poll(&end, 1, file_ < 0 ? -1 : static_cast<int>(period.count())) <= 0) return true;
         Message message;
@@ -133,38 +133,38 @@ class Watch {
         const ssize_t size = recvmsg(socket_, &envelope.head, MSG_CMSG_CLOEXEC | MSG_DONTWAIT);
         if (size == 0) return false;
         if (size < 0) return errno == EAGAIN || errno == EINTR;
-        if (message.word == kAlarm) alarmed_ = true;
-        if (message.word == kDismiss) {
+        if (message.request == kAlarm) alarmed_ = true;
+        if (message.request == kDismiss) {
             release();
-            (void)::send(socket_, &message.word, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+            (void)::send(socket_, &message.request, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
         }
-        if (message.word == kWatch) {
+        if (message.request == kWatch) {
             release();
             file_ = envelope.enclosed();
-            farewell_ = message.farewell;
-            said_ = 0;
+            stop_packet_ = message.stop_packet;
+            sends_ = 0;
             last_beats_ = page_.beats;
-            heard_ = Clock::now();
+            last_beat_at_ = Clock::now();
         }
         return true;
     }
 
-    void look() noexcept {
+    void check_beats() noexcept {
         const std::uint32_t beats = page_.beats;
         // Read after the beats: otherwise a pause of this process would look like missing beats.
         const Clock::time_point now = Clock::now();
-        if (beats != last_beats_) heard_ = now;
+        if (beats != last_beats_) last_beat_at_ = now;
         last_beats_ = beats;
-        const bool arrives = farewell_.over == Farewell::Over::stream;
-        sending_ =
-            (alarmed_ || now - heard_ >= kSilentAfter) && !(arrives && said_ >= kLastPackets);
+        const bool arrives = stop_packet_.channel == StopPacket::Channel::stream;
+        sending_ = (alarmed_ || now - last_beat_at_ >= kSilentAfter) &&
+                   !(arrives && sends_ >= kLastPackets);
     }
 
     void send() noexcept {
-        if (farewell_.size == 0) return;
+        if (stop_packet_.size == 0) return;
         page_.sent.fetch_add(1);
-        ++said_;
-        if (farewell_.over == Farewell::Over::usb) {
+        ++sends_;
+        if (stop_packet_.channel == StopPacket::Channel::usb) {
             send_by_usb();
         } else {
             send_by_stream();
@@ -174,10 +174,10 @@ class Watch {
     /// The kernel sends it after what is still in the program's queue.
     void send_by_usb() noexcept {
         usbdevfs_bulktransfer transfer{};
-        transfer.ep = farewell_.endpoint;
-        transfer.len = farewell_.size;
+        transfer.ep = stop_packet_.endpoint;
+        transfer.len = stop_packet_.size;
         transfer.timeout = kPacketLimit_ms;
-        transfer.data = farewell_.bytes.data();
+        transfer.data = stop_packet_.bytes.data();
         if (ioctl(file_, USBDEVFS_BULK, &transfer) < 0 && errno == ENODEV) release();  // unplugged
     }
 
@@ -185,9 +185,9 @@ class Watch {
     /// closed instead, so that the other end notices.
     void send_by_stream() noexcept {
         discard_answers();
-        const ssize_t gone =
-            ::send(file_, farewell_.bytes.data(), farewell_.size, MSG_NOSIGNAL | MSG_DONTWAIT);
-        if (gone == farewell_.size || (gone < 0 && errno == EINTR)) return;
+        const ssize_t gone = ::send(file_, stop_packet_.bytes.data(), stop_packet_.size,
+                                    MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (gone == stop_packet_.size || (gone < 0 && errno == EINTR)) return;
         (void)shutdown(file_, SHUT_RDWR);
         release();
     }
@@ -204,10 +204,10 @@ class Watch {
     /// Closing a socket that has unread bytes would discard what was sent: reads until the end.
     void linger() noexcept {
         (void)shutdown(file_, SHUT_WR);
-        const Clock::time_point end = Clock::now() + kLingers;
+        const Clock::time_point end = Clock::now() + kLingerTimeout;
         while (discard_answers() && Clock::now() < end) {
             pollfd other{file_, POLLIN, 0};
-            (void)poll(&other, 1, static_cast<int>(kSendsEvery.count()));
+            (void)poll(&other, 1, static_cast<int>(kSendPeriod.count()));
         }
     }
 
@@ -220,10 +220,10 @@ class Watch {
     int socket_;
     SharedPage& page_;
     int file_{-1};  // of the device; -1: no device to guard
-    Farewell farewell_{};
-    int said_{0};  // packets sent since kWatch
+    StopPacket stop_packet_{};
+    int sends_{0};  // packets sent since kWatch
     std::uint32_t last_beats_{0};
-    Clock::time_point heard_{};  // when the count of beats changed last
+    Clock::time_point last_beat_at_{};  // when the count of beats changed last
     bool alarmed_{false};
     bool sending_{false};
 };
@@ -259,7 +259,7 @@ void rename_arguments(std::span<char> arguments) noexcept {
 
 /// Leaves the program's terminal and process group, ignores the signals that end the program, and
 /// closes all descriptors that it inherited.
-void step_aside(int socket, std::span<char> arguments) noexcept {
+void detach_from_program(int socket, std::span<char> arguments) noexcept {
     (void)setsid();
     for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGTSTP, SIGPIPE}) {
         (void)std::signal(number, SIG_IGN);
@@ -286,7 +286,7 @@ int fork_guardian(int programs_end, int socket, SharedPage& page) noexcept {
         const pid_t guardian = fork();
         if (guardian != 0) _exit(guardian < 0 ? errno : 0);
         close(programs_end);  // first of all: it is how the program's end is noticed
-        step_aside(socket, arguments);
+        detach_from_program(socket, arguments);
         Watch(socket, page).run();
         _exit(0);
     }
@@ -299,7 +299,7 @@ int fork_guardian(int programs_end, int socket, SharedPage& page) noexcept {
 
 }  // namespace
 
-void Farewell::say(std::span<const std::uint8_t> message) noexcept {
+void StopPacket::set_message(std::span<const std::uint8_t> message) noexcept {
     if (message.size() > kMostBytes) return;
     std::copy(message.begin(), message.end(), bytes.begin());
     size = static_cast<std::uint16_t>(message.size());
@@ -314,18 +314,18 @@ void Guardian::begin() noexcept {
     sent_before_ = 0;
     void* const page = mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (page == MAP_FAILED) return give_up("memory");
+    if (page == MAP_FAILED) return note_failure("memory");
     page_ = new (page) SharedPage;
     std::array<int, 2> ends{};
     if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
-        return give_up("socket");
+        return note_failure("socket");
     }
     const int refused = fork_guardian(ends[0], ends[1], *page_);
     close(ends[1]);
     if (refused != 0) {
         close(ends[0]);
         errno = refused;
-        return give_up("fork");
+        return note_failure("fork");
     }
     socket_ = ends[0];
     replace_in_all(0, socket_);
@@ -333,10 +333,10 @@ void Guardian::begin() noexcept {
 
 Guardian::~Guardian() {
     if (socket_ >= 0) dismiss();
-    part();
+    detach();
 }
 
-void Guardian::part() noexcept {
+void Guardian::detach() noexcept {
     if (socket_ >= 0) {
         replace_in_all(socket_, 0);
         close(socket_);
@@ -351,7 +351,7 @@ bool Guardian::died() const noexcept {
     return socket_ >= 0 && poll(&end, 1, 0) == 1 && (end.revents & POLLHUP) != 0;
 }
 
-void Guardian::give_up(const char* step) noexcept {
+void Guardian::note_failure(const char* step) noexcept {
     failed_ = step;
     error_ = errno;
 }
@@ -363,9 +363,9 @@ std::string Guardian::fault() const {
            " itself can end the force; close other programs and start dibhr again";
 }
 
-bool Guardian::say(char word, int descriptor, const Farewell& farewell) noexcept {
+bool Guardian::send_message(char request, int descriptor, const StopPacket& stop_packet) noexcept {
     if (socket_ < 0) return false;
-    Message message{word, farewell};
+    Message message{request, stop_packet};
     Envelope envelope(message);
     if (descriptor >= 0) {
         envelope.enclose(descriptor);
@@ -373,36 +373,36 @@ bool Guardian::say(char word, int descriptor, const Farewell& farewell) noexcept
         envelope.enclose_nothing();
     }
     if (sendmsg(socket_, &envelope.head, MSG_NOSIGNAL | MSG_DONTWAIT) > 0) return true;
-    give_up("it has ended");
+    note_failure("it has ended");
     return false;
 }
 
-void Guardian::watch(int descriptor, const Farewell& farewell) noexcept {
+void Guardian::watch(int descriptor, const StopPacket& stop_packet) noexcept {
     if (socket_ < 0 || died()) {
-        part();
+        detach();
         begin();
     }
     beat();
     if (descriptor >= 0) {
-        (void)say(kWatch, descriptor, farewell);
+        (void)send_message(kWatch, descriptor, stop_packet);
     } else if (socket_ >= 0) {
         errno = EBADF;
-        give_up("the device's open file is not known");
+        note_failure("the device's open file is not known");
     }
 }
 
 void Guardian::dismiss() noexcept {
-    if (!say(kDismiss)) return;
+    if (!send_message(kDismiss)) return;
     const auto end = Clock::now() + milliseconds(kDismissLimit_ms);
     pollfd answer{socket_, POLLIN, 0};
     while (poll(&answer, 1, kDismissLimit_ms) < 0 && errno == EINTR && Clock::now() < end) {
     }
-    char word = 0;
-    (void)recv(socket_, &word, sizeof word, MSG_DONTWAIT);
+    char request = 0;
+    (void)recv(socket_, &request, sizeof request, MSG_DONTWAIT);
     sent_before_ = page_->sent;
 }
 
-bool Guardian::spoken() const noexcept {
+bool Guardian::has_sent() const noexcept {
     return page_ != nullptr && page_->sent != sent_before_;
 }
 

@@ -11,20 +11,20 @@
 namespace dibhr {
 
 /// A command without force, ready to be sent.
-struct Farewell {
-    enum class Over : std::uint8_t {
+struct StopPacket {
+    enum class Channel : std::uint8_t {
         usb,    ///< a bulk transfer over an open file of usbfs
         stream  ///< a connected socket
     };
     static constexpr std::size_t kMostBytes = 512;
 
-    Over over{Over::stream};
+    Channel channel{Channel::stream};
     std::uint8_t endpoint{0};  ///< of USB
     std::uint16_t size{0};
     std::array<std::uint8_t, kMostBytes> bytes{};
 
     /// Stays empty where the message is longer than kMostBytes: then nothing is ever sent.
-    void say(std::span<const std::uint8_t> message) noexcept;
+    void set_message(std::span<const std::uint8_t> message) noexcept;
 };
 
 struct SharedPage;  // memory that both processes map
@@ -54,15 +54,15 @@ class Guardian {
     /// Over a stream no packet gets lost, and unread answers would pile up: there it sends only
     /// five, and spoken() is true from then on. Not to be called while firmware is loaded: the
     /// packet would become a part of the image.
-    void watch(int descriptor, const Farewell& farewell) noexcept;
+    void watch(int descriptor, const StopPacket& stop_packet) noexcept;
     /// The guardian has sent something since the last dismiss(). What the program then receives
     /// over a stream may be the answer to the guardian's packet.
-    [[nodiscard]] bool spoken() const noexcept;
+    [[nodiscard]] bool has_sent() const noexcept;
     /// Somebody ended the guardian process: set the force to zero. The next watch() forks another.
     [[nodiscard]] bool died() const noexcept;
     /// Leaves the connection to the guardian, which handles this like the program's end: it sends
     /// its five packets and closes. The next watch() forks another guardian.
-    void part() noexcept;
+    void detach() noexcept;
     /// Returns when the guardian has closed its descriptor; if it hangs, after 0.1 s.
     void dismiss() noexcept;
     /// Heartbeat: call it at least every 20 ms after watch().
@@ -76,8 +76,9 @@ class Guardian {
 
   private:
     void begin() noexcept;
-    [[nodiscard]] bool say(char word, int descriptor = -1, const Farewell& farewell = {}) noexcept;
-    void give_up(const char* step) noexcept;
+    [[nodiscard]] bool send_message(char request, int descriptor = -1,
+                                    const StopPacket& stop_packet = {}) noexcept;
+    void note_failure(const char* step) noexcept;
 
     const std::string device_;
     SharedPage* page_{nullptr};
@@ -90,9 +91,9 @@ class Guardian {
 /// The guardian watches this descriptor during the lifetime of the object.
 class Guarded {
   public:
-    Guarded(Guardian& guardian, int descriptor, const Farewell& farewell) noexcept
+    Guarded(Guardian& guardian, int descriptor, const StopPacket& stop_packet) noexcept
         : guardian_(guardian) {
-        guardian_.watch(descriptor, farewell);
+        guardian_.watch(descriptor, stop_packet);
     }
     ~Guarded() { guardian_.dismiss(); }
     Guarded(const Guarded&) = delete;

@@ -11,12 +11,12 @@ using std::chrono::milliseconds;
 
 // README.md, Safety numbers.
 constexpr double kFastest_m_per_s = 10.0;    // no hand is faster
-constexpr double kJumpAnyway_m = 0.02;       // added to the greatest step of that speed
-constexpr milliseconds kOurUseBegins{1000};  // `in_use` so soon after our first force is our use
-constexpr milliseconds kOurPushBegins{100};  // likewise after each rise of the force from zero
-constexpr double kWorthHearing_newton = 0.3;
-constexpr double kHeardShare = 0.05;  // small, because filters in the service reduce a force
-constexpr milliseconds kDeafAfter{250};
+constexpr double kJumpAllowance_m = 0.02;    // added to the greatest step of that speed
+constexpr milliseconds kOwnUseWindow{1000};  // `in_use` so soon after our first force is our use
+constexpr milliseconds kOwnPushWindow{100};  // likewise after each rise of the force from zero
+constexpr double kLeastChecked_newton = 0.3;
+constexpr double kEchoShare = 0.05;  // small, because filters in the service reduce a force
+constexpr milliseconds kNoEchoLimit{250};
 
 bool is_permuted(const ArmConfig& config) noexcept {
     return !config.basis.empty() && config.basis.view() != "XYZ";
@@ -47,12 +47,12 @@ void ArmWatch::add(const Arm& arm, Time at) noexcept {
     last_at_ = at;
 }
 
-void ArmWatch::miss() noexcept {
+void ArmWatch::add_gap() noexcept {
     trusted_ = 0;
     last_m_.reset();
 }
 
-void ArmWatch::drove(Time at, bool pushes) noexcept {
+void ArmWatch::force_sent(Time at, bool pushes) noexcept {
     if (!driven_since_) driven_since_ = at;
     if (pushes && !pushes_) pushed_since_ = at;
     pushes_ = pushes;
@@ -71,8 +71,8 @@ void ArmWatch::follow_use(bool in_use, Time at) noexcept {
     // It is not known whether `in_use` includes us: a use that begins with our force is ours.
     if (!in_use) used_by_us_ = false;
     if (in_use && !was_in_use_) {
-        used_by_us_ = (driven_since_ && at - *driven_since_ < kOurUseBegins) ||
-                      (pushed_since_ && at - *pushed_since_ < kOurPushBegins);
+        used_by_us_ = (driven_since_ && at - *driven_since_ < kOwnUseWindow) ||
+                      (pushed_since_ && at - *pushed_since_ < kOwnPushWindow);
     }
     was_in_use_ = in_use;
 }
@@ -85,26 +85,28 @@ bool ArmWatch::stands_still(const Arm& arm, Time at) noexcept {
 bool ArmWatch::jumps_to(Vec3 position_m, Time at) const noexcept {
     if (!last_m_) return false;
     const std::chrono::duration<double> passed = at - last_at_;
-    return glm::distance(position_m, *last_m_) > kJumpAnyway_m + kFastest_m_per_s * passed.count();
+    return glm::distance(position_m, *last_m_) >
+           kJumpAllowance_m + kFastest_m_per_s * passed.count();
 }
 
-void HearingWatch::begin() noexcept {
-    *this = HearingWatch{};
+void ForceEchoWatch::begin() noexcept {
+    *this = ForceEchoWatch{};
 }
 
-void HearingWatch::add(Vec3 sent_newton, const std::optional<Vec3>& told_newton, Time at) noexcept {
+void ForceEchoWatch::add(Vec3 sent_newton, const std::optional<Vec3>& reported_newton,
+                         Time at) noexcept {
     const double sent = glm::length(sent_newton);
-    if (!told_newton || sent < kWorthHearing_newton) {
-        unheard_since_.reset();
+    if (!reported_newton || sent < kLeastChecked_newton) {
+        no_echo_since_.reset();
         return;
     }
-    if (glm::length(*told_newton) >= kHeardShare * sent) {
-        hears_ = Hears::yes;
-        unheard_since_.reset();
+    if (glm::length(*reported_newton) >= kEchoShare * sent) {
+        obeys_ = Obeys::yes;
+        no_echo_since_.reset();
         return;
     }
-    if (!unheard_since_) unheard_since_ = at;
-    if (at - *unheard_since_ >= kDeafAfter) hears_ = Hears::no;
+    if (!no_echo_since_) no_echo_since_ = at;
+    if (at - *no_echo_since_ >= kNoEchoLimit) obeys_ = Obeys::no;
 }
 
 }  // namespace dibhr::inverse3

@@ -23,9 +23,9 @@ class ArmWatch {
     /// A state received at `at`.
     void add(const Arm& arm, Time at) noexcept;
     /// A message without this arm, or one that is not valid.
-    void miss() noexcept;
+    void add_gap() noexcept;
     /// A force was sent at `at`; `pushes`: it was not zero.
-    void drove(Time at, bool pushes) noexcept;
+    void force_sent(Time at, bool pushes) noexcept;
 
     /// Why the arm cannot touch; `ready`: it can.
     [[nodiscard]] Stage stage() const noexcept { return stage_; }
@@ -56,19 +56,19 @@ class ArmWatch {
 };
 
 /// Whether the service takes our forces: it has to report back the forces that were sent.
-class HearingWatch {
+class ForceEchoWatch {
   public:
     using Time = std::chrono::steady_clock::time_point;
-    enum class Hears { unknown, yes, no };
+    enum class Obeys { unknown, yes, no };
 
     void begin() noexcept;
-    /// `told_newton`: the force in the state that answered a message with `sent_newton`.
-    void add(Vec3 sent_newton, const std::optional<Vec3>& told_newton, Time at) noexcept;
-    [[nodiscard]] Hears hears() const noexcept { return hears_; }
+    /// `reported_newton`: the force in the state that answered a message with `sent_newton`.
+    void add(Vec3 sent_newton, const std::optional<Vec3>& reported_newton, Time at) noexcept;
+    [[nodiscard]] Obeys obeys() const noexcept { return obeys_; }
 
   private:
-    Hears hears_{Hears::unknown};
-    std::optional<Time> unheard_since_{};
+    Obeys obeys_{Obeys::unknown};
+    std::optional<Time> no_echo_since_{};
 };
 
 }  // namespace dibhr::inverse3

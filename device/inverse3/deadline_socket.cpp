@@ -86,7 +86,7 @@ std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code&
     for (const iovec& part : parts) all += part.iov_len;
     const bool closes = whole_ && !parts.empty() && parts.front().iov_len > 0 &&
                         *static_cast<const std::uint8_t*>(parts.front().iov_base) == kCloseFrame;
-    if (closes && !say_last_words()) {  // then the guardian has to send it
+    if (closes && !send_stop_packet()) {  // then the guardian has to send it
         error = std::make_error_code(std::errc::no_buffer_space);
         return 0;
     }
@@ -108,21 +108,21 @@ std::size_t DeadlineSocket::write(std::span<const iovec> parts, std::error_code&
     }
 }
 
-void DeadlineSocket::set_last_words(std::span<const std::uint8_t> frame) noexcept {
-    last_words_size_ = frame.size() <= last_words_.size() ? frame.size() : 0;
-    std::copy_n(frame.begin(), last_words_size_, last_words_.begin());
+void DeadlineSocket::set_stop_packet(std::span<const std::uint8_t> frame) noexcept {
+    stop_packet_size_ = frame.size() <= stop_packet_.size() ? frame.size() : 0;
+    std::copy_n(frame.begin(), stop_packet_size_, stop_packet_.begin());
 }
 
-bool DeadlineSocket::say_last_words() noexcept {
-    const std::size_t size = std::exchange(last_words_size_, 0);
+bool DeadlineSocket::send_stop_packet() noexcept {
+    const std::size_t size = std::exchange(stop_packet_size_, 0);
     if (descriptor_ < 0 || size == 0) return true;
     // Behind a partial frame, this frame would be taken for its rest.
-    return whole_ && send(descriptor_, last_words_.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT) ==
+    return whole_ && send(descriptor_, stop_packet_.data(), size, MSG_NOSIGNAL | MSG_DONTWAIT) ==
                          static_cast<ssize_t>(size);
 }
 
 void DeadlineSocket::close() noexcept {
-    (void)say_last_words();
+    (void)send_stop_packet();
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
     from_ = to_ = 0;

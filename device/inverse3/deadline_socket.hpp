@@ -36,7 +36,7 @@ class DeadlineSocket {
     [[nodiscard]] std::size_t write(std::span<const iovec> parts, std::error_code& error) noexcept;
     /// Sets the frame that is sent once before the connection ends: before our close frame, or in
     /// close().
-    void set_last_words(std::span<const std::uint8_t> frame) noexcept;
+    void set_stop_packet(std::span<const std::uint8_t> frame) noexcept;
     void close() noexcept;
 
     /// -1: not connected.
@@ -49,7 +49,7 @@ class DeadlineSocket {
   private:
     [[nodiscard]] std::error_code wait_for(short events) const noexcept;
     /// False: the frame was not sent as a whole.
-    [[nodiscard]] bool say_last_words() noexcept;
+    [[nodiscard]] bool send_stop_packet() noexcept;
 
     int descriptor_{-1};
     Time deadline_{Time::max()};
@@ -57,8 +57,8 @@ class DeadlineSocket {
     std::size_t from_{0};                     // ... from here
     std::size_t to_{0};                       // to here
     bool whole_{true};                        // no frame was written only in part
-    std::array<std::uint8_t, 512> last_words_{};
-    std::size_t last_words_size_{0};
+    std::array<std::uint8_t, 512> stop_packet_{};
+    std::size_t stop_packet_size_{0};
 };
 
 }  // namespace dibhr::inverse3

@@ -10,10 +10,10 @@
 #include <thread>
 
 #include "device/hand/guardian.hpp"
-#include "device/inverse3/conversation.hpp"
-#include "device/inverse3/exchange.hpp"
+#include "device/inverse3/exchange_loop.hpp"
 #include "device/inverse3/service_link.hpp"
 #include "device/inverse3/status.hpp"
+#include "device/inverse3/thread_buffers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -21,7 +21,7 @@ namespace dibhr::inverse3 {
 class Driver {
   public:
     /// `exchange` must outlive it.
-    Driver(ConnectionOptions options, Exchange& exchange);
+    Driver(ConnectionOptions options, ThreadBuffers& buffers);
     ~Driver();  ///< sends a zero force, then closes the connection
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
@@ -29,23 +29,23 @@ class Driver {
     [[nodiscard]] Status status() const { return board_.read(); }
 
   private:
-    void live(const std::stop_token& stop);
-    void look(const std::stop_token& stop);
-    void talk(ServiceLink& link, bool newer, const std::stop_token& stop);
-    void lose(const LinkError& error, const Conversation& conversation);
-    void miss(const LinkError& error);
-    void tell(Stage stage, const std::string& sentence, bool trouble);
+    void run(const std::stop_token& stop);
+    void find_device(const std::stop_token& stop);
+    void run_exchanges(ServiceLink& link, bool newer, const std::stop_token& stop);
+    void handle_loss(const LinkError& error, const ExchangeLoop& exchange_loop);
+    void handle_no_service(const LinkError& error);
+    void publish_status(Stage stage, const std::string& sentence, bool trouble);
 
     const ConnectionOptions options_;
-    Exchange& exchange_;
+    ThreadBuffers& buffers_;
     Board board_{};
     Guardian guardian_{"Inverse3"};
-    Memory memory_{};
+    DriverState driver_state_{};
     bool lost_{false};                   // the service was connected before, in this run
     std::chrono::milliseconds pause_{};  // before the next search
 
     std::mutex mutex_{};
-    std::condition_variable_any news_{};
+    std::condition_variable_any changed_{};
 
     std::jthread thread_{};  // last: it uses all the others
 };

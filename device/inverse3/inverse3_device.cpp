@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kOldestPose{20};
 constexpr double kMaxForce_newton = 10.0;  // peak; the lasting limit is Tuning::max_force_newton
 constexpr double kMaxStiffness_newton_per_mm = 1.0;
-constexpr int kTellAgesEvery = 500;  // ticks
+constexpr int kPublishAgesEvery = 500;  // ticks
 constexpr double kMetre_mm = 1000.0;
 
 Vec3 no_longer_than(Vec3 force, double most) noexcept {
@@ -44,7 +44,7 @@ DeviceSpecification specification_of(const ConnectionOptions& options) {
 }
 
 Inverse3Device::Inverse3Device(ConnectionOptions options)
-    : GripDevice(specification_of(options)), driver_(std::move(options), exchange_) {}
+    : GripDevice(specification_of(options)), driver_(std::move(options), buffers_) {}
 
 DeviceState Inverse3Device::state() {
     const PoseAges& ages = pose_ages();
@@ -63,13 +63,13 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
     const double tilt_deg = tuned().tilt_deg;
     take_tuning();
     if (tuned().tilt_deg != tilt_deg) tilt_ = ImageTilt(tuned().tilt_deg);
-    const TimedPose& newest = exchange_.poses.front();
+    const TimedPose& newest = buffers_.poses.front();
     take_epoch(newest.epoch);
     pose_age_ = Clock::now() - newest.at;
     count_age();
 
     std::optional<Vec3> hand_mm;
-    if (in_hand() && pose_age_ < kOldestPose)
+    if (can_touch() && pose_age_ < kOldestPose)
         hand_mm = tilt_.hand_from_service(newest.position_m * kMetre_mm - tuned().centre_mm);
     HandReading reading =
         reading_at(hand_mm, newest.buttons,
@@ -80,16 +80,16 @@ HandReading Inverse3Device::read(const HandContext& context) noexcept {
 }
 
 void Inverse3Device::count_age() noexcept {
-    if (!in_hand()) return;
+    if (!can_touch()) return;
     ages_.add(pose_age_);
-    if (++ages_untold_ < kTellAgesEvery) return;
-    ages_untold_ = 0;
-    told_ages_.publish(ages_);
+    if (++ages_unpublished_ < kPublishAgesEvery) return;
+    ages_unpublished_ = 0;
+    published_ages_.publish(ages_);
 }
 
 void Inverse3Device::send(Vec3 force_newton) noexcept {
     const bool pushes = may_push() && is_finite(force_newton);
-    TimedForce& force = exchange_.forces.back();
+    TimedForce& force = buffers_.forces.back();
     force.at = Clock::now();
     force.epoch = pushes ? epoch() : kNoEpoch;
     force.newton = Vec3{0.0};
@@ -97,8 +97,8 @@ void Inverse3Device::send(Vec3 force_newton) noexcept {
         force.newton = tilt_.service_from_hand(
             device_axes(no_longer_than(force_newton, tuned().max_force_newton)));
     }
-    exchange_.forces.publish();
-    exchange_.wake.signal();
+    buffers_.forces.publish();
+    buffers_.wake.signal();
 }
 
 }  // namespace dibhr::inverse3

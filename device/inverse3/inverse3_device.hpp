@@ -7,10 +7,10 @@
 #include "device/grip_device.hpp"
 #include "device/hand/pose_ages.hpp"
 #include "device/inverse3/driver.hpp"
-#include "device/inverse3/exchange.hpp"
 #include "device/inverse3/frame.hpp"
 #include "device/inverse3/settings.hpp"
 #include "device/inverse3/status.hpp"
+#include "device/inverse3/thread_buffers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -32,7 +32,7 @@ class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
     /// calibrated, powered, not used by another program and takes forces, its pose is younger than
     /// 20 ms, and the clutch is open. Before the first pose the goal is above the middle of the
     /// image, higher than the relief; without a pose it stays. A change of workspace, tilt or
-    /// centre sets `taken_over`, as does every gap and jump.
+    /// centre sets `hand_changed`, as does every gap and jump.
     HandReading read(const HandContext& context) noexcept override;
 
     /// The force of this tick, sent with the next message. Zero for a force that is not finite, and
@@ -46,7 +46,7 @@ class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
 
     /// Pose ages of all ticks in which this device touched, since the start; updated every half
     /// second.
-    [[nodiscard]] const PoseAges& pose_ages() noexcept { return told_ages_.front(); }
+    [[nodiscard]] const PoseAges& pose_ages() noexcept { return published_ages_.front(); }
     [[nodiscard]] Status status() const { return driver_.status(); }
     [[nodiscard]] DeviceState state() override;
 
@@ -56,14 +56,14 @@ class Inverse3Device final : public GripDevice<Inverse3Settings, Tuning> {
     PoseAges shown_ages_{};   // all ages up to shown_at_
     PoseAges recent_ages_{};  // ages of the second before shown_at_
     std::chrono::steady_clock::time_point shown_at_{};
-    TripleBuffer<PoseAges> told_ages_{};
-    Exchange exchange_{};
+    TripleBuffer<PoseAges> published_ages_{};
+    ThreadBuffers buffers_{};
 
     // Used by the haptic thread only.
     ImageTilt tilt_{0.0};
     std::chrono::nanoseconds pose_age_{0};
     PoseAges ages_{};
-    int ages_untold_{0};
+    int ages_unpublished_{0};
 
     Driver driver_;  // last: its thread uses the exchange
 };

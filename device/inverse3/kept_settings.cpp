@@ -15,12 +15,12 @@ namespace dibhr::inverse3 {
 
 namespace {
 
-constexpr std::chrono::milliseconds kTakes{300};
+constexpr std::chrono::milliseconds kSettingTimeout{300};
 constexpr std::size_t kLongest = 120;
 constexpr std::size_t kLongestRead = 4096;
 
-std::string shortened(const std::string& told) {
-    const std::string text = one_line(told);
+std::string shortened(const std::string& answer) {
+    const std::string text = one_line(answer);
     return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
@@ -72,9 +72,9 @@ std::optional<std::string> refusal_in(const Json& value) {
 }
 
 /// The answer of the service; empty: none.
-std::string told_of(const ConnectionOptions& options, const std::string& target) {
+std::string answer_of(const ConnectionOptions& options, const std::string& target) {
     try {
-        return http_get(options.port, target, ServiceLink::Time::clock::now() + kTakes);
+        return http_get(options.port, target, ServiceLink::Time::clock::now() + kSettingTimeout);
     } catch (const LinkError&) {
         return {};
     }
@@ -82,17 +82,17 @@ std::string told_of(const ConnectionOptions& options, const std::string& target)
 
 }  // namespace
 
-std::string words_of_setting(std::string_view told) {
+std::string setting_text(std::string_view answer) {
     const Json value =
-        told.size() > kLongestRead ? Json(Json::value_t::discarded) : parsed_json(told);
-    if (value.is_discarded()) return shortened(std::string(told));
+        answer.size() > kLongestRead ? Json(Json::value_t::discarded) : parsed_json(answer);
+    if (value.is_discarded()) return shortened(std::string(answer));
     if (const auto refusal = refusal_in(value)) return "not told: " + shortened(*refusal);
     const std::string words = words_of(value, {});
-    return shortened(words.empty() ? std::string(told) : words);
+    return shortened(words.empty() ? std::string(answer) : words);
 }
 
-std::vector<KeptSetting> ask_kept_settings(const ConnectionOptions& options,
-                                           const std::string& device) {
+std::vector<KeptSetting> fetch_kept_settings(const ConnectionOptions& options,
+                                             const std::string& device) {
     const std::string config = "/inverse3/" + device + "/config/";
     const std::array<std::pair<const char*, std::string>, 4> questions{
         {{"gravity compensation", config + "gravity_compensation"},
@@ -101,8 +101,8 @@ std::vector<KeptSetting> ask_kept_settings(const ConnectionOptions& options,
          {"force scale", "/settings/devices/force_scale"}}};
     std::vector<KeptSetting> kept;
     for (const auto& [name, target] : questions) {
-        const std::string told = told_of(options, target);
-        if (!told.empty()) kept.push_back({name, words_of_setting(told), shortened(told)});
+        const std::string answer = answer_of(options, target);
+        if (!answer.empty()) kept.push_back({name, setting_text(answer), shortened(answer)});
     }
     return kept;
 }

@@ -21,20 +21,20 @@ namespace dibhr::inverse3 {
 
 namespace {
 
-ConnectionOptions connection_in(const DeviceSettings& settings, const DeviceGiven& given = {}) {
+ConnectionOptions connection_in(const DeviceSettings& settings, const DeviceArguments& given = {}) {
     ConnectionOptions connection = connection_of(static_cast<const Inverse3Settings&>(settings));
     if (!given.which.empty()) connection.device = given.which;
     return connection;
 }
 
-std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceGiven& given) {
+std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceArguments& given) {
     return std::make_unique<Inverse3Device>(connection_in(settings, given));
 }
 
-std::vector<DeviceLine> ask_kept(const DeviceSettings& settings, const std::string& id) {
+std::vector<DeviceLine> read_kept_settings(const DeviceSettings& settings, const std::string& id) {
     std::vector<DeviceLine> lines;
-    for (const KeptSetting& kept : ask_kept_settings(connection_in(settings), id)) {
-        lines.push_back({.text = kept.name + ": " + kept.words,
+    for (const KeptSetting& kept : fetch_kept_settings(connection_in(settings), id)) {
+        lines.push_back({.text = kept.name + ": " + kept.text,
                          .help = "As it was when the device was connected. The service keeps it "
                                  "for all programs; dibhr does not change it"});
     }
@@ -42,7 +42,7 @@ std::vector<DeviceLine> ask_kept(const DeviceSettings& settings, const std::stri
 }
 
 /// Power and calibration are not checked here: the window shows what is missing.
-std::string why_none_of_service(const DeviceSettings& settings, const DeviceGiven& given) {
+std::string why_none_of_service(const DeviceSettings& settings, const DeviceArguments& given) {
     const ConnectionOptions connection = connection_in(settings, given);
     return why_none(survey_service(connection), connection.device);
 }
@@ -52,69 +52,70 @@ std::string name_of(const SurveyedArm& arm) {
     return kind + arm.id;
 }
 
-void tell_of(const GripStatus& grip, const TellLine& tell) {
+void print_device(const GripStatus& grip, const PrintLine& print) {
     std::string text = "Haply grip " + grip.id + ": " + (grip.wired ? "wired" : "wireless") +
                        (grip.awake ? "" : ", asleep: press its button");
     if (grip.battery)
         text += ", battery " + std::to_string(std::lround(100.0 * *grip.battery)) + " %";
-    tell(text);
+    print(text);
 }
 
-void tell_of(const SurveyedArm& arm, const TellLine& tell) {
-    tell(name_of(arm) + ": " + (arm.usable() ? "usable, " : "not usable yet, ") + arm.sentence);
+void print_device(const SurveyedArm& arm, const PrintLine& print) {
+    print(name_of(arm) + ": " + (arm.usable() ? "usable, " : "not usable yet, ") + arm.sentence);
     if (arm.kept.empty()) return;
-    tell("  kept by the service for all programs, not changed by dibhr:");
-    for (const KeptSetting& kept : arm.kept) tell("    " + kept.name + ": " + kept.words);
+    print("  kept by the service for all programs, not changed by dibhr:");
+    for (const KeptSetting& kept : arm.kept) print("    " + kept.name + ": " + kept.text);
 }
 
-DevicesFound survey(const DeviceSettings& settings, const TellLine& tell) {
+DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
     const Survey there = survey_service(connection_in(settings));
     if (there.stage != Stage::ready) {
-        tell("Haply Inverse3: none usable, " + there.sentence);
+        print("Haply Inverse3: none usable, " + there.sentence);
         return {};
     }
-    tell("Haply Inverse Service" + (there.version.empty() ? "" : " " + there.version));
+    print("Haply Inverse Service" + (there.version.empty() ? "" : " " + there.version));
     DevicesFound found;
     for (const SurveyedArm& arm : there.arms) {
-        tell_of(arm, tell);
+        print_device(arm, print);
         found.usable = found.usable || arm.usable();
         if (found.refusal.empty()) {
             found.refusal = name_of(arm) + " is not usable yet, " + arm.sentence;
         }
     }
-    for (const GripStatus& grip : there.grips) tell_of(grip, tell);
+    for (const GripStatus& grip : there.grips) print_device(grip, print);
     return found;
 }
 
-bool glance(const DeviceSettings& settings, const TellLine& tell) {
+bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
     const Survey there = survey_service(connection_in(settings));
     for (const SurveyedArm& arm : there.arms)
-        tell("a Haply Inverse3 (" + arm.id + ") is there: " + arm.sentence);
+        print("a Haply Inverse3 (" + arm.id + ") is there: " + arm.sentence);
     return std::any_of(there.arms.begin(), there.arms.end(),
                        [](const SurveyedArm& arm) { return arm.usable(); });
 }
 
-CheckResult check(const DeviceSettings& settings, const CheckPaper& paper, const TellLine& /*line*/,
-                  CheckGuide& guide) {
-    return run_check(
-        {.connection = connection_in(settings), .record = paper.record, .facts = paper.facts},
-        guide);
+CheckResult check(const DeviceSettings& settings, const CheckRecordOptions& record_options,
+                  const PrintLine& /*line*/, CheckConsole& console) {
+    return run_check({.connection = connection_in(settings),
+                      .record = record_options.record,
+                      .facts = record_options.facts},
+                     console);
 }
 
 /// Typed lines move the simulated hand and device. Throws DeviceError when a port is taken.
-void simulate(const DeviceSettings& settings, std::istream& orders, const TellLine& tell) {
+void simulate(const DeviceSettings& settings, std::istream& input, const PrintLine& print) {
     const ConnectionOptions connection = connection_in(settings);
     simulated::Scene scene;
     scene.grips = {simulated::Grip{}};
     simulated::Service service(std::move(scene), connection.port, connection.older_port);
     std::string_view commands = simulated::kHandCommands;
     commands.remove_suffix(1);  // the last newline
-    tell("A simulated Inverse3 answers on port " + std::to_string(service.port()) +
-         ". Start dibhr in another terminal.\n" + std::string(commands));
+    print("A simulated Inverse3 answers on port " + std::to_string(service.port()) +
+          ". Start dibhr in another terminal.\n" + std::string(commands));
     simulated::HandScript script(service);
-    for (std::string line; std::getline(orders, line);) {
-        const std::string answer = script.obey(line);
-        if (!answer.empty()) tell(answer);
+    for (std::string line; std::getline(input, line);) {
+        const std::string answer = script.run_line(line);
+        if (!answer.empty()) print(answer);
     }
 }
 
@@ -123,21 +124,21 @@ void simulate(const DeviceSettings& settings, std::istream& orders, const TellLi
 extern const ForceDeviceKind device_kind{
     .name = "inverse3",
     .title = "Haply Inverse3",
-    .called = "Inverse3",
+    .short_name = "Inverse3",
     .article = "an Inverse3",
     .which = "ID",
     .known = "; its mass and delay are assumed, not measured",
-    .no_pose = "no fresh pose: no force",
+    .no_pose_advice = "no fresh pose: no force",
     .make_settings = make_settings<Inverse3Settings>,
     .make = make,
-    .ask_kept = ask_kept,
+    .read_kept_settings = read_kept_settings,
     .why_none = why_none_of_service,
     .attached =
         [](const DeviceSettings& settings) {
             return !survey_service(connection_in(settings)).arms.empty();
         },
     .survey = survey,
-    .glance = glance,
+    .print_attached = print_attached,
     .check = check,
     .simulate = simulate,
 };

@@ -152,7 +152,7 @@ void read_list(const object& from, std::string_view key,
 
 void read_message(const object& root, ServiceMessage& message) noexcept {
     message.has_session = member(root, "session_id").has_value();
-    message.complaint = text_in(root, "error");
+    message.error_text = text_in(root, "error");
     read_list(root, "inverse3", message.arms, message.arm_count, arm_of);
     read_list(root, "minverse", message.arms, message.arm_count, arm_of);
     const auto wireless = [](const object& device) noexcept { return grip_of(device, false); };

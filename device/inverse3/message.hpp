@@ -61,8 +61,8 @@ struct ServiceMessage {
     std::size_t arm_count{0};
     std::array<Grip, kMost> grips{};
     std::size_t grip_count{0};
-    bool has_session{false};     ///< has the name of the session, as from 3.5 on
-    ShortText<160> complaint{};  ///< the error that the service reports; empty: none
+    bool has_session{false};      ///< has the name of the session, as from 3.5 on
+    ShortText<160> error_text{};  ///< the error that the service reports; empty: none
 
     /// The arm with this ID; null: not in the message.
     [[nodiscard]] const Arm* arm(const DeviceId& id) const noexcept;

@@ -217,7 +217,7 @@ int ServiceLink::descriptor() const noexcept {
     return stream_->socket.next_layer().socket().descriptor();
 }
 
-Farewell ServiceLink::set_last_words(std::string_view text) {
+StopPacket ServiceLink::set_stop_packet(std::string_view text) {
     std::vector<std::uint8_t> frame;
     if (!text.empty()) {
         const KeptWrites kept(stream_->socket.next_layer(), frame);
@@ -225,9 +225,9 @@ Farewell ServiceLink::set_last_words(std::string_view text) {
         stream_->socket.write(boost::asio::buffer(text.data(), text.size()), failure);
         if (failure) throw LinkError(Why::lost, failure.message());
     }
-    stream_->socket.next_layer().socket().set_last_words(frame);
-    Farewell last;
-    last.say(frame);
+    stream_->socket.next_layer().socket().set_stop_packet(frame);
+    StopPacket last;
+    last.set_message(frame);
     return last;
 }
 

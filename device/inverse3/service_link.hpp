@@ -22,7 +22,7 @@ class LinkError : public DeviceError {
         lost,             ///< closed, reset, or timed out in the middle of a message
         too_long,         ///< a message longer than any device's state
         unguarded,        ///< the guardian has died
-        stood_still       ///< this program stalled, and its guardian has sent zero forces
+        program_stalled   ///< this program stalled, and its guardian has sent zero forces
     };
 
     LinkError(Why why, const std::string& text) : DeviceError(text), why_(why) {}
@@ -56,7 +56,7 @@ class ServiceLink {
     [[nodiscard]] int descriptor() const noexcept;
     /// Sets the message that is sent before the link ends, however it ends; empty: none. Returns
     /// it as a whole frame, for the guardian.
-    Farewell set_last_words(std::string_view text);
+    StopPacket set_stop_packet(std::string_view text);
     /// Closes the WebSocket and waits for the answer; false: there was none.
     bool close(Time deadline) noexcept;
 

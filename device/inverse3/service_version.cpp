@@ -18,7 +18,7 @@ namespace {
 
 using Why = LinkError::Why;
 
-constexpr std::chrono::milliseconds kAnswerTakes{300};
+constexpr std::chrono::milliseconds kAnswerTimeout{300};
 constexpr std::array kUnits{"/usr/lib/systemd/system/haply-inverse-service.service",
                             "/lib/systemd/system/haply-inverse-service.service",
                             "/etc/systemd/system/haply-inverse-service.service"};
@@ -26,7 +26,7 @@ constexpr std::array kUnits{"/usr/lib/systemd/system/haply-inverse-service.servi
 std::optional<ServiceVersion> version_at(std::uint16_t port) {
     try {
         const std::string text =
-            http_get(port, "/version", std::chrono::steady_clock::now() + kAnswerTakes);
+            http_get(port, "/version", std::chrono::steady_clock::now() + kAnswerTimeout);
         const Json told = parsed_json(text);
         if (!told.is_object()) return {};
         const auto version = told.find("project_version");
@@ -56,7 +56,7 @@ std::optional<ServiceVersion> version_of(std::string_view text) {
     return version;
 }
 
-Unheard why_unheard(const LinkError& error, const Status& status) {
+ServiceFault service_fault(const LinkError& error, const Status& status) {
     const auto version = version_of(status.version);
     const std::string service = "the Haply Inverse Service";
     if (error.why() == Why::refused && version && version->at_least(3, 1))

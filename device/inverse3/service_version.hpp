@@ -26,12 +26,12 @@ struct ServiceVersion {
 [[nodiscard]] std::optional<ServiceVersion> ask_version(const ConnectionOptions& options);
 
 /// Stage and sentence for a service without a connection.
-struct Unheard {
+struct ServiceFault {
     Stage stage{};
     std::string sentence{};
 };
 /// `status`: its version, and whether it is installed.
-[[nodiscard]] Unheard why_unheard(const LinkError& error, const Status& status);
+[[nodiscard]] ServiceFault service_fault(const LinkError& error, const Status& status);
 
 /// Whether one of the service's files is found.
 [[nodiscard]] bool is_installed(const ConnectionOptions& options);

@@ -31,7 +31,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
         {"dialect", kService, "Format of forces",
          "Sources differ on the format of a force. dibhr tries that of the service's version "
          "first, and the other one if the service confirms no force",
-         DeviceWord(dialect)},
+         DeviceEnum(dialect)},
         {"preset", kService, "Preset: defaults",
          "Mount, axes and origin: defaults, arm_front, led_front, arm_front_centered, "
          "led_front_centered; the centre above depends on the preset",
@@ -59,7 +59,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
         offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
                    "How far above the middle of the relief the box's centre is"),
     };
-    add_buttons(rows, kGrip, kButtons);
+    add_buttons(rows, kDeviceButtons, kButtons);
     return rows;
 }
 

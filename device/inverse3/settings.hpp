@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "device/hand/device_settings.hpp"
 #include "device/inverse3/frame.hpp"
 #include "device/inverse3/status.hpp"
@@ -17,25 +17,26 @@ namespace dibhr::inverse3 {
 /// The format of a force in messages to the service.
 enum class Dialect : std::uint8_t { automatic, vector, values };
 
-inline constexpr std::array<Word<Dialect>, 3> kDialectWords{
+inline constexpr std::array<NamedValue<Dialect>, 3> kDialectNames{
     {{Dialect::automatic, "auto", "By service version"},
      {Dialect::vector, "vector", "vector (3.5)"},
      {Dialect::values, "values", "values"}}};
-static_assert(has_all_in_order(kDialectWords, Dialect::values));
+static_assert(has_all_in_order(kDialectNames, Dialect::values));
 
-[[nodiscard]] constexpr const auto& words_of(Dialect) noexcept {
-    return kDialectWords;
+[[nodiscard]] constexpr const auto& name_table(Dialect) noexcept {
+    return kDialectNames;
 }
 
 /// In the order of Status::presses.
-inline constexpr GripButtons kGrip{
+inline constexpr DeviceButtons kDeviceButtons{
     {{"button-a", "A, or the only one", ButtonAction::clutch},
-     {"button-b", "B", ButtonAction::force_off, Protection{Less::other, "Inverse3's button B"}},
+     {"button-b", "B", ButtonAction::force_off,
+      Protection{WeakerWhen::other, "Inverse3's button B"}},
      {"button-c", "C", ButtonAction::record},
      {"button-home", "Home", ButtonAction::play_or_pause}}};
 
 struct Inverse3Settings final : DeviceSettings {
-    Inverse3Settings() : DeviceSettings(kGrip, Tuning{}.workspace) {}
+    Inverse3Settings() : DeviceSettings(kDeviceButtons, Tuning{}.workspace) {}
 
     std::string device{};  ///< an ID, "left" or "right"; empty: the first
     int port{10001};

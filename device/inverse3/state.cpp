@@ -59,9 +59,9 @@ void add_exchange(const Status& status, const PoseAges& recent, std::vector<Devi
              .text = status.preset + (status.other_preset ? ", though another is asked for" : "")});
     }
     if (status.grip) lines.push_back({.label = "Grip", .text = grip_text(*status.grip)});
-    if (status.unasked + status.not_understood > 0) {
+    if (status.unrequested + status.not_understood > 0) {
         lines.push_back({.label = "Link",
-                         .text = std::to_string(status.unasked) + " not asked for, " +
+                         .text = std::to_string(status.unrequested) + " not asked for, " +
                                  std::to_string(status.not_understood) + " not understood"});
     }
 }
@@ -82,7 +82,7 @@ DeviceState state_of(const Status& status, const PoseAges& recent) {
                    {"id", status.id},
                    {"preset-read", status.preset},
                    {"service", status.version}};
-    state.who = {.label = status.minverse ? "Minverse" : "Inverse3", .text = id_text(status)};
+    state.name_line = {.label = status.minverse ? "Minverse" : "Inverse3", .text = id_text(status)};
     if (!status.version.empty())
         state.lines.push_back({.label = "Service", .text = status.version});
     if (state.ready) add_exchange(status, recent, state.lines);

@@ -47,7 +47,7 @@ std::string sentence_for(Stage stage, const Status& status) {
         case Stage::slow:
             return "the Haply Inverse Service answers too slowly: no force; close other programs, "
                    "or start it again";
-        case Stage::deaf:
+        case Stage::force_refused:
             return "the Haply Inverse Service accepts a force in neither of the two formats: no "
                    "force; update the service or dibhr";
         case Stage::ready:

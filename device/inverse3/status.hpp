@@ -12,7 +12,7 @@
 #include "device/hand/buttons.hpp"
 #include "device/hand/state_board.hpp"
 #include "device/hand/workspace.hpp"
-#include "device/inverse3/order.hpp"
+#include "device/inverse3/service_request.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -37,12 +37,12 @@ struct Tuning {
     double max_force_newton{4.0};
     std::uint8_t clutch_buttons{0};
     std::uint8_t force_off_buttons{0};
-    std::uint32_t centred{0};  ///< a new value resets the clutch's shift
+    std::uint32_t centre_count{0};  ///< a new value resets the clutch's shift
 
     bool operator==(const Tuning&) const = default;
     /// The values that change the goal of a pose.
     [[nodiscard]] auto felt() const noexcept {
-        return std::tie(workspace, centre_mm, tilt_deg, centred);
+        return std::tie(workspace, centre_mm, tilt_deg, centre_count);
     }
 };
 
@@ -54,13 +54,13 @@ enum class Stage {
     no_device,       ///< the service has no Inverse3, or not the requested one
     no_power,
     not_calibrated,
-    locked,        ///< calibrated and powered, but not ready: a Minverse without a grip
-    in_use,        ///< by another program
-    other_frame,   ///< its axes are permuted
-    other_preset,  ///< the service keeps another preset than the requested one
-    deaf,          ///< the service takes a force in neither format
-    slow,          ///< the service answers too slowly for a force
-    ready          ///< poses and forces
+    locked,         ///< calibrated and powered, but not ready: a Minverse without a grip
+    in_use,         ///< by another program
+    other_frame,    ///< its axes are permuted
+    other_preset,   ///< the service keeps another preset than the requested one
+    force_refused,  ///< the service takes a force in neither format
+    slow,           ///< the service answers too slowly for a force
+    ready           ///< poses and forces
 };
 
 struct GripStatus {
@@ -86,7 +86,7 @@ struct Status : DeviceStatus {
     double exchange_ms{0.0};  ///< recent mean time from a message to its answer
     bool softened{false};     ///< stiffness is limited more, because exchanges take so long
     std::uint64_t exchanges{0};
-    std::uint64_t unasked{0};         ///< unrequested messages
+    std::uint64_t unrequested{0};     ///< unrequested messages
     std::uint64_t not_understood{0};  ///< messages that were not valid
 };
 

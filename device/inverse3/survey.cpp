@@ -18,26 +18,26 @@ namespace {
 using std::chrono::milliseconds;
 using Why = LinkError::Why;
 
-constexpr milliseconds kStepTakes{1000};
-constexpr milliseconds kInventoryTakes{500};
+constexpr milliseconds kStepTimeout{1000};
+constexpr milliseconds kInventoryTimeout{500};
 
-ServiceLink::Time in(milliseconds span) {
+ServiceLink::Time deadline_in(milliseconds span) {
     return ServiceLink::Time::clock::now() + span;
 }
 
 /// Reads the inventory; requests it where the service does not send it. Throws LinkError.
 bool read_inventory(const ConnectionOptions& options, ServiceMessage& message) {
-    ServiceLink link(options.port, in(kStepTakes));
-    if (!link.wait(nullptr, in(kInventoryTakes))) {
-        OrderWriter writer;
-        link.send(writer.write({.whole_state = true}), in(kStepTakes));
-        if (!link.wait(nullptr, in(kStepTakes))) {
+    ServiceLink link(options.port, deadline_in(kStepTimeout));
+    if (!link.wait(nullptr, deadline_in(kInventoryTimeout))) {
+        RequestWriter writer;
+        link.send(writer.write({.whole_state = true}), deadline_in(kStepTimeout));
+        if (!link.wait(nullptr, deadline_in(kStepTimeout))) {
             throw LinkError(Why::lost, "it has been silent for a second");
         }
     }
     MessageReader reader;
-    const bool understood = reader.read(link.read(in(kStepTakes)), message);
-    link.close(in(milliseconds(100)));
+    const bool understood = reader.read(link.read(deadline_in(kStepTimeout)), message);
+    link.close(deadline_in(milliseconds(100)));
     return understood;
 }
 
@@ -55,7 +55,7 @@ SurveyedArm surveyed(const Arm& arm, const ConnectionOptions& options) {
     status.id = found.id;
     status.minverse = found.minverse;
     found.sentence = sentence_for(found.stage, status);
-    found.kept = ask_kept_settings(options, std::string(arm.id.view()));
+    found.kept = fetch_kept_settings(options, std::string(arm.id.view()));
     return found;
 }
 
@@ -95,7 +95,7 @@ Survey survey_service(const ConnectionOptions& options) {
             survey.stage = Stage::not_understood;
             if (read_inventory(options, message)) take(message, options, survey);
         } catch (const LinkError& error) {
-            auto [stage, sentence] = why_unheard(error, status);
+            auto [stage, sentence] = service_fault(error, status);
             survey.stage = stage;
             survey.sentence = std::move(sentence);
             return survey;

@@ -23,7 +23,7 @@ DepthImage cleaned(const cv::Mat& frame) {
             depth.levels.push_back(static_cast<float>(frame.at<unsigned char>(j, i)));
         }
     }
-    return *CleaningChain().cleaned(depth, {kGentleSteps}).depth;
+    return *CleaningChain().clean_and_finish(depth, {kGentleSteps}).depth;
 }
 
 /// Rounds over the body at half a pixel an update, 6 px under the surface there.

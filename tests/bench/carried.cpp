@@ -36,10 +36,10 @@ std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int co
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
         const double from_s = static_cast<double>(k) / filming.frames_per_s;
         if (filming.found) {
-            motion.connect(frames[k], frames[k + 1], motion_wanted(true, InBetweens::automatic));
+            motion.connect(frames[k], frames[k + 1], motion_request(true, InBetweens::automatic));
         } else {
             frames[k].motion = scene.motion(from_s, from_s + 1.0 / filming.frames_per_s);
-            frames[k].between = maker.between(frames[k], frames[k + 1]);
+            frames[k].in_betweens = maker.make(frames[k], frames[k + 1]);
         }
     }
     return frames;
@@ -68,7 +68,7 @@ class Finger {
 
     const Touch& tick(Vec3 goal, double now_s) {
         const DepthBlend pair = depth_at(frames_, now_s);
-        SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), kTick_s);
+        SurfaceMotion motion = track_.follow_to(pair, pair.from->motion.get(), kTick_s);
         const SafetyInput input{.dt_s = kTick_s, .from_zero = begins_};
         begins_ = false;
         return renderer_.update(pair.surface(parameters_.shape), goal, parameters_, input, limits_,

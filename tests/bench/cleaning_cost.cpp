@@ -115,7 +115,7 @@ std::vector<DepthImage> read(const std::string& place, std::size_t count) {
 
 DepthNoise noise_of(const std::vector<DepthImage>& frames) {
     NoiseMeter meter;
-    for (std::size_t k = 0; k < std::min(frames.size(), NoiseMeter::kEnough); ++k)
+    for (std::size_t k = 0; k < std::min(frames.size(), NoiseMeter::kEnoughFrames); ++k)
         meter.add(frames[k]);
     return meter.noise();
 }
@@ -157,33 +157,34 @@ std::uint64_t mixed(std::uint64_t sum, const DepthImage& image) {
 }
 
 struct Cleaned {
-    Cost alone{}, finished{};
+    Cost clean_frame{}, finish_frame{};
     std::uint64_t sum{0xCBF29CE484222325ULL};
 };
 
 /// All frames with these steps; those at the ends, which have fewer around them, are not counted.
 Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
     CleaningChain chain;
-    std::vector<LoneDepth> lone;
-    std::vector<double> alone_ms, finished_ms;
+    std::vector<SingleFrameDepth> single_frames;
+    std::vector<double> clean_frame_ms, finish_frame_ms;
     for (std::size_t k = 0; k < clip.frames.size(); ++k) {
         DepthImage frame = clip.frames[k];
         const double begin_ms = cpu_ms();
-        lone.push_back(chain.alone(std::move(frame), plan, clip.held[k]));
-        if (k > 1) alone_ms.push_back(cpu_ms() - begin_ms);
+        single_frames.push_back(chain.clean_frame(std::move(frame), plan, clip.held[k]));
+        if (k > 1) clean_frame_ms.push_back(cpu_ms() - begin_ms);
     }
-    std::vector<const LoneDepth*> all;
-    for (const LoneDepth& one : lone) all.push_back(&one);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& one : single_frames) all.push_back(&one);
     Cleaned cleaned;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const double begin_ms = cpu_ms();
-        const Frame done = chain.finished(all, k, plan);
+        const Frame done = chain.finish_frame(all, k, plan);
         const bool inside = k >= kReachInTime && k + kReachInTime < all.size();
-        if (inside || all.size() <= 2 * kReachInTime) finished_ms.push_back(cpu_ms() - begin_ms);
+        if (inside || all.size() <= 2 * kReachInTime)
+            finish_frame_ms.push_back(cpu_ms() - begin_ms);
         cleaned.sum = mixed(cleaned.sum, *done.depth);
     }
-    cleaned.alone = cost_of(alone_ms);
-    cleaned.finished = cost_of(finished_ms);
+    cleaned.clean_frame = cost_of(clean_frame_ms);
+    cleaned.finish_frame = cost_of(finish_frame_ms);
     return cleaned;
 }
 
@@ -191,7 +192,7 @@ Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
 void print_costs(const Clip& clip, const CleaningSteps& wanted) {
     CleaningSteps steps;
     Cleaned before = clean(clip, {steps, {}, clip.noise});
-    std::printf(" %7.2f", before.alone.least_ms + before.finished.least_ms);
+    std::printf(" %7.2f", before.clean_frame.least_ms + before.finish_frame.least_ms);
     std::array<bool, 6> on{};
     std::size_t k = 0;
     visit_steps(wanted, [&](const char*, bool step) { on[k++] = step; });
@@ -199,13 +200,13 @@ void print_costs(const Clip& clip, const CleaningSteps& wanted) {
         k = 0;
         visit_steps(steps, [&](const char*, bool& value) { value = k++ <= step && on[k - 1]; });
         const Cleaned now = on[step] ? clean(clip, {steps, {}, clip.noise}) : before;
-        std::printf(" %7.2f", now.alone.least_ms - before.alone.least_ms + now.finished.least_ms -
-                                  before.finished.least_ms);
+        std::printf(" %7.2f", now.clean_frame.least_ms - before.clean_frame.least_ms +
+                                  now.finish_frame.least_ms - before.finish_frame.least_ms);
         before = now;
     }
-    std::printf(" | %7.2f %7.2f | %7.2f %7.2f | %016llx\n", before.alone.least_ms,
-                before.alone.median_ms, before.finished.least_ms, before.finished.median_ms,
-                static_cast<unsigned long long>(before.sum));
+    std::printf(" | %7.2f %7.2f | %7.2f %7.2f | %016llx\n", before.clean_frame.least_ms,
+                before.clean_frame.median_ms, before.finish_frame.least_ms,
+                before.finish_frame.median_ms, static_cast<unsigned long long>(before.sum));
     std::fflush(stdout);
 }
 

@@ -22,7 +22,7 @@ constexpr int kStepsOfTick = 50;
 constexpr double kFrame_s = 1.0 / 30.0;
 constexpr double kMiddle_px = 100.0;
 constexpr double kSettled_s = 2.0;  // from then on work and travel count
-constexpr double kStandsAll = 1e9;
+constexpr double kUnlimited = 1e9;
 
 /// A device that moves in elevation and along the rows.
 class SimulatedArm final : public Device {
@@ -33,8 +33,8 @@ class SimulatedArm final : public Device {
         depth_.place_m = loop.press_newton / stiffness;
         if (loop.grip.spring_newton_per_m > 0.0)
             depth_.rest_m = depth_.place_m + loop.press_newton / loop.grip.spring_newton_per_m;
-        specification_.limits.max_stiffness_newton_per_mm = kStandsAll;
-        specification_.limits.max_damping_newton_s_per_m = kStandsAll;
+        specification_.limits.max_stiffness_newton_per_mm = kUnlimited;
+        specification_.limits.max_damping_newton_s_per_m = kUnlimited;
         // What a driver can state of a device whose mass it has not measured.
         specification_.limits.dynamics = {
             .mass_kg = kMasses_kg.front(),
@@ -144,14 +144,14 @@ double rms_about_mean(const std::vector<double>& values, std::size_t from) {
 class Bench {
   public:
     explicit Bench(const ClosedLoop& loop) : loop_(loop), arm_(loop) {
-        handed_.parameters = loop.parameters;
-        handed_.parameters.carry = loop.slide_mm_per_s != 0.0;
-        handed_.parameters.shape.relief_px = 255.0;
-        handed_.limits.ramp_s = kTick_s;  // no ramp: the hand did not just arrive
-        handed_.limits.stability = loop.stability;
+        haptic_settings_.parameters = loop.parameters;
+        haptic_settings_.parameters.carry = loop.slide_mm_per_s != 0.0;
+        haptic_settings_.parameters.shape.relief_px = 255.0;
+        haptic_settings_.limits.ramp_s = kTick_s;  // no ramp: the hand did not just arrive
+        haptic_settings_.limits.stability = loop.stability;
         if (loop.stability && loop.damping) {
             const DeviceLimits& device = arm_.specification().limits;
-            Coupling& coupling = handed_.parameters.coupling;
+            Coupling& coupling = haptic_settings_.parameters.coupling;
             coupling = held_coupling(coupling, device);
             coupling = stable_coupling(coupling, coupling.stiffness_newton_per_mm, device.dynamics);
         }
@@ -168,15 +168,16 @@ class Bench {
             const double t_s = static_cast<double>(k) * kTick_s;
             if (k % 33 == 0) show_surface(t_s);
             if (loop_.change) {
-                loop_.change(t_s, handed_);
+                loop_.change(t_s, haptic_settings_);
                 hand_over();
             }
             tick_.run({start_ + k * std::chrono::milliseconds(1), kTick_s, {}, false}, 0);
             const Vec3 newton = arm_.sent_newton();
-            const double slew = handed_.limits.max_change_newton_per_ms + 1e-9;
-            result.limits_held = result.limits_held &&
-                                 glm::length(newton) <= handed_.limits.max_force_newton + 1e-9 &&
-                                 glm::length(newton - last_newton) <= slew;
+            const double slew = haptic_settings_.limits.max_change_newton_per_ms + 1e-9;
+            result.limits_held =
+                result.limits_held &&
+                glm::length(newton) <= haptic_settings_.limits.max_force_newton + 1e-9 &&
+                glm::length(newton - last_newton) <= slew;
             last_newton = newton;
             const bool taps = k == static_cast<std::int64_t>(kSettled_s / kTick_s);
             const double worked_j = arm_.move(taps ? loop_.tap_newton_s : 0.0);
@@ -199,8 +200,8 @@ class Bench {
 
   private:
     void hand_over() {
-        ++handed_.version;
-        settings_.publish(handed_);
+        ++haptic_settings_.version;
+        settings_.publish(haptic_settings_);
     }
     /// Publishes the frames around `t_s`, as the player would.
     void show_surface(double t_s) {
@@ -209,7 +210,7 @@ class Bench {
         for (Frame& frame : window.frames) {
             const double time_s = (first + static_cast<double>(window.count++)) * kFrame_s;
             const double rise_mm = loop_.surface_mm ? loop_.surface_mm(std::max(time_s, 0.0)) : 0.0;
-            const double pitch_mm = handed_.parameters.coupling.pixel_pitch_mm;
+            const double pitch_mm = haptic_settings_.parameters.coupling.pixel_pitch_mm;
             frame = frame_at(time_s, kMiddle_px + rise_mm / pitch_mm,
                              loop_.slide_mm_per_s * kFrame_s / pitch_mm);
         }
@@ -224,7 +225,7 @@ class Bench {
     TripleBuffer<HapticState> state_{};
     std::unique_ptr<StripRing> strips_{std::make_unique<StripRing>()};
     std::unique_ptr<TickRing> ticks_{std::make_unique<TickRing>()};
-    HapticSettings handed_{};
+    HapticSettings haptic_settings_{};
     HapticTick tick_{{arm_, frames_, settings_, state_, *strips_, *ticks_}};
     std::chrono::steady_clock::time_point start_{std::chrono::hours(1)};
 };

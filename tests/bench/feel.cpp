@@ -13,7 +13,7 @@
 #include "core/error.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/playing/remembering_media.hpp"
+#include "core/video/playing/held_levels_media.hpp"
 #include "tests/support/pressing_finger.hpp"
 
 namespace dibhr::bench {
@@ -119,7 +119,7 @@ class Survey {
 CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
     NoiseMeter meter;
     media.seek(0.0);
-    for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k)
+    for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k)
         if (const std::optional<RawFrame> frame = media.next()) meter.add(frame->depth);
     const MediaDescription& description = media.description();
     return plan_of(cleaning, meter.noise(),
@@ -129,21 +129,21 @@ CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
 
 Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
     CleaningChain chain;
-    std::vector<LoneDepth> lone;
+    std::vector<SingleFrameDepth> single_frames;
     Stretch stretch;
     media.seek(std::max(0.0, begin_s - kBefore_s));
     while (std::optional<RawFrame> read = media.next()) {
         Frame frame;
         frame.time_s = read->media_s;
         stretch.raw.push_back(read->depth);
-        lone.push_back(chain.alone(std::move(read->depth), plan, read->held));
+        single_frames.push_back(chain.clean_frame(std::move(read->depth), plan, read->held));
         stretch.frames.push_back(std::move(frame));
         if (stretch.frames.back().time_s > begin_s + kTouched_s + kAfter_s) break;
     }
-    std::vector<const LoneDepth*> all;
-    for (const LoneDepth& one : lone) all.push_back(&one);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& one : single_frames) all.push_back(&one);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        Frame cleaned = chain.finished(all, k, plan);
+        Frame cleaned = chain.finish_frame(all, k, plan);
         stretch.frames[k].depth = std::move(cleaned.depth);
         stretch.frames[k].unseen = std::move(cleaned.unseen);
     }
@@ -190,12 +190,12 @@ class Toucher {
     void rest(const Stretch& stretch, std::size_t pixel, Way way) {
         const Spot spot{static_cast<int>(pixel) % survey_.columns(),
                         static_cast<int>(pixel) / survey_.columns()};
-        const Felt felt = press(
-            stretch.frames, stretch.milliseconds, test::kRestFollows_s,
+        const FingerRun felt = press(
+            stretch.frames, stretch.milliseconds, test::kRestTimeConstant_s,
             [spot](std::size_t) { return Vec2(spot.i, spot.j); }, parameters_);
-        sums_of(way).add(
-            felt, {},
-            why_lost(stretch.frames, stretch.raw, spot, felt.contact, parameters_.shape.relief_px));
+        sums_of(way).add(felt, {},
+                         explain_losses(stretch.frames, stretch.raw, spot, felt.contact,
+                                        parameters_.shape.relief_px));
     }
 
     void slide(const Stretch& stretch, Spot left) {
@@ -205,8 +205,8 @@ class Toucher {
             const double way_px = std::fmod(static_cast<double>(k) * step_px, 2.0 * kStroke_px);
             return Vec2(left.i + std::min(way_px, 2.0 * kStroke_px - way_px), left.j);
         };
-        const Felt felt =
-            press(stretch.frames, stretch.milliseconds, test::kSlideFollows_s, place, parameters_);
+        const FingerRun felt = press(stretch.frames, stretch.milliseconds,
+                                     test::kSlideTimeConstant_s, place, parameters_);
         const auto reversals =
             reversal_updates(felt.goals, felt.depths_px, parameters_.friction.dynamic_coefficient);
         sums_of(Way::slide).add(felt, reversals, {});
@@ -266,7 +266,7 @@ class Toucher {
 }  // namespace
 
 Feel feel_of(std::unique_ptr<Media> opened, const FeelOptions& options) {
-    RememberingMedia media(std::move(opened));
+    HeldLevelsMedia media(std::move(opened));
     const Survey survey(media);
     TouchParameters parameters;
     if (options.fitted) {

@@ -12,7 +12,7 @@
 
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/sources/media.hpp"
-#include "tests/bench/felt.hpp"
+#include "tests/bench/finger_run.hpp"
 
 namespace dibhr::bench {
 

@@ -179,7 +179,7 @@ class PixelData {
 /// What a finger on the data alone feels.
 struct DataFinger {
     explicit DataFinger(const std::vector<double>& data_px) {
-        test::PressingFinger finger(data_px.front(), test::kRestFollows_s);
+        test::PressingFinger finger(data_px.front(), test::kRestTimeConstant_s);
         for (const double px : data_px) {
             goals_px.push_back(finger.follow(px));
             contact.push_back(px > goals_px.back() ? 1 : 0);
@@ -208,8 +208,8 @@ Cause cause_of(const Loss& loss, const PixelData& data, const DataFinger& finger
 
 }  // namespace
 
-LostContact why_lost(std::span<const Frame> frames, std::span<const DepthImage> raw, Spot spot,
-                     std::span<const char> contact, double relief_px) {
+LostContact explain_losses(std::span<const Frame> frames, std::span<const DepthImage> raw,
+                           Spot spot, std::span<const char> contact, double relief_px) {
     LostContact lost;
     const std::vector<Loss> losses = losses_in(contact);
     if (losses.empty()) return lost;

@@ -73,7 +73,8 @@ struct Spot {
 /// Gives each loss one cause, by a second finger on the pixel's data alone, whose gaps are bridged
 /// by straight lines in time. `raw`, where NaN is no data, are `frames` before cleaning; `contact`
 /// is that of a finger at rest, an entry a millisecond from the first frame on.
-[[nodiscard]] LostContact why_lost(std::span<const Frame> frames, std::span<const DepthImage> raw,
-                                   Spot spot, std::span<const char> contact, double relief_px);
+[[nodiscard]] LostContact explain_losses(std::span<const Frame> frames,
+                                         std::span<const DepthImage> raw, Spot spot,
+                                         std::span<const char> contact, double relief_px);
 
 }  // namespace dibhr::bench

@@ -96,21 +96,21 @@ Cost cost_of(std::vector<Frame> frames, int times) {
         std::size_t run = 0;
         // Each goes on from the pair before, as in a video.
         const double ms =
-            least_ms(times, [&] { from.motion = estimators[run++].between(from, frames[k + 1]); });
+            least_ms(times, [&] { from.motion = estimators[run++].estimate(from, frames[k + 1]); });
         if (k > 0) cost.motion.add(ms);
         ++cost.pairs;
         if (!from.motion) continue;
         ++cost.moving;
         const double between_ms =
-            least_ms(times, [&] { from.between = maker.between(from, frames[k + 1]); });
-        if (!from.between) continue;
+            least_ms(times, [&] { from.in_betweens = maker.make(from, frames[k + 1]); });
+        if (!from.in_betweens) continue;
         cost.between.add(between_ms);
-        cost.betweens += from.between->size();
-        cost.each_between.add(between_ms / static_cast<double>(from.between->size()));
+        cost.betweens += from.in_betweens->size();
+        cost.each_between.add(between_ms / static_cast<double>(from.in_betweens->size()));
         // A player holds a few.
         if (k >= FrameWindow::kFrames) {
             frames[k - FrameWindow::kFrames].motion.reset();
-            frames[k - FrameWindow::kFrames].between.reset();
+            frames[k - FrameWindow::kFrames].in_betweens.reset();
         }
     }
     return cost;

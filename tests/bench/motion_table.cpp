@@ -20,7 +20,7 @@ using namespace dibhr;
 using test::MovingScene;
 using Point = MovingScene::Point;
 
-struct Asked {
+struct TableOptions {
     std::vector<double> speeds_px{0.0, 50.0, 200.0, 400.0};
     std::vector<double> rates{15.0, 30.0, 60.0};
     double seconds{0.2};
@@ -90,7 +90,7 @@ void add_half_way(const MovingScene& scene, const Frame& from, const Frame& to, 
                   double reach_px, Measured& measured) {
     const SurfaceShape shape{.relief_px = 255.0};
     const DepthBlend blend{&from, &to, 0.5};
-    const DepthBlend shown = blend.shown();
+    const DepthBlend shown = blend.with_in_betweens();
     const DepthSurface moved = blend.surface(shape);
     const DepthSurface faded{*from.depth, *to.depth, 0.5, shape};
     const Frame truth = scene.frame(half_s);
@@ -147,21 +147,21 @@ class Carried {
     std::vector<Followed> points_{};
 };
 
-Measured measure(const MovingScene& scene, double rate, const Asked& asked) {
-    const int count = std::max(3, static_cast<int>(std::lround(asked.seconds * rate)) + 1);
+Measured measure(const MovingScene& scene, double rate, const TableOptions& options) {
+    const int count = std::max(3, static_cast<int>(std::lround(options.seconds * rate)) + 1);
     std::vector<Frame> frames =
-        test::film(scene, count, rate, {.brightness = asked.raw ? 0.0 : 2.0}, !asked.raw);
+        test::film(scene, count, rate, {.brightness = options.raw ? 0.0 : 2.0}, !options.raw);
     Measured measured;
     Carried carried(scene);
     FrameMotion motion;
     InBetweenMaker maker;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
         const double from_s = static_cast<double>(k) / rate;
-        if (asked.found) {
+        if (options.found) {
             motion.connect(frames[k], frames[k + 1], {.motion = true, .in_betweens = true});
         } else {
             frames[k].motion = scene.motion(from_s, from_s + 1.0 / rate);
-            frames[k].between = maker.between(frames[k], frames[k + 1]);
+            frames[k].in_betweens = maker.make(frames[k], frames[k + 1]);
         }
         MotionField still{frames[k].depth->columns, frames[k].depth->rows, {}};
         still.ways.resize(frames[k].depth->levels.size());
@@ -192,7 +192,7 @@ void print_row(const char* shape, const char* goes, double speed, double rate,
     std::fflush(stdout);
 }
 
-void print_table(const Asked& asked) {
+void print_table(const TableOptions& options) {
     using Shape = MovingScene::Shape;
     using Goes = MovingScene::Goes;
     std::printf("%-7s %-6s %5s %4s | %7s %7s %7s %7s | %6s | %7s %7s %7s\n", "thing", "goes",
@@ -202,27 +202,27 @@ void print_table(const Asked& asked) {
          {std::pair{Shape::plane, "plane"}, {Shape::sphere, "sphere"}, {Shape::hand, "hand"}})
         for (const auto& [goes, word] :
              {std::pair{Goes::along, "along"}, {Goes::round, "round"}, {Goes::apart, "apart"}})
-            for (const double speed : asked.speeds_px)
-                for (const double rate : asked.rates) {
+            for (const double speed : options.speeds_px)
+                for (const double rate : options.rates) {
                     if (goes != Goes::along && !(speed > 0.0)) continue;
                     const MovingScene scene({shape, goes, speed, 640, 480});
-                    print_row(name, word, speed, rate, measure(scene, rate, asked));
+                    print_row(name, word, speed, rate, measure(scene, rate, options));
                 }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    Asked asked;
+    TableOptions options;
     CLI::App app("How near motion and in-betweens come to the truth");
-    app.add_option("--speeds", asked.speeds_px)->delimiter(',');
-    app.add_option("--rates", asked.rates)->delimiter(',');
-    app.add_flag("--raw", asked.raw, "Colour without noise and as it is, not coded");
-    app.add_flag("!--true-motion", asked.found, "As it is, not as it is found");
-    app.add_option("--seconds", asked.seconds, "How long points are carried");
+    app.add_option("--speeds", options.speeds_px)->delimiter(',');
+    app.add_option("--rates", options.rates)->delimiter(',');
+    app.add_flag("--raw", options.raw, "Colour without noise and as it is, not coded");
+    app.add_flag("!--true-motion", options.found, "As it is, not as it is found");
+    app.add_option("--seconds", options.seconds, "How long points are carried");
     CLI11_PARSE(app, argc, argv);
     try {
-        print_table(asked);
+        print_table(options);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "motion: %s\n", error.what());
         return 1;

@@ -19,7 +19,7 @@ namespace {
 using namespace dibhr;
 using namespace dibhr::bench;
 
-struct Asked {
+struct TableOptions {
     std::vector<std::string> cleanings{"raw", "gentle", "auto"};
     std::vector<std::string> scenes{};
     std::vector<std::string> sensors{};
@@ -70,13 +70,13 @@ Json json_of(const std::string& scene, const std::string& sensor, const std::str
             {"flicker_px", near.flicker_px}};
 }
 
-Json measure(const Asked& asked) {
+Json measure(const TableOptions& options) {
     Json json = Json::array();
-    for (const std::string& scene : asked.scenes) {
-        const TrueFrames truth(known_scene(scene, asked.columns, asked.rows), asked.frames);
-        for (const std::string& name : asked.sensors) {
-            const std::vector<DepthImage> recorded = sensor(name).see(truth, asked.seed);
-            for (const std::string& cleaning : asked.cleanings) {
+    for (const std::string& scene : options.scenes) {
+        const TrueFrames truth(known_scene(scene, options.columns, options.rows), options.frames);
+        for (const std::string& name : options.sensors) {
+            const std::vector<DepthImage> recorded = sensor(name).see(truth, options.seed);
+            for (const std::string& cleaning : options.cleanings) {
                 const Cleaned cleaned =
                     cleaned_against(truth, recorded, named<CleaningPreset>(cleaning).value());
                 print_row(scene, name, cleaning, cleaned);
@@ -98,38 +98,38 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 }  // namespace
 
 int main(int count, char** words) {
-    Asked asked;
+    TableOptions options;
     std::string json_file;
     CLI::App app{"How near cleaned depth comes to the truth, in numbers."};
-    app.add_option("--cleaning", asked.cleanings, "Presets: raw, gentle, sensor, auto")
+    app.add_option("--cleaning", options.cleanings, "Presets: raw, gentle, sensor, auto")
         ->delimiter(',')
         ->check(CLI::IsMember({"raw", "gentle", "sensor", "auto"}))
         ->capture_default_str();
-    asked.scenes = names_of(known_scenes(asked.columns, asked.rows));
-    asked.sensors = names_of(sensors());
-    app.add_option("--scenes", asked.scenes, "Surfaces")
+    options.scenes = names_of(known_scenes(options.columns, options.rows));
+    options.sensors = names_of(sensors());
+    app.add_option("--scenes", options.scenes, "Surfaces")
         ->delimiter(',')
-        ->check(CLI::IsMember(asked.scenes))
+        ->check(CLI::IsMember(options.scenes))
         ->capture_default_str();
-    app.add_option("--sensors", asked.sensors, "What sees them")
+    app.add_option("--sensors", options.sensors, "What sees them")
         ->delimiter(',')
-        ->check(CLI::IsMember(asked.sensors))
+        ->check(CLI::IsMember(options.sensors))
         ->capture_default_str();
-    app.add_option("--columns", asked.columns, "Of the pictures, whose rows are 3/4 as many")
+    app.add_option("--columns", options.columns, "Of the pictures, whose rows are 3/4 as many")
         ->check(CLI::Range(80, 4000))
         ->capture_default_str();
-    app.add_option("--frames", asked.frames, "Of each clip, 30 a second")
+    app.add_option("--frames", options.frames, "Of each clip, 30 a second")
         ->check(CLI::Range(1, 10000))
         ->capture_default_str();
-    app.add_option("--seed", asked.seed, "Of the noise")->capture_default_str();
+    app.add_option("--seed", options.seed, "Of the noise")->capture_default_str();
     app.add_option("--json", json_file, "Writes the numbers as JSON; - is standard output");
     CLI11_PARSE(app, count, words);
-    asked.rows = asked.columns * 3 / 4;
+    options.rows = options.columns * 3 / 4;
     try {
         std::optional<OutputFile> out;
         if (!json_file.empty()) out.emplace(json_file);
         print_head();
-        const Json json = measure(asked);
+        const Json json = measure(options);
         if (out) {
             out->write(json_text(json));
             out->commit();

@@ -24,7 +24,7 @@ void check_value(const DeviceRow& row, const double* value) {
     CHECK(*value >= row.lowest);
     CHECK(*value <= row.highest);
     CHECK((row.topic.empty() || *row.format == '%' || std::string_view(row.format) == "x %.2f"));
-    CHECK(row.shown > 0.0);
+    CHECK(row.panel_factor > 0.0);
 }
 void check_value(const DeviceRow& row, const int* value) {
     const double number = *value;
@@ -35,7 +35,7 @@ void check_value(const DeviceRow& row, const std::string* value) {
     CHECK(static_cast<double>(value->size()) <= row.highest);
     CHECK(row.highest < 128.0);
 }
-void check_value(const DeviceRow&, const DeviceWord& word) {
+void check_value(const DeviceRow&, const DeviceEnum& word) {
     CHECK(*word < word.names.size());
     CHECK(word.names.size() == word.labels.size());
 }
@@ -51,11 +51,11 @@ TEST_CASE("every force device has a name of its own, and does all that the progr
         CAPTURE(kind->name);
         CHECK(names.insert(kind->name).second);
         for (const char* const text :
-             {kind->title, kind->called, kind->article, kind->which, kind->no_pose})
+             {kind->title, kind->short_name, kind->article, kind->which, kind->no_pose_advice})
             CHECK_FALSE(std::string(text).empty());
         const bool all = kind->make_settings != nullptr && kind->make != nullptr &&
                          kind->why_none != nullptr && kind->attached != nullptr &&
-                         kind->survey != nullptr && kind->glance != nullptr;
+                         kind->survey != nullptr && kind->print_attached != nullptr;
         CHECK(all);
     }
 }
@@ -78,9 +78,9 @@ TEST_CASE(
         }
         const auto idle =
             std::count(settings->buttons.begin(), settings->buttons.end(), ButtonAction::none);
-        CHECK(buttons <= kGripButtonCount);
+        CHECK(buttons <= kDeviceButtonCount);
         // Every button with an action has a row.
-        CHECK(buttons + static_cast<std::size_t>(idle) >= kGripButtonCount);
+        CHECK(buttons + static_cast<std::size_t>(idle) >= kDeviceButtonCount);
         CHECK(settings->limits() == usable(settings->limits()));
         CHECK(settings->limits().max_force_newton > 0.0);
         CHECK_FALSE(number_facts(*settings).empty());
@@ -140,8 +140,8 @@ TEST_CASE("the panel gets a Falcon's firmware, progress, axes and lamp at their 
         status.reply.encoder = {1, 2, 3};
         return state_of(status);
     };
-    CHECK(at(falcon::Stage::no_firmware).firmware->wanted);
-    CHECK_FALSE(at(falcon::Stage::loading).firmware->wanted);
+    CHECK(at(falcon::Stage::no_firmware).firmware->needed);
+    CHECK_FALSE(at(falcon::Stage::loading).firmware->needed);
     CHECK(at(falcon::Stage::loading).progress->text == "40 %, try 2");
     CHECK_FALSE(at(falcon::Stage::homing).progress);
     const DeviceState homing = at(falcon::Stage::homing);
@@ -165,7 +165,7 @@ TEST_CASE("the panel gets an Inverse3's service, and its exchange once it is rea
     status.grip.emplace().battery = 0.5;
     REQUIRE(state_of(status).lines.size() == 1);
     CHECK(state_of(status).lines[0].text == "3.5.0");
-    CHECK(state_of(status).who.text == "none attached");
+    CHECK(state_of(status).name_line.text == "none attached");
     status.stage = inverse3::Stage::ready;
     status.id = "049D";
     status.exchange_ms = 0.26;

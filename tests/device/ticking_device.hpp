@@ -45,7 +45,7 @@ class TickingDevice {
         (void)tick_until([&count] { return --count <= 0; }, std::chrono::hours(1));
     }
     bool tick_until_ready() {
-        return tick_until([this] { return reading.ready && !reading.stand_in; });
+        return tick_until([this] { return reading.ready && !reading.mouse_fallback; });
     }
     [[nodiscard]] const DepthSurface& surface() const noexcept { return surface_; }
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/video/cleaning/cleaning_chain.hpp"
-#include "core/video/playing/remembering_media.hpp"
+#include "core/video/playing/held_levels_media.hpp"
 #include "core/video/sources/media.hpp"
 #include "tests/fuzz/entry.hpp"
 
@@ -45,7 +45,7 @@ inline void require_touchable(const RawFrame& frame, const MediaDescription& des
     constexpr std::size_t kMostPixels = std::size_t{1} << 14U;
     if (frame.depth.levels.size() > kMostPixels) return;
     const CleaningPlan plan{kSensorSteps, {}, {.constant = 0.002F, .square = 0.01F}};
-    const Frame cleaned = CleaningChain().cleaned(frame.depth, plan, frame.held);
+    const Frame cleaned = CleaningChain().clean_and_finish(frame.depth, plan, frame.held);
     const auto highest = static_cast<float>(cleaned.depth->highest_level);
     const bool has_bounds = description.meaning || !description.has_real_numbers();
     for (const float level : cleaned.depth->levels) {
@@ -57,7 +57,7 @@ inline void require_touchable(const RawFrame& frame, const MediaDescription& des
 
 /// A few frames, and after a seek a few more, as the player reads them.
 inline void require_frames(std::unique_ptr<Media> opened) {
-    RememberingMedia media(std::move(opened));
+    HeldLevelsMedia media(std::move(opened));
     for (int k = 0; k < 6; ++k) {
         if (k == 3) media.seek(0.5 * media.description().duration_s);
         const auto frame = media.next();

@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                        "the frames are the same, however their bytes come");
     simulated::Scene scene;
     for (const std::string& payload : payloads) {
-        (void)simulated::obey(scene, payload, {});
+        (void)simulated::apply_message(scene, payload, {});
         test::require_rule(!simulated::state_text(scene, true).empty(), "it goes on to answer");
     }
     return 0;

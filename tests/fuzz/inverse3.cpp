@@ -5,7 +5,7 @@
 
 #include "device/inverse3/kept_settings.hpp"
 #include "device/inverse3/message.hpp"
-#include "device/inverse3/order.hpp"
+#include "device/inverse3/service_request.hpp"
 #include "tests/fuzz/entry.hpp"
 
 using namespace dibhr;
@@ -27,7 +27,7 @@ void require_safe(const Grip& grip) {
 
 bool same(const ServiceMessage& a, const ServiceMessage& b) {
     return a.arm_count == b.arm_count && a.grip_count == b.grip_count &&
-           a.complaint == b.complaint && (a.arm_count == 0 || a.arms[0].id == b.arms[0].id);
+           a.error_text == b.error_text && (a.arm_count == 0 || a.arms[0].id == b.arms[0].id);
 }
 
 }  // namespace
@@ -42,13 +42,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                        "what was read before changes nothing");
     test::require_rule(understood || message.arm_count + message.grip_count == 0,
                        "nothing is known of what is not understood");
-    test::require_rule(words_of_setting(text).size() < 200, "a setting is told in a line");
-    OrderWriter writer;
+    test::require_rule(setting_text(text).size() < 200, "a setting is told in a line");
+    RequestWriter writer;
     for (std::size_t k = 0; k < message.arm_count; ++k) {
         require_safe(message.arms[k]);
-        const std::string_view order =
-            writer.write({.arm = message.arms[k].id, .introduces = true, .whole_state = true});
-        test::require_rule(order.ends_with("}}]}"), "an order for any arm is whole");
+        const std::string_view request = writer.write(
+            {.arm = message.arms[k].id, .sets_session_name = true, .whole_state = true});
+        test::require_rule(request.ends_with("}}]}"), "an order for any arm is whole");
     }
     for (std::size_t k = 0; k < message.grip_count; ++k) require_safe(message.grips[k]);
     return 0;

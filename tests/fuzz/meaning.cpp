@@ -155,7 +155,7 @@ void require_registered(const CameraPair& cameras) {
 }
 
 /// A ray and a pixel are numbers, or not known.
-void require_camera(const Camera& camera) {
+void require_camera(const CameraModel& camera) {
     test::require_rule(is_camera(camera.intrinsics()), "a camera is one");
     const Rays rays = rays_of({8, 6}, camera);
     for (const cv::Mat* const part : {&rays.right, &rays.down})
@@ -198,8 +198,8 @@ void look_at_message(const std::string& text) {
             require_registered({found->camera, found->camera, found->size, {}, "itself"});
     }
     if (const auto placement = ros_placement(message))
-        require_registered({Camera({10.0, 10.0, 4.0, 3.0}),
-                            Camera({20.0, 20.0, 8.0, 4.0}),
+        require_registered({CameraModel({10.0, 10.0, 4.0, 3.0}),
+                            CameraModel({20.0, 20.0, 8.0, 4.0}),
                             {16, 9},
                             *placement,
                             "a message"});

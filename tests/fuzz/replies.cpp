@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "device/falcon/homing_watch.hpp"
 #include "device/falcon/packet.hpp"
-#include "device/falcon/reply_watch.hpp"
 #include "device/hand/buttons.hpp"
 #include "tests/fuzz/entry.hpp"
 

@@ -16,7 +16,7 @@ using namespace dibhr;
 namespace {
 
 void require_in_range(Settings settings) {
-    for (const Setting& setting : list_of(settings)) {
+    for (const Setting& setting : all_settings(settings)) {
         std::visit(
             [&setting](const auto& value) {
                 using Value = std::remove_cvref_t<decltype(*value)>;
@@ -32,10 +32,10 @@ void require_in_range(Settings settings) {
 /// Where nobody has agreed to anything.
 void require_held(Settings settings) {
     const Consent nobody("/nonexistent/agreed");
-    static_cast<void>(nobody.hold(settings));
+    static_cast<void>(nobody.replace_unsafe(settings));
     const SafetyLimits usual;
     test::require_rule(settings.max_force_newton <= usual.max_force_newton && settings.stability &&
-                           settings.force_in_front_only && nobody.hold(settings).empty(),
+                           settings.force_in_front_only && nobody.replace_unsafe(settings).empty(),
                        "what protects the hand less is held");
     require_in_range(settings);
 }

@@ -91,11 +91,11 @@ struct Hand {
     SafetyInput input{};
     SafetyLimits limits{};
     double blend{0.0};
-    bool lets_go{false};
+    bool releases_contact{false};
 
     void change(Numbers& numbers, const Scene& scene) {
         input.from_zero = false;
-        lets_go = false;
+        releases_contact = false;
         switch (numbers.byte() % 12) {
             case 0:
                 parameters.algorithm =
@@ -126,7 +126,7 @@ struct Hand {
                 input.force_enabled = (state & 1) == 0;
                 input.device_ready = (state & 2) == 0;
                 input.from_zero = (state & 4) != 0;
-                lets_go = (state & 8) != 0;
+                releases_contact = (state & 8) != 0;
                 limits.stability = (state & 16) != 0;
                 limits.watched = {.mass_kg = 2.0 * numbers.share(),
                                   .friction_newton_s_per_m = numbers.share(),
@@ -191,9 +191,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Algorithm running = Algorithm::dibhr;
     for (int updates = 0; updates < 300 && !numbers.empty(); ++updates) {
         hand.change(numbers, scene);
-        if (hand.lets_go) {
-            renderer.let_go();
-            watch.let_go();
+        if (hand.releases_contact) {
+            renderer.release_contact();
+            watch.release_contact();
         }
         const DepthSurface surface(scene.from, scene.to, hand.blend, hand.parameters.shape,
                                    scene.bumpy ? &scene.bump : nullptr);

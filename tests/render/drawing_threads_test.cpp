@@ -25,7 +25,7 @@ int niceness_of(const std::string& name) {
         nice = getpriority(PRIO_PROCESS, 0);
     });
     named.get_future().wait();
-    let_drawing_give_way();
+    lower_drawing_priority();
     asked.set_value();
     thread.join();
     return nice - getpriority(PRIO_PROCESS, 0);

@@ -75,7 +75,7 @@ TEST_CASE("every pixel of the relief shows a point of the surface that the hand 
     content.depth = {&from, &to, 0.3};
     content.shape = {4.0, roughness_px};
     content.bump = &bump;
-    content.look.discard_silhouettes = false;
+    content.relief_style.discard_silhouettes = false;
     Camera camera;
     camera.frame_relief(9, 7, 4.0);
     camera.set_projection(projection);
@@ -121,8 +121,8 @@ TEST_CASE("painted by its depth, the relief has the legend's colours from far to
         const Frame shown_frame =
             frame(depth_image(64, 48, [level](int, int) { return level; }), purple);
         SceneContent content = still(shown_frame);
-        content.look.paint = paint;
-        content.look.light = 0.0;
+        content.relief_style.paint = paint;
+        content.relief_style.light = 0.0;
         const ColourImage picture = SceneView().capture(content, straight(64, 48), {640, 480});
         const auto shown =
             pixel(picture, pixel_of(straight(64, 48), {32.0, 24.0, level}, {640, 480}));
@@ -145,7 +145,7 @@ TEST_CASE("where no surface was ever seen the relief is dimmed and hatched, and 
     holed.unseen = std::make_shared<const std::vector<std::uint8_t>>(unseen);
     const auto picture_of = [&, textured = textured](const Frame& shown) {
         SceneContent content = still(shown);
-        content.look.paint = textured ? ReliefPaint::video : ReliefPaint::clay;
+        content.relief_style.paint = textured ? ReliefPaint::video : ReliefPaint::clay;
         return SceneView().capture(content, straight(64, 48), {640, 480});
     };
     const ColourImage plain = picture_of(whole);
@@ -181,7 +181,7 @@ TEST_CASE("of a finger's surface the one that it touches is drawn") {
     };
     Frame felt = frame(closed);
     CHECK(picture_of(felt) != picture_of(frame(pit)));
-    felt.beneath = pit;
+    felt.undilated = pit;
     CHECK(picture_of(felt) == picture_of(frame(pit)));
 }
 
@@ -198,7 +198,8 @@ TEST_CASE("the picture lies the right way round on the relief, in its own colour
     // Colour and depth differ in size and proportion: normalised coordinates match them.
     const Frame shown = frame(depth_image(40, 30, [](int, int) { return 100.0; }), quarters);
     SceneContent content = still(shown);
-    content.look.light = GENERATE(0.0, 0.6, 1.0);  // a flat relief keeps the colours in any light
+    content.relief_style.light =
+        GENERATE(0.0, 0.6, 1.0);  // a flat relief keeps the colours in any light
     const Camera camera = straight(40, 30);
     const glm::ivec2 size(200, 150);
     SceneView view;
@@ -245,7 +246,7 @@ TEST_CASE("the light comes from the upper left, and without light there is none"
         return pixel(picture, pixel_of(camera, {x, 15.0, 0.0}, size))[0];
     };
     CHECK(brightness(8.0) > brightness(31.0) + 20);
-    content.look.light = 0.0;
+    content.relief_style.light = 0.0;
     CHECK(std::abs(brightness(8.0) - brightness(31.0)) <= 1);
 }
 
@@ -263,11 +264,11 @@ TEST_CASE("triangles steeper than the silhouette slope are left out, when asked"
     const ColourImage cut = view.capture(content, camera, size);
     CHECK(difference(pixel(cut, step), pixel(backdrop, step)) < 10);  // or an equally dark wall
     CHECK(difference(pixel(cut, face), pixel(backdrop, face)) > 20);
-    content.look.discard_silhouettes = false;
+    content.relief_style.discard_silhouettes = false;
     const ColourImage whole = view.capture(content, camera, size);
     CHECK(difference(pixel(whole, step), pixel(backdrop, step)) > 20);
-    content.look.discard_silhouettes = true;
-    content.look.silhouette_slope = 250.0;
+    content.relief_style.discard_silhouettes = true;
+    content.relief_style.silhouette_slope = 250.0;
     const ColourImage lenient = view.capture(content, camera, size);
     CHECK(difference(pixel(lenient, step), pixel(backdrop, step)) > 20);
 }
@@ -347,7 +348,7 @@ TEST_CASE("a view that has shown other frames draws the same as a fresh one") {
         SceneContent content;
         content.shape = {60.0, 20.0};
         content.bump = &bump;
-        content.look.coarse = k % 4 == 3;
+        content.relief_style.coarse = k % 4 == 3;
         const Frame* const order[] = {&a, &b, &c, &a, &a};
         for (int step = 0; step < 4; ++step) {
             content.depth = {order[step], order[step + 1], 0.25};
@@ -434,7 +435,7 @@ TEST_CASE("the skin gives way under the proxy, in a shadow, and nowhere else") {
                   return Rgb{200, 200, 200};
               }));
     SceneContent content = still(shown);
-    content.look.light = 0.0;
+    content.relief_style.light = 0.0;
     const Camera camera = straight(64, 48);
     const glm::ivec2 size(640, 480);
     SceneView view;

@@ -18,7 +18,7 @@ namespace dibhr::test {
 /// 60 degrees wide, without distortion.
 inline constexpr int kSeenColumns = 640;
 inline constexpr int kSeenRows = 480;
-inline const Intrinsics kSeenBy{320.0 * std::sqrt(3.0), 320.0 * std::sqrt(3.0), 319.5, 239.5};
+inline const Intrinsics kCamera{320.0 * std::sqrt(3.0), 320.0 * std::sqrt(3.0), 319.5, 239.5};
 inline constexpr double kSphere_mm = 100.0;
 inline constexpr double kWall_mm = 2500.0;
 
@@ -29,7 +29,7 @@ template <typename Distance>
     std::vector<float> distances_mm;
     for (int j = 0; j < kSeenRows; ++j) {
         for (int i = 0; i < kSeenColumns; ++i) {
-            const glm::dvec3 ray{(i - kSeenBy.cx) / kSeenBy.fx, (j - kSeenBy.cy) / kSeenBy.fy, 1.0};
+            const glm::dvec3 ray{(i - kCamera.cx) / kCamera.fx, (j - kCamera.cy) / kCamera.fy, 1.0};
             distances_mm.push_back(static_cast<float>(distance(ray)));
         }
     }

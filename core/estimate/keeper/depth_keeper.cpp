@@ -22,8 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kGrace{
-    400};  ///< from SIGTERM to SIGKILL
+constexpr std::chrono::milliseconds kGrace{400};  ///< from SIGTERM to SIGKILL
 
 /// Whether that process is our child; also an ended one that was not waited for.
 bool is_child(const char* pid) {
@@ -52,7 +51,7 @@ bool kill_children() {
     return any;
 }
 
-[[noreturn]] void become(char** words, int life, int trouble) {
+[[noreturn]] void exec_estimator(char** words, int life, int trouble) {
     sigset_t none;
     ::sigemptyset(&none);
     ::close(life);
@@ -62,7 +61,7 @@ bool kill_children() {
     ::sigprocmask(SIG_SETMASK, &none, nullptr);
     ::execvp(words[0], words);
     const int why = errno;
-    [[maybe_unused]] const ssize_t told = ::write(trouble, &why, sizeof why);
+    [[maybe_unused]] const ssize_t reported = ::write(trouble, &why, sizeof why);
     ::_exit(EXIT_FAILURE);
 }
 
@@ -70,18 +69,18 @@ bool kill_children() {
 class Watch {
   public:
     Watch(pid_t estimator, int life) : estimator_(estimator), life_(life) {
-        sigset_t heard;
-        ::sigemptyset(&heard);
-        for (const int signal : {SIGCHLD, SIGTERM, SIGUSR1}) ::sigaddset(&heard, signal);
-        signals_ = ::signalfd(-1, &heard, SFD_CLOEXEC | SFD_NONBLOCK);
+        sigset_t handled;
+        ::sigemptyset(&handled);
+        for (const int signal : {SIGCHLD, SIGTERM, SIGUSR1}) ::sigaddset(&handled, signal);
+        signals_ = ::signalfd(-1, &handled, SFD_CLOEXEC | SFD_NONBLOCK);
     }
 
     /// Waits until no process of the estimator is left. Returns its status.
-    int over() {
+    int wait_until_over() {
         while (!ended_ && !at_once_) {
-            pollfd news[]{{life_, POLLIN, 0}, {signals_, POLLIN, 0}};
-            ::poll(news, 2, patience_ms());
-            if (news[0].revents != 0) at_once_ = true;  // dibhr has ended
+            pollfd events[]{{life_, POLLIN, 0}, {signals_, POLLIN, 0}};
+            ::poll(events, 2, timeout_ms());
+            if (events[0].revents != 0) at_once_ = true;  // dibhr has ended
             take_signals();
             reap(::waitpid(-1, &status_of_one_, WNOHANG));
             if (latest_ <= Clock::now()) at_once_ = true;
@@ -95,7 +94,7 @@ class Watch {
     }
 
   private:
-    [[nodiscard]] int patience_ms() const {
+    [[nodiscard]] int timeout_ms() const {
         if (latest_ == Clock::time_point::max()) return -1;
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(latest_ - Clock::now());
@@ -149,11 +148,11 @@ int main(int count, char** arguments) {
     ::sigprocmask(SIG_SETMASK, &all, nullptr);
     ::prctl(PR_SET_CHILD_SUBREAPER, 1);
     const pid_t estimator = ::fork();
-    if (estimator == 0) become(arguments + 3, life, trouble);
+    if (estimator == 0) exec_estimator(arguments + 3, life, trouble);
     const int why = errno;
     if (estimator < 0) return ::write(trouble, &why, sizeof why) > 0 ? EXIT_FAILURE : EXIT_SUCCESS;
     ::setpgid(estimator, estimator);
     ::close(trouble);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::close(stream);
-    end_as(Watch(estimator, life).over());
+    end_as(Watch(estimator, life).wait_until_over());
 }

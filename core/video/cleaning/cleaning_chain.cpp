@@ -17,11 +17,11 @@ namespace dibhr {
 namespace {
 
 /// Noise below this part of the highest level is not felt (0.15 px of 255, 0.005 N at 0.5 N/mm).
-constexpr float kFelt = 0.15F / 255.0F;
+constexpr float kPerceptibleNoise = 0.15F / 255.0F;
 /// Depth with little noise may have ramps all the same.
-constexpr CleaningSteps kQuietSteps{
+constexpr CleaningSteps kLowNoiseSteps{
     .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
-constexpr double kReliefOfWords_px = 255.0;
+constexpr double kReportedRelief_px = 255.0;
 
 /// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
 /// picture, and few such pictures follow each other.
@@ -60,9 +60,9 @@ CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
         case CleaningPreset::automatic:
             break;
     }
-    const bool small = pixels <= kMostForSensor;
-    const bool shakes = noise.at(0.5F) > kFelt || noise.of_scale;
-    return shakes && small ? kSensorSteps : kQuietSteps;
+    const bool small = pixels <= kMostPixelsForSensor;
+    const bool shakes = noise.at(0.5F) > kPerceptibleNoise || noise.per_frame_scale;
+    return shakes && small ? kSensorSteps : kLowNoiseSteps;
 }
 
 }  // namespace
@@ -85,66 +85,73 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
         words += plan.steps.smooth_noise ? ": sensor" : ": gentle, silhouettes";
     if (!needs_noise(options)) return words;
     const auto px = [](float noise) {
-        return short_text(std::round(kReliefOfWords_px * 100.0 * static_cast<double>(noise)) /
+        return short_text(std::round(kReportedRelief_px * 100.0 * static_cast<double>(noise)) /
                           100.0);
     };
     const std::string near = px(plan.noise.at(1.0F));
     const std::string far = px(plan.noise.at(0.0F));
     return words + ", noise " + near + (far == near ? "" : " to " + far) + " px" +
-           (plan.noise.of_scale ? ", a scale a frame" : "");
+           (plan.noise.per_frame_scale ? ", a scale a frame" : "");
 }
 
 /// Holes that stay without data become the farthest level.
-void CleaningChain::close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held) {
-    std::vector<float>& levels = lone.depth.levels;
-    lone.made_up.resize(levels.size());
-    (void)mark_holes(levels.data(), lone.made_up.data(), levels.size());
-    lone.unseen.assign(levels.size(), 0);
+void CleaningChain::close_holes(SingleFrameDepth& single_frame, bool fill,
+                                std::span<const HeldLevel> held) {
+    std::vector<float>& levels = single_frame.depth.levels;
+    single_frame.filled.resize(levels.size());
+    (void)mark_holes(levels.data(), single_frame.filled.data(), levels.size());
+    single_frame.unseen.assign(levels.size(), 0);
     if (fill) {
-        seen_ = lone.depth;
-        held_.fill(lone.depth, held);
-        small_holes_.fill(lone.depth);
-        large_holes_.fill(lone.depth, seen_, spikes_.refused(), lone.unseen);
+        seen_ = single_frame.depth;
+        held_.fill(single_frame.depth, held);
+        small_holes_.fill(single_frame.depth);
+        large_holes_.fill(single_frame.depth, seen_, spikes_.rejected(), single_frame.unseen);
     }
-    if (has_holes(lone.depth)) make_farthest(levels.data(), lone.unseen.data(), levels.size());
-    if (std::memchr(lone.unseen.data(), 1, lone.unseen.size()) == nullptr) lone.unseen.clear();
+    if (has_holes(single_frame.depth))
+        make_farthest(levels.data(), single_frame.unseen.data(), levels.size());
+    if (std::memchr(single_frame.unseen.data(), 1, single_frame.unseen.size()) == nullptr)
+        single_frame.unseen.clear();
 }
 
-LoneDepth CleaningChain::alone(DepthImage image, const CleaningPlan& plan,
-                               std::span<const HeldLevel> held, const ColourImage* colour) {
-    LoneDepth lone{std::move(image), {}, {}};
-    const bool touchable = is_touchable(lone.depth);
+SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan& plan,
+                                            std::span<const HeldLevel> held,
+                                            const ColourImage* colour) {
+    SingleFrameDepth single_frame{std::move(image), {}, {}};
+    const bool touchable = is_touchable(single_frame.depth);
     spikes_.forget();
-    if (touchable && plan.steps.remove_spikes) spikes_.remove(lone.depth);
-    if (has_holes(lone.depth)) close_holes(lone, touchable && plan.steps.fill_holes, held);
-    const std::size_t pixels = lone.depth.levels.size();
+    if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth);
+    if (has_holes(single_frame.depth))
+        close_holes(single_frame, touchable && plan.steps.fill_holes, held);
+    const std::size_t pixels = single_frame.depth.levels.size();
     free_if_large(pixels, spikes_, seen_, held_, small_holes_, large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
-        const float noise = plan.noise.at(0.5F) * static_cast<float>(lone.depth.highest_level);
-        silhouettes_.sharpen(lone.depth, plan.steps.colour_edges ? colour : nullptr, noise);
+        const float noise =
+            plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
+        silhouettes_.sharpen(single_frame.depth, plan.steps.colour_edges ? colour : nullptr, noise);
         free_if_large(pixels, silhouettes_);
     }
-    return lone;
+    return single_frame;
 }
 
-Frame CleaningChain::cleaned(DepthImage image, const CleaningPlan& plan,
-                             std::span<const HeldLevel> held) {
-    const LoneDepth lone = alone(std::move(image), plan, held);
-    const LoneDepth* const frames = &lone;
-    return finished({&frames, 1}, 0, plan);
+Frame CleaningChain::clean_and_finish(DepthImage image, const CleaningPlan& plan,
+                                      std::span<const HeldLevel> held) {
+    const SingleFrameDepth single_frame = clean_frame(std::move(image), plan, held);
+    const SingleFrameDepth* const frames = &single_frame;
+    return finish_frame({&frames, 1}, 0, plan);
 }
 
-DepthImage CleaningChain::steadied(std::span<const LoneDepth* const> frames, std::size_t now,
-                                   const DepthNoise& noise) {
-    if (noise.of_scale) frames = scale_.on_one_scale(frames, now);
+DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* const> frames,
+                                           std::size_t now, const DepthNoise& noise) {
+    if (noise.per_frame_scale) frames = scale_.on_one_scale(frames, now);
     return temporal_.filtered(frames, now, noise);
 }
 
-Frame CleaningChain::finished(std::span<const LoneDepth* const> frames, std::size_t now,
-                              const CleaningPlan& plan, Frame frame) {
-    const LoneDepth& here = *frames[now];
-    DepthImage depth =
-        plan.steps.steady && frames.size() > 1 ? steadied(frames, now, plan.noise) : here.depth;
+Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                                  const CleaningPlan& plan, Frame frame) {
+    const SingleFrameDepth& here = *frames[now];
+    DepthImage depth = plan.steps.steady && frames.size() > 1
+                           ? filtered_in_time(frames, now, plan.noise)
+                           : here.depth;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
         if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
@@ -152,8 +159,8 @@ Frame CleaningChain::finished(std::span<const LoneDepth* const> frames, std::siz
     if (!here.unseen.empty())
         frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
-        frame.beneath = std::make_shared<const DepthImage>(std::move(depth));
-        depth = finger_.dilated(*frame.beneath, plan.finger);
+        frame.undilated = std::make_shared<const DepthImage>(std::move(depth));
+        depth = finger_.dilated(*frame.undilated, plan.finger);
     }
     frame.depth = std::make_shared<const DepthImage>(std::move(depth));
     frame.cleaning = {plan.steps, plan.finger};

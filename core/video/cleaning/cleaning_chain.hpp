@@ -32,7 +32,7 @@ struct CleaningPlan {
 };
 
 /// `automatic` does not take all steps for larger images: most machines have no time for them.
-inline constexpr std::size_t kMostForSensor = 1'000'000;
+inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 
 /// The steps for a clip of this noise and size. `automatic` chooses the steps that the clip needs
 /// and that there is time for.
@@ -43,7 +43,8 @@ inline constexpr std::size_t kMostForSensor = 1'000'000;
 [[nodiscard]] bool needs_noise(const CleaningOptions& options);
 
 /// Whether the steps that need one frame only are the same in both.
-[[nodiscard]] inline bool same_alone(const CleaningSteps& a, const CleaningSteps& b) noexcept {
+[[nodiscard]] inline bool same_single_frame_steps(const CleaningSteps& a,
+                                                  const CleaningSteps& b) noexcept {
     return a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
            a.colour_edges == b.colour_edges;
@@ -60,23 +61,23 @@ class CleaningChain {
   public:
     /// Spikes, holes and silhouettes of one frame. `held`: the last levels of pixels without data;
     /// `colour`: the picture of the same view, null: none.
-    [[nodiscard]] LoneDepth alone(DepthImage image, const CleaningPlan& plan,
-                                  std::span<const HeldLevel> held = {},
-                                  const ColourImage* colour = nullptr);
+    [[nodiscard]] SingleFrameDepth clean_frame(DepthImage image, const CleaningPlan& plan,
+                                               std::span<const HeldLevel> held = {},
+                                               const ColourImage* colour = nullptr);
 
     /// The other steps for frame `now` of `frames`, which follow each other in time (one frame is
     /// enough). Returns `frame` with its depth and cleaning set.
-    [[nodiscard]] Frame finished(std::span<const LoneDepth* const> frames, std::size_t now,
-                                 const CleaningPlan& plan, Frame frame = {});
+    [[nodiscard]] Frame finish_frame(std::span<const SingleFrameDepth* const> frames,
+                                     std::size_t now, const CleaningPlan& plan, Frame frame = {});
 
     /// Both parts for a frame without frames before or after it.
-    [[nodiscard]] Frame cleaned(DepthImage image, const CleaningPlan& plan,
-                                std::span<const HeldLevel> held = {});
+    [[nodiscard]] Frame clean_and_finish(DepthImage image, const CleaningPlan& plan,
+                                         std::span<const HeldLevel> held = {});
 
   private:
-    [[nodiscard]] DepthImage steadied(std::span<const LoneDepth* const> frames, std::size_t now,
-                                      const DepthNoise& noise);
-    void close_holes(LoneDepth& lone, bool fill, std::span<const HeldLevel> held);
+    [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
+                                              std::size_t now, const DepthNoise& noise);
+    void close_holes(SingleFrameDepth& single_frame, bool fill, std::span<const HeldLevel> held);
 
     SpikeRemover spikes_{};
     DepthImage seen_{};  ///< before holes are filled

@@ -29,7 +29,7 @@ bool is_like(float a, float b, float outline) {
 }
 
 /// Whether data within kLike_px is on one surface with `level`.
-bool has_its_like(const DepthImage& image, int i, int j, float level, float outline) {
+bool has_similar_near(const DepthImage& image, int i, int j, float level, float outline) {
     const int left = std::max(i - kLike_px, 0);
     const int right = std::min(i + kLike_px, image.columns - 1);
     for (int y = std::max(j - kLike_px, 0); y <= std::min(j + kLike_px, image.rows - 1); ++y)
@@ -109,7 +109,7 @@ void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
                                        static_cast<std::size_t>(i / kSquare_px)];
         const bool holds = behind == kInfinity ? was_seen(k)
                                                : is_like(level, behind, outline) ||
-                                                     has_its_like(image, i, j, level, outline);
+                                                     has_similar_near(image, i, j, level, outline);
         // A level below all levels around would be a pit.
         if (holds) used_.push_back({index, behind == kInfinity ? level : std::max(level, behind)});
     }

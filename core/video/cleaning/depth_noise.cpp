@@ -27,7 +27,7 @@ constexpr std::size_t kLeastTiles = 4;
 constexpr double kLeastShare = 0.02;  ///< of the fullest bin
 constexpr double kOneSurface = 0.06;  ///< of the highest level: a tile that varies more has several
 /// This quantile of a bin's tiles is its noise: tiles with less noise have no outline in them.
-constexpr double kQuieter = 0.4;
+constexpr double kQuietShare = 0.4;
 // From a mean absolute value to the deviation of a normal distribution, for x[-1] - 2 x[0] + x[1]
 // and for differences from the mean of four around: sqrt(pi / 2) over sqrt(6), over sqrt(5 / 4).
 constexpr double kOfSecondDifference = 1.2533141 / 2.4494897;
@@ -117,14 +117,15 @@ Powers fitted(const std::vector<Sample>& samples) {
 std::string text_of(const DepthNoise& noise) {
     const auto text = [](float value) { return number_text(static_cast<double>(value)); };
     return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
-           text(noise.blotched) + " " + (noise.of_scale ? "1" : "0");
+           text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0");
 }
 
 std::optional<DepthNoise> noise_in(const std::string& text) {
     std::istringstream words(text);
     words.imbue(std::locale::classic());
     DepthNoise noise;
-    words >> noise.constant >> noise.linear >> noise.square >> noise.blotched >> noise.of_scale;
+    words >> noise.constant >> noise.linear >> noise.square >> noise.correlation >>
+        noise.per_frame_scale;
     return words ? std::optional(noise) : std::nullopt;
 }
 
@@ -167,15 +168,15 @@ void NoiseMeter::add(DepthImage frame) {
     for (int y = 0; y < rows; ++y)
         for (int x = 0; x < columns; ++x, ++tile)
             add_tile(*tile, frame, x * kTile_px, y * kTile_px);
-    if (small_.size() < kEnough) small_.push_back({small_of(frame), {}, {}});
+    if (small_.size() < kEnoughFrames) small_.push_back({small_of(frame), {}, {}});
     before_last_ = std::move(last_);
     last_ = std::move(frame);
 }
 
-bool NoiseMeter::is_of_scale() const {
-    std::vector<const LoneDepth*> frames;
+bool NoiseMeter::has_per_frame_scale() const {
+    std::vector<const SingleFrameDepth*> frames;
     frames.reserve(small_.size());
-    for (const LoneDepth& frame : small_) frames.push_back(&frame);
+    for (const SingleFrameDepth& frame : small_) frames.push_back(&frame);
     if (frames.empty()) return false;
     const std::vector<LevelMap> maps = FrameScale{}.maps(frames, frames.size() / 2);
     return std::any_of(maps.begin(), maps.end(),
@@ -212,15 +213,15 @@ DepthNoise NoiseMeter::noise() const {
     for (std::size_t k = 0; k < kBins; ++k) {
         if (noises[k].size() < least) continue;
         const double away = 1.0 - (static_cast<double>(k) + 0.5) / kBins;
-        samples.push_back({away, quantile(noises[k], kQuieter),
+        samples.push_back({away, quantile(noises[k], kQuietShare),
                            std::sqrt(static_cast<double>(noises[k].size()))});
     }
-    const bool of_scale = is_of_scale();
-    if (samples.empty()) return {.of_scale = of_scale};
+    const bool per_frame_scale = has_per_frame_scale();
+    if (samples.empty()) return {.per_frame_scale = per_frame_scale};
     const Powers powers = fitted(samples);
     const double grain = grains.empty() ? 1.0 : std::min(1.0, quantile(grains, 0.5));
     return {static_cast<float>(powers[0]), static_cast<float>(powers[1]),
-            static_cast<float>(powers[2]), static_cast<float>(1.0 - grain), of_scale};
+            static_cast<float>(powers[2]), static_cast<float>(1.0 - grain), per_frame_scale};
 }
 
 }  // namespace dibhr

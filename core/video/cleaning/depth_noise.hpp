@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/lone_depth.hpp"
+#include "core/video/cleaning/single_frame_depth.hpp"
 
 namespace dibhr {
 
@@ -21,9 +21,9 @@ struct DepthNoise {
     float linear{0.0F};  ///< added at the farthest level, falling to 0 at the nearest
     float square{0.0F};  ///< likewise, falling with the square
     /// How far neighbouring pixels have the same noise, in [0, 1]: 0 is grain, 1 is blotches.
-    float blotched{0.0F};
+    float correlation{0.0F};
     /// Each frame has its own scale and shift, as from estimators of depth from single pictures.
-    bool of_scale{false};
+    bool per_frame_scale{false};
 
     bool operator==(const DepthNoise&) const = default;
 
@@ -69,7 +69,7 @@ class NoiseBound {
 /// Measures the noise of surfaces that stand still or move evenly.
 class NoiseMeter {
   public:
-    static constexpr std::size_t kEnough = 10;  ///< frames, a third of a second
+    static constexpr std::size_t kEnoughFrames = 10;  ///< frames, a third of a second
 
     /// The next frame of the recording, not cleaned: NaN is no data. A frame of another size or
     /// highest level than the first one is ignored.
@@ -104,11 +104,11 @@ class NoiseMeter {
     };
 
     void add_tile(Tile& tile, const DepthImage& frame, int left, int top) const;
-    [[nodiscard]] bool is_of_scale() const;
+    [[nodiscard]] bool has_per_frame_scale() const;
 
     std::vector<Tile> tiles_{};
     DepthImage last_{}, before_last_{};
-    std::vector<LoneDepth> small_{};  ///< each frame, with fewer pixels
+    std::vector<SingleFrameDepth> small_{};  ///< each frame, with fewer pixels
 };
 
 }  // namespace dibhr

@@ -19,10 +19,11 @@ constexpr double kFoundShare = 0.6;
 
 }  // namespace
 
-MotionSearch::MotionSearch(const DepthImage& here, const BesideInTime& a, const BesideInTime& b)
+EvenMotionSearch::EvenMotionSearch(const DepthImage& here, const NeighbourFrame& a,
+                                   const NeighbourFrame& b)
     : here_(here), a_(a), b_(b), reach_px_(std::max(here.columns / kReachInWidth, 1)) {}
 
-std::optional<Motion> MotionSearch::found() const {
+std::optional<EvenMotion> EvenMotionSearch::found() const {
     Best best{};
     try_around(best, {0, 0}, reach_px_, kCoarse_px);
     if (best.count == 0) return {};
@@ -32,8 +33,8 @@ std::optional<Motion> MotionSearch::found() const {
     return best.motion;
 }
 
-std::optional<float> MotionSearch::level_along(const Motion& motion, int i, int j,
-                                               const NoiseBound& bound) const {
+std::optional<float> EvenMotionSearch::level_along(const EvenMotion& motion, int i, int j,
+                                                   const NoiseBound& bound) const {
     if (!is_inside(motion, i, j)) return {};
     const float now = here_.at(i, j);
     const float a = level_in(a_, motion, i, j);
@@ -45,11 +46,12 @@ std::optional<float> MotionSearch::level_along(const Motion& motion, int i, int 
     return level;
 }
 
-void MotionSearch::try_around(Best& best, const Motion& middle, int reach_px, int step_px) const {
+void EvenMotionSearch::try_around(Best& best, const EvenMotion& middle, int reach_px,
+                                  int step_px) const {
     for (int down = -reach_px; down <= reach_px; down += step_px) {
         for (int right = -reach_px; right <= reach_px; right += step_px) {
             if (best.count == samples_.size()) return;
-            const Motion motion{middle.right + right, middle.down + down};
+            const EvenMotion motion{middle.right + right, middle.down + down};
             const std::size_t count = count_found(motion, best.count);
             if (count > best.count) best = {motion, count};
         }
@@ -57,7 +59,7 @@ void MotionSearch::try_around(Best& best, const Motion& middle, int reach_px, in
 }
 
 /// How many samples are found; 0 if not more than `least`.
-std::size_t MotionSearch::count_found(const Motion& motion, std::size_t least) const {
+std::size_t EvenMotionSearch::count_found(const EvenMotion& motion, std::size_t least) const {
     const std::ptrdiff_t to_a = away(a_, motion);
     const std::ptrdiff_t to_b = away(b_, motion);
     std::size_t missed = 0;
@@ -73,13 +75,13 @@ std::size_t MotionSearch::count_found(const Motion& motion, std::size_t least) c
     return samples_.size() - missed;
 }
 
-std::ptrdiff_t MotionSearch::away(const BesideInTime& frame, const Motion& motion) const {
+std::ptrdiff_t EvenMotionSearch::away(const NeighbourFrame& frame, const EvenMotion& motion) const {
     return std::ptrdiff_t{frame.later} *
            (std::ptrdiff_t{motion.down} * here_.columns + motion.right);
 }
 
-bool MotionSearch::is_inside(const Motion& motion, int i, int j) const {
-    const auto is_in = [&](const BesideInTime& frame) {
+bool EvenMotionSearch::is_inside(const EvenMotion& motion, int i, int j) const {
+    const auto is_in = [&](const NeighbourFrame& frame) {
         const int x = i + frame.later * motion.right;
         const int y = j + frame.later * motion.down;
         return x >= 0 && y >= 0 && x < here_.columns && y < here_.rows;
@@ -87,7 +89,8 @@ bool MotionSearch::is_inside(const Motion& motion, int i, int j) const {
     return is_in(a_) && is_in(b_);
 }
 
-float MotionSearch::level_in(const BesideInTime& frame, const Motion& motion, int i, int j) const {
+float EvenMotionSearch::level_in(const NeighbourFrame& frame, const EvenMotion& motion, int i,
+                                 int j) const {
     return frame.levels[static_cast<std::ptrdiff_t>(here_.index(i, j)) + away(frame, motion)];
 }
 

@@ -34,10 +34,10 @@ constexpr double kSmoothSteps = 4.0;
 /// Largest level, from 0 [px, level]: beyond, the square of a slope would overflow.
 constexpr double kMost_px = 1e17;
 constexpr double kMost_level = 1e30;
-constexpr int kRoom_px = 10;  ///< beyond the ball's reach, as eight pixels are raised at once
+constexpr int kPadding_px = 10;  ///< beyond the ball's reach, as eight pixels are raised at once
 
 /// Every `step`-th pixel in both directions, up to or beyond the last one.
-DepthImage every(const DepthImage& fine, int step) {
+DepthImage thinned_out(const DepthImage& fine, int step) {
     const int columns = (fine.columns + step - 2) / step + 1;
     const int rows = (fine.rows + step - 2) / step + 1;
     return image_of(columns, rows, fine.highest_level, [&fine, step](int i, int j) {
@@ -95,7 +95,7 @@ DIBHR_VECTOR_CLONES void copy_up_to(float most, const float* __restrict from, st
 struct FingertipDilation::Scratch {
     int columns{0}, rows{0};
     Ball ball{};
-    RoomyImage touched{}, felt{};  ///< the given image, and the dilated one
+    PaddedImage touched{}, felt{};  ///< the given image, and the dilated one
     CellRow above{}, below{};
     Triangles triangles{};
     EdgePass in_rows{}, in_columns{}, diagonal{};
@@ -114,9 +114,9 @@ void FingertipDilation::Scratch::prepare(const DepthImage& image, const Fingerti
     columns = image.columns;
     rows = image.rows;
     ball = Ball(finger, image.highest_level);
-    const int room = static_cast<int>(ball.radius_px) + kRoom_px;
-    touched.fit(columns, rows, room, kNothing);
-    felt.fit(columns, rows, room, kNothing);
+    const int padding = static_cast<int>(ball.radius_px) + kPadding_px;
+    touched.fit(columns, rows, padding, kNothing);
+    felt.fit(columns, rows, padding, kNothing);
     touched.copy(image);
     felt.copy(image);
     const int pitch = felt.pitch();
@@ -197,7 +197,7 @@ DepthImage FingertipDilation::dilated(const DepthImage& image, const Fingertip& 
     const double first_px = kSmoothSteps * step;
     DepthImage fine = exactly_dilated(image, {first_px, finger.relief_px});
     const Fingertip rest{(radius_px - first_px) / step, finger.relief_px / step};
-    raise_between(exactly_dilated(every(fine, step), rest), step, fine);
+    raise_between(exactly_dilated(thinned_out(fine, step), rest), step, fine);
     return fine;
 }
 

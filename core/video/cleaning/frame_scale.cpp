@@ -19,7 +19,7 @@ constexpr std::size_t kLeastSamples = 64;
 constexpr int kFits = 5;                       ///< each with weights from the one before
 constexpr double kDeviationOfMedian = 1.4826;  ///< normal: standard deviation by median of sizes
 constexpr double kBiweight = 4.685;            ///< Tukey's, in standard deviations
-constexpr double kFlatRidge_px = 0.5;  ///< a smaller span of levels does not tell the gain
+constexpr double kFlatRidge_px = 0.5;          ///< a smaller span of levels does not tell the gain
 
 // A map is trusted if most of the picture agrees on it: a moving hand is only a part. It is flicker
 // if maps explain the changes of most pairs, and differ from pair to pair, unlike even motion.
@@ -29,10 +29,10 @@ constexpr double kSmall = 0.3;     ///< or within this part of the median change
 constexpr double kMostGain = 1.3;
 constexpr double kExplains = 2.0;  ///< least ratio of the change before the map to that after it
 constexpr double kLeast_px = 0.05;
-constexpr double kFelt_px = 0.15;  ///< as in plan_of: less flicker is not felt
+constexpr double kPerceptible_px = 0.15;  ///< as in plan_of: less flicker is not felt
 constexpr std::size_t kLeastPairs = 3;
 
-double middle(std::vector<float>& values) {
+double median(std::vector<float>& values) {
     const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), at, values.end());
     return static_cast<double>(*at);
@@ -75,19 +75,19 @@ LevelMap mean_of(std::span<const LevelMap> maps) {
 }  // namespace
 
 /// Takes levels on a grid, NaN for no data; none of frames of another size or highest level.
-void FrameScale::sample(std::span<const LoneDepth* const> frames, const DepthImage& like) {
+void FrameScale::sample(std::span<const SingleFrameDepth* const> frames, const DepthImage& like) {
     const auto pixels = static_cast<double>(like.levels.size());
     const int step = std::max(1, static_cast<int>(std::sqrt(pixels / kSamples)));
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        const LoneDepth& frame = *frames[k];
+        const SingleFrameDepth& frame = *frames[k];
         std::vector<float>& levels = levels_[k];
         levels.clear();
         if (!are_alike(frame.depth, like)) continue;
         for (int j = step / 2; j < like.rows; j += step) {
             for (int i = step / 2; i < like.columns; i += step) {
                 const std::size_t at = like.index(i, j);
-                const bool made_up = !frame.made_up.empty() && frame.made_up[at] != 0;
-                levels.push_back(made_up ? kNone : frame.depth.levels[at]);
+                const bool filled = !frame.filled.empty() && frame.filled[at] != 0;
+                levels.push_back(filled ? kNone : frame.depth.levels[at]);
             }
         }
     }
@@ -119,25 +119,25 @@ void FrameScale::balance() {
 }
 
 /// Median of the distances of the samples' changes from those by `change`.
-double FrameScale::middle_of_sizes(const Samples& samples, const LevelMap& change) {
+double FrameScale::median_residual(const Samples& samples, const LevelMap& change) {
     const std::size_t count = samples.from.size();
-    sizes_.resize(count);
+    residuals_.resize(count);
     const auto gain = static_cast<float>(change.gain);
     const auto offset = static_cast<float>(change.offset);
     for (std::size_t k = 0; k < count; ++k)
-        sizes_[k] = std::fabs(samples.change[k] - (gain * samples.from[k] + offset));
-    return middle(sizes_);
+        residuals_[k] = std::fabs(samples.change[k] - (gain * samples.from[k] + offset));
+    return median(residuals_);
 }
 
 /// Iteratively reweighted least squares, from the median change on.
 FrameScale::Pair FrameScale::fitted(const Samples& samples) {
     const double least = kLeast_px * levels_per_px_;
     const double ridge = kFlatRidge_px * levels_per_px_ * kFlatRidge_px * levels_per_px_;
-    sizes_ = samples.change;
-    LevelMap change{0.0, middle(sizes_)};
+    residuals_ = samples.change;
+    LevelMap change{0.0, median(residuals_)};
     Line line;
     for (int n = 0; n < kFits; ++n) {
-        const double left = middle_of_sizes(samples, change);
+        const double left = median_residual(samples, change);
         const double per_bound = 1.0 / (kBiweight * (kDeviationOfMedian * left + least));
         line = {};
         for (std::size_t k = 0; k < samples.from.size(); ++k) {
@@ -160,18 +160,18 @@ FrameScale::Pair FrameScale::fitted(const Samples& samples) {
 
 /// How much of the whole picture the map explains. `changed`: median of the changes' sizes.
 void FrameScale::judge(Pair& pair, double changed) {
-    const double left = middle_of_sizes(all_, pair.change);
+    const double left = median_residual(all_, pair.change);
     const double least = kLeast_px * levels_per_px_;
     const auto alike =
         static_cast<float>(std::max(kAgree * kDeviationOfMedian * left + least, kSmall * changed));
     const auto most = static_cast<float>(kSmall * changed + least);
     std::size_t agreeing = 0;
-    for (const float size : sizes_) {
+    for (const float size : residuals_) {
         agreeing += size <= alike ? 1 : 0;
         pair.off += static_cast<double>(std::min(size, most));
     }
     const bool agrees =
-        static_cast<double>(agreeing) >= kAgreeing * static_cast<double>(sizes_.size());
+        static_cast<double>(agreeing) >= kAgreeing * static_cast<double>(residuals_.size());
     pair.explains = changed > kExplains * left + least;
     pair.agreed = agrees && pair.map.gain < kMostGain && pair.map.gain * kMostGain > 1.0;
 }
@@ -185,7 +185,7 @@ FrameScale::Pair FrameScale::compare(std::size_t one) {
         if (const float change = next[k] - now[k]; !std::isnan(change))
             all_.add(0.5F * (now[k] + next[k]), change);
     if (all_.from.size() < kLeastSamples) return {};
-    const double changed = middle_of_sizes(all_, {0.0, 0.0});
+    const double changed = median_residual(all_, {0.0, 0.0});
     thin();
     balance();
     // A wall behind a small object needs the second fit, a hand before a wall the first one.
@@ -212,10 +212,11 @@ bool FrameScale::flickers(std::span<const Pair> pairs) const {
         }
     }
     const double count = 2.0 * static_cast<double>(pairs.size() - 1);
-    return std::sqrt(squares / (6.0 * count)) > kFelt_px * levels_per_px_;
+    return std::sqrt(squares / (6.0 * count)) > kPerceptible_px * levels_per_px_;
 }
 
-std::vector<LevelMap> FrameScale::maps(std::span<const LoneDepth* const> frames, std::size_t now) {
+std::vector<LevelMap> FrameScale::maps(std::span<const SingleFrameDepth* const> frames,
+                                       std::size_t now) {
     std::vector<LevelMap> maps(frames.size());
     const std::size_t begin = now - std::min(now, kReachInTime);
     const auto near =
@@ -255,8 +256,8 @@ std::vector<LevelMap> FrameScale::maps(std::span<const LoneDepth* const> frames,
     return maps;
 }
 
-std::span<const LoneDepth* const> FrameScale::on_one_scale(std::span<const LoneDepth* const> frames,
-                                                           std::size_t now) {
+std::span<const SingleFrameDepth* const> FrameScale::on_one_scale(
+    std::span<const SingleFrameDepth* const> frames, std::size_t now) {
     const std::vector<LevelMap> found = maps(frames, now);
     const auto is_identity = [](const LevelMap& map) { return map == LevelMap{}; };
     if (std::all_of(found.begin(), found.end(), is_identity)) return frames;
@@ -270,7 +271,7 @@ std::span<const LoneDepth* const> FrameScale::on_one_scale(std::span<const LoneD
     return frames_;
 }
 
-void scale_levels(const LoneDepth& frame, const LevelMap& map, LoneDepth& scaled) {
+void scale_levels(const SingleFrameDepth& frame, const LevelMap& map, SingleFrameDepth& scaled) {
     scaled = frame;
     const auto gain = static_cast<float>(map.gain);
     const auto offset = static_cast<float>(map.offset);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/lone_depth.hpp"
+#include "core/video/cleaning/single_frame_depth.hpp"
 
 namespace dibhr {
 
@@ -40,13 +40,13 @@ class FrameScale {
     /// The maps that bring each of `frames`, which follow each other in time, onto the scale that
     /// frame `now` should have. The identity for frames farther than kReachInTime, behind a cut or
     /// of another size, and for all frames if nothing flickers. NaN and filled pixels do not count.
-    [[nodiscard]] std::vector<LevelMap> maps(std::span<const LoneDepth* const> frames,
+    [[nodiscard]] std::vector<LevelMap> maps(std::span<const SingleFrameDepth* const> frames,
                                              std::size_t now);
 
     /// The mapped frames; those that need no map are returned themselves. Valid until the next
     /// call, and as long as `frames` are.
-    [[nodiscard]] std::span<const LoneDepth* const> on_one_scale(
-        std::span<const LoneDepth* const> frames, std::size_t now);
+    [[nodiscard]] std::span<const SingleFrameDepth* const> on_one_scale(
+        std::span<const SingleFrameDepth* const> frames, std::size_t now);
 
   private:
     /// The map between two consecutive frames, and how far to trust it.
@@ -73,25 +73,25 @@ class FrameScale {
         }
     };
 
-    void sample(std::span<const LoneDepth* const> frames, const DepthImage& like);
+    void sample(std::span<const SingleFrameDepth* const> frames, const DepthImage& like);
     [[nodiscard]] Pair compare(std::size_t one);
     void thin();
     void balance();
     [[nodiscard]] Pair fitted(const Samples& samples);
     void judge(Pair& pair, double changed);
-    [[nodiscard]] double middle_of_sizes(const Samples& samples, const LevelMap& change);
+    [[nodiscard]] double median_residual(const Samples& samples, const LevelMap& change);
     [[nodiscard]] bool flickers(std::span<const Pair> pairs) const;
 
     std::array<std::vector<float>, 2 * kReachInTime + 1> levels_{};  ///< of frames, on a grid
     double highest_{0.0};
     double levels_per_px_{1.0};
     Samples all_{}, thinned_{}, balanced_{};  ///< of two frames
-    std::vector<float> sizes_{};
-    std::vector<LoneDepth> scaled_{};
-    std::vector<const LoneDepth*> frames_{};
+    std::vector<float> residuals_{};
+    std::vector<SingleFrameDepth> scaled_{};
+    std::vector<const SingleFrameDepth*> frames_{};
 };
 
 /// Maps a frame's levels, clamped to [0, highest]. Unseen pixels keep their level.
-void scale_levels(const LoneDepth& frame, const LevelMap& map, LoneDepth& scaled);
+void scale_levels(const SingleFrameDepth& frame, const LevelMap& map, SingleFrameDepth& scaled);
 
 }  // namespace dibhr

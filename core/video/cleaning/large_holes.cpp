@@ -25,7 +25,7 @@ constexpr float kReach_squares = 3.25F;  ///< kReach_px between centres of squar
 /// A hole with room for a disc of this radius (a part of the width) is open: it is not bridged.
 constexpr double kOpenInWidth = 16.0;
 
-constexpr float kToTheRim = 2.0F;  ///< a wide hole goes this far beyond its discs
+constexpr float kWideMargin_squares = 2.0F;  ///< a wide hole goes this far beyond its discs
 
 constexpr std::size_t kChunk = 64;  ///< pixels of a row that are checked together
 constexpr std::size_t kDiscRows = 2 * kReach_px + 1;
@@ -104,7 +104,8 @@ DIBHR_VECTOR_CLONES void lower(const float* const* rows, std::size_t at, float* 
 }
 
 /// Copies levels; no data becomes infinity.
-DIBHR_VECTOR_CLONES void put_above(const float* levels, float* __restrict out, std::size_t count) {
+DIBHR_VECTOR_CLONES void make_holes_infinite(const float* levels, float* __restrict out,
+                                             std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) out[i] = levels[i] == levels[i] ? levels[i] : kAbove;
 }
 
@@ -133,7 +134,7 @@ DIBHR_VECTOR_CLONES void lift(const float* seen, const float* farthest, float pi
 }  // namespace
 
 void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
-                           std::span<const std::size_t> refused,
+                           std::span<const std::size_t> rejected,
                            std::vector<std::uint8_t>& unseen) {
     if (!has_holes(seen)) return;
     if (has_holes(image) && !find_behind(image)) {  // no data at all
@@ -149,7 +150,7 @@ void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
         if (!has_data(image, j)) fill_row(image, j, unseen);
         lift_row(image, seen, j);
     }
-    lift_beside(image, seen, refused);
+    lift_beside(image, seen, rejected);
 }
 
 /// Finds the background of holes, in squares. False: there is no data anywhere.
@@ -172,7 +173,7 @@ void LargeHoleFiller::find_wide_and_open(int columns) {
     const auto squares = [columns](double part) {
         return static_cast<float>(columns / part / LevelPyramid::kSquare_px);
     };
-    room_for_discs(to_data, squares(2.0 * kSmallInWidth), kToTheRim, wide_);
+    room_for_discs(to_data, squares(2.0 * kSmallInWidth), kWideMargin_squares, wide_);
     room_for_discs(to_data, squares(kOpenInWidth), 0.0F, open_);
     // Not open within a fingertip's reach of data.
     std::transform(to_data.begin(), to_data.end(), open_.begin(), open_.begin(),
@@ -189,8 +190,8 @@ void LargeHoleFiller::widen(const DepthImage& seen, int row) {
     above_.assign(columns, kAbove);
     widened_ = std::max(widened_, row - kReach_px);
     for (; widened_ < std::min(row + kReach_px + 1, seen.rows); ++widened_) {
-        put_above(seen.levels.data() + seen.index(0, widened_), padded_.data() + kReach_px,
-                  columns);
+        make_holes_infinite(seen.levels.data() + seen.index(0, widened_),
+                            padded_.data() + kReach_px, columns);
         lowest_of_eight(padded_.data(), eight_.data(), eight_.size());
         std::array<float*, kSpans> spans{};
         for (std::size_t k = 0; k < kSpans; ++k) spans[k] = span_of(widened_, k, columns);
@@ -243,11 +244,11 @@ void LargeHoleFiller::lift_row(DepthImage& image, const DepthImage& seen, int ro
 
 /// Refused pixels count with their new level, so the surface does not fall away beside them.
 void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
-                                  std::span<const std::size_t> refused) {
-    if (refused.empty()) return;
+                                  std::span<const std::size_t> rejected) {
+    if (rejected.empty()) return;
     given_ = seen;
-    for (const std::size_t pixel : refused) given_.levels[pixel] = image.levels[pixel];
-    mark_chunks(image, refused);
+    for (const std::size_t pixel : rejected) given_.levels[pixel] = image.levels[pixel];
+    mark_chunks(image, rejected);
     const std::size_t across = chunks_in(image.columns);
     std::vector<std::uint8_t> near(across);
     widened_ = 0;
@@ -264,11 +265,11 @@ void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
 }
 
 /// Marks chunks that have a refused pixel of their row within reach.
-void LargeHoleFiller::mark_chunks(const DepthImage& image, std::span<const std::size_t> refused) {
+void LargeHoleFiller::mark_chunks(const DepthImage& image, std::span<const std::size_t> rejected) {
     const auto columns = static_cast<std::size_t>(image.columns);
     const std::size_t across = chunks_in(image.columns);
     chunks_.assign(across * static_cast<std::size_t>(image.rows), 0);
-    for (const std::size_t pixel : refused) {
+    for (const std::size_t pixel : rejected) {
         const std::size_t column = pixel % columns;
         const std::size_t first = column - std::min<std::size_t>(column, kReach_px);
         const std::size_t last = std::min(column + kReach_px, columns - 1);

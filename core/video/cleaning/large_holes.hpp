@@ -19,7 +19,7 @@ class LargeHoleFiller {
     /// all its data within a fingertip's reach. `unseen` (columns x rows, all 0) becomes 1 where a
     /// hole is wider than a twentieth of the image's width. `refused`: pixels whose data was
     /// rejected as spikes; the surface does not fall away beside their new levels either.
-    void fill(DepthImage& image, const DepthImage& seen, std::span<const std::size_t> refused,
+    void fill(DepthImage& image, const DepthImage& seen, std::span<const std::size_t> rejected,
               std::vector<std::uint8_t>& unseen);
 
   private:
@@ -28,11 +28,11 @@ class LargeHoleFiller {
     void widen(const DepthImage& seen, int row);
     [[nodiscard]] float* span_of(int row, std::size_t number, std::size_t columns);
     void find_farthest(const DepthImage& seen, int row, const std::uint8_t* chunks);
-    void mark_chunks(const DepthImage& image, std::span<const std::size_t> refused);
+    void mark_chunks(const DepthImage& image, std::span<const std::size_t> rejected);
     void fill_row(DepthImage& image, int row, std::vector<std::uint8_t>& unseen);
     void lift_row(DepthImage& image, const DepthImage& seen, int row) const;
     void lift_beside(DepthImage& image, const DepthImage& seen,
-                     std::span<const std::size_t> refused);
+                     std::span<const std::size_t> rejected);
 
     LevelPyramid behind_{};
     std::vector<float> wide_{}, open_{};                        ///< of squares: above 0 inside

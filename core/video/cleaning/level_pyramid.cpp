@@ -42,9 +42,9 @@ constexpr std::size_t kTogether = 64;  ///< squares that are computed together
 /// Levels by pixel of a square, then by square: the first pixels of all squares, the second ones.
 using Pixels = std::array<std::array<float, kTogether>, std::size_t{kSquare_px} * kSquare_px>;
 
-DIBHR_VECTOR_CLONES void take_apart(const float* row, float* __restrict first,
-                                    float* __restrict second, float* __restrict third,
-                                    float* __restrict fourth, std::size_t squares) {
+DIBHR_VECTOR_CLONES void deinterleave(const float* row, float* __restrict first,
+                                      float* __restrict second, float* __restrict third,
+                                      float* __restrict fourth, std::size_t squares) {
     static_assert(kSquare_px == 4);
     for (std::size_t x = 0; x < squares; ++x) {
         first[x] = row[4 * x];
@@ -91,9 +91,9 @@ void means_behind(const float* corner, std::ptrdiff_t columns, float outline, fl
     for (std::size_t x = 0; x < squares; x += kTogether) {
         const std::size_t count = std::min(kTogether, squares - x);
         for (std::size_t j = 0; j < kSquare_px; ++j)
-            take_apart(corner + static_cast<std::ptrdiff_t>(j) * columns + kSquare_px * x,
-                       pixels[4 * j].data(), pixels[4 * j + 1].data(), pixels[4 * j + 2].data(),
-                       pixels[4 * j + 3].data(), count);
+            deinterleave(corner + static_cast<std::ptrdiff_t>(j) * columns + kSquare_px * x,
+                         pixels[4 * j].data(), pixels[4 * j + 1].data(), pixels[4 * j + 2].data(),
+                         pixels[4 * j + 3].data(), count);
         means_behind(pixels, outline, together.data());
         std::copy_n(together.data(), count, means + x);
     }

@@ -228,7 +228,7 @@ void NoiseSmoother::measure_tiles(const DepthImage& image, const DepthNoise& noi
     lows_.assign(image.levels.begin(), image.levels.begin() + image.columns);
     highs_ = lows_;
     const float left_share =
-        kGrainLeft + (kBlotchesLeft - kGrainLeft) * std::min(noise.blotched, 1.0F);
+        kGrainLeft + (kBlotchesLeft - kGrainLeft) * std::min(noise.correlation, 1.0F);
     const NoiseBound left(noise, left_share, kLeastNoise, image.highest_level);
     for (int y = 0; y < tile_rows_; ++y) {
         for (int j = y * kTile_px; j < std::min((y + 1) * kTile_px, image.rows); ++j)
@@ -309,7 +309,7 @@ void NoiseSmoother::pass(const Scale& scale, const Rows& rows, int j, int reach,
 
 /// Both passes of a scale and the reduction to the next one run row by row together, so that the
 /// few rows between them stay in the cache.
-void NoiseSmoother::go_down(Scale& fine, const float* from, Scale* coarse) {
+void NoiseSmoother::smooth_to_coarser(Scale& fine, const float* from, Scale* coarse) {
     fine.levels.resize(fine.index(0, fine.rows));
     const auto given = [&](int j) { return from + fine.index(0, j); };
     const auto once = [&](int j) -> const float* { return first_.row(j); };
@@ -341,7 +341,7 @@ void NoiseSmoother::add_coarse(Scale& fine, const Scale& coarse, int j) {
 }
 
 /// The way back to the finer scale, again row by row together.
-void NoiseSmoother::go_up(Scale& fine, const float* before, const Scale* coarse) {
+void NoiseSmoother::smooth_to_finer(Scale& fine, const float* before, const Scale* coarse) {
     for (Ring* ring : {&first_, &second_, &taken_, &bounds_}) ring->resize(fine.columns);
     bounds_made_ = 0;
     const auto levels = [&](int j) { return fine.levels.data() + fine.index(0, j); };
@@ -377,16 +377,16 @@ void NoiseSmoother::put_back(const Scale& scale, int j, float* out) {
 }
 
 /// Smooths from fine to coarse and back. `before`: the scale's levels, `from`: without outliers.
-void NoiseSmoother::go_through(std::size_t number, const float* from, const float* before) {
+void NoiseSmoother::smooth_scales(std::size_t number, const float* from, const float* before) {
     Scale& fine = scales_[number];
     Scale* const coarse = number + 1 < scales_.size() ? &scales_[number + 1] : nullptr;
     if (coarse != nullptr) {
         coarse->before.resize(coarse->index(0, coarse->rows));
         coarse->per_bound.resize(coarse->before.size());
     }
-    go_down(fine, from, coarse);
-    if (coarse != nullptr) go_through(number + 1, coarse->before.data(), coarse->before.data());
-    go_up(fine, before, coarse);
+    smooth_to_coarser(fine, from, coarse);
+    if (coarse != nullptr) smooth_scales(number + 1, coarse->before.data(), coarse->before.data());
+    smooth_to_finer(fine, before, coarse);
 }
 
 /// The median of nine, twice, also removes outliers of two pixels by two. The median of 25 would
@@ -418,7 +418,7 @@ void NoiseSmoother::smooth(DepthImage& image, const DepthNoise& noise) {
     scales_.resize(kScales);
     int columns = image.columns;
     int rows = image.rows;
-    const float grain = 1.0F - std::min(noise.blotched, 0.99F);
+    const float grain = 1.0F - std::min(noise.correlation, 0.99F);
     const float left = std::lerp(1.0F, kLeftByTwoPasses, grain);
     float noise_part = kPutBackBeyond * kBinomialLeaves / (grain * grain) / kBound;
     for (Scale& scale : scales_) {
@@ -430,7 +430,7 @@ void NoiseSmoother::smooth(DepthImage& image, const DepthNoise& noise) {
         rows = (rows + 1) / 2;
     }
     take_medians(image, noise);
-    go_through(0, image.levels.data(), before_.data());
+    smooth_scales(0, image.levels.data(), before_.data());
     Scale& finest = scales_.front();
     clamp_row(finest.levels.data(), lowest, highest,
               static_cast<std::ptrdiff_t>(finest.levels.size()));

@@ -42,9 +42,9 @@ class NoiseSmoother {
     [[nodiscard]] const float* bounds_of(const Scale& scale, int row);
     void spread_bounds(int row, float* out);
     void take_medians(DepthImage& image, const DepthNoise& noise);
-    void go_through(std::size_t number, const float* from, const float* before);
-    void go_down(Scale& fine, const float* from, Scale* coarse);
-    void go_up(Scale& fine, const float* before, const Scale* coarse);
+    void smooth_scales(std::size_t number, const float* from, const float* before);
+    void smooth_to_coarser(Scale& fine, const float* from, Scale* coarse);
+    void smooth_to_finer(Scale& fine, const float* before, const Scale* coarse);
     void add_coarse(Scale& fine, const Scale& coarse, int j);
     template <typename Rows>
     void pass(const Scale& scale, const Rows& rows, int j, int reach, float* out);

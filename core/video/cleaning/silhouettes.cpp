@@ -29,7 +29,8 @@ constexpr float kLevel = 0.02F;       ///< of a ramp's height a pixel: the rise 
 constexpr float kLeastNoises = 8.0F;  ///< the height of a ramp, in standard deviations of the noise
 constexpr float kFlatNoises = 1.5F;   ///< a smaller rise is flat
 
-constexpr std::uint32_t kBelieved = 3;  ///< a ramp counts if one in 3 pixels across it found it
+constexpr std::uint32_t kPixelsPerVote =
+    3;  ///< a ramp counts if one in 3 pixels across it found it
 
 constexpr int kFace_px = 3;        ///< a face's slope is taken over twice this length
 constexpr int kSmooth_px = 2;      ///< faces are smoothed over this distance to all sides
@@ -129,7 +130,7 @@ std::optional<int> end_of_rise(const Line& line, int side, int most, float flat,
 }
 
 /// Moves the end of a ramp, which may be rounded, up to two pixels on while the line still rises.
-int settled(const Line& line, int end, int side, float least) {
+int extended_end(const Line& line, int end, int side, float least) {
     const auto sign = static_cast<float>(side);
     for (int k = 0; k < 2 && sign * (line(end + side) - line(end)) > least; ++k) end += side;
     return end;
@@ -200,8 +201,9 @@ std::optional<Ramp> find_ramp(const Line& line, const Uphill& up, const Limits& 
     if (line(low) - line(low - beyond) > most) return std::nullopt;
     const float least = std::max(kLevel * height, flat);
     const float steepest_face = kGoesOn * slope;
-    return Ramp{face_from(line, settled(line, low, -1, least), -1, steepest_face, limits.noise),
-                face_from(line, settled(line, high, 1, least), 1, steepest_face, limits.noise)};
+    return Ramp{
+        face_from(line, extended_end(line, low, -1, least), -1, steepest_face, limits.noise),
+        face_from(line, extended_end(line, high, 1, least), 1, steepest_face, limits.noise)};
 }
 
 /// Number of the first pixel of the high side, so that it has as many pixels as are nearer to it.
@@ -281,9 +283,9 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     if (colour != nullptr && colour->rgb.empty()) colour = nullptr;
     const double least = kSteep * image.highest_level / (kRelief_widths * image.columns);
     const Scene scene{image, colour, {static_cast<float>(least), noise_levels}};
-    votes_of_.assign(image.levels.size(), 0);
+    votes_number_.assign(image.levels.size(), 0);
     votes_.clear();
-    found_.clear();
+    ramps_.clear();
     if (!find_ramps(scene)) return;
     for (Votes& votes : votes_) decide(votes);
     for (const Votes& votes : votes_) {
@@ -303,16 +305,16 @@ bool SilhouetteSharpener::find_ramps(const Scene& scene) {
     const DepthImage& image = scene.image;
     const int inside = std::min(2, image.columns);
     for (int j = 0; j < image.rows; ++j) {
-        look_along(scene, j, 0, inside, 0);
-        look_along(scene, j, inside, image.columns - 2, 1);
-        look_along(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
+        scan_row(scene, j, 0, inside, 0);
+        scan_row(scene, j, inside, image.columns - 2, 1);
+        scan_row(scene, j, std::max(inside, image.columns - 2), image.columns, 0);
     }
-    for (std::size_t k = 0; k < found_.size() && !are_too_many(); ++k) vote(found_[k]);
+    for (std::size_t k = 0; k < ramps_.size() && !are_too_many(); ++k) vote(ramps_[k]);
     return !are_too_many();
 }
 
 SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
-    std::uint32_t& number = votes_of_[pixel];
+    std::uint32_t& number = votes_number_[pixel];
     if (number == 0) {
         votes_.push_back({.pixel = static_cast<std::uint32_t>(pixel)});
         number = static_cast<std::uint32_t>(votes_.size());
@@ -323,7 +325,7 @@ SilhouetteSharpener::Votes& SilhouetteSharpener::votes_of(std::size_t pixel) {
 /// Counts the votes: which side the pixel is on, and at which level.
 void SilhouetteSharpener::decide(Votes& votes) {
     const unsigned count = votes.lows + votes.highs;
-    if (kBelieved * count * count < votes.steps) return;
+    if (kPixelsPerVote * count * count < votes.steps) return;
     const bool high = votes.highs > votes.lows;
     votes.side = high ? Side::high : Side::low;
     votes.level = high ? votes.high / static_cast<float>(votes.highs)
@@ -342,7 +344,7 @@ float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) c
     for (int j = std::max(y - kSmooth_px, 0); j <= std::min(y + kSmooth_px, image.rows - 1); ++j) {
         for (int i = std::max(x - kSmooth_px, 0); i <= std::min(x + kSmooth_px, columns - 1); ++i) {
             const std::size_t at = image.index(i, j);
-            const std::uint32_t number = votes_of_[at];
+            const std::uint32_t number = votes_number_[at];
             const Side side = number != 0 ? votes_[number - 1].side : Side::neither;
             if (side != own.side && side != Side::neither) continue;
             const float level = side == own.side ? votes_[number - 1].level : image.levels[at];
@@ -355,7 +357,7 @@ float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) c
 }
 
 /// Checks pixels [begin, end) of a row, 2 * `reach` (0 or 1) pixels or more from its ends.
-void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int end, int reach) {
+void SilhouetteSharpener::scan_row(const Scene& scene, int row, int begin, int end, int reach) {
     const DepthImage& image = scene.image;
     const float least = std::max(scene.limits.slope, 2.0F * scene.limits.noise);
     std::array<int, kRowChunk> steep{};
@@ -368,21 +370,21 @@ void SilhouetteSharpener::look_along(const Scene& scene, int row, int begin, int
                         reach, count, least, steep.data()))
             continue;
         for (int i = 0; i < count; ++i)
-            if (steep[static_cast<std::size_t>(i)] != 0) look_at(scene, begin + i, row);
+            if (steep[static_cast<std::size_t>(i)] != 0) find_ramp_at(scene, begin + i, row);
     }
 }
 
 /// Finds the ramp that the pixel is on, unless it was found from another pixel across a wide ramp.
-void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
+void SilhouetteSharpener::find_ramp_at(const Scene& scene, int column, int row) {
     const Pixel at{column, row};
     const auto up = uphill(scene.image, at);
     if (!up) return;
     const Line line = line_through(scene.image, at, up->step);
     const std::size_t own = scene.image.index(column, row);
-    const std::uint32_t number = votes_of_[own];
+    const std::uint32_t number = votes_number_[own];
     const std::uint32_t known = number != 0 ? votes_[number - 1].ramp : 0;
-    if (known != 0 && found_[known - 1].stride == line.stride) {
-        ++found_[known - 1].seen;
+    if (known != 0 && ramps_[known - 1].stride == line.stride) {
+        ++ramps_[known - 1].seen;
         return;
     }
     const auto ramp = find_ramp(line, *up, scene.limits);
@@ -397,17 +399,17 @@ void SilhouetteSharpener::look_at(const Scene& scene, int column, int row) {
     }
     const int begin = ramp->low.end + 1;
     const int step = std::clamp(edge.value_or(half_way_up(line, *ramp)), begin, ramp->high.end);
-    found_.push_back({static_cast<std::int32_t>(own), static_cast<std::int32_t>(line.stride),
+    ramps_.push_back({static_cast<std::int32_t>(own), static_cast<std::int32_t>(line.stride),
                       static_cast<std::int16_t>(begin), static_cast<std::int16_t>(step),
                       static_cast<std::int16_t>(ramp->high.end), 1, ramp->low.at(0),
                       ramp->low.slope, ramp->high.at(0), ramp->high.slope});
-    const Found& found = found_.back();
+    const FoundRamp& found = ramps_.back();
     if (found.end - found.begin < kWide_px) return;  // quick to find again, and often another one
     for (int k = found.begin; k < found.end; ++k)
-        votes_of(found.pixel(k)).ramp = static_cast<std::uint32_t>(found_.size());
+        votes_of(found.pixel(k)).ramp = static_cast<std::uint32_t>(ramps_.size());
 }
 
-void SilhouetteSharpener::vote(const Found& found) {
+void SilhouetteSharpener::vote(const FoundRamp& found) {
     const auto seen = static_cast<float>(found.seen);
     for (int k = found.begin; k < found.end; ++k) {
         Votes& votes = votes_of(found.pixel(k));

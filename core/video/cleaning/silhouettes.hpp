@@ -34,7 +34,7 @@ class SilhouetteSharpener {
     // There are millions of both structures, so their members are small.
 
     /// A ramp on a straight line of pixels, which are numbered uphill.
-    struct Found {
+    struct FoundRamp {
         std::int32_t zero, stride;      ///< index of pixel number 0, and step to the next number
         std::int16_t begin, step, end;  ///< [begin, step) go to the low side, [step, end) up
         std::uint16_t seen;             ///< from this many pixels the ramp was found
@@ -59,21 +59,21 @@ class SilhouetteSharpener {
 
     /// Finds the ramps of the whole image. False: there are more than kMostRamps.
     bool find_ramps(const Scene& scene);
-    void look_along(const Scene& scene, int row, int begin, int end, int reach);
-    void look_at(const Scene& scene, int column, int row);
+    void scan_row(const Scene& scene, int row, int begin, int end, int reach);
+    void find_ramp_at(const Scene& scene, int column, int row);
     Votes& votes_of(std::size_t pixel);
-    void vote(const Found& found);
+    void vote(const FoundRamp& found);
     [[nodiscard]] bool are_too_many() const noexcept {
-        return found_.size() > kMostRamps || votes_.size() > kMostRamps;
+        return ramps_.size() > kMostRamps || votes_.size() > kMostRamps;
     }
     static void decide(Votes& votes);
     [[nodiscard]] static float within(const DepthImage& image, float recorded,
                                       float level) noexcept;
     [[nodiscard]] float smoothed(const DepthImage& image, const Votes& own) const;
 
-    std::vector<std::uint32_t> votes_of_{};  ///< place in votes_, from 1; 0: not on a ramp
+    std::vector<std::uint32_t> votes_number_{};  ///< place in votes_, from 1; 0: not on a ramp
     std::vector<Votes> votes_{};
-    std::vector<Found> found_{};
+    std::vector<FoundRamp> ramps_{};
 };
 
 }  // namespace dibhr

@@ -16,17 +16,17 @@ constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 }  // namespace
 
 void SmallHoleFiller::fill(DepthImage& image) {
-    keep_small(image);
+    find_small_runs(image);
     if (runs_.empty()) return;
     outline_ = outline_levels(image);
-    look_up(image);
+    find_levels_above(image);
     estimate(image);
     std::size_t k = 0;
     for (const Run& run : runs_)
         for (int i = run.begin; i < run.end; ++i, ++k) image.at(i, run.row) = estimates_[k];
 }
 
-void SmallHoleFiller::keep_small(const DepthImage& image) {
+void SmallHoleFiller::find_small_runs(const DepthImage& image) {
     patches_.find_holes(image);
     runs_.clear();
     const int most = std::max(2, image.columns / kSmallInWidth);
@@ -39,7 +39,7 @@ void SmallHoleFiller::keep_small(const DepthImage& image) {
 
 /// Updates the nearest level of this column against `step` (1: above the pixel, -1: below). If the
 /// pixel before has no data it is in the same hole: the nearest level is only one pixel farther.
-void SmallHoleFiller::enter_column(const DepthImage& image, int column, int row, int step) {
+void SmallHoleFiller::update_column(const DepthImage& image, int column, int row, int step) {
     Side& side = in_column_[static_cast<std::size_t>(column)];
     const int rim = row - step;
     if (rim < 0 || rim >= image.rows) {
@@ -53,12 +53,12 @@ void SmallHoleFiller::enter_column(const DepthImage& image, int column, int row,
     }
 }
 
-void SmallHoleFiller::look_up(const DepthImage& image) {
+void SmallHoleFiller::find_levels_above(const DepthImage& image) {
     in_column_.assign(static_cast<std::size_t>(image.columns), {});
     above_.clear();
     for (const Run& run : runs_) {
         for (int i = run.begin; i < run.end; ++i) {
-            enter_column(image, i, run.row, 1);
+            update_column(image, i, run.row, 1);
             above_.push_back(in_column_[static_cast<std::size_t>(i)]);
         }
     }
@@ -79,7 +79,7 @@ void SmallHoleFiller::estimate(const DepthImage& image) {
         Side left = side_at(run->begin - 1, run->row, 1);
         Side right = side_at(run->end, run->row, -1);
         for (int i = run->end - 1; i >= run->begin; --i) {
-            enter_column(image, i, run->row, -1);
+            update_column(image, i, run->row, -1);
             --k;
             if (left.away > 0) left.away = i - run->begin + 1;
             if (right.away > 0) right.away = run->end - i;

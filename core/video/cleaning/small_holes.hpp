@@ -34,10 +34,10 @@ class SmallHoleFiller {
         float weight{0.0F};  ///< 0: nothing
     };
 
-    void keep_small(const DepthImage& image);
-    void look_up(const DepthImage& image);
+    void find_small_runs(const DepthImage& image);
+    void find_levels_above(const DepthImage& image);
     void estimate(const DepthImage& image);
-    void enter_column(const DepthImage& image, int column, int row, int step);
+    void update_column(const DepthImage& image, int column, int row, int step);
     [[nodiscard]] Estimate between(const Side& one, const Side& other) const noexcept;
     [[nodiscard]] static Estimate mean(const Estimate& one, const Estimate& other) noexcept;
     [[nodiscard]] Estimate behind(const Estimate& one, const Estimate& other) const noexcept;

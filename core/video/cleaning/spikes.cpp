@@ -82,8 +82,8 @@ class Neighbours {
 };
 
 /// How far a spike is above or below all its neighbours, at least.
-struct Outstanding {
-    explicit Outstanding(double highest_level)
+struct SpikeThreshold {
+    explicit SpikeThreshold(double highest_level)
         : above(static_cast<float>(std::min(kSpike_share * highest_level, kSpike_levels))),
           below(static_cast<float>(std::min(kPit_share * highest_level, kSpike_levels))) {}
 
@@ -114,10 +114,10 @@ DIBHR_VECTOR_CLONES void find_range(const float* up, const float* down, float* _
 
 /// Marks the spikes among pixels [1, columns - 1) of a row. Returns whether there are any.
 DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const float* low,
-                                      Outstanding stands_out, std::uint8_t* __restrict outlying,
+                                      SpikeThreshold is_spike, std::uint8_t* __restrict outlying,
                                       std::size_t columns) {
-    const float above = stands_out.above;
-    const float below = stands_out.below;
+    const float above = is_spike.above;
+    const float below = is_spike.below;
     int found = 0;
     for (std::size_t i = 1; i + 1 < columns; ++i) {
         const float most = higher(
@@ -135,7 +135,7 @@ DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const
 
 /// Whole rows at a time; the pixels of the picture's border one by one.
 void SpikeRemover::find_spikes(const DepthImage& image) {
-    const Outstanding stands_out(image.highest_level);
+    const SpikeThreshold is_spike(image.highest_level);
     const int columns = image.columns;
     highest_.resize(static_cast<std::size_t>(columns));
     lowest_.resize(static_cast<std::size_t>(columns));
@@ -145,7 +145,7 @@ void SpikeRemover::find_spikes(const DepthImage& image) {
         const float* row = up + columns;
         const float* down = row + columns;
         find_range(up, down, highest_.data(), lowest_.data(), highest_.size());
-        if (mark_outlying(row, highest_.data(), lowest_.data(), stands_out, outlying_.data(),
+        if (mark_outlying(row, highest_.data(), lowest_.data(), is_spike, outlying_.data(),
                           outlying_.size()) == 0)
             continue;
         visit_marked(outlying_.data(), columns, [&](int begin, int end) {
@@ -154,15 +154,15 @@ void SpikeRemover::find_spikes(const DepthImage& image) {
         });
     }
     for (int i = 0; i < columns; ++i)
-        for (const int j : {0, image.rows - 1}) look_for_spike(image, i, j);
+        for (const int j : {0, image.rows - 1}) check_for_spike(image, i, j);
     for (int j = 1; j + 1 < image.rows; ++j)
-        for (const int i : {0, columns - 1}) look_for_spike(image, i, j);
+        for (const int i : {0, columns - 1}) check_for_spike(image, i, j);
 }
 
-void SpikeRemover::look_for_spike(const DepthImage& image, int i, int j) {
+void SpikeRemover::check_for_spike(const DepthImage& image, int i, int j) {
     Neighbours around(image, i, j);
     const float level = image.at(i, j);
-    if (Outstanding(image.highest_level)(level, around.lowest(), around.highest()))
+    if (SpikeThreshold(image.highest_level)(level, around.lowest(), around.highest()))
         spikes_.push_back({i, j, around.median()});
 }
 
@@ -175,30 +175,31 @@ void SpikeRemover::remove(DepthImage& image) {
 void SpikeRemover::remove_spikes(DepthImage& image) {
     spikes_.clear();
     find_spikes(image);
-    if (!spikes_.empty()) looked_at_.assign(image.levels.size(), 0);
+    if (!spikes_.empty()) checked_in_round_.assign(image.levels.size(), 0);
     for (std::uint8_t round = 1; round <= kSpikeRounds && !spikes_.empty(); ++round) {
         for (const Spike& spike : spikes_) {
             image.at(spike.column, spike.row) = spike.level;
-            if (std::isnan(spike.level)) refused_.push_back(image.index(spike.column, spike.row));
+            if (std::isnan(spike.level)) rejected_.push_back(image.index(spike.column, spike.row));
         }
         removed_.swap(spikes_);
         spikes_.clear();
-        for (const Spike& spike : removed_) look_around(image, spike, round);
+        for (const Spike& spike : removed_) check_neighbours(image, spike, round);
     }
 }
 
 /// Checks each neighbour once a round, except those so near to the spike's new level that they
 /// cannot be spikes.
-void SpikeRemover::look_around(const DepthImage& image, const Spike& spike, std::uint8_t round) {
-    const Outstanding stands_out(image.highest_level);
+void SpikeRemover::check_neighbours(const DepthImage& image, const Spike& spike,
+                                    std::uint8_t round) {
+    const SpikeThreshold is_spike(image.highest_level);
     for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1); ++j) {
         for (int i = std::max(spike.column - 1, 0);
              i <= std::min(spike.column + 1, image.columns - 1); ++i) {
             const std::size_t at = image.index(i, j);
-            const bool may_stand_out =
-                std::isnan(spike.level) || stands_out(image.levels[at], spike.level, spike.level);
-            if (may_stand_out && std::exchange(looked_at_[at], round) != round)
-                look_for_spike(image, i, j);
+            const bool may_be_spike =
+                std::isnan(spike.level) || is_spike(image.levels[at], spike.level, spike.level);
+            if (may_be_spike && std::exchange(checked_in_round_[at], round) != round)
+                check_for_spike(image, i, j);
         }
     }
 }
@@ -211,7 +212,7 @@ void SpikeRemover::remove_islands(DepthImage& image) {
         if (patches_.patch(run.patch).pixels >= side * side) continue;
         for (int i = run.begin; i < run.end; ++i) {
             image.at(i, run.row) = std::numeric_limits<float>::quiet_NaN();
-            refused_.push_back(image.index(i, run.row));
+            rejected_.push_back(image.index(i, run.row));
         }
     }
 }

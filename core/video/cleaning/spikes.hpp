@@ -21,9 +21,9 @@ class SpikeRemover {
     void remove(DepthImage& image);
 
     /// The next image is not given to remove(): no pixel is refused.
-    void forget() noexcept { refused_.clear(); }
+    void forget() noexcept { rejected_.clear(); }
     /// The pixels that lost their data.
-    [[nodiscard]] std::span<const std::size_t> refused() const noexcept { return refused_; }
+    [[nodiscard]] std::span<const std::size_t> rejected() const noexcept { return rejected_; }
 
   private:
     struct Spike {
@@ -33,16 +33,16 @@ class SpikeRemover {
 
     void remove_spikes(DepthImage& image);
     void find_spikes(const DepthImage& image);
-    void look_for_spike(const DepthImage& image, int i, int j);
-    void look_around(const DepthImage& image, const Spike& spike, std::uint8_t round);
+    void check_for_spike(const DepthImage& image, int i, int j);
+    void check_neighbours(const DepthImage& image, const Spike& spike, std::uint8_t round);
     void remove_islands(DepthImage& image);
 
-    std::vector<std::size_t> refused_{};
+    std::vector<std::size_t> rejected_{};
     Patches patches_{};
     std::vector<Spike> spikes_{}, removed_{};
-    std::vector<std::uint8_t> looked_at_{};    ///< round in which each pixel was checked
-    std::vector<std::uint8_t> outlying_{};     ///< of a row
-    std::vector<float> highest_{}, lowest_{};  ///< of the rows above and below, by column
+    std::vector<std::uint8_t> checked_in_round_{};  ///< round in which each pixel was checked
+    std::vector<std::uint8_t> outlying_{};          ///< of a row
+    std::vector<float> highest_{}, lowest_{};       ///< of the rows above and below, by column
 };
 
 }  // namespace dibhr

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMedianReach = 2;       ///< frames to each side
 constexpr float kAlike = 3.0F;                ///< standard deviations; beyond, levels do not mix
-constexpr float kMadeUpShare = 0.05F;         ///< weight of a filled pixel against a seen one
+constexpr float kFilledShare = 0.05F;         ///< weight of a filled pixel against a seen one
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
 
 // A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
@@ -78,10 +78,10 @@ DIBHR_VECTOR_CLONES bool mark_other(const float* levels, const float* reference,
     return any != 0;
 }
 
-DIBHR_VECTOR_CLONES void unmark(const std::uint8_t* made_up, std::uint8_t* __restrict marks,
+DIBHR_VECTOR_CLONES void unmark(const std::uint8_t* filled, std::uint8_t* __restrict marks,
                                 std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
-        marks[i] = static_cast<std::uint8_t>(made_up[i] != 0 ? 0 : marks[i]);
+        marks[i] = static_cast<std::uint8_t>(filled[i] != 0 ? 0 : marks[i]);
 }
 
 DIBHR_VECTOR_CLONES void invert(const float* reference, const NoiseBound& bound,
@@ -112,13 +112,13 @@ struct Mean {
     }
 };
 
-inline float share_of(std::uint8_t made_up) {
-    return 1.0F - (1.0F - kMadeUpShare) * static_cast<float>(made_up);
+inline float share_of(std::uint8_t filled) {
+    return 1.0F - (1.0F - kFilledShare) * static_cast<float>(filled);
 }
 
 /// Rows of four frames at once: sums and weights are read and written a quarter as often.
 using Four = std::array<const float*, 4>;
-using FourMadeUp = std::array<const std::uint8_t*, 4>;
+using FourFilled = std::array<const std::uint8_t*, 4>;
 
 DIBHR_VECTOR_CLONES void add_four(const Four& rows, const float* reference, const float* per_bound,
                                   float* __restrict sum, float* __restrict weights,
@@ -135,13 +135,12 @@ DIBHR_VECTOR_CLONES void add_four(const Four& rows, const float* reference, cons
     }
 }
 
-DIBHR_VECTOR_CLONES void add_four(const Four& rows, const FourMadeUp& made_up,
+DIBHR_VECTOR_CLONES void add_four(const Four& rows, const FourFilled& filled,
                                   const float* reference, const float* per_bound,
                                   float* __restrict sum, float* __restrict weights,
                                   std::size_t count) {
     const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
-    const std::uint8_t *at_a = made_up[0], *at_b = made_up[1], *at_c = made_up[2],
-                       *at_d = made_up[3];
+    const std::uint8_t *at_a = filled[0], *at_b = filled[1], *at_c = filled[2], *at_d = filled[3];
     for (std::size_t i = 0; i < count; ++i) {
         Mean mean{sum[i], weights[i]};
         mean.add(a[i], share_of(at_a[i]), reference[i], per_bound[i]);
@@ -164,13 +163,13 @@ DIBHR_VECTOR_CLONES void add_one(const float* levels, const float* reference,
     }
 }
 
-DIBHR_VECTOR_CLONES void add_one(const float* levels, const std::uint8_t* made_up,
+DIBHR_VECTOR_CLONES void add_one(const float* levels, const std::uint8_t* filled,
                                  const float* reference, const float* per_bound,
                                  float* __restrict sum, float* __restrict weights,
                                  std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         Mean mean{sum[i], weights[i]};
-        mean.add(levels[i], share_of(made_up[i]), reference[i], per_bound[i]);
+        mean.add(levels[i], share_of(filled[i]), reference[i], per_bound[i]);
         sum[i] = mean.sum;
         weights[i] = mean.weight;
     }
@@ -191,8 +190,8 @@ struct Rim {
 
 }  // namespace
 
-void TemporalFilter::gather(std::span<const LoneDepth* const> frames, std::size_t now) {
-    const LoneDepth& here = *frames[now];
+void TemporalFilter::gather(std::span<const SingleFrameDepth* const> frames, std::size_t now) {
+    const SingleFrameDepth& here = *frames[now];
     const std::size_t first = now - std::min(now, kReachInTime);
     const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
     count_ = 0;
@@ -202,7 +201,7 @@ void TemporalFilter::gather(std::span<const LoneDepth* const> frames, std::size_
         const std::size_t away = k > now ? k - now : now - k;
         if (away <= kMedianReach && nearest_++ == 0) first_near_ = count_;
         neighbours_[count_++] = {frames[k]->depth.levels.data(),
-                                 frames[k]->made_up.empty() ? nullptr : frames[k]->made_up.data()};
+                                 frames[k]->filled.empty() ? nullptr : frames[k]->filled.data()};
     }
 }
 
@@ -223,7 +222,7 @@ void TemporalFilter::find_reference(const float* here, std::size_t at, std::size
 
 /// Averages row by row, so that each row stays in the cache. Returns whether any of the frame's own
 /// levels is another surface than the median.
-bool TemporalFilter::average_rows(const LoneDepth& here, DepthImage& out) {
+bool TemporalFilter::average_rows(const SingleFrameDepth& here, DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
     other_.resize(out.levels.size());
     reference_.resize(columns);
@@ -233,8 +232,7 @@ bool TemporalFilter::average_rows(const LoneDepth& here, DepthImage& out) {
         find_reference(here.depth.levels.data(), at, columns, reference_.data());
         if (mark_other(here.depth.levels.data() + at, reference_.data(), bound_, other_.data() + at,
                        columns)) {
-            if (!here.made_up.empty())
-                unmark(here.made_up.data() + at, other_.data() + at, columns);
+            if (!here.filled.empty()) unmark(here.filled.data() + at, other_.data() + at, columns);
             any = true;
         }
         average(reference_.data(), at, columns, out);
@@ -245,7 +243,7 @@ bool TemporalFilter::average_rows(const LoneDepth& here, DepthImage& out) {
 /// Where a frame has another level than the median, that level lasts two frames at most. It is kept
 /// all the same where it is a part of a surface that stays longer: between two sides of it, as when
 /// fingers pass one after the other, or in a patch that it holds; and where it moves.
-void TemporalFilter::follow_parts(const LoneDepth& here, DepthImage& out) {
+void TemporalFilter::follow_parts(const SingleFrameDepth& here, DepthImage& out) {
     followed_.assign(other_.size(), 0);
     follow_between(here.depth);
     follow_patches(here.depth);
@@ -263,7 +261,7 @@ void TemporalFilter::follow_parts(const LoneDepth& here, DepthImage& out) {
 /// A region moves if most of its other pixels are found in the frames before and after, moved as
 /// far to opposite sides. A flip lasts one frame or two and does not move. At the ends of a clip
 /// two frames of one side are compared.
-void TemporalFilter::follow_motion(const LoneDepth& here, DepthImage& out) {
+void TemporalFilter::follow_motion(const SingleFrameDepth& here, DepthImage& out) {
     if (count_ < 3) return;
     std::size_t now = 0;
     while (neighbours_[now].levels != here.depth.levels.data()) ++now;
@@ -271,8 +269,8 @@ void TemporalFilter::follow_motion(const LoneDepth& here, DepthImage& out) {
     const bool is_last = now + 1 == count_;
     const std::size_t a = is_first ? now + 2 : now - 1;
     const std::size_t b = is_last ? now - 2 : now + 1;
-    MotionSearch search(here.depth, {neighbours_[a].levels, is_first ? 2 : -1},
-                        {neighbours_[b].levels, is_last ? -2 : 1});
+    EvenMotionSearch search(here.depth, {neighbours_[a].levels, is_first ? 2 : -1},
+                            {neighbours_[b].levels, is_last ? -2 : 1});
     for (int top = 0; top < out.rows; top += kRegion_px) {
         for (int left = 0; left < out.columns; left += kRegion_px) {
             const Region region{left, top, std::min(left + kRegion_px, out.columns),
@@ -284,22 +282,23 @@ void TemporalFilter::follow_motion(const LoneDepth& here, DepthImage& out) {
 
 /// Takes samples of the surely other pixels of a region. Returns whether there are enough.
 bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
-                                  MotionSearch& search) {
-    surely_.clear();
+                                  EvenMotionSearch& search) {
+    surely_other_.clear();
     for (int j = region.top; j < region.bottom; ++j) {
         const std::size_t from = here.index(region.left, j);
         visit_marked(other_.data() + from, region.right - region.left, [&](int begin, int end) {
             for (int i = begin; i < end; ++i)
                 if (const std::size_t at = from + static_cast<std::size_t>(i);
                     other_[at] == kSurelyOther)
-                    surely_.push_back(at);
+                    surely_other_.push_back(at);
         });
     }
-    if (surely_.size() < kLeastOthers) return false;
+    if (surely_other_.size() < kLeastOthers) return false;
     const auto columns = static_cast<std::size_t>(here.columns);
     search.clear();
     for (std::size_t k = 0; k < kSamples; ++k) {
-        const std::size_t at = surely_[k * kSpread % kSamples * surely_.size() / kSamples];
+        const std::size_t at =
+            surely_other_[k * kSpread % kSamples * surely_other_.size() / kSamples];
         const float level = here.levels[at];
         float reference = 0.0F;
         find_reference(here.levels.data(), at, 1, &reference);
@@ -311,9 +310,9 @@ bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
 }
 
 /// Filled pixels move along: the shadow beside a hand.
-void TemporalFilter::follow_region(const LoneDepth& here, const Region& region,
-                                   const MotionSearch& search, DepthImage& out) {
-    const std::optional<Motion> motion = search.found();
+void TemporalFilter::follow_region(const SingleFrameDepth& here, const Region& region,
+                                   const EvenMotionSearch& search, DepthImage& out) {
+    const std::optional<EvenMotion> motion = search.found();
     if (!motion) return;
     for (int j = region.top; j < region.bottom; ++j) {
         std::size_t run = 0;
@@ -330,9 +329,9 @@ void TemporalFilter::follow_region(const LoneDepth& here, const Region& region,
 }
 
 /// Whether the level is another one than the median, and not followed yet.
-bool TemporalFilter::is_other(const LoneDepth& here, std::size_t at) const {
+bool TemporalFilter::is_other(const SingleFrameDepth& here, std::size_t at) const {
     if (followed_[at] != 0) return false;
-    if (here.made_up.empty() || here.made_up[at] == 0) return other_[at] != 0;
+    if (here.filled.empty() || here.filled[at] == 0) return other_[at] != 0;
     float reference = 0.0F;
     find_reference(here.depth.levels.data(), at, 1, &reference);
     return std::fabs(here.depth.levels[at] - reference) > bound_(reference);
@@ -458,38 +457,38 @@ void TemporalFilter::average(const float* reference, std::size_t at, std::size_t
     for (; k + 4 <= count_; k += 4) {
         const Neighbour* n = neighbours_.data() + k;
         const Four rows{n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at};
-        const FourMadeUp made_up{made_up_of(n[0], at), made_up_of(n[1], at), made_up_of(n[2], at),
-                                 made_up_of(n[3], at)};
-        if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.made_up != nullptr; }))
-            add_four(rows, made_up, reference, per_bound_.data(), sum_.data(), weights_.data(),
+        const FourFilled filled{filled_of(n[0], at), filled_of(n[1], at), filled_of(n[2], at),
+                                filled_of(n[3], at)};
+        if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.filled != nullptr; }))
+            add_four(rows, filled, reference, per_bound_.data(), sum_.data(), weights_.data(),
                      count);
         else
             add_four(rows, reference, per_bound_.data(), sum_.data(), weights_.data(), count);
     }
     for (; k < count_; ++k) {
         const Neighbour& n = neighbours_[k];
-        if (n.made_up == nullptr)
+        if (n.filled == nullptr)
             add_one(n.levels + at, reference, per_bound_.data(), sum_.data(), weights_.data(),
                     count);
         else
-            add_one(n.levels + at, n.made_up + at, reference, per_bound_.data(), sum_.data(),
+            add_one(n.levels + at, n.filled + at, reference, per_bound_.data(), sum_.data(),
                     weights_.data(), count);
     }
     divide(reference, sum_.data(), weights_.data(), out.levels.data() + at, count);
 }
 
-const std::uint8_t* TemporalFilter::made_up_of(const Neighbour& n, std::size_t at) const {
-    return n.made_up == nullptr ? nothing_made_up_.data() : n.made_up + at;
+const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n, std::size_t at) const {
+    return n.filled == nullptr ? nothing_filled_.data() : n.filled + at;
 }
 
-DepthImage TemporalFilter::filtered(std::span<const LoneDepth* const> frames, std::size_t now,
-                                    const DepthNoise& noise) {
-    const LoneDepth& here = *frames[now];
+DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> frames,
+                                    std::size_t now, const DepthNoise& noise) {
+    const SingleFrameDepth& here = *frames[now];
     DepthImage out{here.depth.columns, here.depth.rows, here.depth.highest_level, {}};
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
     gather(frames, now);
-    nothing_made_up_.assign(static_cast<std::size_t>(out.columns), 0);
+    nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
     if (average_rows(here, out)) follow_parts(here, out);
     return out;
 }

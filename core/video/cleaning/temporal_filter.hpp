@@ -9,7 +9,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
-#include "core/video/cleaning/lone_depth.hpp"
+#include "core/video/cleaning/single_frame_depth.hpp"
 
 namespace cv {
 class Mat;
@@ -17,7 +17,7 @@ class Mat;
 
 namespace dibhr {
 
-class MotionSearch;
+class EvenMotionSearch;
 
 /// Averages each pixel over the frames before and after it in which it is on the same surface.
 /// Levels that last two frames or less are removed, with two exceptions: parts as wide as a finger
@@ -28,13 +28,13 @@ class TemporalFilter {
   public:
     /// Filters frame `now` of `frames`, which follow each other in time. Frames of another size or
     /// highest level are ignored. The same frames give the same bits.
-    [[nodiscard]] DepthImage filtered(std::span<const LoneDepth* const> frames, std::size_t now,
-                                      const DepthNoise& noise);
+    [[nodiscard]] DepthImage filtered(std::span<const SingleFrameDepth* const> frames,
+                                      std::size_t now, const DepthNoise& noise);
 
   private:
     struct Neighbour {
         const float* levels;
-        const std::uint8_t* made_up;  ///< null: no pixel
+        const std::uint8_t* filled;  ///< null: no pixel
     };
     /// A pixel that may be a part of the lasting surface beside it.
     struct Held {
@@ -47,19 +47,19 @@ class TemporalFilter {
         int left, top, right, bottom;
     };
 
-    void gather(std::span<const LoneDepth* const> frames, std::size_t now);
+    void gather(std::span<const SingleFrameDepth* const> frames, std::size_t now);
     void find_reference(const float* here, std::size_t at, std::size_t count,
                         float* reference) const;
-    [[nodiscard]] bool average_rows(const LoneDepth& here, DepthImage& out);
+    [[nodiscard]] bool average_rows(const SingleFrameDepth& here, DepthImage& out);
     void average(const float* reference, std::size_t at, std::size_t count, DepthImage& out);
-    [[nodiscard]] const std::uint8_t* made_up_of(const Neighbour& n, std::size_t at) const;
-    void follow_parts(const LoneDepth& here, DepthImage& out);
-    void follow_motion(const LoneDepth& here, DepthImage& out);
+    [[nodiscard]] const std::uint8_t* filled_of(const Neighbour& n, std::size_t at) const;
+    void follow_parts(const SingleFrameDepth& here, DepthImage& out);
+    void follow_motion(const SingleFrameDepth& here, DepthImage& out);
     [[nodiscard]] bool take_samples(const DepthImage& here, const Region& region,
-                                    MotionSearch& search);
-    void follow_region(const LoneDepth& here, const Region& region, const MotionSearch& search,
-                       DepthImage& out);
-    [[nodiscard]] bool is_other(const LoneDepth& here, std::size_t at) const;
+                                    EvenMotionSearch& search);
+    void follow_region(const SingleFrameDepth& here, const Region& region,
+                       const EvenMotionSearch& search, DepthImage& out);
+    [[nodiscard]] bool is_other(const SingleFrameDepth& here, std::size_t at) const;
     void follow_between(const DepthImage& here);
     void follow_patches(const DepthImage& here);
     [[nodiscard]] std::vector<char> held_patches(const DepthImage& here, const cv::Mat& patches,
@@ -76,8 +76,8 @@ class TemporalFilter {
     std::vector<std::uint8_t> other_{};       ///< where the frame's own level is another surface
     std::vector<std::uint8_t> inner_{};       ///< where that is so all around, too
     std::vector<std::uint8_t> followed_{};    ///< 1 where the own level is kept all the same
-    std::vector<std::uint8_t> nothing_made_up_{};  ///< a row of zeros
-    std::vector<std::size_t> surely_{};            ///< pixels of a region with kSurelyOther
+    std::vector<std::uint8_t> nothing_filled_{};  ///< a row of zeros
+    std::vector<std::size_t> surely_other_{};     ///< pixels of a region with kSurelyOther
     // Of one row: the level that others are compared with, and the sums of the mean.
     std::vector<float> reference_{}, per_bound_{}, sum_{}, weights_{};
 };

@@ -30,15 +30,15 @@ template <typename Number>
 
 /// A lens in floats for every pixel of every frame, without branches: exact to a thousandth of a
 /// pixel.
-class LensInFloats {
+class FloatLens {
   public:
-    explicit LensInFloats(const Lens& lens);
+    explicit FloatLens(const Lens& lens);
 
-    struct Bent {
+    struct Distorted {
         float x, y;
         bool known;  ///< the ray is within the lens's valid range; false for NaN
     };
-    [[nodiscard]] Bent bent(float x, float y) const {
+    [[nodiscard]] Distorted distorted(float x, float y) const {
         const float r2 = x * x + y * y;
         const float stretch = radial_stretch(k_, r2);
         const float twice_xy = 2.0F * x * y;
@@ -52,11 +52,11 @@ class LensInFloats {
 };
 
 /// A ray (x, y): how far it goes right and down for each 1 forwards.
-class Camera {
+class CameraModel {
   public:
-    Camera() = default;
+    CameraModel() = default;
     /// Without a lens: a pinhole camera, to which intrinsics convert.
-    Camera(const Intrinsics& intrinsics, const Lens& lens = {});  // NOLINT(*explicit*)
+    CameraModel(const Intrinsics& intrinsics, const Lens& lens = {});  // NOLINT(*explicit*)
 
     [[nodiscard]] const Intrinsics& intrinsics() const noexcept { return intrinsics_; }
     [[nodiscard]] const Lens& lens() const noexcept { return lens_; }
@@ -69,7 +69,7 @@ class Camera {
   private:
     Intrinsics intrinsics_{};
     Lens lens_{};
-    bool bends_{false};
+    bool distorts_{false};
 };
 
 /// The rays through the middles of all pixels.
@@ -77,7 +77,7 @@ struct Rays {
     cv::Mat right{};  ///< CV_32FC1, NaN where no ray is valid
     cv::Mat down{};
 };
-[[nodiscard]] Rays rays_of(cv::Size picture, const Camera& camera);
+[[nodiscard]] Rays rays_of(cv::Size picture, const CameraModel& camera);
 
 /// From one camera's axes (right, down, forwards) to another's: rotation * point + shift.
 struct Placement {
@@ -89,14 +89,15 @@ struct Placement {
 
 /// The two cameras of a device that sees depth and colour.
 struct CameraPair {
-    Camera depth{};
-    Camera colour{};
+    CameraModel depth{};
+    CameraModel colour{};
     cv::Size colour_size{};    ///< of the pictures that `colour` is for
     Placement to_colour{};     ///< from the depth camera's axes to the colour camera's
     std::string known_from{};  ///< origin of the calibration: "Azure Kinect calibration"
 };
 
 /// The same camera for pictures of another size: as wide a view, cut equally above and below.
-[[nodiscard]] Camera camera_for(cv::Size picture, const Camera& camera, cv::Size calibrated);
+[[nodiscard]] CameraModel camera_for(cv::Size picture, const CameraModel& camera,
+                                     cv::Size calibrated);
 
 }  // namespace dibhr

@@ -26,7 +26,8 @@ constexpr double kCellWidth = 2.5;
 
 }  // namespace
 
-cv::Mat moved(const cv::Mat& colour, const Registration& registration, cv::Size depth_size) {
+cv::Mat apply_registration(const cv::Mat& colour, const Registration& registration,
+                           cv::Size depth_size) {
     if (colour.empty() || registration == Registration{}) return colour;
     const cv::Mat source = resampleable(colour);
     const double across = 1.0 * source.cols / depth_size.width;
@@ -50,14 +51,14 @@ ColourRegistration::ColourRegistration(cv::Size depth_size, const CameraPair& ca
 cv::Mat ColourRegistration::seen_from_depth(const cv::Mat& depth_mm, const cv::Mat& colour) {
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == rays_.right.size());
     const cv::Mat source = resampleable(colour);
-    const Camera camera = camera_for(source.size(), cameras_.colour, cameras_.colour_size);
+    const CameraModel camera = camera_for(source.size(), cameras_.colour, cameras_.colour_size);
     const double pixels_apart = camera.intrinsics().fx / cameras_.depth.intrinsics().fx;
     close_holes(depth_mm);
     project(camera);
     find_hidden(source.size(), pixels_apart);
     uncover();
     const bool is_finer =
-        pixels_apart > 1.5 && 2 * std::max(depth_mm.cols, depth_mm.rows) < kMostAlong;
+        pixels_apart > 1.5 && 2 * std::max(depth_mm.cols, depth_mm.rows) < kMostSide_px;
     if (is_finer) {
         make_finer(x_, pixels_apart, finer_x_);
         make_finer(y_, pixels_apart, finer_y_);
@@ -89,7 +90,7 @@ void ColourRegistration::close_holes(const cv::Mat& depth_mm) {
 }
 
 /// Row by row and without branches, as it runs for every pixel of every frame.
-void ColourRegistration::project(const Camera& colour) {
+void ColourRegistration::project(const CameraModel& colour) {
     constexpr float kOutside = -1e4F;
     constexpr float kFar = 1e5F;  // px; limit for places outside of the picture
     const cv::Size size = depth_mm_.size();
@@ -99,7 +100,7 @@ void ColourRegistration::project(const Camera& colour) {
     const Intrinsics& pinhole = colour.intrinsics();
     const auto fx = static_cast<float>(pinhole.fx), fy = static_cast<float>(pinhole.fy);
     const auto cx = static_cast<float>(pinhole.cx), cy = static_cast<float>(pinhole.cy);
-    const LensInFloats lens(colour.lens());
+    const FloatLens lens(colour.lens());
     for (int j = 0; j < size.height; ++j) {
         const float* const right = rays_.right.ptr<float>(j);
         const float* const down = rays_.down.ptr<float>(j);
@@ -115,7 +116,7 @@ void ColourRegistration::project(const Camera& colour) {
             const float distance = there_z + shift[2];
             const float ray_x = (there_x + shift[0]) / distance;
             const float ray_y = (there_y + shift[1]) / distance;
-            const LensInFloats::Bent seen = lens.bent(ray_x, ray_y);
+            const FloatLens::Distorted seen = lens.distorted(ray_x, ray_y);
             const bool is_seen = distance > 0.0F && seen.known;  // false for NaN
             xs[i] = is_seen ? std::clamp(cx + fx * seen.x, kOutside, kFar) : kOutside;
             ys[i] = is_seen ? std::clamp(cy + fy * seen.y, kOutside, kFar) : kOutside;

@@ -12,8 +12,8 @@ inline constexpr double kNoColour = 96.0;
 
 /// The colour picture moved and scaled over the depth; kNoColour beyond its border. The picture
 /// itself if the registration changes nothing.
-[[nodiscard]] cv::Mat moved(const cv::Mat& colour, const Registration& registration,
-                            cv::Size depth_size);
+[[nodiscard]] cv::Mat apply_registration(const cv::Mat& colour, const Registration& registration,
+                                         cv::Size depth_size);
 
 /// Finds for every depth pixel the colour that the other camera sees there, by the calibration and
 /// the pixel's distance. Deterministic. Scratch memory is kept from picture to picture.
@@ -31,7 +31,7 @@ class ColourRegistration {
 
   private:
     void close_holes(const cv::Mat& depth_mm);
-    void project(const Camera& colour);
+    void project(const CameraModel& colour);
     void find_hidden(cv::Size colour_size, double pixels_apart);
     void uncover();
     static void make_finer(const cv::Mat& map, double pixels_apart, cv::Mat& finer);

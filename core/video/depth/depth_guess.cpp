@@ -242,51 +242,51 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
 }
 
 /// A function that tells whether any statement has a fact of DepthStatement.
-auto said_by_any(const Voices& voices) {
-    return [&voices](auto fact) {
-        return std::any_of(voices.begin(), voices.end(),
-                           [&](const auto& voice) { return (voice.second.*fact).has_value(); });
+auto stated_by_any(const RankedStatements& statements) {
+    return [&statements](auto fact) {
+        return std::any_of(statements.begin(), statements.end(),
+                           [&](const auto& ranked) { return (ranked.second.*fact).has_value(); });
     };
 }
 
 }  // namespace
 
-bool is_all_said(const Voices& voices) {
-    const auto says = said_by_any(voices);
-    return says(&DepthStatement::no_data) && says(&DepthStatement::unit) &&
-           says(&DepthStatement::scale) && says(&DepthStatement::near) &&
-           says(&DepthStatement::range);
+bool is_all_stated(const RankedStatements& statements) {
+    const auto states = stated_by_any(statements);
+    return states(&DepthStatement::no_data) && states(&DepthStatement::unit) &&
+           states(&DepthStatement::scale) && states(&DepthStatement::near) &&
+           states(&DepthStatement::range);
 }
 
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
-           const Voices& voices) {
+           const RankedStatements& statements) {
     std::vector<Lattice> lattices;
     lattices.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) lattices.push_back(lattice_of(picture));
-    const auto says = said_by_any(voices);
-    if (!says(&DepthStatement::no_data)) meaning.no_data.value = guess_no_data(lattices, bits);
+    const auto states = stated_by_any(statements);
+    if (!states(&DepthStatement::no_data)) meaning.no_data.value = guess_no_data(lattices, bits);
     const std::vector<double>& no_data = meaning.no_data.value;
     const std::vector<float> levels = sorted_levels(lattices, no_data);
     const double brighter = brighter_where_near(lattices, no_data);
-    if (!says(&DepthStatement::unit)) {
+    if (!states(&DepthStatement::unit)) {
         const Scaled scaled = bits == kRealBits ? Scaled{guess_real_numbers(levels, brighter), 1.0}
                                                 : guess_integers(levels, no_data, bits);
         meaning.unit.value = scaled.unit;
-        if (!says(&DepthStatement::scale)) meaning.scale.value = scaled.scale;
-    } else if (!says(&DepthStatement::scale)) {
+        if (!states(&DepthStatement::scale)) meaning.scale.value = scaled.scale;
+    } else if (!states(&DepthStatement::scale)) {
         meaning.scale = {1.0, meaning.unit.origin};
     }
-    if (!says(&DepthStatement::near)) {
+    if (!states(&DepthStatement::near)) {
         const bool by_unit = meaning.unit.value != DepthUnit::levels;
         const bool dark = by_unit ? meaning.is_metric() : brighter < -kClear;
         meaning.near = {dark ? NearLevels::dark : NearLevels::bright,
                         by_unit ? meaning.unit.origin : Origin::assumed};
-        if (says(&DepthStatement::range) && !by_unit) {
+        if (states(&DepthStatement::range) && !by_unit) {
             const bool falls = meaning.range.value.near > meaning.range.value.far;
             meaning.near = {falls ? NearLevels::bright : NearLevels::dark, meaning.range.origin};
         }
     }
-    if (!says(&DepthStatement::range))
+    if (!states(&DepthStatement::range))
         meaning.range = {guess_range(levels, meaning), Origin::found};
 }
 

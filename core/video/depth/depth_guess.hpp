@@ -26,10 +26,10 @@ namespace dibhr {
 ///
 /// The range then has the origin `found`, the other facts `assumed`.
 void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
-           const Voices& voices);
+           const RankedStatements& statements);
 
 /// Whether the statements have all these facts, so that nothing has to be guessed.
-[[nodiscard]] bool is_all_said(const Voices& voices);
+[[nodiscard]] bool is_all_stated(const RankedStatements& statements);
 
 /// The share of the pictures' pixels without data by that meaning, in [0, 1].
 [[nodiscard]] double holes_share(const std::vector<cv::Mat>& pictures, const DepthMeaning& meaning);

@@ -50,9 +50,9 @@ bool is_camera(const Intrinsics& intrinsics) {
            std::abs(intrinsics.cx) < kMost && std::abs(intrinsics.cy) < kMost;
 }
 
-Intrinsics in_pixels(const Intrinsics& said, int columns, int rows) {
-    if (!(said.field_of_view_deg > 0.0)) return said;
-    const double half_view = 0.5 * said.field_of_view_deg * std::numbers::pi / 180.0;
+Intrinsics in_pixels(const Intrinsics& stated, int columns, int rows) {
+    if (!(stated.field_of_view_deg > 0.0)) return stated;
+    const double half_view = 0.5 * stated.field_of_view_deg * std::numbers::pi / 180.0;
     const double focal = 0.5 * columns / std::tan(half_view);
     return {focal, focal, 0.5 * (columns - 1), 0.5 * (rows - 1)};
 }
@@ -71,29 +71,29 @@ std::string_view name_of(Origin value) noexcept {
 DepthStatement DepthMeaning::statement() const {
     DepthStatement all;
     visit_facts(all, *this,
-                [](const char* /*name*/, auto& said, const auto& fact) { said = fact.value; });
+                [](const char* /*name*/, auto& stated, const auto& fact) { stated = fact.value; });
     return all;
 }
 
-void hear(const Voices& voices, DepthMeaning& meaning) {
-    for (auto voice = voices.rbegin(); voice != voices.rend(); ++voice) {
-        const Origin origin = voice->first;
-        visit_facts(voice->second, meaning,
-                    [origin](const char* /*name*/, const auto& said, auto& fact) {
-                        if (said) fact = {*said, origin};
+void merge_by_priority(const RankedStatements& statements, DepthMeaning& meaning) {
+    for (auto ranked = statements.rbegin(); ranked != statements.rend(); ++ranked) {
+        const Origin origin = ranked->first;
+        visit_facts(ranked->second, meaning,
+                    [origin](const char* /*name*/, const auto& stated, auto& fact) {
+                        if (stated) fact = {*stated, origin};
                     });
     }
 }
 
-double on_the_line(DepthUnit unit, double value) {
+double linear_value(DepthUnit unit, double value) {
     return unit == DepthUnit::disparity ? 1.0 / value : value;
 }
 
 double value_at(const DepthMeaning& meaning, double nearness) {
     const DepthUnit unit = meaning.unit.value;
-    const double far = on_the_line(unit, meaning.range.value.far);
-    const double near = on_the_line(unit, meaning.range.value.near);
-    return on_the_line(unit, far + nearness * (near - far));  // its own inverse
+    const double far = linear_value(unit, meaning.range.value.far);
+    const double near = linear_value(unit, meaning.range.value.near);
+    return linear_value(unit, far + nearness * (near - far));  // its own inverse
 }
 
 namespace {

@@ -80,7 +80,7 @@ struct Registration {
 
 /// The same in pixels for a picture of that size: a field of view becomes focal lengths of square
 /// pixels, with the axis through the middle.
-[[nodiscard]] Intrinsics in_pixels(const Intrinsics& said, int columns, int rows);
+[[nodiscard]] Intrinsics in_pixels(const Intrinsics& stated, int columns, int rows);
 
 /// Facts of a depth source from one origin: the file's metadata, a sidecar, the panel, the command
 /// line. Facts that it does not state are empty.
@@ -129,9 +129,9 @@ struct DepthMeaning {
     Known<DepthCode> code{DepthCode::grey};
     Known<Geometry> geometry{Geometry::relief};
     Known<std::optional<Intrinsics>> intrinsics{};  ///< nothing: not known
-    Known<Registration> registration{};  ///< in addition to the file's calibration
-    Known<CleaningChoice> cleaning{};    ///< automatic: not stated
-    Known<double> finger_mm{0.0};        ///< 0: a point
+    Known<Registration> registration{};             ///< in addition to the file's calibration
+    Known<CleaningChoice> cleaning{};               ///< automatic: not stated
+    Known<double> finger_mm{0.0};                   ///< 0: a point
     std::string found_in{};  ///< where `found` facts are from: "TUM lists"; empty: none
 
     [[nodiscard]] bool is_metric() const {
@@ -160,13 +160,13 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
 }
 
 /// Statements with their origins, the one of highest priority first.
-using Voices = std::vector<std::pair<Origin, DepthStatement>>;
+using RankedStatements = std::vector<std::pair<Origin, DepthStatement>>;
 
 /// Sets each fact to that of the first statement that has it; facts without a statement stay.
-void hear(const Voices& voices, DepthMeaning& meaning);
+void merge_by_priority(const RankedStatements& statements, DepthMeaning& meaning);
 
 /// The value in which elevation is linear: the value itself, or one over it for disparity.
-[[nodiscard]] double on_the_line(DepthUnit unit, double value);
+[[nodiscard]] double linear_value(DepthUnit unit, double value);
 
 /// The value in the unit at an elevation; `nearness` in [0, 1]: from the farthest to the nearest.
 [[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);

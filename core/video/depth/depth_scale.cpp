@@ -69,8 +69,8 @@ DepthScale::DepthScale(const DepthMeaning& meaning, int bits)
       always_data_(meaning.unit.value == DepthUnit::levels && meaning.no_data.value.empty() &&
                    bits != kRealBits) {
     const DepthRange& range = meaning_.range.value;
-    far_ = on_the_line(meaning_.unit.value, range.far);
-    per_one_ = 1.0 / (on_the_line(meaning_.unit.value, range.near) - far_);
+    far_ = linear_value(meaning_.unit.value, range.far);
+    per_one_ = 1.0 / (linear_value(meaning_.unit.value, range.near) - far_);
     if (bits > kMostTabled) return;
     of_level_.resize(std::size_t{1} << bits);
     for (std::size_t level = 0; level < of_level_.size(); ++level)
@@ -98,7 +98,7 @@ float DepthScale::operator()(double level) const {
     const double value = level * meaning_.scale.value;
     const bool of_infinity = meaning_.unit.value == DepthUnit::disparity && !(value > 0.0);
     if (of_infinity) return 0.0F;
-    const double nearness = (on_the_line(meaning_.unit.value, value) - far_) * per_one_;
+    const double nearness = (linear_value(meaning_.unit.value, value) - far_) * per_one_;
     return static_cast<float>(highest_ *
                               (as_recorded_ ? nearness : std::clamp(nearness, 0.0, 1.0)));
 }

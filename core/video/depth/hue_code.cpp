@@ -142,7 +142,7 @@ std::vector<Rim> rims_of(const cv::Mat& hues, const cv::Mat& labels, int areas) 
 }
 
 /// Moves the areas of `mask` to the side that their rim shows, if it does.
-void settle_areas(cv::Mat& hues, const cv::Mat& mask) {
+void assign_area_sides(cv::Mat& hues, const cv::Mat& mask) {
     cv::Mat labels;
     const int areas = cv::connectedComponents(mask, labels, 8, CV_32S);
     const std::vector<Rim> rims = rims_of(hues, labels, areas);
@@ -182,9 +182,9 @@ bool is_on_ramp(const cv::Vec3f& bgr) {
 }  // namespace
 
 HueCode record3d_code(std::optional<DepthRange> metres) {
-    constexpr DepthRange kUnsaid{0.0, 3.0};
+    constexpr DepthRange kDefaultRange_m{0.0, 3.0};
     HueCode code;
-    code.metres = metres.value_or(kUnsaid);
+    code.metres = metres.value_or(kDefaultRange_m);
     code.nearest = 0.1 / 3.0;
     code.farthest = 2.8 / 3.0;
     code.red_is_data = false;
@@ -198,15 +198,15 @@ cv::Mat hues_of(const cv::Mat& picture, const HueCode& code) {
     const auto* const pixels = colours.ptr<cv::Vec3f>();
     std::transform(pixels, pixels + colours.total(), hues.ptr<float>(),
                    [&code](const cv::Vec3f& pixel) { return hue_at(pixel, code); });
-    if (code.red_is_data) settle_red(hues);
+    if (code.red_is_data) assign_red_side(hues);
     drop_mixtures(colours, hues);
     return hues;
 }
 
-void settle_red(cv::Mat& hues) {
+void assign_red_side(cv::Mat& hues) {
     const cv::Mat low = hues < kRed;
     const cv::Mat high = hues > 1.0F - kRed;
-    if (cv::countNonZero(high) > 0) settle_areas(hues, low | high);
+    if (cv::countNonZero(high) > 0) assign_area_sides(hues, low | high);
 }
 
 /// Black, also where codecs made it a little brighter, is 0.

@@ -35,7 +35,7 @@ struct HueCode {
 
 /// Decides red pixels by their neighbours: beside near hues they become the nearest, 0, beside far
 /// hues the farthest, just below 1, as noise moves red to either side. Other hues do not change.
-void settle_red(cv::Mat& hues);
+void assign_red_side(cv::Mat& hues);
 
 /// The share of a picture's coloured pixels that lie on the ramp white - cyan - blue - black; 0 if
 /// hardly any pixel is coloured.

@@ -55,7 +55,7 @@ cv::Mat with_bits(const cv::Mat& picture, int bits_now, int bits) {
 }
 
 cv::Mat resampleable(const cv::Mat& picture) {
-    const double shrink = 1.0 * kMostAlong / std::max(picture.cols, picture.rows);
+    const double shrink = 1.0 * kMostSide_px / std::max(picture.cols, picture.rows);
     if (shrink >= 1.0) return picture;
     cv::Mat smaller;
     cv::resize(picture, smaller, {}, shrink, shrink, cv::INTER_AREA);

@@ -31,7 +31,7 @@ inline constexpr int kRealBits = 32;
 enum class PictureRole { colour, depth };
 
 /// OpenCV resamples pictures with sides below 2^15 pixels: resampleable() shrinks larger ones.
-inline constexpr int kMostAlong = 32000;
+inline constexpr int kMostSide_px = 32000;
 [[nodiscard]] cv::Mat resampleable(const cv::Mat& picture);
 
 /// The picture with square pixels: stretched along one side; `aspect`: width over height of its

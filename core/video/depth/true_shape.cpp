@@ -118,7 +118,7 @@ Extent around(std::vector<float>& places, const Extent& all) {
 }
 
 /// Mean focal length (geometric) of both axes [px].
-double focal_length(const Camera& camera) {
+double focal_length(const CameraModel& camera) {
     return std::sqrt(camera.intrinsics().fx * camera.intrinsics().fy);
 }
 
@@ -140,8 +140,9 @@ int last_to(float coordinate) {
 
 }  // namespace
 
-StraightGrid straight_grid(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
-                           const std::vector<cv::Mat>& samples_mm) {
+OrthographicGrid orthographic_grid(cv::Size depth_size, const CameraModel& camera,
+                                   const DepthRange& range_mm,
+                                   const std::vector<cv::Mat>& samples_mm) {
     require_range(range_mm);
     require_camera(is_camera(camera.intrinsics()));
     const Rays rays = rays_of(depth_size, camera);
@@ -154,17 +155,17 @@ StraightGrid straight_grid(cv::Size depth_size, const Camera& camera, const Dept
     const Extent height = around(places.y, extent_of(down, range_mm));
     const double nearest_pixel_mm = range_mm.near / focal_length(camera);
     const double most_points = std::max(kUsualPoints, 1.0 * depth_size.width * depth_size.height);
-    StraightGrid grid;
+    OrthographicGrid grid;
     grid.pitch_mm =
         std::max({nearest_pixel_mm, std::sqrt(width.length() * height.length() / most_points),
-                  width.length() / kMostAlong, height.length() / kMostAlong});
+                  width.length() / kMostSide_px, height.length() / kMostSide_px});
     lay_out(width, grid.pitch_mm, grid.columns, grid.left_mm);
     lay_out(height, grid.pitch_mm, grid.rows, grid.top_mm);
     return grid;
 }
 
-TrueShape::TrueShape(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
-                     const StraightGrid& grid)
+TrueShape::TrueShape(cv::Size depth_size, const CameraModel& camera, const DepthRange& range_mm,
+                     const OrthographicGrid& grid)
     : depth_size_(depth_size),
       camera_(camera),
       rays_(rays_of(depth_size, camera)),
@@ -172,9 +173,9 @@ TrueShape::TrueShape(cv::Size depth_size, const Camera& camera, const DepthRange
       grid_(grid),
       steepest_(static_cast<float>(std::min(kSteepest / focal_length(camera), kMostStep))) {}
 
-StraightPicture TrueShape::seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour) {
+OrthographicPicture TrueShape::orthographic_view(const cv::Mat& depth_mm, const cv::Mat& colour) {
     assert(depth_mm.type() == CV_32FC1 && depth_mm.size() == depth_size_);
-    StraightPicture picture;
+    OrthographicPicture picture;
     DepthImage& image = picture.depth;
     image.columns = grid_.columns;
     image.rows = grid_.rows;
@@ -255,7 +256,7 @@ void TrueShape::draw(const Corner& a, const Corner& b, const Corner& c, DepthIma
 /// Finds the place in the colour picture of the surface at every point of the grid.
 void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
     constexpr float kOutside = -2.0F;
-    const LensInFloats lens(camera_.lens());
+    const FloatLens lens(camera_.lens());
     const Intrinsics& pinhole = camera_.intrinsics();
     const double across = 1.0 * colour_size.width / depth_size_.width;
     const double down = 1.0 * colour_size.height / depth_size_.height;
@@ -278,7 +279,7 @@ void TrueShape::find_pixels(const DepthImage& image, cv::Size colour_size) {
         for (int i = 0; i < image.columns; ++i) {
             const float nearness = 1.0F / (far - levels[i]);
             const float x_mm = left_mm + static_cast<float>(i) * pitch_mm;
-            const LensInFloats::Bent seen = lens.bent(x_mm * nearness, y_mm * nearness);
+            const FloatLens::Distorted seen = lens.distorted(x_mm * nearness, y_mm * nearness);
             const float x = centre_x + focal_x * seen.x;
             const float y = centre_y + focal_y * seen.y;
             xs[i] = seen.known ? std::clamp(x, 0.0F, last_x) : kOutside;

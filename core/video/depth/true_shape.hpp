@@ -16,7 +16,7 @@ namespace dibhr {
 
 /// Where a surface is sampled: column i is left_mm + i pitch_mm to the right of the camera's axis,
 /// row j is top_mm + j pitch_mm below it, at every distance.
-struct StraightGrid {
+struct OrthographicGrid {
     int columns{0};
     int rows{0};
     double pitch_mm{0.0};
@@ -33,12 +33,12 @@ struct StraightGrid {
 /// lost; but it has at most half a million points, or as many as the pictures have pixels: else a
 /// room behind the hand would make it grow with the square of far / near.
 /// Throws InputError if the intrinsics are no camera's, or the range is invalid.
-[[nodiscard]] StraightGrid straight_grid(cv::Size depth_size, const Camera& camera,
-                                         const DepthRange& range_mm,
-                                         const std::vector<cv::Mat>& samples_mm = {});
+[[nodiscard]] OrthographicGrid orthographic_grid(cv::Size depth_size, const CameraModel& camera,
+                                                 const DepthRange& range_mm,
+                                                 const std::vector<cv::Mat>& samples_mm = {});
 
 /// One frame, resampled on the grid.
-struct StraightPicture {
+struct OrthographicPicture {
     /// Elevation over the farthest distance [mm]; the highest level is at the nearest distance. NaN
     /// where nothing is seen: behind something nearer, outside the picture, without data.
     DepthImage depth{};
@@ -51,10 +51,10 @@ struct StraightPicture {
 class TrueShape {
   public:
     /// For depth pictures of this size, with a grid that was made for the same camera and range.
-    TrueShape(cv::Size depth_size, const Camera& camera, const DepthRange& range_mm,
-              const StraightGrid& grid);
+    TrueShape(cv::Size depth_size, const CameraModel& camera, const DepthRange& range_mm,
+              const OrthographicGrid& grid);
 
-    [[nodiscard]] const StraightGrid& grid() const noexcept { return grid_; }
+    [[nodiscard]] const OrthographicGrid& grid() const noexcept { return grid_; }
     /// The relief for the depth image's true shape: the highest elevation in grid pitches.
     [[nodiscard]] double relief_px() const noexcept {
         return (range_mm_.far - range_mm_.near) / grid_.pitch_mm;
@@ -63,7 +63,8 @@ class TrueShape {
     /// `depth_mm`: CV_32FC1 of the clip's size, distances from the camera's plane. Not finite, or
     /// not above 0, is no data; values outside the range are clamped along their ray. `colour`:
     /// 8-bit BGR of any size and the same field of view, or empty.
-    [[nodiscard]] StraightPicture seen_straight_on(const cv::Mat& depth_mm, const cv::Mat& colour);
+    [[nodiscard]] OrthographicPicture orthographic_view(const cv::Mat& depth_mm,
+                                                        const cv::Mat& colour);
 
   private:
     /// The middle of a depth pixel: its place in the grid [px] and its elevation [mm], NaN without
@@ -78,10 +79,10 @@ class TrueShape {
     [[nodiscard]] ColourImage colour_on(const DepthImage& image, const cv::Mat& colour);
 
     cv::Size depth_size_;
-    Camera camera_;
+    CameraModel camera_;
     Rays rays_;
     DepthRange range_mm_;
-    StraightGrid grid_;
+    OrthographicGrid grid_;
     float steepest_;  ///< of a triangle: its height over the distance of its nearest corner
     std::vector<Corner> above_{}, below_{};
     cv::Mat pixel_x_{}, pixel_y_{};  ///< of the colour picture, for every point of the grid

@@ -96,7 +96,7 @@ std::optional<Intrinsics> intrinsics_of(const std::vector<double>& rows) {
     return camera;
 }
 
-void state(SourceFacts& facts, const std::string& array) {
+void add_origin(SourceFacts& facts, const std::string& array) {
     if (!facts.known_from.empty()) facts.known_from += ", ";
     facts.known_from += "array " + in_quotes(array);
 }
@@ -139,11 +139,11 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     const std::string name = chosen(arrays, role_);
     if (lower_case(name).starts_with("disp")) {
         facts_.known.unit = DepthUnit::disparity;
-        state(facts_, name);
+        add_origin(facts_, name);
     }
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
     facts_.known.intrinsics = intrinsics_of(numbers_of(arrays, kCameraNames, kMostOfCamera));
-    if (facts_.known.intrinsics) state(facts_, *named(arrays, kCameraNames));
+    if (facts_.known.intrinsics) add_origin(facts_, *named(arrays, kCameraNames));
 }
 
 void ArrayFile::read_times(const NamedArrays& arrays) {

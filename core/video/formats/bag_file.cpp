@@ -35,7 +35,7 @@ BagFile::BagFile(const fs::path& file)
     : file_(readable(file)),
       database_(
           file_,
-          {.complete = !has_log(file_), .longest_bytes = kLongestText_bytes, .patience_ms = 0},
+          {.complete = !has_log(file_), .longest_bytes = kLongestText_bytes, .busy_timeout_ms = 0},
           [this](const DatabaseError& error) { refuse(error.what()); }),
       message_(database_, "messages", "data") {
     check_tables();

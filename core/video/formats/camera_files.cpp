@@ -75,7 +75,7 @@ Json camera_in(const Json& calibration, const char* location) {
 
 /// The stored camera, for a sensor of size 1 with its corner at 0, 0. Order of the parameters as in
 /// k4a_calibration_intrinsic_parameters_t: cx, cy, fx, fy, k1 to k6, two zeros, p2, p1.
-std::optional<Camera> unit_camera(const Json& camera) {
+std::optional<CameraModel> unit_camera(const Json& camera) {
     constexpr std::size_t kParameters = 14;
     constexpr double kUsualRadius = 1.7;  // where the calibration has none
     if (!camera.is_object()) return std::nullopt;
@@ -89,12 +89,12 @@ std::optional<Camera> unit_camera(const Json& camera) {
     }
     const bool finite =
         std::all_of(p.begin(), p.end(), [](double number) { return std::abs(number) < 1e6; });
-    return finite ? std::optional(Camera({p[2], p[3], p[0], p[1]}, lens)) : std::nullopt;
+    return finite ? std::optional(CameraModel({p[2], p[3], p[0], p[1]}, lens)) : std::nullopt;
 }
 
 /// The camera of a picture at `left`, `top` of a sensor of that size. Our origin is the centre of
 /// the first pixel, theirs its corner.
-Camera cut_out(const Camera& unit, cv::Size sensor, int left, int top) {
+CameraModel cut_out(const CameraModel& unit, cv::Size sensor, int left, int top) {
     const Intrinsics& i = unit.intrinsics();
     return {Intrinsics{i.fx * sensor.width, i.fy * sensor.height, i.cx * sensor.width - left - 0.5,
                        i.cy * sensor.height - top - 0.5},
@@ -138,7 +138,7 @@ std::optional<CameraFile> read_camera_json(const fs::path& file) {
     return is_camera(camera.intrinsics) ? std::optional(camera) : std::nullopt;
 }
 
-std::optional<Camera> azure_kinect_depth_camera(const std::string& json, cv::Size depth) {
+std::optional<CameraModel> azure_kinect_depth_camera(const std::string& json, cv::Size depth) {
     constexpr int kSensor = 1024;
     const auto mode =
         std::find_if(kKinectModes.begin(), kKinectModes.end(), [=](const KinectMode& candidate) {
@@ -151,7 +151,7 @@ std::optional<Camera> azure_kinect_depth_camera(const std::string& json, cv::Siz
         return std::nullopt;
     const auto unit = unit_camera(camera);
     if (!unit) return std::nullopt;
-    const Camera found = cut_out(*unit, {mode->sensor, mode->sensor}, mode->left, mode->top);
+    const CameraModel found = cut_out(*unit, {mode->sensor, mode->sensor}, mode->left, mode->top);
     return is_camera(found.intrinsics()) ? std::optional(found) : std::nullopt;
 }
 

@@ -27,8 +27,8 @@ struct CameraFile {
 
 /// The depth camera by an Azure Kinect calibration, as attached to its recordings. The size of the
 /// depth pictures selects the camera mode. Nothing when the text is invalid or no mode fits.
-[[nodiscard]] std::optional<Camera> azure_kinect_depth_camera(const std::string& json,
-                                                              cv::Size depth);
+[[nodiscard]] std::optional<CameraModel> azure_kinect_depth_camera(const std::string& json,
+                                                                   cv::Size depth);
 /// The same, with the colour camera; nothing as above, or without a colour camera.
 [[nodiscard]] std::optional<CameraPair> azure_kinect_cameras(const std::string& json,
                                                              cv::Size depth);

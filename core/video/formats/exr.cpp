@@ -223,7 +223,7 @@ StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
 }  // namespace
 
 StillPicture read_exr(const fs::path& file, PictureRole role) {
-    if (!has_sound_exr_header(file)) refuse_as_damaged(file);
+    if (!has_valid_exr_header(file)) refuse_as_damaged(file);
     try {
         Imf::MultiPartInputFile input(file.c_str(), 0);
         return role == PictureRole::colour ? read_colour(input, file) : read_depth(input, file);
@@ -235,7 +235,7 @@ StillPicture read_exr(const fs::path& file, PictureRole role) {
 }
 
 bool exr_has_colour_and_depth(const fs::path& file) {
-    if (!has_sound_exr_header(file)) return false;
+    if (!has_valid_exr_header(file)) return false;
     try {
         const Imf::MultiPartInputFile input(file.c_str(), 0);
         return find_colour(input).has_value() && find_depth(input).has_value();

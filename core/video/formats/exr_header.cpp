@@ -63,7 +63,7 @@ class HeaderWalk {
     /// invalid.
     std::optional<std::string> next() {
         std::string name = word();
-        if (name.empty()) return sound_ ? std::optional(name) : std::nullopt;
+        if (name.empty()) return valid_ ? std::optional(name) : std::nullopt;
         const std::string type = word();
         const std::uint32_t bytes = number();
         if (bytes > left_) return std::nullopt;
@@ -76,15 +76,15 @@ class HeaderWalk {
                          [&type](const FixedType& known) { return known.name == type; });
         if (fixed != kFixedTypes.end() && fixed->bytes != bytes) return std::nullopt;
         if (type == "chlist" && left_ != end) return std::nullopt;
-        if (!sound_ || left_ < end) return std::nullopt;
+        if (!valid_ || left_ < end) return std::nullopt;
         skip(left_ - end);
         return name;
     }
 
   private:
     void skip(std::uint64_t bytes) {
-        sound_ = sound_ && bytes <= left_;
-        if (!sound_) return;
+        valid_ = valid_ && bytes <= left_;
+        if (!valid_) return;
         in_.seekg(static_cast<std::streamoff>(bytes), std::ios::cur);
         left_ -= bytes;
     }
@@ -92,8 +92,8 @@ class HeaderWalk {
     std::uint32_t number() {
         std::array<std::uint8_t, 4> little{};
         in_.read(reinterpret_cast<char*>(little.data()), little.size());
-        sound_ = sound_ && in_ && left_ >= little.size();
-        if (sound_) left_ -= little.size();
+        valid_ = valid_ && in_ && left_ >= little.size();
+        if (valid_) left_ -= little.size();
         return little[0] | std::uint32_t{little[1]} << 8U | std::uint32_t{little[2]} << 16U |
                std::uint32_t{little[3]} << 24U;
     }
@@ -103,36 +103,36 @@ class HeaderWalk {
         std::array<char, 256> letters{};
         in_.getline(letters.data(), letters.size(), '\0');
         const auto bytes = static_cast<std::uint64_t>(in_.gcount());
-        sound_ = sound_ && in_ && !in_.eof() && bytes <= left_;
-        if (!sound_) return {};
+        valid_ = valid_ && in_ && !in_.eof() && bytes <= left_;
+        if (!valid_) return {};
         left_ -= bytes;
         return letters.data();
     }
 
     void skip_channels() {
         constexpr std::uint64_t kChannelBytes = 16;
-        while (!word().empty() && sound_) skip(kChannelBytes);
+        while (!word().empty() && valid_) skip(kChannelBytes);
     }
 
     void require_preview(std::uint32_t bytes) {
         const std::uint64_t columns = number();
         const std::uint64_t rows = number();
-        sound_ = sound_ && columns < 65536 && rows < 65536 && 8 + 4 * columns * rows == bytes;
+        valid_ = valid_ && columns < 65536 && rows < 65536 && 8 + 4 * columns * rows == bytes;
     }
 
     void skip_strings(std::uint64_t end) {
-        while (sound_ && left_ > end) skip(number());
-        sound_ = sound_ && left_ == end;
+        while (valid_ && left_ > end) skip(number());
+        valid_ = valid_ && left_ == end;
     }
 
     std::ifstream in_;
     std::uint64_t left_;
-    bool sound_{true};
+    bool valid_{true};
 };
 
 }  // namespace
 
-bool has_sound_exr_header(const std::filesystem::path& file) {
+bool has_valid_exr_header(const std::filesystem::path& file) {
     HeaderWalk walk(file);
     const bool several = walk.begin();
     bool at_begin = true;  // of a part's header; an empty header ends the list of parts

@@ -91,23 +91,23 @@ cv::Mat plane_of(const heif_image& image, heif_channel channel, int type, const 
 /// The depth facts that "level x scale" can express. Levels begin at z_far or d_min, so the scale
 /// is known only where d_min is 0.
 DepthStatement statement_of(const heif_image_handle& primary, heif_item_id id, int bits) {
-    DepthStatement said;
+    DepthStatement statement;
     const heif_depth_representation_info* given = nullptr;
     const bool has_info =
         heif_image_handle_get_depth_image_representation_info(&primary, id, &given) != 0;
     const Representation info(given);
     if (!has_info || info == nullptr) {
-        said.unit = DepthUnit::disparity;  // as phones write it
-        return said;
+        statement.unit = DepthUnit::disparity;  // as phones write it
+        return statement;
     }
     if (info->depth_representation_type == heif_depth_representation_type_uniform_Z) {
-        said.near = NearLevels::dark;
-        return said;
+        statement.near = NearLevels::dark;
+        return statement;
     }
-    said.unit = DepthUnit::disparity;
+    statement.unit = DepthUnit::disparity;
     const bool from_nothing = info->has_d_min != 0 && info->has_d_max != 0 && info->d_min == 0.0;
-    if (from_nothing && info->d_max > 0.0) said.scale = info->d_max / highest_level(bits);
-    return said;
+    if (from_nothing && info->d_max > 0.0) statement.scale = info->d_max / highest_level(bits);
+    return statement;
 }
 
 StillPicture read_colour(const heif_image_handle& primary, const fs::path& file) {

@@ -31,7 +31,7 @@ namespace dibhr {
 namespace {
 
 /// stderr is one for the process: two threads that discard it at once could leave it discarded.
-std::mutex& only_one() {
+std::mutex& stderr_mutex() {
     static std::mutex mutex;
     return mutex;
 }
@@ -58,7 +58,7 @@ void set_up_libraries() {
     });
 }
 
-QuietErrors::QuietErrors() : alone_(only_one()) {
+QuietErrors::QuietErrors() : lock_(stderr_mutex()) {
     if (std::getenv("OPENCV_LOG_LEVEL") != nullptr) return;
     const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
     if (nowhere < 0) return;

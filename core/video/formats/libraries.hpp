@@ -22,7 +22,7 @@ class QuietErrors {
     QuietErrors& operator=(const QuietErrors&) = delete;
 
   private:
-    std::unique_lock<std::mutex> alone_;
+    std::unique_lock<std::mutex> lock_;
     int kept_{-1};  ///< the stream's own descriptor
 };
 

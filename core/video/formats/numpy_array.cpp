@@ -137,7 +137,7 @@ void make_real(cv::Mat& numbers) {
 }
 
 /// Corrects unsigned numbers that OpenCV read as negative.
-void give_back_sign(cv::Mat& numbers) {
+void restore_unsigned(cv::Mat& numbers) {
     cv::Mat real;
     numbers.convertTo(real, CV_64F);
     cv::add(real, cv::Scalar::all(4294967296.0), real, real < 0.0);
@@ -201,7 +201,7 @@ cv::Mat NumpyArray::read(std::uint64_t first, std::int64_t count) {
     bytes_->read(header_.data_at + first * number_bytes, bytes);
     if (header_.swapped) swap_bytes(bytes, number_bytes);
     if (header_.kind != 'f' && number_bytes == 8) make_real(numbers);
-    if (header_.kind == 'u' && number_bytes == 4) give_back_sign(numbers);
+    if (header_.kind == 'u' && number_bytes == 4) restore_unsigned(numbers);
     return numbers;
 }
 

@@ -24,23 +24,26 @@ std::vector<cv::Mat> PictureSource::samples(int most) {
     return pictures;
 }
 
-ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell)
-    : source_(std::move(source)), change_(std::move(change)), tell_(std::move(tell)) {
+ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change,
+                                 ChangeFacts change_facts)
+    : source_(std::move(source)),
+      change_(std::move(change)),
+      change_facts_(std::move(change_facts)) {
     first_ = changed(source_->next());
     if (first_) {
         facts_.columns = first_->picture.cols;
         facts_.rows = first_->picture.rows;
     }
-    learn();
+    update_facts();
     require_size(facts_.file, facts_.columns, facts_.rows);
 }
 
-void ChangedPictures::learn() {
+void ChangedPictures::update_facts() {
     const cv::Size size(facts_.columns, facts_.rows);
     facts_ = source_->facts();
     facts_.columns = size.width;
     facts_.rows = size.height;
-    tell_(facts_);
+    change_facts_(facts_);
 }
 
 std::optional<TimedPicture> ChangedPictures::changed(std::optional<TimedPicture> taken) const {
@@ -51,27 +54,27 @@ std::optional<TimedPicture> ChangedPictures::changed(std::optional<TimedPicture>
 std::optional<TimedPicture> ChangedPictures::next() {
     if (first_) return std::exchange(first_, std::nullopt);
     std::optional<TimedPicture> taken = changed(source_->next());
-    learn();
+    update_facts();
     return taken;
 }
 
 std::optional<TimedPicture> ChangedPictures::next_from(double earliest_s) {
     if (first_) return PictureSource::next_from(earliest_s);
     std::optional<TimedPicture> taken = changed(source_->next_from(earliest_s));
-    learn();
+    update_facts();
     return taken;
 }
 
 void ChangedPictures::seek(double time_s) {
     first_.reset();
     source_->seek(time_s);
-    learn();
+    update_facts();
 }
 
 void ChangedPictures::seek_near(double time_s) {
     first_.reset();
     source_->seek_near(time_s);
-    learn();
+    update_facts();
 }
 
 std::vector<cv::Mat> ChangedPictures::samples(int most) {
@@ -83,7 +86,7 @@ std::vector<cv::Mat> ChangedPictures::samples(int most) {
 
 void ChangedPictures::count_frames(std::int64_t most) {
     source_->count_frames(most);
-    learn();
+    update_facts();
 }
 
 void IndexedPictures::take_times(std::vector<double> times_s) {
@@ -99,7 +102,7 @@ void IndexedPictures::take_times(std::vector<double> times_s) {
     facts_.duration_s = times_s_.back() + interval_s;
 }
 
-void IndexedPictures::tell_trouble(const std::string& what) {
+void IndexedPictures::report_trouble(const std::string& what) {
     if (facts_.trouble.empty())
         facts_.trouble = what + "; until then the picture before it is shown";
 }

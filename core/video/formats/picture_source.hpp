@@ -26,7 +26,7 @@ struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
-    double decoding_s{0.0};  ///< mean time to decode a picture; 0: not known
+    double decoding_s{0.0};                  ///< mean time to decode a picture; 0: not known
     std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
 };
 
@@ -44,14 +44,14 @@ struct SourceFacts {
     std::int64_t frames{0};
     bool frames_exact{false};
     bool still{false};
-    bool live{false};          ///< a live source: no length, no end
-    std::string trouble{};     ///< why less is readable than at the opening; empty: all is
-    std::string notice{};      ///< what the opening ignored or chose; mostly empty
-    DepthStatement known{};    ///< stated by the file's metadata or its format
-    std::string known_from{};  ///< the source of `known`: "EXR channel Z"; empty: none
+    bool live{false};                   ///< a live source: no length, no end
+    std::string trouble{};              ///< why less is readable than at the opening; empty: all is
+    std::string notice{};               ///< what the opening ignored or chose; mostly empty
+    DepthStatement known{};             ///< stated by the file's metadata or its format
+    std::string known_from{};           ///< the source of `known`: "EXR channel Z"; empty: none
     std::optional<DepthNoise> noise{};  ///< used for cleaning when it was recorded live
     Lens lens{};                        ///< of the camera of `known.intrinsics`
-    bool other_camera{false};  ///< its colour is from another camera at another place
+    bool other_camera{false};           ///< its colour is from another camera at another place
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 };
 
@@ -80,12 +80,12 @@ class PictureSource {
 class ChangedPictures : public PictureSource {
   public:
     using Change = std::function<cv::Mat(const cv::Mat&)>;
-    using Tell = std::function<void(SourceFacts&)>;
+    using ChangeFacts = std::function<void(SourceFacts&)>;
 
     /// The last function adapts the source's facts to the change, except the size, which is that of
     /// the first changed picture. Reads that picture. Throws InputError when it is too small to
     /// touch.
-    ChangedPictures(std::unique_ptr<PictureSource> source, Change change, Tell tell);
+    ChangedPictures(std::unique_ptr<PictureSource> source, Change change, ChangeFacts change_facts);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
@@ -96,12 +96,12 @@ class ChangedPictures : public PictureSource {
     std::vector<cv::Mat> samples(int most) override;
 
   private:
-    void learn();
+    void update_facts();
     std::optional<TimedPicture> changed(std::optional<TimedPicture> taken) const;
 
     std::unique_ptr<PictureSource> source_;
     Change change_;
-    Tell tell_;
+    ChangeFacts change_facts_;
     SourceFacts facts_{};
     std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
@@ -120,7 +120,7 @@ class IndexedPictures : public PictureSource {
     /// Sets the times, increasing, one for each picture and at least one, and the facts about time.
     void take_times(std::vector<double> times_s);
     /// Reports why a picture is replaced by the one before it; keeps the first report.
-    void tell_trouble(const std::string& what);
+    void report_trouble(const std::string& what);
 
     SourceFacts facts_{};
 

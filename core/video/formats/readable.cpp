@@ -21,7 +21,7 @@ namespace {
 
 using namespace std::string_view_literals;
 
-struct Foreign {
+struct UnsupportedForm {
     std::string_view begins;  ///< first bytes; empty: any
     std::string_view ending;  ///< of the name; empty: any
     std::string_view advice;
@@ -40,28 +40,33 @@ constexpr std::string_view kZed =
     "depth as 16-bit PNG with the ZED SDK's SVO Export";
 
 // The first entry that fits counts.
-constexpr std::array kForeign{
-    Foreign{kZip, ".r3d", kRecord3d},
-    Foreign{kZip, ".depthviewer",
-            " is an archive of DepthViewer: unpack it with unzip and give the folder of its depth "
-            "pictures"},
-    Foreign{kZip, ".zip", " is a zip archive: unpack it and give the folder or the files in it"},
-    Foreign{{}, ".svo", kZed},
-    Foreign{{}, ".svo2", kZed},
-    Foreign{"#ROSBAG V"sv,
-            {},
-            " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
-            "bag of ROS 2 (.db3) of it with rosbags-convert"},
-    Foreign{"\x89MCAP0\r\n"sv,
-            {},
-            " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
-    Foreign{"NI10"sv,
-            {},
-            " is a recording of OpenNI: export its colour and its depth as PNG pictures with "
-            "OpenNI's tools"},
-    Foreign{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
+constexpr std::array kUnsupportedForms{
+    UnsupportedForm{kZip, ".r3d", kRecord3d},
+    UnsupportedForm{
+        kZip, ".depthviewer",
+        " is an archive of DepthViewer: unpack it with unzip and give the folder of its depth "
+        "pictures"},
+    UnsupportedForm{kZip, ".zip",
+                    " is a zip archive: unpack it and give the folder or the files in it"},
+    UnsupportedForm{{}, ".svo", kZed},
+    UnsupportedForm{{}, ".svo2", kZed},
+    UnsupportedForm{
+        "#ROSBAG V"sv,
+        {},
+        " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
+        "bag of ROS 2 (.db3) of it with rosbags-convert"},
+    UnsupportedForm{
+        "\x89MCAP0\r\n"sv,
+        {},
+        " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
+    UnsupportedForm{
+        "NI10"sv,
+        {},
+        " is a recording of OpenNI: export its colour and its depth as PNG pictures with "
+        "OpenNI's tools"},
+    UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
 
-constexpr std::size_t kLookedAt_bytes = 1 << 16;
+constexpr std::size_t kInspected_bytes = 1 << 16;
 
 bool hold(const std::string& bytes, std::string_view part) {
     return bytes.find(part) != std::string::npos;
@@ -69,22 +74,22 @@ bool hold(const std::string& bytes, std::string_view part) {
 
 /// Whether a zip archive is Record3D's, by the names in the directory at its end.
 bool lists_record3d(const fs::path& file) {
-    const std::string end = end_of(file, kLookedAt_bytes);
+    const std::string end = end_of(file, kInspected_bytes);
     return hold(end, "rgbd/") && hold(end, "metadata");
 }
 
 /// Whether a Matroska file's list of tracks has librgbd's depth codecs.
 bool is_of_librgbd(const fs::path& file) {
-    const std::string begin = beginning_of(file, kLookedAt_bytes);
+    const std::string begin = beginning_of(file, kInspected_bytes);
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty for a
 /// supported file.
-std::string advice_on_foreign(const fs::path& file) {
+std::string advice_on_unsupported(const fs::path& file) {
     const std::string head = head_of(file);
     const std::string ending = lower_case(file.extension().string());
-    for (const Foreign& foreign : kForeign) {
+    for (const UnsupportedForm& foreign : kUnsupportedForms) {
         if (head.starts_with(foreign.begins) &&
             (foreign.ending.empty() || foreign.ending == ending))
             return std::string(foreign.advice);
@@ -126,7 +131,7 @@ void require_readable(const fs::path& file) {
         throw InputError(shown(file) + " cannot be read: check its permissions (chmod u+r)");
     if (fs::file_size(file, failed) == 0)
         throw InputError(shown(file) + " is empty: record or copy it again");
-    if (const std::string advice = advice_on_foreign(file); !advice.empty())
+    if (const std::string advice = advice_on_unsupported(file); !advice.empty())
         throw InputError(shown(file) + advice);
     if (begins_like_text(file))
         throw InputError(shown(file) + " holds text, not a video or a picture: give another file");

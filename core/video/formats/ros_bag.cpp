@@ -173,7 +173,7 @@ class RosTopic : public IndexedPictures {
         require_size(place, last_.cols, last_.rows);
         describe_picture();
         describe_times();
-        if (role == PictureRole::depth) know_depth();
+        if (role == PictureRole::depth) describe_levels();
     }
 
   private:
@@ -182,11 +182,11 @@ class RosTopic : public IndexedPictures {
         try {
             const cv::Mat now = decoded(messages_[at]);
             if (now.empty() || now.type() != last_.type())
-                tell_trouble(unreadable());
+                report_trouble(unreadable());
             else
                 last_ = now;
         } catch (const InputError& error) {
-            tell_trouble(error.what());
+            report_trouble(error.what());
         }
         return last_;
     }
@@ -228,12 +228,12 @@ class RosTopic : public IndexedPictures {
         facts_.start_s = static_cast<double>(messages_.front().time_ns) * 1e-9;
     }
 
-    void know_depth() {
+    void describe_levels() {
         facts_.known.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm;
         facts_.known.scale = 1.0;
         facts_.known.no_data = std::vector<double>{0.0};
         facts_.known_from = "ROS topic " + one_line(topic_.name, 100);
-        know_cameras();
+        describe_cameras();
     }
 
     /// The camera of that topic's pictures; nothing when the bag has none.
@@ -243,7 +243,7 @@ class RosTopic : public IndexedPictures {
         return info ? ros_camera(*info) : std::nullopt;
     }
 
-    void know_cameras() {
+    void describe_cameras() {
         const auto depth = camera_of(topic_.name);
         if (!depth || depth->size != cv::Size(facts_.columns, facts_.rows)) return;
         facts_.known.intrinsics = depth->camera.intrinsics();
@@ -253,14 +253,14 @@ class RosTopic : public IndexedPictures {
         if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
         facts_.other_camera = true;
         // The topic in which RealSense's node publishes the placement.
-        const std::string told_in =
+        const std::string extrinsics_topic =
             colour_topic.substr(0, colour_topic.rfind("/color/")) + "/extrinsics/depth_to_color";
         const auto message =
-            first_message(files_, {0, told_in, "realsense2_camera_msgs/msg/Extrinsics"});
+            first_message(files_, {0, extrinsics_topic, "realsense2_camera_msgs/msg/Extrinsics"});
         if (const auto placement = message ? ros_placement(*message) : std::nullopt)
             facts_.cameras = std::make_shared<const CameraPair>(
                 CameraPair{depth->camera, colour->camera, colour->size, *placement,
-                           "ROS topic " + one_line(told_in, 100)});
+                           "ROS topic " + one_line(extrinsics_topic, 100)});
     }
 
     BagFiles files_;

@@ -229,23 +229,26 @@ std::optional<RosCamera> ros_camera(Bytes message) {
     if (rows > kLongestSide || columns > kLongestSide) return std::nullopt;
     found.size = {static_cast<int>(columns), static_cast<int>(rows)};
     const std::string model = reader.text();
-    std::array<double, 8> bends{};  // k1, k2, p1, p2, k3 to k6, as OpenCV has them
+    std::array<double, 8> distortions{};  // k1, k2, p1, p2, k3 to k6, as OpenCV has them
     const auto coefficients = reader.number<std::uint32_t>();
     for (std::uint32_t k = 0; k < coefficients && reader.whole(); ++k) {
         const auto bend = reader.number<double>();
-        if (k < bends.size()) bends[k] = bend;
+        if (k < distortions.size()) distortions[k] = bend;
     }
     std::array<double, 9> matrix{};  // row by row
     for (double& value : matrix) value = reader.number<double>();
     const Intrinsics intrinsics{matrix[0], matrix[4], matrix[2], matrix[5]};
     if (!reader.whole() || !is_camera(intrinsics)) return std::nullopt;
     const bool is_known = model == "plumb_bob" || model == "rational_polynomial";
-    const bool is_sane =
-        std::all_of(bends.begin(), bends.end(), [](double bend) { return std::fabs(bend) < 1e6; });
+    const bool is_sane = std::all_of(distortions.begin(), distortions.end(),
+                                     [](double bend) { return std::fabs(bend) < 1e6; });
     Lens lens;
     if (is_known && is_sane)
-        lens = {{bends[0], bends[1], bends[4], bends[5], bends[6], bends[7]}, bends[2], bends[3]};
-    found.camera = Camera(intrinsics, lens);
+        lens = {{distortions[0], distortions[1], distortions[4], distortions[5], distortions[6],
+                 distortions[7]},
+                distortions[2],
+                distortions[3]};
+    found.camera = CameraModel(intrinsics, lens);
     return found;
 }
 

@@ -43,7 +43,7 @@ enum class RosPicture { depth, grey, colour, unknown };
 
 /// A sensor_msgs/msg/CameraInfo.
 struct RosCamera {
-    Camera camera{};
+    CameraModel camera{};
     cv::Size size{};      ///< of its pictures
     std::string frame{};  ///< the name of its axes
 };

@@ -63,7 +63,7 @@ bool is_opencv_picture(const fs::path& file, std::string_view head) {
     const bool is_webp =
         head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WEBP";
     try {
-        return is_webp || picture_codecs().knows(file.string());
+        return is_webp || picture_codecs().can_read(file.string());
     } catch (const cv::Exception&) {
         return false;
     }

@@ -36,7 +36,7 @@ struct StillPicture {
 /// Whether every attribute of an OpenEXR header lies in the file and has the length of its type.
 /// The library allocates what an attribute claims before it reads it, and loses its position when a
 /// length is wrong.
-[[nodiscard]] bool has_sound_exr_header(const std::filesystem::path& file);
+[[nodiscard]] bool has_valid_exr_header(const std::filesystem::path& file);
 
 /// Whether it has channels R, G and B, and Z or V. False when the file cannot be read.
 [[nodiscard]] bool exr_has_colour_and_depth(const std::filesystem::path& file);

@@ -110,7 +110,7 @@ bool VideoDecoder::decode() {
         const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
         if (given == 0) {
             ++decoded_;
-            tell_skipped(time_s());
+            update_skipped(time_s());
             return true;
         }
         if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) break;
@@ -120,7 +120,7 @@ bool VideoDecoder::decode() {
         }
         if (!send(packets_.next())) ++failures;
     }
-    tell_skipped(std::numeric_limits<double>::infinity());
+    update_skipped(std::numeric_limits<double>::infinity());
     return false;
 }
 
@@ -141,7 +141,7 @@ bool VideoDecoder::send(const AVPacket* packet) {
 }
 
 /// Pictures come in order: those before the decoded one that did not come were skipped.
-void VideoDecoder::tell_skipped(double until_s) {
+void VideoDecoder::update_skipped(double until_s) {
     const auto begin = may_be_skipped_s_.begin();
     skipped_s_.assign(begin, may_be_skipped_s_.lower_bound(until_s));
     may_be_skipped_s_.erase(begin, may_be_skipped_s_.upper_bound(until_s));

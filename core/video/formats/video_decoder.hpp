@@ -64,7 +64,7 @@ class VideoDecoder {
 
     [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
     bool send(const AVPacket* packet);
-    void tell_skipped(double until_s);
+    void update_skipped(double until_s);
     [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;

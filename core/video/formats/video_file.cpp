@@ -35,18 +35,18 @@ constexpr double kMostSampled = 1e8;   ///< pixels decoded for samples: a third 
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// The earliest end of a whole file.
-double least_end_s(double promised_s) {
-    return promised_s - std::max(kMissing_s, kMissingPart * promised_s);
+double least_end_s(double header_duration_s) {
+    return header_duration_s - std::max(kMissing_s, kMissingPart * header_duration_s);
 }
 
 /// Throws InputError for a truncated copy, whose header claims more than the file holds.
-void require_whole(const std::filesystem::path& file, int track, double promised_s) {
-    const double least_s = least_end_s(promised_s);
+void require_whole(const std::filesystem::path& file, int track, double header_duration_s) {
+    const double least_s = least_end_s(header_duration_s);
     if (!(least_s > 0.0)) return;
     const std::optional<double> end_s = packets_end_s(file, track, least_s);
     if (!end_s || *end_s >= least_s) return;
     throw InputError(shown(file) + " is cut off or has a damaged header: it ends at " +
-                     number_text(*end_s, 1) + " s of " + number_text(promised_s, 1) +
+                     number_text(*end_s, 1) + " s of " + number_text(header_duration_s, 1) +
                      " s; copy or export it again");
 }
 
@@ -56,25 +56,25 @@ VideoFile::VideoFile(const std::filesystem::path& file, PictureRole role, int tr
     : role_(role), track_(track), decoder_(file, track) {
     facts_.file = file;
     read_facts();
-    const double promised_s = facts_.duration_s;
+    const double header_duration_s = facts_.duration_s;
     if (!grab())
         throw InputError(shown(file) + " holds no picture that can be decoded: record it again");
     facts_.start_s = decoder_.packets().start_s();
     facts_.bits = decoder_.bits();
-    if (role == PictureRole::depth) know_live_recording();
+    if (role == PictureRole::depth) read_live_recording();
     pixel_aspect_ = decoder_.pixel_aspect();
     ahead_.push_back(timed(retrieve()));
     facts_.columns = ahead_.front().picture.cols;
     facts_.rows = ahead_.front().picture.rows;
     facts_.channels = decoder_.is_grey() ? 1 : 3;
     require_size(file, facts_.columns, facts_.rows);
-    require_whole(file, track, promised_s);
-    promised_s_ = promised_s;
-    if (role == PictureRole::depth) know_azure_kinect();
+    require_whole(file, track, header_duration_s);
+    header_duration_s_ = header_duration_s;
+    if (role == PictureRole::depth) read_azure_kinect();
 }
 
 /// Facts of a live recording by this program.
-void VideoFile::know_live_recording() {
+void VideoFile::read_live_recording() {
     const VideoPackets& packets = decoder_.packets();
     facts_.noise = noise_in(packets.tag(kNoiseTag));
     const int bits = std::atoi(packets.tag(kBitsTag).c_str());
@@ -82,13 +82,13 @@ void VideoFile::know_live_recording() {
     if (keeps_levels_) facts_.bits = bits;
 }
 
-void VideoFile::begin_again() {
+void VideoFile::reopen() {
     decoder_ = VideoDecoder(facts_.file, track_);
     index_ = -1;
     time_s_ = 0.0;
     grabbed_ = false;
     jumped_ = false;
-    counted_ = true;
+    index_exact_ = true;
     ended_ = false;
 }
 
@@ -103,7 +103,7 @@ void VideoFile::read_facts() {
 
 /// Facts of an Azure Kinect recording, which has the mode of the depth camera and the calibration
 /// of all cameras (Azure Kinect DK, record file format).
-void VideoFile::know_azure_kinect() {
+void VideoFile::read_azure_kinect() {
     const VideoPackets& packets = decoder_.packets();
     if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
     facts_.known.unit = DepthUnit::mm;
@@ -122,11 +122,11 @@ void VideoFile::know_azure_kinect() {
 }
 
 /// Reports an end before the duration that was verified at the opening.
-void VideoFile::notice_early_end() {
+void VideoFile::detect_early_end() {
     const double end_s = time_s_ + interval_s_;
-    if (jumped_ || !(end_s < least_end_s(promised_s_))) return;
+    if (jumped_ || !(end_s < least_end_s(header_duration_s_))) return;
     facts_.trouble = shown(facts_.file) + " breaks off at " + number_text(end_s, 1) + " s of " +
-                     number_text(promised_s_, 1) +
+                     number_text(header_duration_s_, 1) +
                      " s since it was opened: what is left plays on; copy or export it again";
 }
 
@@ -140,12 +140,12 @@ bool VideoFile::grab() {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     if (!jumped_) count_skipped();
     if (ended_) {
-        notice_early_end();
-        if (!jumped_ && counted_ && index_ >= 0 &&
+        detect_early_end();
+        if (!jumped_ && index_exact_ && index_ >= 0 &&
             index_ + 1 == static_cast<std::int64_t>(times_.size())) {
             facts_.frames = index_ + 1;
             facts_.frames_exact = true;
-            learn();
+            update_facts();
         }
         return false;
     }
@@ -157,7 +157,7 @@ bool VideoFile::grab() {
     time_s_ = decoder_.time_s();
     if (index_ < 0 && !(time_s_ >= 0.0)) time_s_ = 0.0;
     if (follows && !(time_s_ > last_s)) {
-        timed_ = false;
+        has_times_ = false;
         time_s_ = last_s + interval_s_;
     }
     if (jumped_)
@@ -165,7 +165,7 @@ bool VideoFile::grab() {
     else
         ++index_;
     jumped_ = false;
-    know_time();
+    store_time();
     return true;
 }
 
@@ -174,14 +174,14 @@ void VideoFile::count_skipped() {
     for (const double skipped_s : decoder_.skipped_s()) {
         time_s_ = skipped_s;
         ++index_;
-        know_time();
+        store_time();
     }
 }
 
-void VideoFile::know_time() {
-    if (!counted_ || index_ != static_cast<std::int64_t>(times_.size())) return;
+void VideoFile::store_time() {
+    if (!index_exact_ || index_ != static_cast<std::int64_t>(times_.size())) return;
     times_.push_back(time_s_);
-    learn();
+    update_facts();
 }
 
 cv::Mat VideoFile::retrieve() {
@@ -197,7 +197,7 @@ cv::Mat VideoFile::retrieve() {
     return with_square_pixels(picture, pixel_aspect_, role_);
 }
 
-void VideoFile::learn() {
+void VideoFile::update_facts() {
     const auto known = static_cast<std::int64_t>(times_.size());
     const double span = times_.back() - times_.front();
     if (known >= 2 && span > 0.0) facts_.frames_per_s = static_cast<double>(known - 1) / span;
@@ -210,8 +210,8 @@ void VideoFile::learn() {
 
 void VideoFile::place_at(double time_s) {
     const auto at = std::lower_bound(times_.begin(), times_.end(), time_s - kTimeTolerance_s);
-    counted_ = at != times_.end();
-    if (counted_) {
+    index_exact_ = at != times_.end();
+    if (index_exact_) {
         index_ = at - times_.begin();
         return;
     }
@@ -266,23 +266,23 @@ void VideoFile::rewind_before(double time_s, RunUp run_up) {
         if (run_up == RunUp::quick) skip_before(time_s);
         return jumped_;
     };
-    for (double margin_s = 0.25; timed_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
+    for (double margin_s = 0.25; has_times_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
         if (!jump(time_s - margin_s)) break;
         if (!grab()) continue;
         grabbed_ = time_s_ <= time_s;
         if (grabbed_) return;
     }
-    if (timed_ && jump(0.0)) {
+    if (has_times_ && jump(0.0)) {
         grabbed_ = grab() && index_ == 0 && time_s_ >= 0.0;
         if (grabbed_) return;
     }
-    begin_again();
+    reopen();
 }
 
 /// Except a few, as the frame shown at `time_s` may begin earlier.
 void VideoFile::skip_before(double time_s) {
     const double interval_s = std::max(interval_s_, 1.0 / facts_.frames_per_s);
-    if (timed_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
+    if (has_times_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
 }
 
 void VideoFile::seek(double time_s) {
@@ -314,7 +314,8 @@ bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_the
             break;
         }
         const auto follower = static_cast<std::size_t>(index_) + 1;
-        const bool passed = counted_ && follower < times_.size() && times_[follower] <= wanted_s;
+        const bool passed =
+            index_exact_ && follower < times_.size() && times_[follower] <= wanted_s;
         if (!passed) {
             decoder_.keep();
             shown_then = timed({});
@@ -335,7 +336,7 @@ bool VideoFile::skipped_until(double time_s) const {
 void VideoFile::seek_near(double time_s) {
     ahead_.clear();
     grabbed_ = false;
-    if (!timed_ || !decoder_.jump(std::max(time_s, 0.0))) return seek(time_s);
+    if (!has_times_ || !decoder_.jump(std::max(time_s, 0.0))) return seek(time_s);
     jumped_ = true;
     if (!grab()) return seek(time_s);
     ahead_.push_back(timed(retrieve()));
@@ -354,7 +355,7 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
     if (most <= static_cast<int>(pictures.size())) return pictures;
     if (static_cast<double>(facts_.frames) <= frames)
         sample_evenly(most, pictures);
-    else if (timed_)
+    else if (has_times_)
         sample_by_jumps(most, static_cast<int>(frames / most), pictures);
     seek(0.0);
     return pictures;

@@ -37,25 +37,25 @@ class VideoFile : public PictureSource {
   private:
     enum class RunUp { quick, whole };
 
-    void begin_again();
+    void reopen();
     void sample_evenly(int most, std::vector<cv::Mat>& pictures);
     void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
     void read_facts();
-    void know_azure_kinect();
-    void know_live_recording();
-    void notice_early_end();
+    void read_azure_kinect();
+    void read_live_recording();
+    void detect_early_end();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
-    void know_time();  ///< appends that of the frame at index_ to times_
+    void store_time();  ///< appends that of the frame at index_ to times_
     void rewind_before(double time_s, RunUp run_up);
     void skip_before(double time_s);
     bool run_up_to(double wanted_s, std::optional<TimedPicture> shown_then);
     [[nodiscard]] bool skipped_until(double time_s) const;
     void place_at(double time_s);  ///< index of a frame reached by a jump
-    void learn();                  ///< rate and duration, from the times read so far
+    void update_facts();           ///< rate and duration, from the times read so far
 
     SourceFacts facts_{};
     PictureRole role_;
@@ -65,16 +65,16 @@ class VideoFile : public PictureSource {
     double pixel_aspect_{1.0};
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first up to a gap
-    double promised_s_{0.0};            ///< duration by the container's header
+    double header_duration_s_{0.0};     ///< duration by the container's header
     double decoding_s_{0.0};            ///< mean time to decode a frame
     double interval_s_{1.0 / 30.0};     ///< by the container; for frames without a time
     double time_s_{0.0};                ///< of the grabbed frame, or one skipped since
     std::int64_t index_{-1};            ///< of the grabbed frame
     bool grabbed_{false};               ///< a jump has decoded a frame that grab() gives first
     bool jumped_{false};                ///< times before the next frame are unknown
-    bool counted_{true};                ///< index_ is exact
+    bool index_exact_{true};            ///< index_ is exact
     bool ended_{false};                 ///< the last grab found no frame
-    bool timed_{true};                  ///< false: the file has no usable times, so it cannot jump
+    bool has_times_{true};              ///< false: the file has no usable times, so it cannot jump
 };
 
 }  // namespace dibhr

@@ -79,7 +79,7 @@ VideoPackets::VideoPackets(const std::filesystem::path& file, int track) : conte
     for (AVStream* const stream : streams) {
         if (track-- == 0) stream_ = stream;
     }
-    alone_ = streams.size() == 1;
+    only_track_ = streams.size() == 1;
     for (unsigned k = 0; context_ && k < context_->nb_streams; ++k) {
         AVStream* const stream = context_->streams[k];
         stream->discard = stream == stream_ ? AVDISCARD_DEFAULT : AVDISCARD_ALL;
@@ -117,7 +117,7 @@ double VideoPackets::start_s() const noexcept {
     const bool begins_at_0 = first_decoded_ == AV_NOPTS_VALUE
                                  ? std::abs(start_s * frames_per_s() - waited_for) < 0.1
                                  : first_decoded_ == 0;
-    return alone_ && begins_at_0 ? 0.0 : start_s;
+    return only_track_ && begins_at_0 ? 0.0 : start_s;
 }
 
 std::string VideoPackets::tag(const char* name) const {

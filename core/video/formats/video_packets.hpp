@@ -55,7 +55,7 @@ class VideoPackets {
     AvOwned<AVFormatContext> context_;
     AvOwned<AVPacket> packet_{new_packet()};
     AVStream* stream_{nullptr};                    // owned by the context
-    bool alone_{false};                            // the file's only video track
+    bool only_track_{false};                       // the file's only video track
     std::optional<std::int64_t> first_decoded_{};  // decoding time stamp of the first packet
 };
 

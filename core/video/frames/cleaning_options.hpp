@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/haptics/words.hpp"
+#include "core/haptics/enum_names.hpp"
 
 namespace dibhr {
 
@@ -50,16 +50,16 @@ inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
 /// Which steps: a named set, the set chosen by the clip's noise (automatic), or the user's own.
 enum class CleaningPreset : std::uint8_t { automatic, raw, gentle, sensor, own };
 
-inline constexpr std::array<Word<CleaningPreset>, 5> kCleaningWords{
+inline constexpr std::array<NamedValue<CleaningPreset>, 5> kCleaningPresetNames{
     {{CleaningPreset::automatic, "auto", "Auto"},
      {CleaningPreset::raw, "raw", "Raw"},
      {CleaningPreset::gentle, "gentle", "Gentle"},
      {CleaningPreset::sensor, "sensor", "Sensor"},
      {CleaningPreset::own, "own", "Own"}}};
-static_assert(has_all_in_order(kCleaningWords, CleaningPreset::own));
+static_assert(has_all_in_order(kCleaningPresetNames, CleaningPreset::own));
 
-[[nodiscard]] constexpr const auto& words_of(CleaningPreset) noexcept {
-    return kCleaningWords;
+[[nodiscard]] constexpr const auto& name_table(CleaningPreset) noexcept {
+    return kCleaningPresetNames;
 }
 
 /// The requested steps.

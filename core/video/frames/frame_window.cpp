@@ -14,9 +14,9 @@ bool DepthBlend::makes_surface() const noexcept {
            a.highest_level == b.highest_level && a.highest_level > 0.0;
 }
 
-DepthBlend DepthBlend::shown() const noexcept {
-    if (from == to || !from->between || from->between->empty()) return *this;
-    const std::vector<Frame>& between = *from->between;
+DepthBlend DepthBlend::with_in_betweens() const noexcept {
+    if (from == to || !from->in_betweens || from->in_betweens->empty()) return *this;
+    const std::vector<Frame>& between = *from->in_betweens;
     const auto parts = static_cast<double>(between.size() + 1);
     const double at = std::clamp(blend, 0.0, 1.0) * parts;
     const auto k = std::min(static_cast<std::size_t>(at), between.size());

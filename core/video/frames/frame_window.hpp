@@ -32,14 +32,14 @@ struct Frame {
     bool colour_of_view{false};  ///< from a camera, with the depth's own view as far as known
     /// The surface that a ball as fingertip touches, of the same size; `depth` is it dilated by the
     /// ball. Null: the fingertip is a point, which touches `depth`.
-    std::shared_ptr<const DepthImage> beneath{};
+    std::shared_ptr<const DepthImage> undilated{};
     std::shared_ptr<const TouchMaps> maps{};  ///< painted on the surface; null: none
     /// Where each pixel of drawn() moves until the next frame; null: not known.
     std::shared_ptr<const MotionField> motion{};
     /// The N in-betweens: frames felt and drawn before the next one, equally spaced in time, the
     /// first at 1/(N + 1). Their time_s, media_s and index are not set. Null: this frame blends
     /// into the next.
-    std::shared_ptr<const std::vector<Frame>> between{};
+    std::shared_ptr<const std::vector<Frame>> in_betweens{};
     double time_s{0.0};        ///< on a playback timeline, which goes on across loops
     double media_s{0.0};       ///< presentation time in the file
     std::int64_t index{0};     ///< number of the frame in the file, from 0
@@ -49,7 +49,7 @@ struct Frame {
     /// The drawn surface: the one that the ball touches, not the dilated one that its lowest point
     /// follows.
     [[nodiscard]] const std::shared_ptr<const DepthImage>& drawn() const noexcept {
-        return beneath ? beneath : depth;
+        return undilated ? undilated : depth;
     }
 };
 
@@ -104,7 +104,7 @@ struct DepthBlend {
 
     /// The two neighbours among the frames and their in-betweens that are felt and drawn, and the
     /// blend between them. Without in-betweens: the two frames. Valid as long as the frames are.
-    [[nodiscard]] DepthBlend shown() const noexcept;
+    [[nodiscard]] DepthBlend with_in_betweens() const noexcept;
 
     /// The frame that is nearer to the moment.
     [[nodiscard]] const Frame& nearest() const noexcept { return blend < 0.5 ? *from : *to; }
@@ -112,20 +112,20 @@ struct DepthBlend {
     /// The surface that is felt; makes_surface() must be true. Valid as long as the frames are.
     [[nodiscard]] DepthSurface surface(const SurfaceShape& shape,
                                        const BumpMap* bump = nullptr) const noexcept {
-        const DepthBlend pair = shown();
+        const DepthBlend pair = with_in_betweens();
         return {*pair.from->depth,           *pair.to->depth, pair.blend, shape, bump,
                 pair.nearest().unseen.get(), from->maps.get()};
     }
     /// The surface that is drawn.
     [[nodiscard]] DepthSurface drawn_surface(const SurfaceShape& shape,
                                              const BumpMap* bump = nullptr) const noexcept {
-        const DepthBlend pair = shown();
+        const DepthBlend pair = with_in_betweens();
         return {*pair.from->drawn(),         *pair.to->drawn(), pair.blend, shape, bump,
                 pair.nearest().unseen.get(), from->maps.get()};
     }
     /// The frame whose colour is drawn.
-    [[nodiscard]] const Frame& coloured() const noexcept {
-        return from->between ? shown().nearest() : *from;
+    [[nodiscard]] const Frame& colour_frame() const noexcept {
+        return from->in_betweens ? with_in_betweens().nearest() : *from;
     }
 };
 

@@ -23,7 +23,7 @@ namespace dibhr {
 namespace {
 
 constexpr unsigned kBuffers = 4;
-constexpr int kLook_ms = 50;  ///< how soon a read notices that it must stop
+constexpr int kCameraPoll_ms = 50;  ///< how soon a read notices that it must stop
 constexpr std::uint32_t kCapture = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 
 v4l2_buffer buffer_of(unsigned index) {
@@ -79,12 +79,12 @@ std::unique_ptr<DepthCamera> DepthCamera::opened(const LiveName& name, CameraCal
 
 DepthCamera::~DepthCamera() {
     int type = kCapture;
-    if (!buffers_.empty()) static_cast<void>(ask(VIDIOC_STREAMOFF, &type));
+    if (!buffers_.empty()) static_cast<void>(call_ioctl(VIDIOC_STREAMOFF, &type));
     for (const Buffer& buffer : buffers_) calls_.unmap(buffer.bytes, buffer.count);
     calls_.close(descriptor_);
 }
 
-bool DepthCamera::ask(unsigned long request, void* argument) {
+bool DepthCamera::call_ioctl(unsigned long request, void* argument) {
     int result = 0;
     do {
         result = calls_.ioctl(descriptor_, request, argument);
@@ -95,7 +95,7 @@ bool DepthCamera::ask(unsigned long request, void* argument) {
 bool DepthCamera::has_depth() {
     v4l2_fmtdesc form{};
     form.type = kCapture;
-    for (; ask(VIDIOC_ENUM_FMT, &form); ++form.index)
+    for (; call_ioctl(VIDIOC_ENUM_FMT, &form); ++form.index)
         if (form.pixelformat == V4L2_PIX_FMT_Z16) return true;
     return false;
 }
@@ -103,7 +103,7 @@ bool DepthCamera::has_depth() {
 bool DepthCamera::choose_form(const LiveName& name) {
     v4l2_format format{};
     format.type = kCapture;
-    if (!ask(VIDIOC_G_FMT, &format)) return false;
+    if (!call_ioctl(VIDIOC_G_FMT, &format)) return false;
     v4l2_pix_format& picture = format.fmt.pix;
     const std::string size = option(name, "video_size");
     if (!size.empty() && std::sscanf(size.c_str(), "%ux%u", &picture.width, &picture.height) != 2)
@@ -111,7 +111,7 @@ bool DepthCamera::choose_form(const LiveName& name) {
     picture.pixelformat = V4L2_PIX_FMT_Z16;
     picture.field = V4L2_FIELD_NONE;
     picture.bytesperline = picture.sizeimage = 0;
-    if (!ask(VIDIOC_S_FMT, &format) || picture.pixelformat != V4L2_PIX_FMT_Z16) return false;
+    if (!call_ioctl(VIDIOC_S_FMT, &format) || picture.pixelformat != V4L2_PIX_FMT_Z16) return false;
     size_ = {static_cast<int>(picture.width), static_cast<int>(picture.height)};
     row_bytes_ = std::max<std::size_t>(picture.bytesperline, 2 * std::size_t{picture.width});
     return size_.width >= 2 && size_.height >= 2;
@@ -120,12 +120,12 @@ bool DepthCamera::choose_form(const LiveName& name) {
 void DepthCamera::choose_rate(const LiveName& name) {
     v4l2_streamparm rate{};
     rate.type = kCapture;
-    if (!ask(VIDIOC_G_PARM, &rate)) return;
+    if (!call_ioctl(VIDIOC_G_PARM, &rate)) return;
     v4l2_fract& interval = rate.parm.capture.timeperframe;
     if (const std::string wanted = option(name, "framerate"); !wanted.empty()) {
         interval = {1000,
                     static_cast<std::uint32_t>(1000.0 * number_of_text(wanted).value_or(0.0))};
-        static_cast<void>(ask(VIDIOC_S_PARM, &rate));
+        static_cast<void>(call_ioctl(VIDIOC_S_PARM, &rate));
     }
     if (interval.numerator > 0)
         frames_per_s_ = static_cast<double>(interval.denominator) / interval.numerator;
@@ -136,28 +136,28 @@ bool DepthCamera::start() {
     request.count = kBuffers;
     request.type = kCapture;
     request.memory = V4L2_MEMORY_MMAP;
-    if (!ask(VIDIOC_REQBUFS, &request)) return false;
+    if (!call_ioctl(VIDIOC_REQBUFS, &request)) return false;
     for (unsigned k = 0; k < request.count; ++k) {
         v4l2_buffer buffer = buffer_of(k);
-        if (!ask(VIDIOC_QUERYBUF, &buffer)) return false;
+        if (!call_ioctl(VIDIOC_QUERYBUF, &buffer)) return false;
         void* const bytes = calls_.map(descriptor_, buffer.length, buffer.m.offset);
         if (bytes == MAP_FAILED) return false;
         buffers_.push_back({bytes, buffer.length});
-        if (!give_back(k)) return false;
+        if (!queue_buffer(k)) return false;
     }
     int type = kCapture;
-    return !buffers_.empty() && ask(VIDIOC_STREAMON, &type);
+    return !buffers_.empty() && call_ioctl(VIDIOC_STREAMON, &type);
 }
 
-bool DepthCamera::give_back(unsigned index) {
+bool DepthCamera::queue_buffer(unsigned index) {
     v4l2_buffer buffer = buffer_of(index);
-    return ask(VIDIOC_QBUF, &buffer);
+    return call_ioctl(VIDIOC_QBUF, &buffer);
 }
 
 bool DepthCamera::take(Picture& picture) {
     v4l2_buffer buffer = buffer_of(0);
-    if (!ask(VIDIOC_DQBUF, &buffer)) {
-        gone_ = errno != EAGAIN;
+    if (!call_ioctl(VIDIOC_DQBUF, &buffer)) {
+        lost_ = errno != EAGAIN;
         return false;
     }
     if (buffer.index >= buffers_.size()) return false;
@@ -170,16 +170,16 @@ bool DepthCamera::take(Picture& picture) {
         picture.levels = cv::Mat(size_, CV_16UC1, held.bytes, row_bytes_).clone();
         picture.stamp_s = stamp_of(buffer);
     }
-    gone_ = !give_back(buffer.index);
+    lost_ = !queue_buffer(buffer.index);
     return true;
 }
 
-bool DepthCamera::read(Picture& picture, const std::function<bool()>& over) {
+bool DepthCamera::read(Picture& picture, const std::function<bool()>& must_stop) {
     picture.levels = cv::Mat();
-    while (!over() && !gone_) {
+    while (!must_stop() && !lost_) {
         while (take(picture)) continue;  // the newest of those that wait
         if (!picture.levels.empty()) return true;
-        static_cast<void>(calls_.wait(descriptor_, kLook_ms));
+        static_cast<void>(calls_.wait(descriptor_, kCameraPoll_ms));
     }
     return false;
 }

@@ -40,7 +40,7 @@ class DepthCamera {
         double stamp_s{0.0};  ///< by the kernel's monotonic clock; NaN: by another clock
     };
     /// Waits for the newest picture. False: the function returned true, or the camera is lost.
-    [[nodiscard]] bool read(Picture& picture, const std::function<bool()>& over);
+    [[nodiscard]] bool read(Picture& picture, const std::function<bool()>& must_stop);
     [[nodiscard]] double frames_per_s() const noexcept { return frames_per_s_; }
 
   private:
@@ -50,12 +50,12 @@ class DepthCamera {
     };
 
     DepthCamera(CameraCalls& calls, int descriptor) : calls_(calls), descriptor_(descriptor) {}
-    [[nodiscard]] bool ask(unsigned long request, void* argument);
+    [[nodiscard]] bool call_ioctl(unsigned long request, void* argument);
     [[nodiscard]] bool has_depth();
     [[nodiscard]] bool choose_form(const LiveName& name);
     void choose_rate(const LiveName& name);
     [[nodiscard]] bool start();
-    [[nodiscard]] bool give_back(unsigned index);
+    [[nodiscard]] bool queue_buffer(unsigned index);
     /// False: no picture is ready.
     [[nodiscard]] bool take(Picture& picture);
 
@@ -65,7 +65,7 @@ class DepthCamera {
     std::size_t row_bytes_{0};
     double frames_per_s_{0.0};
     std::vector<Buffer> buffers_{};
-    bool gone_{false};
+    bool lost_{false};
 };
 
 }  // namespace dibhr

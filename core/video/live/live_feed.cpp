@@ -22,7 +22,8 @@ using Clock = LiveFeed::Clock;
 
 constexpr double kLongestInterval_s = 0.5;
 constexpr std::size_t kLongestName = 100;
-constexpr std::chrono::milliseconds kUnheard{1500};  ///< without a packet for so long, none arrive
+constexpr std::chrono::milliseconds kNoPackets{
+    1500};  ///< without a packet for so long, none arrive
 
 /// Pictures without a stamp get the time of their arrival.
 void stamp(LivePicture& picture) {
@@ -42,22 +43,22 @@ void require_camera(const LiveName& name, const std::filesystem::path& place) {
 LiveFeed::LiveFeed(std::filesystem::path colour, std::filesystem::path depth, Now now)
     : colour_(std::move(colour)),
       depth_(std::move(depth)),
-      two_(!colour_.empty() && colour_ != depth_),
+      two_streams_(!colour_.empty() && colour_ != depth_),
       now_(std::move(now)) {
     LiveName depth_name = live_name(depth_);
     require_camera(depth_name, depth_);
-    if (two_) {
+    if (two_streams_) {
         require_camera(live_name(colour_), colour_);
         colour_stream_ = std::make_unique<LiveStream>(
             live_name(colour_), in_quotes(public_name(colour_), kLongestName),
             [this](LivePicture picture) { return take(std::move(picture), Role::colour); },
-            [this] { take_refusal(); });
-        colour_stream_->want(true, false);
+            [this] { take_permanent_error(); });
+        colour_stream_->set_outputs(true, false);
     }
     depth_stream_ = std::make_unique<LiveStream>(
         std::move(depth_name), in_quotes(public_name(depth_), kLongestName),
         [this](LivePicture picture) { return take(std::move(picture), Role::depth); },
-        [this] { take_refusal(); });
+        [this] { take_permanent_error(); });
 }
 
 LiveFeed::~LiveFeed() {
@@ -68,19 +69,19 @@ LiveFeed::~LiveFeed() {
 bool LiveFeed::is_of(const std::filesystem::path& colour,
                      const std::filesystem::path& depth) const {
     const std::filesystem::path& only = depth.empty() ? colour : depth;
-    return only == depth_ && (two_ ? colour == colour_ : colour.empty() || colour == only);
+    return only == depth_ && (two_streams_ ? colour == colour_ : colour.empty() || colour == only);
 }
 
-void LiveFeed::want(bool colour, bool levels) {
-    depth_stream_->want(colour, levels);
+void LiveFeed::set_outputs(bool colour, bool levels) {
+    depth_stream_->set_outputs(colour, levels);
 }
 
-bool LiveFeed::is_of_form(const LivePicture& picture, std::optional<Form>& first) {
+bool LiveFeed::has_first_format(const LivePicture& picture, std::optional<Form>& first) {
     const cv::Mat& any = picture.levels.empty() ? picture.colour : picture.levels;
     const Form form{any.size(), picture.bits, picture.grey};
     if (!first) first = form;
-    signal_.other_form = signal_.other_form || !(*first == form);
-    return !signal_.other_form;
+    signal_.format_changed = signal_.format_changed || !(*first == form);
+    return !signal_.format_changed;
 }
 
 bool LiveFeed::take(LivePicture picture, Role role) {
@@ -89,46 +90,46 @@ bool LiveFeed::take(LivePicture picture, Role role) {
     stamp(picture);
     {
         const std::lock_guard lock(mutex_);
-        came_.notify_all();  // a pair may be due, or none will come
-        if (!is_of_form(picture, is_depth ? depth_form_ : colour_form_)) return false;
-        if (is_depth) heard_depth(now);
-        if (!two_) {
+        changed_.notify_all();  // a pair may be due, or none will come
+        if (!has_first_format(picture, is_depth ? depth_form_ : colour_form_)) return false;
+        if (is_depth) update_signal(now);
+        if (!two_streams_) {
             LivePair pair{.depth = std::move(picture)};
             pair.colour = pair.depth;
-            hand_out(std::move(pair));
+            publish(std::move(pair));
         } else {
             is_depth ? join_.add_depth(std::move(picture)) : join_.add_colour(std::move(picture));
             join(now);
         }
     }
-    const std::lock_guard lock(telling_);
-    if (news_) news_();
+    const std::lock_guard lock(listener_mutex_);
+    if (listener_) listener_();
     return true;
 }
 
-void LiveFeed::heard_depth(Clock::time_point now) {
+void LiveFeed::update_signal(Clock::time_point now) {
     const double since_s = std::chrono::duration<double>(now - signal_.last).count();
     if (signal_.last != Clock::time_point{} && since_s < kLongestInterval_s)
         interval_s_ = moving_mean(interval_s_, since_s);
     signal_.last = now;
-    signal_.refused = false;
+    signal_.permanent_error = false;
     join_.set_interval(interval_s_);
 }
 
-void LiveFeed::take_refusal() {
+void LiveFeed::take_permanent_error() {
     const std::lock_guard lock(mutex_);
-    signal_.refused = true;
-    came_.notify_all();
+    signal_.permanent_error = true;
+    changed_.notify_all();
 }
 
 void LiveFeed::join(Clock::time_point now) {
-    if (auto pair = join_.take(now)) hand_out(std::move(*pair));
+    if (auto pair = join_.take(now)) publish(std::move(*pair));
 }
 
-void LiveFeed::hand_out(LivePair pair) {
+void LiveFeed::publish(LivePair pair) {
     pair.number = newest_ ? newest_->number + 1 : 1;
     newest_ = std::make_shared<const LivePair>(std::move(pair));
-    came_.notify_all();
+    changed_.notify_all();
 }
 
 std::shared_ptr<const LivePair> LiveFeed::after(std::uint64_t number, Clock::time_point latest) {
@@ -136,8 +137,8 @@ std::shared_ptr<const LivePair> LiveFeed::after(std::uint64_t number, Clock::tim
     for (;;) {
         join(now_());
         if (newest_ && newest_->number > number) return newest_;
-        if (now_() >= latest || signal_.other_form || signal_.refused) return nullptr;
-        came_.wait_until(lock, std::min(latest, join_.due().value_or(latest)));
+        if (now_() >= latest || signal_.format_changed || signal_.permanent_error) return nullptr;
+        changed_.wait_until(lock, std::min(latest, join_.due().value_or(latest)));
     }
 }
 
@@ -154,13 +155,13 @@ LiveSignal LiveFeed::signal() const {
     }
     signal.trouble = depth_stream_->trouble();
     if (signal.trouble.empty() && colour_stream_) signal.trouble = colour_stream_->trouble();
-    signal.heard = now_() - depth_stream_->heard() < kUnheard;
+    signal.packet_received = now_() - depth_stream_->packet_received() < kNoPackets;
     return signal;
 }
 
-void LiveFeed::tell(std::function<void()> news) {
-    const std::lock_guard lock(telling_);
-    news_ = std::move(news);
+void LiveFeed::set_listener(std::function<void()> listener) {
+    const std::lock_guard lock(listener_mutex_);
+    listener_ = std::move(listener);
 }
 
 }  // namespace dibhr

@@ -21,11 +21,11 @@ namespace dibhr {
 /// The state of the connections.
 struct LiveSignal {
     std::chrono::steady_clock::time_point
-        last{};              ///< arrival of the last depth picture; default: none yet
-    bool other_form{false};  ///< pictures changed size or kind: open the source again
-    std::string trouble{};   ///< why it cannot be opened; empty: open, or not yet tried
-    bool refused{false};     ///< the trouble is permanent: waiting does not help
-    bool heard{false};       ///< packets arrive, with or without whole pictures
+        last{};                   ///< arrival of the last depth picture; default: none yet
+    bool format_changed{false};   ///< pictures changed size or kind: open the source again
+    std::string trouble{};        ///< why it cannot be opened; empty: open, or not yet tried
+    bool permanent_error{false};  ///< the trouble is permanent: waiting does not help
+    bool packet_received{false};  ///< packets arrive, with or without whole pictures
 };
 
 /// One or two connections. Keeps the newest pair, so that any number of readers can take it. Every
@@ -47,7 +47,7 @@ class LiveFeed {
                              const std::filesystem::path& depth) const;
 
     /// Of the depth's connection: whether it makes colour pictures, and levels.
-    void want(bool colour, bool levels);
+    void set_outputs(bool colour, bool levels);
 
     /// The newest pair after that number; waits until `latest`. Null: none arrived, or none will.
     [[nodiscard]] std::shared_ptr<const LivePair> after(std::uint64_t number,
@@ -57,13 +57,13 @@ class LiveFeed {
     [[nodiscard]] LiveSignal signal() const;
     /// A function to be called for every pair, on any thread. When this returns, the one set before
     /// is no longer called. Empty: none.
-    void tell(std::function<void()> news);
+    void set_listener(std::function<void()> listener);
 
   private:
     enum class Role { colour, depth };
     bool take(LivePicture picture, Role role);
-    void heard_depth(Clock::time_point now);
-    void take_refusal();
+    void update_signal(Clock::time_point now);
+    void take_permanent_error();
     /// What all pictures of one connection must have in common.
     struct Form {
         cv::Size size{};
@@ -72,24 +72,24 @@ class LiveFeed {
 
         bool operator==(const Form&) const = default;
     };
-    [[nodiscard]] bool is_of_form(const LivePicture& picture, std::optional<Form>& first);
+    [[nodiscard]] bool has_first_format(const LivePicture& picture, std::optional<Form>& first);
     void join(Clock::time_point now);
-    void hand_out(LivePair pair);
+    void publish(LivePair pair);
 
     const std::filesystem::path colour_, depth_;
-    const bool two_;
+    const bool two_streams_;
     const Now now_;
 
     mutable std::mutex mutex_{};
-    std::condition_variable came_{};
+    std::condition_variable changed_{};
     LiveJoin join_{};
     double interval_s_{1.0 / 30.0};  ///< mean time between depth pictures
     std::shared_ptr<const LivePair> newest_{};
     std::optional<Form> depth_form_{}, colour_form_{};  ///< of the first pictures
     LiveSignal signal_{};
 
-    std::mutex telling_{};
-    std::function<void()> news_{};
+    std::mutex listener_mutex_{};
+    std::function<void()> listener_{};
 
     std::unique_ptr<LiveStream> depth_stream_{}, colour_stream_{};  // last: they use all
 };

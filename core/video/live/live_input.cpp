@@ -33,17 +33,17 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::chrono::milliseconds kToOpen{4000};  ///< for the first packets
-constexpr std::chrono::milliseconds kSilent{1500};  ///< for each later packet;
+constexpr std::chrono::milliseconds kOpenTimeout{4000};  ///< for the first packets
+constexpr std::chrono::milliseconds kTimeout{1500};      ///< for each later packet;
 /// of a connection that its sender keeps, where silence may be a pause:
-constexpr std::chrono::minutes kSilentConnected{1};
-constexpr std::chrono::milliseconds kBetweenLooks{2};
-constexpr int kLooked_ms = 50;                 ///< how soon a pipe notices that it must stop
-constexpr std::chrono::seconds kEarly{1};      ///< a camera's picture never comes so early
-constexpr std::chrono::seconds kOtherTime{5};  ///< a clock so far ahead was set
+constexpr std::chrono::minutes kConnectedTimeout{1};
+constexpr std::chrono::milliseconds kRetryInterval{2};
+constexpr int kPipePoll_ms = 50;               ///< how soon a pipe notices that it must stop
+constexpr std::chrono::seconds kMostEarly{1};  ///< a camera's picture never comes so early
+constexpr std::chrono::seconds kClockSet{5};   ///< a clock so far ahead was set
 constexpr int kPipeBytes = 1 << 16;
-constexpr std::int64_t kToTell_us = 500'000;  ///< of the stream, read to find out what it holds
-constexpr std::int64_t kToTell_bytes = 5'000'000;
+constexpr std::int64_t kProbe_us = 500'000;  ///< of the stream, read to find out what it holds
+constexpr std::int64_t kProbe_bytes = 5'000'000;
 constexpr int kReordered_us = 50'000;  ///< wait for a missing packet (RTP)
 constexpr int kMostThreads = 4;
 
@@ -57,7 +57,7 @@ void set_up_devices() {
 /// Refuses data that is no video. A pipe or a server would give the same again; a broadcast may be
 /// readable at the next try.
 [[noreturn]] void refuse_content(const LiveName& name, const std::string& what) {
-    if (name.kind == LiveKind::pipe || name.url.starts_with("http")) throw LiveRefusal(what);
+    if (name.kind == LiveKind::pipe || name.url.starts_with("http")) throw LivePermanentError(what);
     throw InputError(what);
 }
 
@@ -83,7 +83,7 @@ struct LiveInput::Pipe {
                              " cannot be opened: make it with mkfifo, and let something "
                              "write a video into it");
         if (::isatty(descriptor) != 0)
-            throw LiveRefusal(
+            throw LivePermanentError(
                 "nothing is piped into standard input: let another program write a "
                 "video into it, as in: ffmpeg ... -f nut - | dibhr -");
     }
@@ -98,50 +98,51 @@ struct LiveInput::Pipe {
     bool began{false};
 };
 
-int LiveInput::is_over(void* input) noexcept {
+int LiveInput::must_stop(void* input) noexcept {
     const auto& self = *static_cast<const LiveInput*>(input);
-    return self.wants_.leaving.load(std::memory_order_relaxed) || Clock::now() > self.latest_ ? 1
-                                                                                              : 0;
+    return self.control_.stopping.load(std::memory_order_relaxed) || Clock::now() > self.deadline_
+               ? 1
+               : 0;
 }
 
 /// A pipe without a writer is not at its end before the first bytes.
 int LiveInput::read_pipe(void* input, std::uint8_t* bytes, int size) noexcept {
     auto& self = *static_cast<LiveInput*>(input);
     Pipe& pipe = *self.pipe_;
-    while (is_over(input) == 0) {
+    while (must_stop(input) == 0) {
         pollfd wanted{.fd = pipe.descriptor, .events = POLLIN, .revents = 0};
-        if (::poll(&wanted, 1, kLooked_ms) <= 0) continue;
+        if (::poll(&wanted, 1, kPipePoll_ms) <= 0) continue;
         const auto got = ::read(pipe.descriptor, bytes, static_cast<std::size_t>(size));
         if (got > 0) {
             pipe.began = true;
-            self.await(kSilent);
+            self.set_deadline(kTimeout);
             return static_cast<int>(got);
         }
         if (got < 0 && errno != EAGAIN && errno != EINTR) return AVERROR(errno);
         if (got == 0 && (pipe.began || pipe.has_writer || (wanted.revents & POLLIN) != 0))
             return AVERROR_EOF;
-        std::this_thread::sleep_for(std::chrono::milliseconds(kLooked_ms));
+        std::this_thread::sleep_for(std::chrono::milliseconds(kPipePoll_ms));
     }
     return AVERROR_EXIT;
 }
 
 /// A pipe that has given bytes never times out: none may be lost, and the system reports its end.
-void LiveInput::await(std::chrono::milliseconds patience) {
+void LiveInput::set_deadline(std::chrono::milliseconds timeout) {
     const bool began = pipe_ && pipe_->began;
-    latest_ = began ? Clock::time_point::max() : Clock::now() + patience;
+    deadline_ = began ? Clock::time_point::max() : Clock::now() + timeout;
 }
 
-LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
-                     std::atomic<Clock::time_point>& heard)
-    : wants_(wants),
-      heard_(heard),
+LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveControl& control,
+                     std::atomic<Clock::time_point>& last_packet)
+    : control_(control),
+      last_packet_(last_packet),
       kind_(name.kind),
-      silent_(keeps_connection(name) ? kSilentConnected : kSilent) {
+      timeout_(keeps_connection(name) ? kConnectedTimeout : kTimeout) {
     set_up_libraries();
     if (!name.format.empty()) set_up_devices();
     if (kind_ == LiveKind::pipe) pipe_ = std::make_unique<Pipe>(name.url, shown);
-    await(kToOpen);
-    const bool may_be_depth = kind_ == LiveKind::camera && wants.levels;
+    set_deadline(kOpenTimeout);
+    const bool may_be_depth = kind_ == LiveKind::camera && control.levels;
     if (may_be_depth) camera_ = DepthCamera::opened(name, calls_);
     if (camera_) return;
     int result = may_be_depth ? open(name, true) : -1;
@@ -151,22 +152,23 @@ LiveInput::LiveInput(const LiveName& name, const std::string& shown, const LiveW
 }
 
 void LiveInput::refuse(const LiveName& name, const std::string& shown, int result) const {
-    if (kind_ == LiveKind::made)
-        throw LiveRefusal(shown + " is nothing that libav can make (" + reason_of(result) +
-                          "): see ffmpeg -filters");
+    if (kind_ == LiveKind::generated)
+        throw LivePermanentError(shown + " is nothing that libav can make (" + reason_of(result) +
+                                 "): see ffmpeg -filters");
     const bool silent = result == AVERROR_EXIT || result == AVERROR(EAGAIN);
     if (silent)
         throw InputError(shown +
                          " sends nothing that can be read: start the sender, and check the name");
     if (pipe_ && !pipe_->began)
-        throw LiveRefusal(
+        throw LivePermanentError(
             shown + " ended without a picture: let the program that writes into it send a video");
     if (result == AVERROR_INVALIDDATA || result == AVERROR_EOF)
         refuse_content(name, shown + (pipe_ ? " holds" : " sends") +
                                  " no video that can be read: let it be one in NUT, Matroska or "
                                  "MPEG-TS");
     if (result == AVERROR(EIO) && !has_known_host(name))
-        throw LiveRefusal(shown + " cannot be opened, as its host is not found: check the name");
+        throw LivePermanentError(shown +
+                                 " cannot be opened, as its host is not found: check the name");
     throw InputError(shown + " cannot be opened (" + reason_of(result) +
                      "): start the sender, and check the name");
 }
@@ -180,11 +182,11 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     if (!name.format.empty() && format == nullptr) return AVERROR_DEMUXER_NOT_FOUND;
     AVFormatContext* context = avformat_alloc_context();
     if (context == nullptr) throw std::bad_alloc();
-    context->interrupt_callback = {is_over, this};
+    context->interrupt_callback = {must_stop, this};
     context->flags |= AVFMT_FLAG_NOBUFFER | AVFMT_FLAG_DISCARD_CORRUPT;
     if (kind_ == LiveKind::camera) context->flags |= AVFMT_FLAG_NONBLOCK;
-    context->probesize = kToTell_bytes;
-    context->max_analyze_duration = kToTell_us;
+    context->probesize = kProbe_bytes;
+    context->max_analyze_duration = kProbe_us;
     context->max_delay = kReordered_us;
     if (pipe_) {
         auto* const buffer = static_cast<unsigned char*>(av_malloc(kPipeBytes));
@@ -199,7 +201,7 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     if (as_depth) options.set("pixel_format", "gray16le");
     int result =
         avformat_open_input(&context, pipe_ ? nullptr : name.url.c_str(), format, options.data());
-    if (result < 0) return is_over(this) != 0 ? AVERROR_EXIT : result;  // the context is freed
+    if (result < 0) return must_stop(this) != 0 ? AVERROR_EXIT : result;  // the context is freed
     context_.reset(context);
     // The packets read to probe the stream are pictures, too; all others may refer to the first.
     if (kind_ == LiveKind::network || pipe_) context->flags &= ~AVFMT_FLAG_NOBUFFER;
@@ -207,8 +209,8 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     if (std::string_view(context->iformat->name) == "mpegts") context->flags |= AVFMT_FLAG_NOPARSE;
     do {
         result = avformat_find_stream_info(context, nullptr);
-    } while (result == AVERROR(EAGAIN) && is_over(this) == 0);
-    return is_over(this) != 0 ? AVERROR_EXIT : result;
+    } while (result == AVERROR(EAGAIN) && must_stop(this) == 0);
+    return must_stop(this) != 0 ? AVERROR_EXIT : result;
 }
 
 /// Decodes with threads that share a picture; with a picture each they would add delay.
@@ -239,18 +241,18 @@ void LiveInput::open_decoder(const LiveName& name, const std::string& shown) {
 
 /// False: the stream has ended, or timed out.
 bool LiveInput::send_next() {
-    await(silent_);
+    set_deadline(timeout_);
     for (;;) {
         av_packet_unref(packet_.get());
         const int got = av_read_frame(context_.get(), packet_.get());
-        if (got == AVERROR(EAGAIN) && is_over(this) == 0) {
-            std::this_thread::sleep_for(kBetweenLooks);
+        if (got == AVERROR(EAGAIN) && must_stop(this) == 0) {
+            std::this_thread::sleep_for(kRetryInterval);
             continue;
         }
         if (got < 0) return false;
         if (packet_->stream_index != stream_->index) continue;
         arrived_ = Clock::now();
-        heard_ = arrived_;
+        last_packet_ = arrived_;
         if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) damaged_ = true;
         if (avcodec_send_packet(decoder_.get(), packet_.get()) < 0) damaged_ = true;
         return true;
@@ -267,23 +269,23 @@ bool LiveInput::is_whole() {
 
 /// Generated pictures, and a file in a pipe or on a server, arrive as fast as they are read: these
 /// wait for the time of their stamp. Pictures of a camera never wait.
-void LiveInput::keep_time(double stamp_s) {
+void LiveInput::wait_until_due(double stamp_s) {
     if (!std::isfinite(stamp_s)) return;
-    const auto early = kind_ == LiveKind::made ? Clock::duration(0) : kEarly;
+    const auto early = kind_ == LiveKind::generated ? Clock::duration(0) : kMostEarly;
     const auto due_of = [this, stamp_s] {
         return begin_ + std::chrono::duration_cast<Clock::duration>(
                             std::chrono::duration<double>(stamp_s - first_s_));
     };
     const bool begins = begin_ == Clock::time_point{};
-    if (begins || due_of() > Clock::now() + kOtherTime) {
+    if (begins || due_of() > Clock::now() + kClockSet) {
         begin_ = Clock::now();
         first_s_ = stamp_s;
     }
     const Clock::time_point due = due_of() - early;
     if (due <= Clock::now()) return;
-    while (Clock::now() < due && !wants_.leaving.load(std::memory_order_relaxed))
+    while (Clock::now() < due && !control_.stopping.load(std::memory_order_relaxed))
         std::this_thread::sleep_for(
-            std::min<Clock::duration>(due - Clock::now(), std::chrono::milliseconds(kLooked_ms)));
+            std::min<Clock::duration>(due - Clock::now(), std::chrono::milliseconds(kPipePoll_ms)));
     arrived_ = Clock::now();
 }
 
@@ -294,13 +296,13 @@ bool LiveInput::take(LivePicture& picture) {
     picture.stamp_s = stamp == AV_NOPTS_VALUE
                           ? std::numeric_limits<double>::quiet_NaN()
                           : static_cast<double>(stamp) * av_q2d(stream_->time_base);
-    keep_time(picture.stamp_s);
+    wait_until_due(picture.stamp_s);
     const double aspect = pixel_aspect(frame, *stream_);
     picture.colour = cv::Mat();
     picture.levels = cv::Mat();
-    if (wants_.colour)
+    if (control_.colour)
         picture.colour = with_square_pixels(pictures_.colour(frame), aspect, PictureRole::colour);
-    if (wants_.levels && !holds_floats(frame))
+    if (control_.levels && !holds_floats(frame))
         picture.levels =
             with_square_pixels(whole_levels(pictures_.levels(frame)), aspect, PictureRole::depth);
     picture.bits = bits_of(frame);
@@ -314,9 +316,9 @@ bool LiveInput::take(LivePicture& picture) {
 
 /// As a colour picture it shows the higher byte of each level.
 bool LiveInput::read_camera(LivePicture& picture) {
-    await(kSilent);
+    set_deadline(kTimeout);
     DepthCamera::Picture taken;
-    if (!camera_->read(taken, [this] { return is_over(this) != 0; })) return false;
+    if (!camera_->read(taken, [this] { return must_stop(this) != 0; })) return false;
     picture = {.levels = taken.levels,
                .bits = 16,
                .grey = true,
@@ -324,7 +326,7 @@ bool LiveInput::read_camera(LivePicture& picture) {
                .frames_per_s = camera_->frames_per_s(),
                .codec = "Z16",
                .arrived = Clock::now()};
-    if (!wants_.colour) return true;
+    if (!control_.colour) return true;
     taken.levels.convertTo(picture.colour, CV_8U, 1.0 / 256.0);
     cv::cvtColor(picture.colour, picture.colour, cv::COLOR_GRAY2BGR);
     return true;
@@ -332,7 +334,7 @@ bool LiveInput::read_camera(LivePicture& picture) {
 
 bool LiveInput::read(LivePicture& picture) {
     if (camera_) return read_camera(picture);
-    while (!wants_.leaving) {
+    while (!control_.stopping) {
         const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
         if (given == 0) {
             if (is_whole() && take(picture)) return true;

@@ -32,14 +32,14 @@ struct LivePicture {
 };
 
 /// What is made of each picture, and the stop flag; may change while a connection runs.
-struct LiveWants {
+struct LiveControl {
     std::atomic<bool> colour{true};
     std::atomic<bool> levels{true};
-    std::atomic<bool> leaving{false};  ///< every wait ends
+    std::atomic<bool> stopping{false};  ///< every wait ends
 };
 
 /// An error that another try would meet again.
-class LiveRefusal : public InputError {
+class LivePermanentError : public InputError {
   public:
     using InputError::InputError;
 };
@@ -51,10 +51,10 @@ class LiveInput {
     using Clock = LivePicture::Clock;
 
     /// Waits for the first packets. Throws InputError: what, which place, what to do next; also
-    /// when nothing arrives for a while; LiveRefusal where nothing ever will. The last argument
-    /// gets the arrival time of each packet. It and `wants` must outlive this object.
-    LiveInput(const LiveName& name, const std::string& shown, const LiveWants& wants,
-              std::atomic<Clock::time_point>& heard);
+    /// when nothing arrives for a while; LivePermanentError where nothing ever will. The last
+    /// argument gets the arrival time of each packet. It and `wants` must outlive this object.
+    LiveInput(const LiveName& name, const std::string& shown, const LiveControl& control,
+              std::atomic<Clock::time_point>& last_packet);
     ~LiveInput();
     LiveInput(const LiveInput&) = delete;
     LiveInput& operator=(const LiveInput&) = delete;
@@ -65,22 +65,22 @@ class LiveInput {
   private:
     struct Pipe;
 
-    static int is_over(void* input) noexcept;
+    static int must_stop(void* input) noexcept;
     static int read_pipe(void* input, std::uint8_t* bytes, int size) noexcept;
     [[nodiscard]] int open(const LiveName& name, bool as_depth);
     [[noreturn]] void refuse(const LiveName& name, const std::string& shown, int result) const;
     void open_decoder(const LiveName& name, const std::string& shown);
-    void await(std::chrono::milliseconds patience);
+    void set_deadline(std::chrono::milliseconds timeout);
     [[nodiscard]] bool send_next();
     [[nodiscard]] bool is_whole();
-    void keep_time(double stamp_s);
+    void wait_until_due(double stamp_s);
     [[nodiscard]] bool take(LivePicture& picture);
     [[nodiscard]] bool read_camera(LivePicture& picture);
 
-    const LiveWants& wants_;
-    std::atomic<Clock::time_point>& heard_;
+    const LiveControl& control_;
+    std::atomic<Clock::time_point>& last_packet_;
     LiveKind kind_;
-    std::chrono::milliseconds silent_;  // for the next packet
+    std::chrono::milliseconds timeout_;  // for the next packet
     CameraCalls calls_{};
     std::unique_ptr<DepthCamera> camera_{};  // then libav is not used
     std::unique_ptr<Pipe> pipe_{};
@@ -90,8 +90,8 @@ class LiveInput {
     AvOwned<AVFrame> frame_{new_frame()};
     AvOwned<AVPacket> packet_{new_packet()};
     FramePictures pictures_{};
-    AVStream* stream_{nullptr};   // owned by the context
-    Clock::time_point latest_{};  // when the present wait times out
+    AVStream* stream_{nullptr};     // owned by the context
+    Clock::time_point deadline_{};  // when the present wait times out
     Clock::time_point arrived_{};
     Clock::time_point begin_{};  // when the picture with stamp first_s_ was due
     double first_s_{0.0};

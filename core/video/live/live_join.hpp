@@ -22,7 +22,7 @@ struct LivePair {
 };
 
 /// The pictures that a live frame was made of, for recording. Shared; never written to.
-struct TakenPictures {
+struct SourcePictures {
     cv::Mat levels{};  ///< of depth, before their meaning is applied
     int bits{8};       ///< of a level
     cv::Mat colour{};  ///< 8-bit blue, green, red, unchanged; empty: none
@@ -31,19 +31,19 @@ struct TakenPictures {
 
 /// The offset from a source's stamps to our clock: the smallest delay from stamp to arrival. With
 /// it, stamps of clocks with another zero are compared. Plain data.
-class StampLine {
+class ClockOffset {
   public:
     /// Adds a picture, in order. Starts again where the source's clock was set to another time.
     void add(double stamp_s, double arrived_s);
     /// To be added to a stamp; 0 before the first picture.
-    [[nodiscard]] double later_s() const;
-    [[nodiscard]] std::size_t count() const noexcept { return later_.size(); }
+    [[nodiscard]] double offset_s() const;
+    [[nodiscard]] std::size_t count() const noexcept { return offsets_.size(); }
     /// Whether the newest picture had a smaller delay than all before, as pictures of a backlog
     /// have. True of the first picture.
     [[nodiscard]] bool catches_up() const noexcept { return catches_up_; }
 
   private:
-    std::deque<double> later_{};
+    std::deque<double> offsets_{};
     bool catches_up_{true};
 };
 
@@ -66,15 +66,15 @@ class LiveJoin {
 
   private:
     [[nodiscard]] double colour_s(const LivePicture& picture) const;
-    [[nodiscard]] bool begins(Time now);
-    [[nodiscard]] bool may_go(const LivePicture& depth, Time now) const;
+    [[nodiscard]] bool backlog_is_over(Time now);
+    [[nodiscard]] bool is_ready(const LivePicture& depth, Time now) const;
     [[nodiscard]] const LivePicture* nearest_colour(double depth_s) const;
 
     std::deque<LivePicture> waiting_{};  ///< depth, for its colour
     std::deque<LivePicture> colours_{};  ///< the newest
-    StampLine depth_line_{}, colour_line_{};
+    ClockOffset depth_offset_{}, colour_offset_{};
     std::optional<Time> first_depth_{};  ///< its arrival
-    bool begun_{false};                  ///< the backlog is read
+    bool backlog_over_{false};           ///< the backlog is read
     double interval_s_{1.0 / 30.0};
 };
 

@@ -35,7 +35,7 @@ constexpr std::array<Scheme, 8> kNetwork{
      {"https://", "https,http,tls,tcp,crypto", false, true}}};
 constexpr std::string_view kCamera = "v4l2:";
 constexpr std::string_view kPipe = "pipe:";
-constexpr std::string_view kMade = "lavfi:";
+constexpr std::string_view kGenerated = "lavfi:";
 
 const Scheme* network_scheme(std::string_view name) {
     const auto* const found =
@@ -115,7 +115,8 @@ bool is_live(const std::filesystem::path& place) {
     const std::string& name = place.native();
     const std::string_view begin = name;
     return name == "-" || begin.starts_with(kCamera) || begin.starts_with(kPipe) ||
-           begin.starts_with(kMade) || network_scheme(begin) != nullptr || is_camera_device(place);
+           begin.starts_with(kGenerated) || network_scheme(begin) != nullptr ||
+           is_camera_device(place);
 }
 
 std::string public_name(const std::filesystem::path& place) {
@@ -136,8 +137,9 @@ LiveName live_name(const std::filesystem::path& place) {
         require_port(name, *scheme);
         return {.kind = LiveKind::network, .url = name, .allowed = std::string(scheme->allowed)};
     }
-    if (text.starts_with(kMade) && text.size() > kMade.size())
-        return {.kind = LiveKind::made, .url = std::string(after(kMade)), .format = "lavfi"};
+    if (text.starts_with(kGenerated) && text.size() > kGenerated.size())
+        return {
+            .kind = LiveKind::generated, .url = std::string(after(kGenerated)), .format = "lavfi"};
     if (name == "-" || name == kPipe) return {.kind = LiveKind::pipe, .allowed = "none"};
     if (text.starts_with(kPipe))
         return {.kind = LiveKind::pipe, .url = std::string(after(kPipe)), .allowed = "none"};

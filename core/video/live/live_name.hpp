@@ -9,18 +9,18 @@
 namespace dibhr {
 
 enum class LiveKind {
-    camera,   ///< v4l2:/dev/video2, or /dev/video2
-    network,  ///< rtsp, rtp, udp, srt, tcp, http, https
-    pipe,     ///< pipe:NAME, or - for standard input
-    made      ///< lavfi:SPEC
+    camera,    ///< v4l2:/dev/video2, or /dev/video2
+    network,   ///< rtsp, rtp, udp, srt, tcp, http, https
+    pipe,      ///< pipe:NAME, or - for standard input
+    generated  ///< lavfi:SPEC
 };
 
 /// How libav opens a live source.
 struct LiveName {
     LiveKind kind{LiveKind::network};
-    std::string url{};     ///< libav's URL; of a pipe the file, empty for standard input
-    std::string format{};  ///< libav's input device; empty: libav detects it
-    std::string allowed{};                         ///< the only protocols that libav may use
+    std::string url{};      ///< libav's URL; of a pipe the file, empty for standard input
+    std::string format{};   ///< libav's input device; empty: libav detects it
+    std::string allowed{};  ///< the only protocols that libav may use
     std::map<std::string, std::string> options{};  ///< of the input
 };
 

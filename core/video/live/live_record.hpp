@@ -11,10 +11,10 @@
 
 namespace dibhr {
 
-struct TakenPictures;
+struct SourcePictures;
 
 struct LiveRecord {
-    std::shared_ptr<const TakenPictures> pictures{};
+    std::shared_ptr<const SourcePictures> pictures{};
     std::int64_t media_ms{0};  ///< presentation time, from the first recorded frame
     DepthNoise noise{};        ///< with which its depth was cleaned
 };

@@ -13,31 +13,32 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFirstRest{100};  ///< before the next try; then longer
-constexpr std::chrono::milliseconds kLongestRest{1000};
+constexpr std::chrono::milliseconds kFirstRetry{100};  ///< before the next try; then longer
+constexpr std::chrono::milliseconds kLongestRetry{1000};
 
 }  // namespace
 
-LiveStream::LiveStream(LiveName name, std::string shown, Take take, std::function<void()> refused)
+LiveStream::LiveStream(LiveName name, std::string shown, Take take,
+                       std::function<void()> permanent_error)
     : name_(std::move(name)),
       shown_(std::move(shown)),
       take_(std::move(take)),
-      refused_(std::move(refused)) {
+      on_permanent_error_(std::move(permanent_error)) {
     thread_ = std::thread([this] { run(); });
 }
 
 LiveStream::~LiveStream() {
     {
         const std::lock_guard lock(mutex_);
-        wants_.leaving = true;
+        control_.stopping = true;
     }
-    leave_.notify_one();
+    stop_requested_.notify_one();
     thread_.join();
 }
 
-void LiveStream::want(bool colour, bool levels) {
-    wants_.colour = colour;
-    wants_.levels = levels;
+void LiveStream::set_outputs(bool colour, bool levels) {
+    control_.colour = colour;
+    control_.levels = levels;
 }
 
 std::string LiveStream::trouble() const {
@@ -47,14 +48,15 @@ std::string LiveStream::trouble() const {
 
 void LiveStream::run() {
     pthread_setname_np(pthread_self(), "dibhr-live");
-    std::chrono::milliseconds pause = kFirstRest;
+    std::chrono::milliseconds pause = kFirstRetry;
     while (connect()) {
-        pause = std::exchange(began_, false) ? kFirstRest : std::min(2 * pause, kLongestRest);
-        if (!rest(pause)) return;
+        pause = std::exchange(picture_received_, false) ? kFirstRetry
+                                                        : std::min(2 * pause, kLongestRetry);
+        if (!wait_to_retry(pause)) return;
     }
 }
 
-void LiveStream::tell(std::string trouble) {
+void LiveStream::set_trouble(std::string trouble) {
     const std::lock_guard lock(mutex_);
     trouble_ = std::move(trouble);
 }
@@ -63,28 +65,29 @@ void LiveStream::tell(std::string trouble) {
 bool LiveStream::connect() {
     const bool once = name_.kind == LiveKind::pipe && name_.url.empty();
     try {
-        LiveInput input(name_, shown_, wants_, heard_);
-        tell({});
+        LiveInput input(name_, shown_, control_, last_packet_);
+        set_trouble({});
         for (LivePicture picture; input.read(picture);) {
-            began_ = true;
+            picture_received_ = true;
             if (!take_(std::move(picture))) return false;
         }
-        if (once && !wants_.leaving)
-            throw LiveRefusal(shown_ + (began_ ? " has ended" : " ended without a picture") +
-                              ": let the program that writes into it go on");
-    } catch (const LiveRefusal& refusal) {
-        tell(refusal.what());
-        refused_();
+        if (once && !control_.stopping)
+            throw LivePermanentError(
+                shown_ + (picture_received_ ? " has ended" : " ended without a picture") +
+                ": let the program that writes into it go on");
+    } catch (const LivePermanentError& refusal) {
+        set_trouble(refusal.what());
+        on_permanent_error_();
         if (once) return false;
     } catch (const std::exception& error) {
-        tell(error.what());
+        set_trouble(error.what());
     }
-    return !wants_.leaving;
+    return !control_.stopping;
 }
 
-bool LiveStream::rest(std::chrono::milliseconds time) {
+bool LiveStream::wait_to_retry(std::chrono::milliseconds time) {
     std::unique_lock lock(mutex_);
-    return !leave_.wait_for(lock, time, [this] { return wants_.leaving.load(); });
+    return !stop_requested_.wait_for(lock, time, [this] { return control_.stopping.load(); });
 }
 
 }  // namespace dibhr

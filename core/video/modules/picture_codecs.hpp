@@ -9,7 +9,7 @@ namespace dibhr {
 
 /// Functions of OpenCV's imgcodecs, with its arguments, results and errors.
 struct PictureCodecs {
-    bool (*knows)(const std::string& file);
+    bool (*can_read)(const std::string& file);
     cv::Mat (*read)(const std::string& file, int flags);
     cv::Mat (*decode)(const cv::Mat& bytes, int flags);
     bool (*encode)(const std::string& extension, const cv::Mat& picture,

@@ -6,7 +6,7 @@
 extern "C" {
 extern const dibhr::PictureCodecs dibhr_picture_codecs;
 const dibhr::PictureCodecs dibhr_picture_codecs{
-    .knows = [](const std::string& file) { return cv::haveImageReader(file); },
+    .can_read = [](const std::string& file) { return cv::haveImageReader(file); },
     .read = [](const std::string& file, int flags) { return cv::imread(file, flags); },
     .decode = [](const cv::Mat& bytes, int flags) { return cv::imdecode(bytes, flags); },
     .encode =

@@ -4,7 +4,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_estimator.hpp"
-#include "core/video/motion/motion_wanted.hpp"
+#include "core/video/motion/motion_request.hpp"
 
 namespace dibhr {
 
@@ -13,12 +13,12 @@ class FrameMotion {
   public:
     /// Sets the motion of `from` and its in-betweens before `to`, the next frame. Null where they
     /// are not wanted, or where the two frames make no surface.
-    void connect(Frame& from, const Frame& to, const MotionWanted& wanted) {
+    void connect(Frame& from, const Frame& to, const MotionRequest& wanted) {
         from.motion.reset();
-        from.between.reset();
+        from.in_betweens.reset();
         if (!wanted.any() || !DepthBlend{&from, &to}.makes_surface()) return;
-        from.motion = estimator_.between(from, to);
-        if (wanted.in_betweens) from.between = maker_.between(from, to);
+        from.motion = estimator_.estimate(from, to);
+        if (wanted.in_betweens) from.in_betweens = maker_.make(from, to);
     }
 
   private:

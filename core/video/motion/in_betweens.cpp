@@ -11,8 +11,8 @@
 
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/frames/vector_clones.hpp"
-#include "core/video/motion/motion_course.hpp"
-#include "core/video/motion/reused.hpp"
+#include "core/video/motion/motion_warp.hpp"
+#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 
@@ -41,7 +41,7 @@ using Floats = std::array<float, kAtOnce>;
 using Places = std::array<std::int32_t, kAtOnce>;
 
 /// Moving pixels of one row of an in-between.
-struct Goers {
+struct Movers {
     std::size_t count{0};
     Places column{};
     Floats right{}, down{};  ///< their ways
@@ -57,7 +57,7 @@ struct Taps {
     Floats value{};  ///< the depth there
 };
 
-DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, int row,
+DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Movers& movers, int row,
                                    float times, Taps& __restrict taps) {
     const float* __restrict const levels = image.levels.data();
     const int columns = image.columns;
@@ -67,8 +67,8 @@ DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, 
     const int lowest = image.rows - 2;
     const float alike = kOfOneSurface * static_cast<float>(image.highest_level);
     for (std::size_t k = 0; k < kAtOnce; ++k) {
-        float x = static_cast<float>(goers.column[k]) + times * goers.right[k];
-        float y = static_cast<float>(row) + times * goers.down[k];
+        float x = static_cast<float>(movers.column[k]) + times * movers.right[k];
+        float y = static_cast<float>(row) + times * movers.down[k];
         x = std::min(std::max(x, 0.0F), last_column);
         y = std::min(std::max(y, 0.0F), last_row);
         const int i = std::min(static_cast<int>(x), most_right);
@@ -82,7 +82,7 @@ DIBHR_VECTOR_CLONES void find_taps(const DepthImage& image, const Goers& goers, 
         const float c = levels[at + columns];
         const float d = levels[at + columns + 1];
         // The surface that is nearest in depth to the moving pixel.
-        const float level = goers.level[k];
+        const float level = movers.level[k];
         const float from_a = std::fabs(a - level);
         const float from_b = std::fabs(b - level);
         const float from_c = std::fabs(c - level);
@@ -186,9 +186,9 @@ int parts_of(const MotionField& motion) {
     const float farthest2 = *std::max_element(moving.farthest2.begin(), moving.farthest2.end());
     const int count = std::accumulate(moving.count.begin(), moving.count.end(), 0);
     const double farthest_px = std::sqrt(static_cast<double>(farthest2));
-    if (farthest_px < kWorthIt_px) return 1;
+    if (farthest_px < kLeastMotion_px) return 1;
     // Even, so that one is half way, where two blended frames are farthest from the truth.
-    const int wanted = 2 * static_cast<int>(std::ceil(farthest_px / (2.0 * kBetween_px)));
+    const int wanted = 2 * static_cast<int>(std::ceil(farthest_px / (2.0 * kInBetweenStep_px)));
     const int affordable = kMostPixelsBetween / std::max(count, 1);
     return std::min({wanted, kMostParts, std::max(affordable, 2)});
 }
@@ -196,16 +196,16 @@ int parts_of(const MotionField& motion) {
 }  // namespace
 
 /// Makes the in-betweens of two frames one after the other.
-class InBetweenMaker::Mover {
+class InBetweenMaker::Warper {
   public:
     void begin(const Frame& from, const Frame& to) {
         from_ = &from;
         to_ = &to;
-        course_.begin(*from.motion, first(), second());
+        warp_.begin(*from.motion, first(), second());
     }
 
     Frame at(float share) {
-        course_.go(share);
+        warp_.warp_to(share);
         auto depth = depths_.take();
         copy_form(first(), *depth);
         blend_levels(first().levels.data(), second().levels.data(), share, depth->levels.data(),
@@ -215,7 +215,7 @@ class InBetweenMaker::Mover {
         move(share, *depth, unseen.get(), colour.get());
         Frame frame = *from_;
         frame.motion.reset();
-        frame.between.reset();
+        frame.in_betweens.reset();
         frame.unseen = std::move(unseen);
         frame.colour = std::move(colour);
         lay(std::move(depth), frame);
@@ -236,13 +236,13 @@ class InBetweenMaker::Mover {
 
     /// Sets the depth that is felt, made of the drawn image.
     void lay(std::shared_ptr<DepthImage> depth, Frame& frame) {
-        if (!from_->beneath) {
+        if (!from_->undilated) {
             frame.depth = std::move(depth);
             return;
         }
         frame.depth =
             std::make_shared<const DepthImage>(finger_.dilated(*depth, from_->cleaning.finger));
-        frame.beneath = std::move(depth);
+        frame.undilated = std::move(depth);
     }
 
     [[nodiscard]] std::shared_ptr<std::vector<std::uint8_t>> blended_unseen(float share) const {
@@ -272,16 +272,16 @@ class InBetweenMaker::Mover {
               ColourImage* colour) {
         const bool alike = colour != nullptr && colour->columns == first().columns &&
                            colour->rows == first().rows && same_colour_size();
-        const Box& box = course_.box();
+        const PixelBox& box = warp_.box();
         for (int j = box.top; j < box.bottom; ++j)
             for (int i = box.left; i < box.right;) {
-                i = take_goers(share, i, j);
-                if (goers_.count == 0) continue;
-                find_taps(first(), goers_, j, -share, before_);
-                find_taps(second(), goers_, j, 1.0F - share, after_);
-                for (std::size_t k = 0; k < goers_.count; ++k)
-                    depth.levels[depth.index(goers_.column[k], j)] =
-                        after_.value[k] + goers_.first[k] * (before_.value[k] - after_.value[k]);
+                i = take_movers(share, i, j);
+                if (movers_.count == 0) continue;
+                find_taps(first(), movers_, j, -share, before_);
+                find_taps(second(), movers_, j, 1.0F - share, after_);
+                for (std::size_t k = 0; k < movers_.count; ++k)
+                    depth.levels[depth.index(movers_.column[k], j)] =
+                        after_.value[k] + movers_.first[k] * (before_.value[k] - after_.value[k]);
                 if (unseen != nullptr) mix_unseen(j, *unseen);
                 if (alike) mix_colours(colour->rgb.data() + 3 * depth.index(0, j));
             }
@@ -289,25 +289,25 @@ class InBetweenMaker::Mover {
     }
 
     /// Takes up to kAtOnce moving pixels of a row from column i on. Returns where to continue.
-    int take_goers(float share, int i, int j) {
+    int take_movers(float share, int i, int j) {
         std::size_t count = 0;
-        for (; i < course_.box().right && count < kAtOnce; ++i) {
-            if (!course_.moves(i, j)) continue;
-            const Course::Pixel pixel = course_.at(i, j);
-            goers_.column[count] = i;
-            goers_.right[count] = pixel.way.right;
-            goers_.down[count] = pixel.way.down;
-            goers_.level[count] = pixel.level;
-            goers_.first[count] = part_of_first(pixel, share);
+        for (; i < warp_.box().right && count < kAtOnce; ++i) {
+            if (!warp_.moves(i, j)) continue;
+            const MotionWarp::Pixel pixel = warp_.at(i, j);
+            movers_.column[count] = i;
+            movers_.right[count] = pixel.way.right;
+            movers_.down[count] = pixel.way.down;
+            movers_.level[count] = pixel.level;
+            movers_.first[count] = part_of_first(pixel, share);
             ++count;
         }
-        goers_.count = count;
+        movers_.count = count;
         return i;
     }
 
-    static float part_of_first(const Course::Pixel& pixel, float share) {
-        if (pixel.shows == Course::Shows::first) return 1.0F;
-        return pixel.shows == Course::Shows::second ? 0.0F : 1.0F - share;
+    static float part_of_first(const MotionWarp::Pixel& pixel, float share) {
+        if (pixel.visibility == MotionWarp::Visibility::first) return 1.0F;
+        return pixel.visibility == MotionWarp::Visibility::second ? 0.0F : 1.0F - share;
     }
 
     [[nodiscard]] bool same_colour_size() const {
@@ -316,13 +316,13 @@ class InBetweenMaker::Mover {
     }
 
     void mix_colours(std::uint8_t* row) {
-        read_colours(*from_->colour, before_, goers_.count, colours_before_);
-        read_colours(*to_->colour, after_, goers_.count, colours_after_);
+        read_colours(*from_->colour, before_, movers_.count, colours_before_);
+        read_colours(*to_->colour, after_, movers_.count, colours_after_);
         for (int channel = 0; channel < 3; ++channel) {
-            mix_channel({colours_before_, before_}, {colours_after_, after_}, goers_.first, channel,
-                        mixed_.data());
-            for (std::size_t k = 0; k < goers_.count; ++k)
-                row[3 * goers_.column[k] + channel] = static_cast<std::uint8_t>(mixed_[k]);
+            mix_channel({colours_before_, before_}, {colours_after_, after_}, movers_.first,
+                        channel, mixed_.data());
+            for (std::size_t k = 0; k < movers_.count; ++k)
+                row[3 * movers_.column[k] + channel] = static_cast<std::uint8_t>(mixed_[k]);
         }
     }
 
@@ -334,10 +334,10 @@ class InBetweenMaker::Mover {
             return taps.share[0][k] * here[0] + taps.share[1][k] * here[1] +
                    taps.share[2][k] * below[0] + taps.share[3][k] * below[1];
         };
-        for (std::size_t k = 0; k < goers_.count; ++k)
-            unseen[first().index(goers_.column[k], j)] =
-                goers_.first[k] * at(from_->unseen, before_, k) +
-                            (1.0F - goers_.first[k]) * at(to_->unseen, after_, k) >
+        for (std::size_t k = 0; k < movers_.count; ++k)
+            unseen[first().index(movers_.column[k], j)] =
+                movers_.first[k] * at(from_->unseen, before_, k) +
+                            (1.0F - movers_.first[k]) * at(to_->unseen, after_, k) >
                         0.5F
                     ? 1
                     : 0;
@@ -368,15 +368,15 @@ class InBetweenMaker::Mover {
         const auto under = [](int at, float scale, int count) {
             return std::min(static_cast<int>((static_cast<float>(at) + 0.5F) / scale), count - 1);
         };
-        const Box& box = course_.box();
+        const PixelBox& box = warp_.box();
         for (int y = 0; y < colour.rows; ++y) {
             const int j = under(y, down, first().rows);
             if (j < box.top || j >= box.bottom) continue;
             for (int x = 0; x < colour.columns; ++x) {
                 const int i = under(x, right, first().columns);
                 if (i < box.left || i >= box.right) continue;
-                if (!course_.moves(i, j)) continue;
-                const Course::Pixel pixel = course_.at(i, j);
+                if (!warp_.moves(i, j)) continue;
+                const MotionWarp::Pixel pixel = warp_.at(i, j);
                 const float of_first = part_of_first(pixel, share);
                 const auto at = [&](const ColourImage& image, float times) {
                     return colour_at(image, static_cast<float>(x) + times * right * pixel.way.right,
@@ -395,31 +395,30 @@ class InBetweenMaker::Mover {
 
     const Frame* from_{nullptr};
     const Frame* to_{nullptr};
-    Course course_{};
-    Reused<DepthImage> depths_{};
-    Reused<ColourImage> colours_{};
-    Goers goers_{};
+    MotionWarp warp_{};
+    ObjectPool<DepthImage> depths_{};
+    ObjectPool<ColourImage> colours_{};
+    Movers movers_{};
     Taps before_{}, after_{};
     Colours colours_before_{}, colours_after_{};
     Places mixed_{};
     FingertipDilation finger_{};
 };
 
-InBetweenMaker::InBetweenMaker() : mover_(std::make_unique<Mover>()) {}
+InBetweenMaker::InBetweenMaker() : warper_(std::make_unique<Warper>()) {}
 InBetweenMaker::~InBetweenMaker() = default;
 InBetweenMaker::InBetweenMaker(InBetweenMaker&&) noexcept = default;
 InBetweenMaker& InBetweenMaker::operator=(InBetweenMaker&&) noexcept = default;
 
-std::shared_ptr<const std::vector<Frame>> InBetweenMaker::between(const Frame& from,
-                                                                  const Frame& to) {
+std::shared_ptr<const std::vector<Frame>> InBetweenMaker::make(const Frame& from, const Frame& to) {
     if (!from.motion) return nullptr;
     const int parts = parts_of(*from.motion);
     if (parts < 2) return nullptr;
-    mover_->begin(from, to);
+    warper_->begin(from, to);
     auto between = std::make_shared<std::vector<Frame>>();
     between->reserve(static_cast<std::size_t>(parts - 1));
     for (int k = 1; k < parts; ++k)
-        between->push_back(mover_->at(static_cast<float>(k) / static_cast<float>(parts)));
+        between->push_back(warper_->at(static_cast<float>(k) / static_cast<float>(parts)));
     return between;
 }
 

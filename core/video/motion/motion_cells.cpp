@@ -72,16 +72,16 @@ DIBHR_VECTOR_CLONES void find_range(const MotionPlane& depth, int j, float* __re
 
 /// Splits a cell into a near and a far part, where there is a gap.
 void split_cell(const MotionPlane& depth, MotionCells& cells, int i, int j) {
-    const std::size_t k = cells.between.index(i, j);
-    const float between =
+    const std::size_t k = cells.threshold.index(i, j);
+    const float threshold =
         gap_between(depth, i, j, cells.lowest.of[0].values[k], cells.highest.of[0].values[k]);
-    cells.between.values[k] = between;
-    if (between < cells.lowest.of[0].values[k]) return;
+    cells.threshold.values[k] = threshold;
+    if (threshold < cells.lowest.of[0].values[k]) return;
     cells.split.push_back(static_cast<std::uint32_t>(k));
     std::array<float, 2> lowest{-MotionCells::kNoPart, -MotionCells::kNoPart};
     std::array<float, 2> highest{MotionCells::kNoPart, MotionCells::kNoPart};
     visit_pixels(depth, i, j, [&](float value) {
-        const std::size_t part = value > between ? 0 : 1;
+        const std::size_t part = value > threshold ? 0 : 1;
         lowest[part] = std::min(lowest[part], value);
         highest[part] = std::max(highest[part], value);
     });
@@ -106,7 +106,7 @@ DIBHR_VECTOR_CLONES void add_alike(const float* __restrict alike, const float* _
 void make_cells(const MotionPlane& depth, MotionCells& cells) {
     cells.columns = depth.columns / kMotionCell_px;
     cells.rows = depth.rows / kMotionCell_px;
-    cells.between.resize(cells.columns, cells.rows);
+    cells.threshold.resize(cells.columns, cells.rows);
     cells.lowest.resize(cells.columns, cells.rows);
     cells.highest.resize(cells.columns, cells.rows);
     cells.lowest.fill(-MotionCells::kNoPart);
@@ -134,7 +134,7 @@ void pick_of_four(const MotionPlane& from, MotionPlane& to, const Pick& pick) {
 
 }  // namespace
 
-void divide(MotionSide& side) {
+void split_into_cells(MotionSide& side) {
     make_cells(side.pictures.here[0], side.cells);
     side.lowest = side.cells.lowest.of[0];
     for (const std::uint32_t k : side.cells.split)
@@ -145,7 +145,7 @@ void divide(MotionSide& side) {
                  [](float a, float b) { return std::max(a, b); });
 }
 
-void MotionKin::find_near(const MotionCells& cells, int right, int down) {
+void SimilarParts::find_near(const MotionCells& cells, int right, int down) {
     float* const alike = near_.data() + tap(right, down) * count_;
     const int begin = std::max(-right, 0);
     const int end = cells.columns - std::max(right, 0);
@@ -153,16 +153,16 @@ void MotionKin::find_near(const MotionCells& cells, int right, int down) {
         find_alike(cells.lowest.of[0].row(j) + begin, cells.highest.of[0].row(j) + begin,
                    cells.lowest.of[0].row(j + down) + begin + right,
                    cells.highest.of[0].row(j + down) + begin + right,
-                   alike + cells.between.index(begin, j), end - begin);
+                   alike + cells.threshold.index(begin, j), end - begin);
 }
 
-void MotionKin::find_far(const MotionCells& cells, int i, int j) {
-    const auto here = static_cast<std::uint32_t>(cells.between.index(i, j));
+void SimilarParts::find_far(const MotionCells& cells, int i, int j) {
+    const auto here = static_cast<std::uint32_t>(cells.threshold.index(i, j));
     const float lowest = cells.lowest.of[1].values[here];
     const float highest = cells.highest.of[1].values[here];
     for (int y = std::max(j - kReach, 0); y <= std::min(j + kReach, cells.rows - 1); ++y)
         for (int x = std::max(i - kReach, 0); x <= std::min(i + kReach, cells.columns - 1); ++x) {
-            const auto beside = static_cast<std::uint32_t>(cells.between.index(x, y));
+            const auto beside = static_cast<std::uint32_t>(cells.threshold.index(x, y));
             const int away = std::max({std::abs(x - i), std::abs(y - j), 1});
             std::vector<Edge>& edges = far_[static_cast<std::size_t>(away - 1)];
             for (const std::uint8_t part : {std::uint8_t{0}, std::uint8_t{1}}) {
@@ -181,10 +181,10 @@ void MotionKin::find_far(const MotionCells& cells, int i, int j) {
         }
 }
 
-void MotionKin::find(const MotionCells& cells) {
+void SimilarParts::find(const MotionCells& cells) {
     columns_ = cells.columns;
     rows_ = cells.rows;
-    count_ = cells.between.values.size();
+    count_ = cells.threshold.values.size();
     near_.assign(kSide * kSide * count_ + kMargin, 0.0F);
     for (int down = -kReach; down <= kReach; ++down)
         for (int right = -kReach; right <= kReach; ++right) find_near(cells, right, down);
@@ -194,8 +194,8 @@ void MotionKin::find(const MotionCells& cells) {
         find_far(cells, static_cast<int>(k) % columns_, static_cast<int>(k) / columns_);
 }
 
-void MotionKin::gather(const MotionRows& rows, int reach, MotionMeasure measure,
-                       const MotionSums& from, MotionSums& to) const {
+void SimilarParts::gather(const MotionRows& rows, int reach, MotionMeasure measure,
+                          const MotionSums& from, MotionSums& to) const {
     const auto sums = static_cast<std::size_t>(measure);
     to.resize(columns_, rows_);
     const std::ptrdiff_t begin = std::ptrdiff_t{rows.begin} * columns_;

@@ -69,7 +69,7 @@ struct MotionCells {
     int rows{0};
     /// Depth that separates the parts: above it is the near part. Below all depths of the cell:
     /// there is no far part.
-    MotionPlane between{};
+    MotionPlane threshold{};
     /// Range of depth of the parts [0, 255]; `highest` is kNoPart where there is no such part.
     MotionLayers lowest{}, highest{};
 
@@ -92,7 +92,7 @@ struct MotionSide {
 };
 
 /// Makes the cells of the side's pictures.
-void divide(MotionSide& side);
+void split_into_cells(MotionSide& side);
 
 /// Rows of cells [begin, end) that are processed.
 struct MotionRows {
@@ -135,7 +135,7 @@ struct MotionMoments {
 
 /// How alike in depth each part is to those around it: found once, used for many sums. Near parts,
 /// which every cell has, are stored in planes; far parts in a list.
-class MotionKin {
+class SimilarParts {
   public:
     static constexpr int kReach = 2;           ///< cells to each side
     static constexpr std::size_t kMargin = 8;  ///< values that may be read beyond the end

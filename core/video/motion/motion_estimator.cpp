@@ -50,7 +50,7 @@ bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
 }
 
 /// Changes the sums to those of a way that is shorter by `way`, linearly by the slopes.
-void reckon_back(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
+void shift_sums(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
     const auto at = [&](MotionSum sum) -> float& { return sums[sum].of[part].values[k]; };
     at(MotionSum::r) -= at(MotionSum::x) * way.right + at(MotionSum::y) * way.down;
     at(MotionSum::xr) -= at(MotionSum::xx) * way.right + at(MotionSum::xy) * way.down;
@@ -86,14 +86,14 @@ template <typename Visit>
 void MotionEstimator::each_part(const Visit& visit) const {
     for (int j = 0; j < from_.cells.rows; ++j)
         for (int i = 0; i < from_.cells.columns; ++i)
-            visit(Part{i, j, 0}, from_.cells.between.index(i, j));
+            visit(Part{i, j, 0}, from_.cells.threshold.index(i, j));
     const auto columns = static_cast<std::uint32_t>(from_.cells.columns);
     for (const std::uint32_t k : from_.cells.split)
         visit(Part{static_cast<int>(k % columns), static_cast<int>(k / columns), 1}, k);
 }
 
 MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
-    return verdicts_[part.part][from_.cells.between.index(part.i, part.j)];
+    return verdicts_[part.part][from_.cells.threshold.index(part.i, part.j)];
 }
 
 MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
@@ -101,7 +101,7 @@ MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
             ways_.down.of[part.part].row(part.j)[part.i]};
 }
 
-void MotionEstimator::go(const Part& part, Way way) {
+void MotionEstimator::set_way(const Part& part, Way way) {
     ways_.right.of[part.part].row(part.j)[part.i] = way.right;
     ways_.down.of[part.part].row(part.j)[part.i] = way.down;
 }
@@ -132,7 +132,7 @@ void MotionEstimator::sum(std::size_t size, const MotionLayers& wanted, const Mo
 }
 
 void MotionEstimator::gather(int reach, MotionMeasure measure) {
-    kin_.gather(rows_, reach, measure, sums_, gathered_);
+    similar_.gather(rows_, reach, measure, sums_, gathered_);
 }
 
 /// Finds parts in or around which anything has changed. False: there are none.
@@ -158,13 +158,13 @@ bool MotionEstimator::find_changed() {
         if (!changed) wanted = 0.0F;
         any = any || wanted > 0.0F;
     });
-    if (any) kin_.gather(rows_, 1, MotionMeasure::slopes, sums_, slopes_);
+    if (any) similar_.gather(rows_, 1, MotionMeasure::slopes, sums_, slopes_);
     find_rows();
     return any;
 }
 
 /// Drops parts that only noise has changed: with their way they fit no better than without.
-void MotionEstimator::leave_noise() {
+void MotionEstimator::drop_noise() {
     sum(kSmall, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
     each_part([this](const Part& part, std::size_t k) {
@@ -173,7 +173,7 @@ void MotionEstimator::leave_noise() {
         const float left = mean_square(gathered_, of, k);
         if (still_.of[of].values[k] - left > kNoise * (left + kUnchanged)) return;
         wanted_.of[of].values[k] = 0.0F;
-        go(part, {});
+        set_way(part, {});
     });
     sums_.fill(0.0F);
     find_rows();
@@ -206,7 +206,7 @@ void MotionEstimator::go_downhill(std::size_t size) {
                            static_cast<float>(kMotionCell_px * from_.cells.columns);
     sum(size, wanted_, ways_, MotionMeasure::slopes);
     weigh_by_fit();
-    kin_.smooth(trust_, ways_, even_);
+    similar_.smooth(trust_, ways_, even_);
     const auto even_way = [&](const Part& part, std::size_t k) {
         return Way{even_.right.of[part.part].values[k], even_.down.of[part.part].values[k]};
     };
@@ -217,8 +217,7 @@ void MotionEstimator::go_downhill(std::size_t size) {
         return wanted_.of[part.part].values[k] > 0.0F;
     };
     each_part([&](const Part& part, std::size_t k) {
-        if (goes(part, k))
-            reckon_back(beyond(way_of(part), even_way(part, k)), part.part, k, sums_);
+        if (goes(part, k)) shift_sums(beyond(way_of(part), even_way(part, k)), part.part, k, sums_);
     });
     gather(1, MotionMeasure::slopes);
     each_part([&](const Part& part, std::size_t k) {
@@ -230,7 +229,8 @@ void MotionEstimator::go_downhill(std::size_t size) {
         const auto to = [&](float even_px, float from, float onto) {
             return std::clamp(even_px + stepped(from, onto) / scale, -farthest, farthest);
         };
-        go(part, {to(even.right, now.right, there.right), to(even.down, now.down, there.down)});
+        set_way(part,
+                {to(even.right, now.right, there.right), to(even.down, now.down, there.down)});
     });
 }
 
@@ -309,7 +309,7 @@ void MotionEstimator::judge() {
     sum(0, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
     for (auto& verdicts : verdicts_)
-        verdicts.assign(from_.cells.between.values.size(), Verdict::stays);
+        verdicts.assign(from_.cells.threshold.values.size(), Verdict::stays);
     each_part([this](const Part& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F) || !is_known(gathered_, part.part, k)) return;
         const float left = mean_square(gathered_, part.part, k);
@@ -326,7 +326,7 @@ void MotionEstimator::judge() {
 
 /// Whether a part has too little texture to show if it moves this way.
 bool MotionEstimator::is_plain(const Part& part, Way way) const {
-    const std::size_t k = from_.cells.between.index(part.i, part.j);
+    const std::size_t k = from_.cells.threshold.index(part.i, part.j);
     if (!is_known(slopes_, part.part, k)) return true;
     const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
         return slopes_[sum].of[part.part].values[k] / n;
@@ -344,24 +344,24 @@ bool MotionEstimator::is_plain(const Part& part, Way way) const {
 
 /// From parts that surely move on: a similar neighbour that may move does, and plain ones, up to
 /// kMostPlain cells away, take the same way.
-void MotionEstimator::convince() {
-    std::deque<Convinced> sure;
+void MotionEstimator::confirm_neighbours() {
+    std::deque<Confirmed> sure;
     each_part([this, &sure](const Part& part, std::size_t) {
         if (verdict(part) == Verdict::goes) sure.push_back({part, 0});
     });
-    const auto take = [this, &sure](const Convinced& from, const Part& part) {
+    const auto take = [this, &sure](const Confirmed& from, const Part& part) {
         if (!from_.cells.has(part.part, part.i, part.j) || verdict(part) == Verdict::goes ||
             !(alike_across(gap(from.part, part)) > 0.0F))
             return;
         const Way way = way_of(from.part);
         const bool may_go = verdict(part) == Verdict::may_go;
         if (!may_go && (from.plain >= kMostPlain || !is_plain(part, way))) return;
-        if (!may_go) go(part, way);
+        if (!may_go) set_way(part, way);
         verdict(part) = Verdict::goes;
         sure.push_back({part, may_go ? 0 : from.plain + 1});
     };
     while (!sure.empty()) {
-        const Convinced at = sure.front();
+        const Confirmed at = sure.front();
         sure.pop_front();
         for (int j = std::max(at.part.j - 1, 0); j <= std::min(at.part.j + 1, from_.cells.rows - 1);
              ++j)
@@ -372,20 +372,20 @@ void MotionEstimator::convince() {
 }
 
 /// Parts that do not surely move stay.
-void MotionEstimator::stop() {
+void MotionEstimator::stop_unconfirmed() {
     each_part([this](const Part& part, std::size_t) {
-        if (verdict(part) != Verdict::goes) go(part, {});
+        if (verdict(part) != Verdict::goes) set_way(part, {});
     });
 }
 
-std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, const Frame& to) {
+std::shared_ptr<const MotionField> MotionEstimator::estimate(const Frame& from, const Frame& to) {
     const auto has_colour = [](const Frame& frame) {
         return frame.colour_of_view && frame.colour && !frame.colour->rgb.empty();
     };
     const bool by_depth = !has_colour(from) || !has_colour(to);
     const auto take = [this, by_depth](const Frame& frame, MotionSide& side) {
         maker_.make(frame, by_depth, side.pictures);
-        divide(side);
+        split_into_cells(side);
     };
     if (from.drawn() == last_depth_ && from.colour == last_colour_ && by_depth == by_depth_)
         std::swap(from_, to_);
@@ -395,7 +395,7 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     by_depth_ = by_depth;
     last_depth_ = to.drawn();
     last_colour_ = to.colour;
-    kin_.find(from_.cells);
+    similar_.find(from_.cells);
     wanted_.resize(from_.cells.columns, from_.cells.rows);
     still_.resize(from_.cells.columns, from_.cells.rows);
     ways_.resize(from_.cells.columns, from_.cells.rows);
@@ -405,20 +405,20 @@ std::shared_ptr<const MotionField> MotionEstimator::between(const Frame& from, c
     sums_.fill(0.0F);
     const int reach =
         std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(from_.cells.columns)));
-    searcher_.search(from_, to_, kin_, rows_, reach, ways_);
+    searcher_.search(from_, to_, similar_, rows_, reach, ways_);
     each_part([this](const Part& part, std::size_t k) {
-        if (!(wanted_.of[part.part].values[k] > 0.0F)) go(part, {});
+        if (!(wanted_.of[part.part].values[k] > 0.0F)) set_way(part, {});
     });
     go_downhill(2);
     go_downhill(2);
     go_downhill(kSmall);
     choose(kSmall);
-    leave_noise();
+    drop_noise();
     go_downhill(kSmall);
     go_downhill(0);
     judge();
-    convince();
-    stop();
+    confirm_neighbours();
+    stop_unconfirmed();
     return spread_motion(*from.drawn(), from_.cells, from_.pictures.step, ways_, fields_);
 }
 

@@ -12,7 +12,7 @@
 #include "core/video/motion/motion_pictures.hpp"
 #include "core/video/motion/motion_search.hpp"
 #include "core/video/motion/motion_sums.hpp"
-#include "core/video/motion/reused.hpp"
+#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 
@@ -25,7 +25,7 @@ class MotionEstimator {
     /// The motion from one frame to the next, which have one size and scale and are at least 2 x 2.
     /// By colour, or by depth where either frame has no colour of its depth's view. Null: nothing
     /// moves, or there is no evidence that it does.
-    [[nodiscard]] std::shared_ptr<const MotionField> between(const Frame& from, const Frame& to);
+    [[nodiscard]] std::shared_ptr<const MotionField> estimate(const Frame& from, const Frame& to);
 
   private:
     using Way = MotionField::Way;
@@ -35,7 +35,7 @@ class MotionEstimator {
         std::size_t part;
     };
     enum class Verdict : std::uint8_t { stays, may_go, goes };
-    struct Convinced {
+    struct Confirmed {
         Part part;
         int plain;  ///< steps over parts without texture
     };
@@ -51,16 +51,16 @@ class MotionEstimator {
     void propose(int right, int down);
     void attempt(std::size_t size);
     void take_better(float share);
-    void leave_noise();
+    void drop_noise();
     void judge();
-    void convince();
-    void stop();
+    void confirm_neighbours();
+    void stop_unconfirmed();
 
     /// visit(part, index of its cell) for all parts.
     template <typename Visit>
     void each_part(const Visit& visit) const;
     [[nodiscard]] Way way_of(const Part& part) const;
-    void go(const Part& part, Way way);
+    void set_way(const Part& part, Way way);
     [[nodiscard]] bool is_plain(const Part& part, Way way) const;
     [[nodiscard]] Verdict& verdict(const Part& part);
     [[nodiscard]] float gap(const Part& a, const Part& b) const;  ///< between their depths
@@ -72,9 +72,9 @@ class MotionEstimator {
     std::shared_ptr<const DepthImage> last_depth_{};
     std::shared_ptr<const ColourImage> last_colour_{};
     bool by_depth_{false};
-    MotionKin kin_{};        ///< of the first frame's parts
-    MotionLayers wanted_{};  ///< 1: the part is processed
-    MotionLayers trust_{};   ///< weight of a part for those around it, in [0, 1]
+    SimilarParts similar_{};  ///< of the first frame's parts
+    MotionLayers wanted_{};   ///< 1: the part is processed
+    MotionLayers trust_{};    ///< weight of a part for those around it, in [0, 1]
     MotionRows rows_{};
     MotionLayers differs_{};  ///< 1: the tried way is another one
     MotionWays ways_{}, tried_{}, chosen_{}, even_{};
@@ -82,7 +82,7 @@ class MotionEstimator {
     MotionLayers still_{};  ///< mean square without motion
     std::array<std::vector<Verdict>, 2> verdicts_{};
     MotionSums sums_{}, own_{}, gathered_{}, slopes_{};
-    Reused<MotionField> fields_{};
+    ObjectPool<MotionField> fields_{};
 };
 
 }  // namespace dibhr

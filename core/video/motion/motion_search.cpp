@@ -79,21 +79,21 @@ DIBHR_VECTOR_CLONES void take_better(const float* __restrict score, float share,
 }  // namespace
 
 /// Weights of the cells around each cell, which add up to 1.
-void MotionSearcher::weigh(const MotionSide& from, const MotionKin& kin) {
-    const std::size_t count = from.cells.between.values.size();
+void MotionSearcher::weigh(const MotionSide& from, const SimilarParts& similar) {
+    const std::size_t count = from.cells.threshold.values.size();
     const std::size_t plane = count + kAtOnce;
     weights_.assign(kPlanes * plane, 0.0F);
     std::vector<float>& sum = score_;
     sum.assign(plane, 0.0F);
     for (int y = -kAround; y <= kAround; ++y)
         for (int x = -kAround; x <= kAround; ++x) {
-            const float* const alike = kin.near_beside(x, y);
+            const float* const alike = similar.near_beside(x, y);
             for (std::size_t k = 0; k < count; ++k) sum[k] += alike[k];
         }
     for (std::size_t k = 0; k < count; ++k) sum[k] = 1.0F / sum[k];  // > 0: each is like itself
     for (int y = -kAround; y <= kAround; ++y)
         for (int x = -kAround; x <= kAround; ++x) {
-            const float* const alike = kin.near_beside(x, y);
+            const float* const alike = similar.near_beside(x, y);
             const auto tap = tap_of(x, y);
             float* const weights = weights_.data() + tap * plane;
             for (std::size_t k = 0; k < count; ++k) weights[k] = alike[k] * sum[k];
@@ -146,7 +146,7 @@ void MotionSearcher::follow(const MotionCells& cells, MotionWays& ways) const {
         for (int y = std::max(j - kAround, 0); y <= std::min(j + kAround, cells.rows - 1); ++y)
             for (int x = std::max(i - kAround, 0); x <= std::min(i + kAround, cells.columns - 1);
                  ++x) {
-                const std::size_t beside = cells.between.index(x, y);
+                const std::size_t beside = cells.threshold.index(x, y);
                 const float gap =
                     std::max(cells.lowest.of[1].values[k] - cells.highest.of[0].values[beside],
                              cells.lowest.of[0].values[beside] - cells.highest.of[1].values[k]);
@@ -160,16 +160,17 @@ void MotionSearcher::follow(const MotionCells& cells, MotionWays& ways) const {
     }
 }
 
-void MotionSearcher::search(const MotionSide& from, const MotionSide& to, const MotionKin& kin,
-                            const MotionRows& rows, int reach, MotionWays& ways) {
+void MotionSearcher::search(const MotionSide& from, const MotionSide& to,
+                            const SimilarParts& similar, const MotionRows& rows, int reach,
+                            MotionWays& ways) {
     const MotionCells& cells = from.cells;
     ways.resize(cells.columns, cells.rows);
     ways.fill(0.0F);
-    best_.assign(cells.between.values.size(), 1e9F);
+    best_.assign(cells.threshold.values.size(), 1e9F);
     columns_ = cells.columns;
     margin_ = static_cast<std::size_t>(kAround * (columns_ + 1));
     off_.assign(best_.size() + 2 * margin_ + kAtOnce, kOutside);
-    weigh(from, kin);
+    weigh(from, similar);
     for (int down = -reach; down <= reach; ++down)
         for (int right = -reach; right <= reach; ++right) {
             compare(from.pictures, to.pictures, rows, right, down);

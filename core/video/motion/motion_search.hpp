@@ -15,11 +15,11 @@ class MotionSearcher {
     /// The ways of the parts in the rows, by whole cells, at most `reach` to each side; 0 where no
     /// way is much better. In the smallest picture a cell is a pixel of its near part; a far part
     /// takes the way of the most similar near part around it.
-    void search(const MotionSide& from, const MotionSide& to, const MotionKin& kin,
+    void search(const MotionSide& from, const MotionSide& to, const SimilarParts& similar,
                 const MotionRows& rows, int reach, MotionWays& ways);
 
   private:
-    void weigh(const MotionSide& from, const MotionKin& kin);
+    void weigh(const MotionSide& from, const SimilarParts& similar);
     void compare(const MotionPictures& from, const MotionPictures& to, const MotionRows& rows,
                  int right, int down);
     void attempt(const MotionRows& rows, int right, int down, MotionWays& ways);

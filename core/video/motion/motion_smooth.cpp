@@ -11,10 +11,10 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kReach = MotionKin::kReach;
+constexpr int kReach = SimilarParts::kReach;
 constexpr std::size_t kAround = std::size_t{2 * kReach + 1} * std::size_t{2 * kReach + 1};
 constexpr std::size_t kLanes = 8;
-static_assert(kLanes <= MotionKin::kMargin);
+static_assert(kLanes <= SimilarParts::kMargin);
 
 using Lanes [[gnu::vector_size(kLanes * sizeof(float))]] = float;
 
@@ -84,7 +84,7 @@ void plane_through(const MotionMoments<float>& moments, float& right, float& dow
 
 }  // namespace
 
-void MotionKin::add_near_moments(const MotionLayers& wanted, const MotionWays& ways) {
+void SimilarParts::add_near_moments(const MotionLayers& wanted, const MotionWays& ways) {
     const std::size_t margin = kReach * (static_cast<std::size_t>(columns_) + 1);
     for (auto& plane : padded_) plane.assign(count_ + 2 * margin + kMargin, 0.0F);
     for (std::size_t k = 0; k < count_; ++k) {
@@ -106,7 +106,7 @@ void MotionKin::add_near_moments(const MotionLayers& wanted, const MotionWays& w
     sum_all_moments(about, count_, moments_[0].data());
 }
 
-void MotionKin::add_far_moments(const MotionLayers& wanted, const MotionWays& ways) {
+void SimilarParts::add_far_moments(const MotionLayers& wanted, const MotionWays& ways) {
     for (const std::uint32_t k : split_) moments_[1][k] = {};
     for (const auto& edges : far_)
         for (const Edge& edge : edges) {
@@ -118,7 +118,7 @@ void MotionKin::add_far_moments(const MotionLayers& wanted, const MotionWays& wa
         }
 }
 
-void MotionKin::smooth(const MotionLayers& wanted, const MotionWays& from, MotionWays& to) {
+void SimilarParts::smooth(const MotionLayers& wanted, const MotionWays& from, MotionWays& to) {
     to = from;
     for (auto& moments : moments_) moments.resize(count_ + kMargin);
     add_near_moments(wanted, from);

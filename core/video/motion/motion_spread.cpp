@@ -120,7 +120,7 @@ void fill_tile(const DepthImage& depth, const Around& around, const Tile& tile, 
 
 std::shared_ptr<const MotionField> spread_motion(const DepthImage& depth, const MotionCells& cells,
                                                  int step, const MotionWays& ways,
-                                                 Reused<MotionField>& fields) {
+                                                 ObjectPool<MotionField>& fields) {
     std::shared_ptr<MotionField> field;
     for (int j = -1; j < cells.rows; ++j)
         for (int i = -1; i < cells.columns; ++i) {

@@ -6,7 +6,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface_motion.hpp"
 #include "core/video/motion/motion_cells.hpp"
-#include "core/video/motion/reused.hpp"
+#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 
@@ -15,6 +15,6 @@ namespace dibhr {
 [[nodiscard]] std::shared_ptr<const MotionField> spread_motion(const DepthImage& depth,
                                                                const MotionCells& cells, int step,
                                                                const MotionWays& ways,
-                                                               Reused<MotionField>& fields);
+                                                               ObjectPool<MotionField>& fields);
 
 }  // namespace dibhr

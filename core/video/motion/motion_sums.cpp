@@ -41,7 +41,7 @@ struct Block {
     int columns, rows;
     int at_left, at_right;  ///< 1: there is no pixel beyond that side
     Between weights;
-    float between;
+    float threshold;
     bool near_part, slopes, outline;
 };
 
@@ -165,15 +165,15 @@ template <int kSide, bool kSlopes>
         load_between<kSide>(after, block.moved_level + at, block.stride, block.weights);
         const Pixels<kSide> low = Pixels<kSide>{} - kOutline;
         const Pixels<kSide> high = Pixels<kSide>{} + kOutline;
-        Pixels<kSide> before = level - block.between;
+        Pixels<kSide> before = level - block.threshold;
         const auto between = (before > low) & (before < high);
-        after -= block.between;
+        after -= block.threshold;
         before = before < low ? low : before;
         before = before > high ? high : before;
         after = after < low ? low : after;
         after = after > high ? high : after;
         const Pixels<kSide> r = after - before;
-        const Pixels<kSide> w = near > block.between ? Pixels<kSide>{} + 1.0F : Pixels<kSide>{};
+        const Pixels<kSide> w = near > block.threshold ? Pixels<kSide>{} + 1.0F : Pixels<kSide>{};
         lanes.rr += w * (r * r);
         if (!kSlopes) continue;
         const float* const here = block.level + at;
@@ -201,7 +201,7 @@ template <int kSide, bool kSlopes>
         load<kSide>(near, block.near + at);
         load<kSide>(moved_here, block.moved_here + at);
         load<kSide>(moved_near, block.moved_near + at);
-        const Pixels<kSide> own = here > block.between ? above : not_above;
+        const Pixels<kSide> own = here > block.threshold ? above : not_above;
         const Pixels<kSide> lost = moved_near < here - kCovered ? own : none;
         const Pixels<kSide> w = moved_here > near + kCovered ? none : own - lost;
         load<kSide>(grey, block.grey + at);
@@ -239,7 +239,7 @@ template <int kSide, bool kSlopes>
         return (k.a * at[0] + k.b * at[1]) + (k.c * at[block.stride] + k.d * at[block.stride + 1]);
     };
     const auto contrast = [&block](float value) {
-        return std::min(std::max(value - block.between, -kOutline), kOutline);
+        return std::min(std::max(value - block.threshold, -kOutline), kOutline);
     };
     const auto add = [&](float w, float r, float x, float y) {
         sum(MotionSum::xx) += w * x * x;
@@ -251,7 +251,7 @@ template <int kSide, bool kSlopes>
     for (int j = 0; j < block.rows; ++j)
         for (int i = 0; i < block.columns; ++i) {
             const std::ptrdiff_t at = j * block.stride + i;
-            const bool own = (block.here[at] > block.between) == block.near_part;
+            const bool own = (block.here[at] > block.threshold) == block.near_part;
             const bool lost = own && block.moved_near[at] < block.here[at] - kCovered;
             const bool covered = block.moved_here[at] > block.near[at] + kCovered;
             if (lost) sum(MotionSum::rr) += kLost2;
@@ -268,7 +268,7 @@ template <int kSide, bool kSlopes>
                     add(1.0F, r, x, y);
                 }
             }
-            if (!block.outline || !(block.near[at] > block.between)) continue;
+            if (!block.outline || !(block.near[at] > block.threshold)) continue;
             const float before = contrast(block.level[at]);
             const float r = contrast(moved(block.moved_level + at)) - before;
             sum(MotionSum::rr) += r * r;
@@ -361,9 +361,9 @@ bool Summing::is_plain(const Part& part, const Moved& moved) const {
         moved.y.end - moved.y.begin < side_ || moved.x.begin == 0 || moved.y.begin == 0 ||
         moved.x.end == grey.columns || moved.y.end == grey.rows)
         return false;
-    const std::size_t here = from_.cells.between.index(part.i, part.j);
-    const std::size_t there = from_.cells.between.index((moved.x.begin + moved.right) >> halvings_,
-                                                        (moved.y.begin + moved.down) >> halvings_);
+    const std::size_t here = from_.cells.threshold.index(part.i, part.j);
+    const std::size_t there = from_.cells.threshold.index(
+        (moved.x.begin + moved.right) >> halvings_, (moved.y.begin + moved.down) >> halvings_);
     return std::max(from_.highest.values[here], to_.highest_of_four.values[there]) -
                std::min(from_.lowest.values[here], to_.lowest_of_four.values[there]) <
            kCovered;
@@ -405,7 +405,7 @@ void Summing::sum_any(const Part& part, const Moved& to, const Between& weights,
     block.at_left = to.x.begin == 0 ? 1 : 0;
     block.at_right = to.x.end == grey.columns ? 1 : 0;
     block.weights = weights;
-    block.between = from_.cells.between.row(part.j)[part.i];
+    block.threshold = from_.cells.threshold.row(part.j)[part.i];
     block.near_part = part.layer == 0;
     block.slopes = slopes_;
     block.outline = block.near_part && from_.cells.has(1, part.i, part.j);

@@ -14,18 +14,18 @@ class MotionTrack {
   public:
     /// The motion since the last call. `pair`: two frames that make a surface; `field`: the motion
     /// between them, null: not known. No motion after a jump to another place of the video.
-    [[nodiscard]] SurfaceMotion go_on_to(const DepthBlend& pair, const MotionField* field,
-                                         double dt_s) noexcept {
+    [[nodiscard]] SurfaceMotion follow_to(const DepthBlend& pair, const MotionField* field,
+                                          double dt_s) noexcept {
         const Place last = last_;
         last_ = {pair.from->media, pair.from->media_s, pair.to->media_s, pair.blend, true};
         SurfaceMotion motion{.field = last_.from_s == last_.to_s ? nullptr : field,
                              .from_blend = last.blend,
                              .to_blend = pair.blend,
                              .dt_s = dt_s};
-        if (!last.known || last.media != last_.media) return motion.begun_anew();
+        if (!last.known || last.media != last_.media) return motion.restarted();
         if (last.from_s == last_.from_s && last.to_s == last_.to_s) return motion;
         motion.crossed = last.to_s == last_.from_s;
-        return motion.crossed ? motion : motion.begun_anew();
+        return motion.crossed ? motion : motion.restarted();
     }
 
     /// There was no surface: the next update begins anew.

@@ -13,9 +13,9 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kInARow = 2;  ///< reads in a row: more will follow
+constexpr std::size_t kConsecutiveReads = 2;  ///< reads in a row: more will follow
 constexpr std::size_t kMostAhead = 4;
-constexpr double kMostPassed_s = 0.5;  ///< in one call: the heartbeat goes on, stop works
+constexpr double kMostSkipped_s = 0.5;  ///< in one call: the heartbeat goes on, stop works
 constexpr std::size_t kMostBytes = std::size_t{24} << 20;  ///< one frame always fits
 
 std::size_t bytes_of(const RawFrame& frame) {
@@ -25,9 +25,9 @@ std::size_t bytes_of(const RawFrame& frame) {
 
 }  // namespace
 
-DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts, Now now)
+DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReaderHeartbeats heartbeats, Now now)
     : media_(std::move(media)),
-      hearts_(hearts),
+      heartbeats_(heartbeats),
       now_(std::move(now)),
       description_(media_->description()) {
     thread_ = std::thread([this] { run(); });
@@ -36,35 +36,35 @@ DecodedAhead::DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts, N
 DecodedAhead::~DecodedAhead() {
     {
         const std::lock_guard lock(mutex_);
-        leaving_ = true;
+        stopping_ = true;
     }
-    asked_.notify_one();
+    wake_decoder_.notify_one();
     thread_.join();
 }
 
-std::optional<RawFrame> DecodedAhead::next_from(double earliest_s, double apart_s) {
+std::optional<RawFrame> DecodedAhead::next_from(double earliest_s, double spacing_s) {
     std::optional<RawFrame> passed;
     do {
         Decoded taken;
         {
             std::unique_lock lock(mutex_);
-            ++read_in_a_row_;
-            from_s_ = apart_s > 0.0 ? std::max(from_s_, earliest_s) : earliest_s;
-            apart_s_ = apart_s;
+            ++consecutive_reads_;
+            from_s_ = spacing_s > 0.0 ? std::max(from_s_, earliest_s) : earliest_s;
+            spacing_s_ = spacing_s;
             if (!can_be_read()) wait(lock);
             if (passed && is_at_end()) return passed;
             taken = take(earliest_s);
         }
         description_ = std::move(taken.description);
-        making_s_ = taken.making_s;
-        if (taken.broken) std::rethrow_exception(taken.broken);
+        conversion_s_ = taken.conversion_s;
+        if (taken.error) std::rethrow_exception(taken.error);
         passed = std::move(taken.frame);
     } while (passed && passed->media_s < earliest_s);
     return passed;
 }
 
 bool DecodedAhead::is_at_end() const {
-    return !decoded_.front().frame && !decoded_.front().broken;
+    return !decoded_.front().frame && !decoded_.front().error;
 }
 
 DecodedAhead::Decoded DecodedAhead::take(double earliest_s) {
@@ -72,22 +72,22 @@ DecodedAhead::Decoded DecodedAhead::take(double earliest_s) {
     decoded_.pop_front();
     bytes_ -= taken.bytes;
     const bool given_out = taken.frame && !(taken.frame->media_s < earliest_s);
-    if (given_out) go_on_apart_from(*taken.frame);
-    asked_.notify_one();
+    if (given_out) apply_spacing(*taken.frame);
+    wake_decoder_.notify_one();
     return taken;
 }
 
-void DecodedAhead::go_on_apart_from(const RawFrame& frame) {
-    if (apart_s_ > 0.0) from_s_ = std::max(from_s_, frame.media_s + apart_s_);
+void DecodedAhead::apply_spacing(const RawFrame& frame) {
+    if (spacing_s_ > 0.0) from_s_ = std::max(from_s_, frame.media_s + spacing_s_);
 }
 
 void DecodedAhead::wait(std::unique_lock<std::mutex>& lock) {
-    if (hearts_.reading != nullptr) hearts_.reading->rest();
-    waited_for_ = true;
-    asked_.notify_one();
-    ready_.wait(lock, [this] { return can_be_read(); });
-    waited_for_ = false;
-    if (hearts_.reading != nullptr) hearts_.reading->beat();
+    if (heartbeats_.reading != nullptr) heartbeats_.reading->set_idle();
+    reader_waits_ = true;
+    wake_decoder_.notify_one();
+    wake_reader_.wait(lock, [this] { return can_be_read(); });
+    reader_waits_ = false;
+    if (heartbeats_.reading != nullptr) heartbeats_.reading->beat();
 }
 
 void DecodedAhead::seek(double media_s) {
@@ -108,11 +108,11 @@ void DecodedAhead::jump(Target target, Begins begins) {
         target_ = target;
         decoded_.clear();
         bytes_ = 0;
-        from_s_ = apart_s_ = 0.0;
-        read_in_a_row_ = begins == Begins::at_once ? kInARow : 0;
+        from_s_ = spacing_s_ = 0.0;
+        consecutive_reads_ = begins == Begins::at_once ? kConsecutiveReads : 0;
         ended_ = false;
     }
-    if (begins == Begins::at_once) asked_.notify_one();
+    if (begins == Begins::at_once) wake_decoder_.notify_one();
 }
 
 void DecodedAhead::prepare_with(Preparation preparation) {
@@ -122,7 +122,7 @@ void DecodedAhead::prepare_with(Preparation preparation) {
         const std::lock_guard lock(mutex_);
         preparation_ = std::move(shared);
     }
-    asked_.notify_one();
+    wake_decoder_.notify_one();
 }
 
 bool DecodedAhead::can_be_read() const {
@@ -131,7 +131,7 @@ bool DecodedAhead::can_be_read() const {
 
 /// The oldest frame to prepare; null: there is none, or the reader waits and takes it unprepared.
 DecodedAhead::Decoded* DecodedAhead::unprepared() {
-    if (!preparation_ || waited_for_) return nullptr;
+    if (!preparation_ || reader_waits_) return nullptr;
     const auto found = std::find_if(decoded_.begin(), decoded_.end(), [](const Decoded& decoded) {
         return decoded.frame && decoded.prepared == Prepared::no;
     });
@@ -139,8 +139,8 @@ DecodedAhead::Decoded* DecodedAhead::unprepared() {
 }
 
 bool DecodedAhead::has_room() const {
-    if (decoded_.empty() && waited_for_) return true;
-    if (ended_ || read_in_a_row_ < kInARow) return false;
+    if (decoded_.empty() && reader_waits_) return true;
+    if (ended_ || consecutive_reads_ < kConsecutiveReads) return false;
     return decoded_.empty() ||
            (decoded_.size() < kMostAhead && bytes_ + decoded_.back().bytes <= kMostBytes);
 }
@@ -152,10 +152,10 @@ DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, 
         if (target && target->jump == Jump::exact) media_->seek(target->media_s);
         if (target && target->jump == Jump::near) media_->seek_near(target->media_s);
         if (target) last_s_ = target->media_s;
-        from_s = std::min(from_s, last_s_ + kMostPassed_s);
+        from_s = std::min(from_s, last_s_ + kMostSkipped_s);
         decoded.frame = from_s > last_s_ ? media_->next_from(from_s) : media_->next();
     } catch (...) {
-        decoded.broken = std::current_exception();
+        decoded.error = std::current_exception();
     }
     const std::chrono::duration<double> taken = now_() - begin;
     decoded.description = media_->description();
@@ -163,8 +163,8 @@ DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, 
     const RawFrame& frame = *decoded.frame;
     decoded.bytes = bytes_of(frame);
     const auto frames = static_cast<double>(frame.index - last_index_);
-    if (!target && frame.passing_s > 0.0)
-        decoded.making_s = std::max(taken.count() - frames * frame.passing_s, 0.0);
+    if (!target && frame.skipping_s > 0.0)
+        decoded.conversion_s = std::max(taken.count() - frames * frame.skipping_s, 0.0);
     last_s_ = frame.media_s;
     last_index_ = frame.index;
     return decoded;
@@ -180,9 +180,9 @@ void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
     ended_ = !decoded.frame;
     bytes_ += decoded.bytes;
     const bool wanted = decoded.frame && !(decoded.frame->media_s < from_s_);
-    if (wanted) go_on_apart_from(*decoded.frame);
+    if (wanted) apply_spacing(*decoded.frame);
     decoded_.push_back(std::move(decoded));
-    ready_.notify_one();
+    wake_reader_.notify_one();
 }
 
 /// The frame keeps its place in the queue; a reader that reaches it waits.
@@ -191,34 +191,35 @@ void DecodedAhead::prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock)
     RawFrame frame = std::move(*waiting.frame);
     const std::shared_ptr<const Preparation> preparation = preparation_;
     lock.unlock();
-    std::exception_ptr broken;
+    std::exception_ptr error;
     try {
         (*preparation)(frame);
     } catch (...) {
-        broken = std::current_exception();
+        error = std::current_exception();
     }
     lock.lock();
     if (target_) return;  // a jump dropped the frame meanwhile
     waiting.frame = std::move(frame);
-    waiting.broken = broken;
+    waiting.error = error;
     waiting.prepared = Prepared::yes;
-    ready_.notify_one();
+    wake_reader_.notify_one();
 }
 
 void DecodedAhead::run() {
     pthread_setname_np(pthread_self(), "dibhr-decode");
     (void)set_time_slice(kPatientSlice);
-    if (hearts_.decoding != nullptr) hearts_.decoding->also_computes();
+    if (heartbeats_.decoding != nullptr) heartbeats_.decoding->count_computing_as_beat();
     std::unique_lock lock(mutex_);
     for (;;) {
-        asked_.wait(lock, [this] { return leaving_ || has_room() || unprepared() != nullptr; });
-        if (leaving_) return;
-        if (hearts_.decoding != nullptr) hearts_.decoding->beat();
+        wake_decoder_.wait(lock,
+                           [this] { return stopping_ || has_room() || unprepared() != nullptr; });
+        if (stopping_) return;
+        if (heartbeats_.decoding != nullptr) heartbeats_.decoding->beat();
         if (has_room())
             decode_one(lock);
         else
             prepare(*unprepared(), lock);
-        if (hearts_.decoding != nullptr) hearts_.decoding->rest();
+        if (heartbeats_.decoding != nullptr) heartbeats_.decoding->set_idle();
     }
 }
 

@@ -20,7 +20,7 @@
 namespace dibhr {
 
 /// Heartbeats of the decoding thread and of the reading thread; null: nobody watches it.
-struct ReadingHearts {
+struct ReaderHeartbeats {
     Heartbeat* decoding{nullptr};
     Heartbeat* reading{nullptr};  ///< rests while it waits for the decoder
 };
@@ -31,7 +31,7 @@ struct ReadingHearts {
 class DecodedAhead : public Media {
   public:
     /// `now` is the clock that measures decoding.
-    explicit DecodedAhead(std::unique_ptr<Media> media, ReadingHearts hearts = {},
+    explicit DecodedAhead(std::unique_ptr<Media> media, ReaderHeartbeats heartbeats = {},
                           Now now = std::chrono::steady_clock::now);
     ~DecodedAhead() override;  ///< waits for the frame that is being decoded
     DecodedAhead(const DecodedAhead&) = delete;
@@ -43,12 +43,12 @@ class DecodedAhead : public Media {
     std::optional<RawFrame> next_from(double earliest_s) override {
         return next_from(earliest_s, 0.0);
     }
-    /// The decoder then also skips frames less than `apart_s` after a frame given out. A reader
+    /// The decoder then also skips frames less than `spacing_s` after a frame given out. A reader
     /// that wants every following frame has to seek first.
-    std::optional<RawFrame> next_from(double earliest_s, double apart_s);
+    std::optional<RawFrame> next_from(double earliest_s, double spacing_s);
     /// How long the frame read last took, less the decoding of it and of the frames skipped before
     /// it [s]; nothing: not known, as after a jump.
-    [[nodiscard]] std::optional<double> making_s() const { return making_s_; }
+    [[nodiscard]] std::optional<double> conversion_s() const { return conversion_s_; }
     void seek(double media_s) override;
     void seek_near(double media_s) override;
     /// As seek(), but decoding begins at once, since the following frames will be read soon.
@@ -71,16 +71,16 @@ class DecodedAhead : public Media {
     struct Decoded {
         std::optional<RawFrame> frame{};  ///< nothing: the media has ended
         Prepared prepared{Prepared::no};
-        std::exception_ptr broken{};
+        std::exception_ptr error{};
         MediaDescription description{};
-        std::optional<double> making_s{};
+        std::optional<double> conversion_s{};
         std::size_t bytes{0};
     };
 
     void wait(std::unique_lock<std::mutex>& lock);
     [[nodiscard]] bool is_at_end() const;
     Decoded take(double earliest_s);
-    void go_on_apart_from(const RawFrame& frame);
+    void apply_spacing(const RawFrame& frame);
     void jump(Target target, Begins begins);
     void run();
     [[nodiscard]] bool has_room() const;
@@ -92,28 +92,28 @@ class DecodedAhead : public Media {
 
     // Used by the decoding thread only.
     std::unique_ptr<Media> media_;
-    ReadingHearts hearts_;
+    ReaderHeartbeats heartbeats_;
     Now now_;
     double last_s_{0.0};  ///< of the frame decoded last, or the target of a jump
     std::int64_t last_index_{0};
 
     // Used by the reader only.
     MediaDescription description_;
-    std::optional<double> making_s_{};
+    std::optional<double> conversion_s_{};
 
     // Used by both threads, under the mutex.
     std::mutex mutex_{};
-    std::condition_variable asked_{}, ready_{};
+    std::condition_variable wake_decoder_{}, wake_reader_{};
     std::deque<Decoded> decoded_{};
     std::shared_ptr<const Preparation> preparation_{};
-    std::size_t bytes_{0};            ///< of all in `decoded_`
-    std::size_t read_in_a_row_{0};    ///< since the last jump; decode_from() sets it
-    double from_s_{0.0};              ///< earlier frames are skipped
-    double apart_s_{0.0};             ///< so are frames nearer than this to the last given out
-    std::optional<Target> target_{};  ///< where to decode next; nothing: the following frame
-    bool waited_for_{false};
+    std::size_t bytes_{0};              ///< of all in `decoded_`
+    std::size_t consecutive_reads_{0};  ///< since the last jump; decode_from() sets it
+    double from_s_{0.0};                ///< earlier frames are skipped
+    double spacing_s_{0.0};             ///< so are frames nearer than this to the last given out
+    std::optional<Target> target_{};    ///< where to decode next; nothing: the following frame
+    bool reader_waits_{false};
     bool ended_{false};  ///< at the end, or the next frame failed: decode only on request
-    bool leaving_{false};
+    bool stopping_{false};
 
     std::thread thread_{};
 };

@@ -6,14 +6,14 @@
 
 namespace dibhr {
 
-void FrameAssembly::clean_alone(RawFrame& raw, const CleaningPlan& plan) {
-    const std::lock_guard lock(alone_);
+void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
+    const std::lock_guard lock(single_frame_mutex_);
     const auto begin = now_();
     const std::vector<HeldLevel> held = std::move(raw.held);
     const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
-    raw.lone =
-        std::make_shared<const LoneDepth>(chain_.alone(std::move(raw.depth), plan, held, colour));
-    raw.lone_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
+    raw.single_frame = std::make_shared<const SingleFrameDepth>(
+        chain_.clean_frame(std::move(raw.depth), plan, held, colour));
+    raw.single_frame_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
 }
 
 Frame FrameAssembly::without_depth(RawFrame& raw) const {
@@ -26,24 +26,25 @@ Frame FrameAssembly::without_depth(RawFrame& raw) const {
     return frame;
 }
 
-Frame FrameAssembly::finished(const Frame& without_depth, std::span<const LoneDepth* const> lone,
-                              std::size_t now) {
-    Frame frame = chain_.finished(lone, now, plan_, without_depth);
+Frame FrameAssembly::finish_frame(const Frame& without_depth,
+                                  std::span<const SingleFrameDepth* const> single_frame,
+                                  std::size_t now) {
+    Frame frame = chain_.finish_frame(single_frame, now, plan_, without_depth);
     frame.maps = maps_;
     return frame;
 }
 
-Frame FrameAssembly::single(RawFrame raw) {
-    if (!raw.lone) clean_alone(raw, plan_);
-    const LoneDepth* const lone = raw.lone.get();
-    Frame frame = finished(without_depth(raw), {&lone, 1}, 0);
+Frame FrameAssembly::finish_single_frame(RawFrame raw) {
+    if (!raw.single_frame) clean_frame(raw, plan_);
+    const SingleFrameDepth* const single_frame = raw.single_frame.get();
+    Frame frame = finish_frame(without_depth(raw), {&single_frame, 1}, 0);
     frame.cleaning.steps.steady = false;
     return frame;
 }
 
 void FrameAssembly::connect(Frame& from, const Frame& next, bool follows) {
-    const MotionWanted affordable = throttle_.affordable(wanted_);
-    done_ = follows ? affordable : MotionWanted{};
+    const MotionRequest affordable = throttle_.affordable(wanted_);
+    done_ = follows ? affordable : MotionRequest{};
     motion_.connect(from, next, done_);
 }
 

@@ -19,12 +19,12 @@
 namespace dibhr {
 
 /// Cleans frames, adds the touch maps, and computes the motion from each frame to the next. Used by
-/// one thread at a time; clean_alone() may be called by any thread.
+/// one thread at a time; clean_frame() may be called by any thread.
 class FrameAssembly {
   public:
     /// `now` is the clock that measures cleaning. Motion for which there is no time is paused for
-    /// at most `longest_rest` frames.
-    FrameAssembly(Now now, int longest_rest) : now_(std::move(now)), throttle_(longest_rest) {}
+    /// at most `longest_pause` frames.
+    FrameAssembly(Now now, int longest_pause) : now_(std::move(now)), throttle_(longest_pause) {}
 
     // Settings of frames that are made from now on.
 
@@ -33,40 +33,43 @@ class FrameAssembly {
     void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
     void set_number(std::uint32_t number) { number_ = number; }
     [[nodiscard]] std::uint32_t number() const { return number_; }
-    void set_motion(const MotionWanted& wanted) { wanted_ = wanted; }
-    [[nodiscard]] const MotionWanted& motion() const { return wanted_; }
+    void set_motion(const MotionRequest& wanted) { wanted_ = wanted; }
+    [[nodiscard]] const MotionRequest& motion() const { return wanted_; }
 
     /// Does the cleaning that needs no other frame. Moves the depth into `raw.lone`. Any thread.
-    void clean_alone(RawFrame& raw, const CleaningPlan& plan);
+    void clean_frame(RawFrame& raw, const CleaningPlan& plan);
     /// The frame without its depth. Moves the colour out of `raw`.
     [[nodiscard]] Frame without_depth(RawFrame& raw) const;
     /// Adds the depth of frame number `now` of the span, whose frames are in order of time.
-    [[nodiscard]] Frame finished(const Frame& without_depth, std::span<const LoneDepth* const> lone,
-                                 std::size_t now);
+    [[nodiscard]] Frame finish_frame(const Frame& without_depth,
+                                     std::span<const SingleFrameDepth* const> single_frame,
+                                     std::size_t now);
     /// Cleans a frame completely, without its neighbours in time.
-    [[nodiscard]] Frame single(RawFrame raw);
+    [[nodiscard]] Frame finish_single_frame(RawFrame raw);
 
     /// Stores in `from` its motion to `next`, as far as it is requested and there is time;
     /// none when `next` does not follow `from`.
     void connect(Frame& from, const Frame& next, bool follows);
     /// There was no time for what the last connect() computed.
-    void begin_rest() { throttle_.begin_rest(done_); }
+    void pause_motion() { throttle_.pause_motion(done_); }
     /// See MotionThrottle.
-    void took(double busy_s, double interval_s) { throttle_.took(done_, busy_s, interval_s); }
-    void forget_rests() { throttle_.forget(); }
+    void add_cost(double busy_s, double interval_s) {
+        throttle_.add_cost(done_, busy_s, interval_s);
+    }
+    void forget_motion_pauses() { throttle_.forget(); }
     [[nodiscard]] const MotionThrottle& throttle() const { return throttle_; }
 
   private:
     Now now_;
-    std::mutex alone_{};  ///< guards the chain's cleaning of single frames
+    std::mutex single_frame_mutex_{};  ///< guards the chain's cleaning of single frames
     CleaningChain chain_{};
     CleaningPlan plan_{};
     std::shared_ptr<const TouchMaps> maps_{};
     std::uint32_t number_{0};
     FrameMotion motion_{};
     MotionThrottle throttle_;
-    MotionWanted wanted_{};
-    MotionWanted done_{};  ///< what was computed for the last frame
+    MotionRequest wanted_{};
+    MotionRequest done_{};  ///< what was computed for the last frame
 };
 
 }  // namespace dibhr

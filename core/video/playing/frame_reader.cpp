@@ -11,7 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
-#include "core/video/playing/remembering_media.hpp"
+#include "core/video/playing/held_levels_media.hpp"
 
 namespace dibhr {
 
@@ -23,11 +23,11 @@ constexpr double kMostReadBack = 12.0;                     ///< frames read at o
 constexpr double kReach_s = 0.5;                           ///< farther frames do not clean this one
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
 /// After so many frames in a row, more than a window holds, the media counts as playing.
-constexpr int kPlaying = static_cast<int>(FrameWindow::kFrames);
-constexpr int kInTime = 30;               ///< after so many frames in a row the machine keeps up
-constexpr std::int64_t kMostApart = 3;    // frames; no motion is computed over more
-constexpr double kSoon_s = 0.1;           ///< quicker jumps need no preview
-constexpr double kJump_s_a_pixel = 1e-7;  ///< a guess, until a jump was measured
+constexpr int kPlaysAfter = static_cast<int>(FrameWindow::kFrames);
+constexpr int kKeepsUpAfter = 30;  ///< after so many frames in a row the machine keeps up
+constexpr std::int64_t kMostFramesBetween = 3;  // frames; no motion is computed over more
+constexpr double kQuickJump_s = 0.1;            ///< quicker jumps need no preview
+constexpr double kJump_s_a_pixel = 1e-7;        ///< a guess, until a jump was measured
 
 double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
@@ -47,13 +47,13 @@ std::size_t bytes_of(const DepthImage& depth) {
 
 }  // namespace
 
-FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number, ReadingHearts hearts,
-                         Now now)
+FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
+                         ReaderHeartbeats heartbeats, Now now)
     : now_(std::move(now)),
-      assembly_(now_, kLongestRest),
-      media_(std::make_unique<RememberingMedia>(std::move(media)), hearts, now_),
+      assembly_(now_, kLongestPause),
+      media_(std::make_unique<HeldLevelsMedia>(std::move(media)), heartbeats, now_),
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
-      in_time_(kInTime) {
+      frames_since_skip_(kKeepsUpAfter) {
     assembly_.set_number(number);
 }
 
@@ -64,17 +64,18 @@ double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) c
 std::size_t FrameReader::Kept::bytes() const {
     std::size_t bytes = frame.colour ? frame.colour->rgb.size() : 0;
     bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
-    if (const LoneDepth* lone = raw.lone.get(); lone != nullptr)
-        bytes += bytes_of(lone->depth) + lone->made_up.size() + lone->unseen.size();
+    if (const SingleFrameDepth* single_frame = raw.single_frame.get(); single_frame != nullptr)
+        bytes += bytes_of(single_frame->depth) + single_frame->filled.size() +
+                 single_frame->unseen.size();
     if (frame.depth) bytes += bytes_of(*frame.depth);
-    if (frame.beneath) bytes += bytes_of(*frame.beneath);
+    if (frame.undilated) bytes += bytes_of(*frame.undilated);
     return bytes;
 }
 
 void FrameReader::Kept::forget_cleaned() {
     frame.depth.reset();
     frame.unseen.reset();
-    frame.beneath.reset();
+    frame.undilated.reset();
 }
 
 FrameReader::Kept* FrameReader::find(double media_s) {
@@ -94,9 +95,9 @@ FrameReader::Kept* FrameReader::find_shown(double media_s) {
 
 FrameReader::Kept* FrameReader::read(const Pace& pace) {
     const std::optional<Position> last = std::exchange(position_, std::nullopt);
-    heading_.reset();
+    prefetch_.reset();
     const auto begin = now_();
-    auto raw = media_.next_from(pace.earliest_s, pace.apart_s);
+    auto raw = media_.next_from(pace.earliest_s, pace.spacing_s);
     const double waited_s = seconds_since(begin);
     Kept* before = last ? find(last->media_s) : nullptr;
     if (!raw) {
@@ -106,8 +107,8 @@ FrameReader::Kept* FrameReader::read(const Pace& pace) {
     }
     const std::int64_t frames =
         before != nullptr ? std::max<std::int64_t>(raw->index - before->frame.index, 1) : 1;
-    tell_wait(*raw, frames, waited_s);
-    passed_over_ += frames - 1;
+    update_timing(*raw, frames, waited_s);
+    skipped_frames_ += frames - 1;
     const bool follows = last && last->gapless && frames == 1;
     if (follows && before != nullptr) before->next_s = raw->media_s;
     Kept* kept = keep(std::move(*raw));
@@ -115,32 +116,33 @@ FrameReader::Kept* FrameReader::read(const Pace& pace) {
     if (follows) kept->previous_s = last->media_s;
     at_beginning_ = false;
     // The decoder may have skipped frames ahead: from here on any frame may be missing.
-    const bool gapless = !(pace.apart_s > 0.0) && (!last || last->gapless);
+    const bool gapless = !(pace.spacing_s > 0.0) && (!last || last->gapless);
     position_ = {kept->frame.media_s, gapless};
     return kept;
 }
 
 /// Updates the mean times with a frame and the frames skipped before it.
-void FrameReader::tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s) {
-    waited_s = std::max(waited_s - 1e-3 * raw.lone_ms, 0.0);
+void FrameReader::update_timing(const RawFrame& raw, std::int64_t frames, double waited_s) {
+    waited_s = std::max(waited_s - 1e-3 * raw.single_frame_ms, 0.0);
     waited_s_ += waited_s;
     cost_.decode_ms = 1000.0 * waited_s;
     const auto count = static_cast<double>(frames);
-    const bool only_decoded = raw.passing_s > 0.0 && !plan().steps.steady;
-    const double passing_s = only_decoded ? raw.passing_s : waited_s / count;
-    decoding_s_ = moving_mean(decoding_s_, passing_s);
+    const bool only_decoded = raw.skipping_s > 0.0 && !plan().steps.steady;
+    const double skipping_s = only_decoded ? raw.skipping_s : waited_s / count;
+    decoding_s_ = moving_mean(decoding_s_, skipping_s);
     if (!only_decoded)
-        making_s_ = 0.0;
-    else if (const auto making_s = media_.making_s())
-        making_s_ = moving_mean(making_s_, *making_s);
+        conversion_s_ = 0.0;
+    else if (const auto conversion_s = media_.conversion_s())
+        conversion_s_ = moving_mean(conversion_s_, *conversion_s);
 }
 
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {
-    let_go();
+    evict();
     Kept& kept = kept_[raw.media_s];
     const CleaningSteps& steps = plan().steps;
     const bool needs_colour = steps.sharpen_silhouettes && steps.colour_edges;
-    if (needs_colour && !raw.lone && !kept.can_be_cleaned()) assembly_.clean_alone(raw, plan());
+    if (needs_colour && !raw.single_frame && !kept.can_be_cleaned())
+        assembly_.clean_frame(raw, plan());
     // The frame is new, or its colour was dropped to save memory.
     if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
     kept.frame.index = raw.index;  // after some jumps an estimate, off by the same for all
@@ -155,7 +157,7 @@ std::size_t FrameReader::reach() const {
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
 /// other cleaned frames keeps only the result; removes frames farthest from the wanted one first.
-void FrameReader::let_go() {
+void FrameReader::evict() {
     const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
     const auto wanted = kept_.lower_bound(wanted_s_);
     auto before = std::distance(kept_.begin(), wanted);
@@ -191,38 +193,38 @@ void FrameReader::jump_to(double media_s) {
     media_.seek(media_s);
     at_beginning_ = !(media_s > 0.0);
     position_.reset();
-    heading_.reset();
+    prefetch_.reset();
 }
 
-bool FrameReader::heads_for(double media_s) const {
-    return heading_ && heading_->from_s <= media_s && media_s <= heading_->kept_to_s;
+bool FrameReader::prefetches_past(double media_s) const {
+    return prefetch_ && prefetch_->from_s <= media_s && media_s <= prefetch_->kept_to_s;
 }
 
-bool FrameReader::goes_on_after(double media_s) const {
+bool FrameReader::decoder_is_after(double media_s) const {
     return position_ && position_->media_s == media_s;
 }
 
 /// Where all kept frames after this one are cleaned, sends the decoder to the end of their row
 /// while they are shown, early enough for the neighbours that clean the next frame.
-void FrameReader::go_on_from_kept(double media_s) {
+void FrameReader::prefetch_after_kept(double media_s) {
     std::vector<const Kept*> row{find(media_s)};
     while (const Kept* next = kept_after(*row.back(), Needs::surface)) row.push_back(next);
     const double kept_to_s = row.back()->frame.media_s;
-    if (row.back()->last || goes_on_after(kept_to_s) || heads_for(kept_to_s)) return;
+    if (row.back()->last || decoder_is_after(kept_to_s) || prefetches_past(kept_to_s)) return;
     const auto is_cleaned = [](const Kept* kept) { return kept->is_cleaned(); };
     if (!std::all_of(row.begin(), row.end(), is_cleaned)) return;
     const double from_s = row[row.size() - 1 - std::min(reach(), row.size() - 1)]->frame.media_s;
     media_.decode_from(from_s);
     at_beginning_ = !(from_s > 0.0);
     position_.reset();
-    heading_ = {from_s, kept_to_s};
+    prefetch_ = {from_s, kept_to_s};
 }
 
 /// The noise of the following frames, up to a read error, which the read of that frame reports.
 DepthNoise FrameReader::noise_of(Media& media) {
     NoiseMeter meter;
     try {
-        for (std::size_t k = 0; k < NoiseMeter::kEnough; ++k) {
+        for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k) {
             std::optional<RawFrame> raw = media.next();
             if (!raw) break;
             meter.add(std::move(raw->depth));
@@ -246,7 +248,7 @@ void FrameReader::make_plan() {
     }
     const CleaningPlan plan =
         plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
-    if (!same_alone(plan.steps, this->plan().steps)) {
+    if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
     }
@@ -259,55 +261,55 @@ void FrameReader::make_plan() {
 
 /// Waiting frames are cleaned by the decoding thread; on a slow machine by the reading one.
 void FrameReader::clean_ahead() {
-    if (in_time_ < kInTime && !plan().steps.steady)
+    if (frames_since_skip_ < kKeepsUpAfter && !plan().steps.steady)
         media_.prepare_with(nullptr);
     else
         media_.prepare_with(
-            [this, plan = plan()](RawFrame& raw) { assembly_.clean_alone(raw, plan); });
+            [this, plan = plan()](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
 }
 
-const std::shared_ptr<const LoneDepth>& FrameReader::lone_of(Kept& kept) {
-    if (!kept.raw.lone) assembly_.clean_alone(kept.raw, plan());
-    cost_.clean_ms += std::exchange(kept.raw.lone_ms, 0.0);
-    return kept.raw.lone;
+const std::shared_ptr<const SingleFrameDepth>& FrameReader::single_frame_of(Kept& kept) {
+    if (!kept.raw.single_frame) assembly_.clean_frame(kept.raw, plan());
+    cost_.clean_ms += std::exchange(kept.raw.single_frame_ms, 0.0);
+    return kept.raw.single_frame;
 }
 
 /// A frame and its neighbours, each cleaned by itself, in order of time.
-FrameReader::Around FrameReader::around(double media_s) {
-    Around around;
+FrameReader::Neighbours FrameReader::neighbours(double media_s) {
+    Neighbours neighbours;
     const auto is_near = [media_s](const Kept* kept) {
         return kept != nullptr && std::fabs(kept->frame.media_s - media_s) <= kReach_s;
     };
-    around.frames.push_back(lone_of(*find(media_s)));
+    neighbours.frames.push_back(single_frame_of(*find(media_s)));
     double first_s = media_s;
     for (std::size_t k = 0; k < reach(); ++k) {
-        Kept* before = looked_back(first_s);
+        Kept* before = neighbour_before(first_s);
         if (!is_near(before)) break;
-        around.frames.insert(around.frames.begin(), lone_of(*before));
-        ++around.now;
+        neighbours.frames.insert(neighbours.frames.begin(), single_frame_of(*before));
+        ++neighbours.now;
         first_s = before->frame.media_s;
     }
     double last_s = media_s;
     for (std::size_t k = 0; k < reach(); ++k) {
-        Kept* after = looked_ahead(last_s);
+        Kept* after = neighbour_after(last_s);
         if (!is_near(after)) break;
-        around.frames.push_back(lone_of(*after));
+        neighbours.frames.push_back(single_frame_of(*after));
         last_s = after->frame.media_s;
     }
-    return around;
+    return neighbours;
 }
 
 Frame FrameReader::cleaned(double media_s) {
     wanted_s_ = media_s;
     if (!find(media_s)->is_cleaned()) {
         cost_.clean_ms = 0.0;
-        const Around around = this->around(media_s);
+        const Neighbours neighbours = this->neighbours(media_s);
         const auto begin = now_();
-        std::vector<const LoneDepth*> frames;
-        frames.reserve(around.frames.size());
-        for (const auto& lone : around.frames) frames.push_back(lone.get());
+        std::vector<const SingleFrameDepth*> frames;
+        frames.reserve(neighbours.frames.size());
+        for (const auto& single_frame : neighbours.frames) frames.push_back(single_frame.get());
         Kept& kept = *find(media_s);
-        kept.frame = assembly_.finished(kept.frame, frames, around.now);
+        kept.frame = assembly_.finish_frame(kept.frame, frames, neighbours.now);
         cost_.clean_ms += 1000.0 * seconds_since(begin);
         cost_.cleaned = now_();
     }
@@ -329,8 +331,8 @@ FrameReader::Kept* FrameReader::next_of(double media_s, Needs needs) {
         if (here->last) return nullptr;
         if (Kept* next = kept_after(*here, needs)) return next;
     }
-    if (!goes_on_after(media_s) || !position_->gapless) {
-        if (!heads_for(media_s)) jump_to(media_s);
+    if (!decoder_is_after(media_s) || !position_->gapless) {
+        if (!prefetches_past(media_s)) jump_to(media_s);
         do {
             if (read() == nullptr) return nullptr;
         } while (position_->media_s < media_s);
@@ -339,18 +341,18 @@ FrameReader::Kept* FrameReader::next_of(double media_s, Needs needs) {
 }
 
 /// Null also at a read error, which is kept until that frame itself is requested.
-FrameReader::Kept* FrameReader::looked_ahead(double media_s) {
-    if (broken_ && broken_->after_s == media_s) return nullptr;
+FrameReader::Kept* FrameReader::neighbour_after(double media_s) {
+    if (pending_error_ && pending_error_->after_s == media_s) return nullptr;
     try {
         return next_of(media_s, Needs::depth);
     } catch (const InputError&) {
-        broken_ = {media_s, std::current_exception()};
+        pending_error_ = {media_s, std::current_exception()};
         return nullptr;
     }
 }
 
 /// Null also where the earlier frames cannot be read.
-FrameReader::Kept* FrameReader::looked_back(double media_s) {
+FrameReader::Kept* FrameReader::neighbour_before(double media_s) {
     try {
         return previous_of(media_s, Needs::depth);
     } catch (const InputError&) {
@@ -382,7 +384,7 @@ FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
 
 std::optional<Frame> FrameReader::at(double media_s) {
     make_plan();
-    in_a_row_ = 0;
+    consecutive_frames_ = 0;
     if (const Kept* kept = find_shown(media_s)) return cleaned(kept->frame.media_s);
     const auto begin = now_();
     wanted_s_ = media_s;
@@ -396,14 +398,14 @@ std::optional<Frame> FrameReader::at(double media_s) {
 
 /// Skips nothing where the filter in time needs every frame.
 const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pace) {
-    if (broken_ && broken_->after_s == media_s) {
-        const std::exception_ptr why = std::exchange(broken_, {})->why;
+    if (pending_error_ && pending_error_->after_s == media_s) {
+        const std::exception_ptr why = std::exchange(pending_error_, {})->why;
         std::rethrow_exception(why);
     }
-    const bool passes = pace.earliest_s > media_s || pace.apart_s > 0.0;
+    const bool passes = pace.earliest_s > media_s || pace.spacing_s > 0.0;
     const Kept* const here = find(media_s);
     const bool is_kept = here != nullptr && kept_after(*here, Needs::surface) != nullptr;
-    if (plan().steps.steady || !passes || is_kept || !goes_on_after(media_s))
+    if (plan().steps.steady || !passes || is_kept || !decoder_is_after(media_s))
         return next_of(media_s, Needs::surface);
     return here != nullptr && here->last ? nullptr : read(pace);
 }
@@ -411,31 +413,32 @@ const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pa
 std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
     make_plan();
     const Kept* next = nullptr;
-    const std::int64_t passed_over = passed_over_;
+    const std::int64_t skipped_frames = skipped_frames_;
     for (double from_s = media_s;; from_s = wanted_s_) {
         const Kept* further = next_wanted(from_s, pace);
         if (further == nullptr) break;
-        if (next != nullptr) ++passed_over_;
+        if (next != nullptr) ++skipped_frames_;
         next = further;
         wanted_s_ = next->frame.media_s;
         if (!(wanted_s_ < pace.earliest_s)) break;
     }
     if (next == nullptr) return std::nullopt;
-    keep_pace(passed_over_ - passed_over);
+    adapt_to_load(skipped_frames_ - skipped_frames);
     Frame frame = cleaned(next->frame.media_s);
-    if (++in_a_row_ >= kPlaying) go_on_from_kept(frame.media_s);
+    if (++consecutive_frames_ >= kPlaysAfter) prefetch_after_kept(frame.media_s);
     return frame;
 }
 
-void FrameReader::keep_pace(std::int64_t passed_over) {
-    if (passed_over > 0) assembly_.begin_rest();  // motion is left out before frames are
-    const bool was_in_time = in_time_ >= kInTime;
-    in_time_ = passed_over > 0 ? 0 : std::min(in_time_ + 1, kInTime);
-    if (was_in_time != (in_time_ >= kInTime)) clean_ahead();
+void FrameReader::adapt_to_load(std::int64_t skipped_frames) {
+    if (skipped_frames > 0) assembly_.pause_motion();  // motion is left out before frames are
+    const bool was_in_time = frames_since_skip_ >= kKeepsUpAfter;
+    frames_since_skip_ = skipped_frames > 0 ? 0 : std::min(frames_since_skip_ + 1, kKeepsUpAfter);
+    if (was_in_time != (frames_since_skip_ >= kKeepsUpAfter)) clean_ahead();
 }
 
 void FrameReader::connect(Frame& from, const Frame& next) {
-    const bool follows = next.media_s > from.media_s && next.index - from.index <= kMostApart;
+    const bool follows =
+        next.media_s > from.media_s && next.index - from.index <= kMostFramesBetween;
     const auto begin = now_();
     assembly_.connect(from, next, follows);
     waited_s_ += seconds_since(begin);
@@ -443,7 +446,7 @@ void FrameReader::connect(Frame& from, const Frame& next) {
 
 std::optional<Frame> FrameReader::before(double media_s) {
     make_plan();
-    in_a_row_ = 0;
+    consecutive_frames_ = 0;
     wanted_s_ = media_s;
     const Kept* previous = previous_of(media_s, Needs::surface);
     if (previous == nullptr) return std::nullopt;
@@ -452,14 +455,14 @@ std::optional<Frame> FrameReader::before(double media_s) {
 
 std::optional<Frame> FrameReader::preview(double media_s) {
     make_plan();
-    if (jump_s_ < kSoon_s || find_shown(media_s) != nullptr) return std::nullopt;
+    if (jump_s_ < kQuickJump_s || find_shown(media_s) != nullptr) return std::nullopt;
     media_.seek_near(media_s);
     position_.reset();
-    heading_.reset();
+    prefetch_.reset();
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;
-    return assembly_.single(std::move(*raw));
+    return assembly_.finish_single_frame(std::move(*raw));
 }
 
 double FrameReader::last_interval_s(double media_s) {

@@ -28,7 +28,7 @@ struct FrameCost {
 /// Which of the following frames are read while they play; media time [s].
 struct Pace {
     double earliest_s{0.0};  ///< frames before it are skipped, but not the last frame
-    double apart_s{0.0};     ///< least time from a frame given out to the next
+    double spacing_s{0.0};   ///< least time from a frame given out to the next
 };
 
 /// Decodes on its own thread, which also cleans waiting frames as far as they need no others. Used
@@ -39,7 +39,8 @@ class FrameReader {
     /// Every frame carries `number`, which identifies its media. `now` is the clock that measures
     /// decoding and cleaning.
     explicit FrameReader(std::unique_ptr<Media> media, std::uint32_t number = 0,
-                         ReadingHearts hearts = {}, Now now = std::chrono::steady_clock::now);
+                         ReaderHeartbeats heartbeats = {},
+                         Now now = std::chrono::steady_clock::now);
 
     /// The frame shown at `media_s`; the first before the beginning, the last after the end.
     std::optional<Frame> at(double media_s);
@@ -62,7 +63,7 @@ class FrameReader {
     /// are not neighbours in the file get no motion.
     void connect(Frame& from, const Frame& next);
     /// What connect() computes from now on.
-    void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
+    void set_motion(const MotionRequest& wanted) { assembly_.set_motion(wanted); }
 
     /// Frames are cleaned so from now on; frames given out before have to be read again.
     void set_cleaning(const CleaningOptions& options);
@@ -73,14 +74,14 @@ class FrameReader {
     [[nodiscard]] const MediaDescription& description() const { return media_.description(); }
     [[nodiscard]] const FrameCost& cost() const { return cost_; }
     /// How many frames after() has skipped.
-    [[nodiscard]] std::int64_t passed_over() const { return passed_over_; }
+    [[nodiscard]] std::int64_t skipped_frames() const { return skipped_frames_; }
     /// Mean time that a skipped frame takes [s]: its decoding, or, where skipped frames are more
     /// than decoded, the wait for a frame less its cleaning.
     [[nodiscard]] double decoding_s() const { return decoding_s_; }
 
     /// Mean time that a frame given out takes in addition, on the decoding thread [s]; 0: none, or
     /// not known.
-    [[nodiscard]] double making_s() const { return making_s_; }
+    [[nodiscard]] double conversion_s() const { return conversion_s_; }
 
     /// The sum of all waits, and of the time that measuring noise and motion took [s]: noise is
     /// measured once, motion is paused where there is no time for it.
@@ -90,7 +91,7 @@ class FrameReader {
     [[nodiscard]] const CleaningPlan& plan() const { return assembly_.plan(); }
 
   private:
-    static constexpr int kLongestRest = 20'000;  ///< frames without motion
+    static constexpr int kLongestPause = 20'000;  ///< frames without motion
     /// What a kept frame is used for: to give it out, or to clean its neighbours with it.
     enum class Needs { surface, depth };
     /// A decoded frame, and the times of its neighbours where those were read directly before or
@@ -98,13 +99,15 @@ class FrameReader {
     /// the result may be kept.
     struct Kept {
         Frame frame{};   ///< without depth until that is cleaned
-        RawFrame raw{};  ///< without colour; lone_ms until cleaned() has counted it
+        RawFrame raw{};  ///< without colour; single_frame_ms until cleaned() has counted it
         std::optional<double> previous_s{}, next_s{};
         bool first{false}, last{false};  ///< of the media
 
         [[nodiscard]] bool is_cleaned() const { return frame.depth != nullptr; }
         void forget_cleaned();
-        [[nodiscard]] bool can_be_cleaned() const { return raw.lone || !raw.depth.levels.empty(); }
+        [[nodiscard]] bool can_be_cleaned() const {
+            return raw.single_frame || !raw.depth.levels.empty();
+        }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
             return frame.colour && (is_cleaned() || can_be_cleaned());
@@ -117,11 +120,11 @@ class FrameReader {
         bool gapless{true};
     };
     /// Where the decoder was sent ahead of time, and the last frame that is kept.
-    struct Heading {
+    struct Prefetch {
         double from_s{0.0}, kept_to_s{0.0};
     };
-    struct Around {
-        std::vector<std::shared_ptr<const LoneDepth>> frames{};
+    struct Neighbours {
+        std::vector<std::shared_ptr<const SingleFrameDepth>> frames{};
         std::size_t now{0};
     };
 
@@ -130,26 +133,26 @@ class FrameReader {
     Kept* find_shown(double media_s);  ///< the frame shown then, if it can be given out
     /// Decodes and keeps the next frame that the pace selects; null at the end.
     Kept* read(const Pace& pace = {});
-    void tell_wait(const RawFrame& raw, std::int64_t frames, double waited_s);
+    void update_timing(const RawFrame& raw, std::int64_t frames, double waited_s);
     Kept* keep(RawFrame raw);
-    const std::shared_ptr<const LoneDepth>& lone_of(Kept& kept);
+    const std::shared_ptr<const SingleFrameDepth>& single_frame_of(Kept& kept);
     Kept* kept_after(const Kept& kept, Needs needs);
     Kept* next_of(double media_s, Needs needs);  ///< after the one at exactly media_s; null: end
-    Kept* looked_ahead(double media_s);
-    Kept* looked_back(double media_s);
+    Kept* neighbour_after(double media_s);
+    Kept* neighbour_before(double media_s);
     Kept* previous_of(double media_s, Needs needs);  ///< null at the beginning
     void jump_to(double media_s);
-    [[nodiscard]] bool heads_for(double media_s) const;
-    [[nodiscard]] bool goes_on_after(double media_s) const;
+    [[nodiscard]] bool prefetches_past(double media_s) const;
+    [[nodiscard]] bool decoder_is_after(double media_s) const;
     const Kept* next_wanted(double media_s, const Pace& pace);
-    void go_on_from_kept(double media_s);
-    void let_go();
+    void prefetch_after_kept(double media_s);
+    void evict();
     [[nodiscard]] std::size_t reach() const;
     void make_plan();
     void clean_ahead();
-    void keep_pace(std::int64_t passed_over);
+    void adapt_to_load(std::int64_t skipped_frames);
     [[nodiscard]] static DepthNoise noise_of(Media& media);
-    Around around(double media_s);
+    Neighbours neighbours(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
 
@@ -159,24 +162,24 @@ class FrameReader {
     CleaningOptions options_{};
     std::optional<DepthNoise> noise_{};  ///< of the clip, measured when first needed
     /// A read error after a frame that was read ahead: thrown when that frame is requested.
-    struct Broken {
+    struct PendingError {
         double after_s{0.0};
         std::exception_ptr why{};
     };
-    std::optional<Broken> broken_{};
+    std::optional<PendingError> pending_error_{};
     bool planned_{false};                 ///< the assembly has the plan of the options
     std::map<double, Kept> kept_{};       ///< by presentation time
     double wanted_s_{0.0};                ///< the frame to give out now, or the last one
     bool at_beginning_{true};             ///< the next frame is the first one
     std::optional<Position> position_{};  ///< nothing: the decoder is not after a known frame
-    std::optional<Heading> heading_{};    ///< until the decoder is read again
-    int in_a_row_{0};                     ///< frames that after() gave out since a jump or a step
+    std::optional<Prefetch> prefetch_{};  ///< until the decoder is read again
+    int consecutive_frames_{0};           ///< frames that after() gave out since a jump or a step
     double decoding_s_{0.0};
-    double making_s_{0.0};
+    double conversion_s_{0.0};
     double waited_s_{0.0};
     double jump_s_;  ///< how long the last jump to a frame that was not kept took
-    std::int64_t passed_over_{0};
-    int in_time_{0};  ///< frames since one was skipped
+    std::int64_t skipped_frames_{0};
+    int frames_since_skip_{0};  ///< frames since one was skipped
     FrameCost cost_{};
 };
 

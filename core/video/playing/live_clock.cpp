@@ -12,14 +12,14 @@ namespace dibhr {
 
 namespace {
 
-constexpr double kJump_s = 0.001;        ///< from all that was shown to a restarted timeline
-constexpr double kOtherStamps_s = 1.0;   ///< stamps farther apart: the source's clock was set
-constexpr std::size_t kRemembered = 64;  ///< frames: two seconds
-constexpr double kLate = 0.05;     ///< share of the frames that may come too late
-constexpr double kUnevenly = 1.0;  ///< the longest added delay for jitter, in intervals
-constexpr double kSlow_s = 0.3, kQuick_s = 2.0;      ///< time constants of the correction
-constexpr double kSlowest = 0.05, kQuickest = 0.02;  ///< most that the speed differs from 1
-constexpr double kAlike_s = 0.0005;
+constexpr double kJump_s = 0.001;             ///< from all that was shown to a restarted timeline
+constexpr double kStampJump_s = 1.0;          ///< stamps farther apart: the source's clock was set
+constexpr std::size_t kRemembered = 64;       ///< frames: two seconds
+constexpr double kLateShare = 0.05;           ///< share of the frames that may come too late
+constexpr double kMostJitterIntervals = 1.0;  ///< the longest added delay for jitter, in intervals
+constexpr double kSlowDown_s = 0.3, kSpeedUp_s = 2.0;     ///< time constants of the correction
+constexpr double kMostSlower = 0.05, kMostFaster = 0.02;  ///< most that the speed differs from 1
+constexpr double kDeadband_s = 0.0005;
 
 /// The value below which `share` of them lie.
 double quantile(std::vector<double>& values, double share) {
@@ -39,17 +39,17 @@ void LiveClock::begin_with(Frame frame, double stamp_s, Time now, std::deque<Fra
     frames.clear();
     frames.push_back(std::move(frame));
     ahead_s_.clear();
-    begins_ = false;
-    alone_ = true;
+    restarts_ = false;
+    waits_for_second_ = true;
 }
 
-bool LiveClock::goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept {
+bool LiveClock::continues_with(double stamp_s, const std::deque<Frame>& frames) const noexcept {
     const double since_s = stamp_s - last_stamp_s_;
-    return !begins_ && !frames.empty() && since_s > 0.0 && since_s < kOtherStamps_s;
+    return !restarts_ && !frames.empty() && since_s > 0.0 && since_s < kStampJump_s;
 }
 
 bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames) {
-    const bool goes_on = goes_on_to(stamp_s, frames);
+    const bool goes_on = continues_with(stamp_s, frames);
     const double since_s = stamp_s - std::exchange(last_stamp_s_, stamp_s);
     if (!goes_on) {
         begin_with(std::move(frame), stamp_s, now, frames);
@@ -57,7 +57,7 @@ bool LiveClock::add(Frame frame, double stamp_s, Time now, std::deque<Frame>& fr
     }
     interval_s_ = moving_mean(interval_s_, std::min(since_s, 2.0 * interval_s_));
     frame.time_s = stamp_s + offset_s_;
-    if (std::exchange(alone_, false)) {  // also holds it where frames were missing
+    if (std::exchange(waits_for_second_, false)) {  // also holds it where frames were missing
         Frame& held = frames.back();
         held.time_s = std::max(held.time_s, frame.time_s - interval_s_);
         clock_ = {now, held.time_s, 1.0};
@@ -82,12 +82,13 @@ void LiveClock::steer(double time_s, Time now) {
     if (ahead_s_.size() > kRemembered) ahead_s_.pop_front();
     std::vector<double> ahead(ahead_s_.begin(), ahead_s_.end());
     const double behind_s = moment_s - seconds_of(now);
-    const double of_late_ones_s = quantile(ahead, kLate) - behind_s - interval_s_;
-    const double of_most_s = quantile(ahead, 0.5) - behind_s - (1.0 + kUnevenly) * interval_s_;
-    const double early_s = std::max(of_late_ones_s, of_most_s);
+    const double late_reserve_s = quantile(ahead, kLateShare) - behind_s - interval_s_;
+    const double median_reserve_s =
+        quantile(ahead, 0.5) - behind_s - (1.0 + kMostJitterIntervals) * interval_s_;
+    const double early_s = std::max(late_reserve_s, median_reserve_s);
     double speed = 1.0;
-    if (early_s < -kAlike_s) speed -= std::min(kSlowest, -early_s / kSlow_s);
-    if (early_s > kAlike_s) speed += std::min(kQuickest, early_s / kQuick_s);
+    if (early_s < -kDeadband_s) speed -= std::min(kMostSlower, -early_s / kSlowDown_s);
+    if (early_s > kDeadband_s) speed += std::min(kMostFaster, early_s / kSpeedUp_s);
     clock_ = {now, moment_s, speed};
 }
 

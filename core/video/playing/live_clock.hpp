@@ -19,13 +19,14 @@ class LiveClock {
     using Time = std::chrono::steady_clock::time_point;
 
     /// The next frame restarts the timeline: after a pause, a lost signal, a jump of the stamps.
-    void begin_again() noexcept { begins_ = true; }
+    void restart() noexcept { restarts_ = true; }
     /// Whether the surface moves from the present frames to a frame of that stamp [s].
-    [[nodiscard]] bool goes_on_to(double stamp_s, const std::deque<Frame>& frames) const noexcept;
+    [[nodiscard]] bool continues_with(double stamp_s,
+                                      const std::deque<Frame>& frames) const noexcept;
     /// Appends a frame of that stamp [s], ready now, to the timeline `frames`, whose frames may be
     /// held longer or removed. True: the timeline restarted and holds this frame alone.
     bool add(Frame frame, double stamp_s, Time now, std::deque<Frame>& frames);
-    /// Stops the clock at this moment; begin_again() starts it.
+    /// Stops the clock at this moment; restart() starts it.
     void stop(Time now) noexcept { clock_ = {now, clock_.playback_s(now), 0.0}; }
 
     [[nodiscard]] const PlaybackClock& clock() const noexcept { return clock_; }
@@ -40,8 +41,8 @@ class LiveClock {
     double last_stamp_s_{0.0};
     double interval_s_{1.0 / 30.0};
     std::deque<double> ahead_s_{};  ///< of each frame: its time minus our clock's when it was ready
-    bool begins_{true};
-    bool alone_{false};  ///< the clock stands until a second frame arrives
+    bool restarts_{true};
+    bool waits_for_second_{false};  ///< the clock stands until a second frame arrives
 };
 
 }  // namespace dibhr

@@ -21,14 +21,14 @@ constexpr double kShortestSilence_s = 0.15;
 constexpr double kLongestSilence_s = 0.25;  ///< but for slow cameras at least so many intervals:
 constexpr double kSlowIntervals = 1.5;
 constexpr double kLostIntervals = 3.0;
-constexpr std::chrono::seconds kMovedLately{1};
+constexpr std::chrono::seconds kRecentMotion{1};
 constexpr float kMoved = 0.01F;  ///< of the highest level, or more than the noise
 constexpr float kMovedNoise = 5.0F;
 constexpr std::size_t kMovedPart = 500;  ///< one pixel in so many has moved
 constexpr std::size_t kCompared = 7;     ///< one pixel in so many is compared
-constexpr std::chrono::milliseconds kTellAgain{500};
+constexpr std::chrono::milliseconds kStatusInterval{500};
 constexpr double kMilliseconds = 1000.0;
-constexpr std::uint64_t kLiveOnes = std::uint64_t{1} << 32;  ///< higher than any file's
+constexpr std::uint64_t kLiveDiscontinuities = std::uint64_t{1} << 32;  ///< higher than any file's
 
 std::chrono::steady_clock::duration duration_of(double seconds) {
     return std::chrono::duration_cast<std::chrono::steady_clock::duration>(
@@ -40,7 +40,7 @@ double seconds_between(Time from, Time to) {
 }
 
 /// As a file with time stamps in milliseconds returns it.
-double file_s(double time_s) {
+double rounded_to_ms(double time_s) {
     return static_cast<double>(std::llround(kMilliseconds * time_s)) * (1.0 / kMilliseconds);
 }
 
@@ -56,19 +56,19 @@ bool differ(const DepthImage& a, const DepthImage& b, float by) {
 
 std::string signal_in_words(const LiveStatus& live) {
     const std::string from = in_quotes(live.from, 60);
-    if (live.other_form) return from + " changed: opening it again";
+    if (live.format_changed) return from + " changed: opening it again";
     return (live.signal ? "Signal from " : "No signal from ") + from;
 }
 
 std::string in_words(const LiveStatus& live) {
     if (live.signal) return number_text(kMilliseconds * live.behind_s, 0) + " ms behind";
     std::string words = signal_in_words(live);
-    if (!live.other_form) words += " for " + number_text(live.silent_s, 0) + " s: waiting";
+    if (!live.format_changed) words += " for " + number_text(live.silent_s, 0) + " s: waiting";
     return words + (live.force_off ? ", the force is off" : "");
 }
 
 void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
-                        std::shared_ptr<const TouchMaps> maps, std::function<void()> news) {
+                        std::shared_ptr<const TouchMaps> maps, std::function<void()> listener) {
     close();
     media_ = std::move(media);
     feed_ = media_->live();
@@ -76,12 +76,12 @@ void LivePlayback::open(std::unique_ptr<Media> media, std::uint32_t number,
     assembly_.set_number(number);
     assembly_.set_maps(std::move(maps));
     playing_ = true;
-    clock_.begin_again();
-    feed_->tell(std::move(news));
+    clock_.restart();
+    feed_->set_listener(std::move(listener));
 }
 
 void LivePlayback::close() {
-    if (feed_) feed_->tell({});
+    if (feed_) feed_->set_listener({});
     feed_.reset();
     media_.reset();
     sink_ = {};
@@ -95,14 +95,14 @@ void LivePlayback::close() {
     file_begin_s_.reset();
     dropped_ = 0;
     behind_s_ = 0.0;
-    assembly_.forget_rests();
+    assembly_.forget_motion_pauses();
     lost_ = force_off_ = false;
     ++discontinuity_;
 }
 
 void LivePlayback::play() {
     if (std::exchange(playing_, true)) return;
-    clock_.begin_again();
+    clock_.restart();
 }
 
 void LivePlayback::pause(Time now) {
@@ -119,7 +119,7 @@ void LivePlayback::set_cleaning(const CleaningOptions& options, Time now) {
 }
 
 void LivePlayback::show_again(Time now) {
-    clock_.begin_again();
+    clock_.restart();
     show(cleaned_frame(last_), now);
     if (!playing_) clock_.stop(now);
 }
@@ -139,8 +139,8 @@ void LivePlayback::record(std::uint32_t number, LiveSink sink, Time now) {
     file_begin_s_ = last_stamp_s_;
     last_.media_s = 0.0;
     last_.held.clear();
-    if (!last_.always_whole) last_.held = memory_.take(last_.depth, last_.media_s);
-    keep(last_);
+    if (!last_.never_has_holes) last_.held = memory_.take(last_.depth, last_.media_s);
+    send_to_sink(last_);
     show_again(now);
 }
 
@@ -163,18 +163,18 @@ bool LivePlayback::take_frame(Time now) {
     const std::uint64_t number = raw->taken->pair->number;
     if (taken_ > 0) dropped_ += static_cast<std::int64_t>(number - taken_ - 1);
     taken_ = number;
-    if (measures(*raw)) return false;
+    if (measure_noise(*raw)) return false;
     const double stamp_s = raw->media_s;
     if (!file_begin_s_) file_begin_s_ = stamp_s;
-    raw->media_s = file_s(stamp_s - *file_begin_s_);
+    raw->media_s = rounded_to_ms(stamp_s - *file_begin_s_);
     if (!frames_.empty() && frames_.back().media == assembly_.number() &&
         raw->media_s <= frames_.back().media_s)
-        raw->media_s = file_s(frames_.back().media_s + 1.0 / kMilliseconds);
-    if (!raw->always_whole) raw->held = memory_.take(raw->depth, raw->media_s);
+        raw->media_s = rounded_to_ms(frames_.back().media_s + 1.0 / kMilliseconds);
+    if (!raw->never_has_holes) raw->held = memory_.take(raw->depth, raw->media_s);
     last_stamp_s_ = stamp_s;
     last_ = std::move(*raw);
-    keep(last_);
-    if (std::exchange(lost_, false)) clock_.begin_again();
+    send_to_sink(last_);
+    if (std::exchange(lost_, false)) clock_.restart();
     force_off_ = false;
     const Time begin = now_();
     Frame frame = cleaned_frame(last_);
@@ -185,10 +185,10 @@ bool LivePlayback::take_frame(Time now) {
 }
 
 /// True: the cleaning depends on the noise, and more frames must be measured before one is shown.
-bool LivePlayback::measures(const RawFrame& raw) {
+bool LivePlayback::measure_noise(const RawFrame& raw) {
     if (noise_) return false;
     meter_.add(raw.depth);
-    if (++measured_ >= NoiseMeter::kEnough) noise_ = meter_.noise();
+    if (++measured_ >= NoiseMeter::kEnoughFrames) noise_ = meter_.noise();
     if (!noise_ && needs_noise(options_)) return true;
     make_plan();
     return false;
@@ -203,20 +203,20 @@ void LivePlayback::make_plan() {
 
 Frame LivePlayback::cleaned_frame(const RawFrame& raw) {
     const auto begin = now_();
-    Frame frame = assembly_.single(raw);
+    Frame frame = assembly_.finish_single_frame(raw);
     clean_ms_ = kMilliseconds * seconds_between(begin, now_());
     return frame;
 }
 
 /// Computes the motion from the last frame to `next`, whose cleaning started at `begin`.
 void LivePlayback::connect(const Frame& next, Time begin) {
-    if (!assembly_.motion().any() || !clock_.goes_on_to(last_stamp_s_, frames_)) return;
+    if (!assembly_.motion().any() || !clock_.continues_with(last_stamp_s_, frames_)) return;
     assembly_.connect(frames_.back(), next, true);
-    assembly_.took(seconds_between(begin, now_()), clock_.interval_s());
+    assembly_.add_cost(seconds_between(begin, now_()), clock_.interval_s());
 }
 
 void LivePlayback::show(Frame frame, Time now) {
-    notice_motion(frame, now);
+    detect_motion(frame, now);
     const Time ready = now_();
     if (clock_.add(std::move(frame), last_stamp_s_, ready, frames_)) ++discontinuity_;
     const double ahead_s = frames_.back().time_s - clock_.clock().playback_s(ready);
@@ -225,15 +225,15 @@ void LivePlayback::show(Frame frame, Time now) {
     behind_s_ = moving_mean_from_first(behind_s_, behind_s);
 }
 
-void LivePlayback::keep(const RawFrame& raw) {
+void LivePlayback::send_to_sink(const RawFrame& raw) {
     if (!sink_) return;
     sink_({raw.taken, std::llround(kMilliseconds * raw.media_s), noise_.value_or(DepthNoise{})});
 }
 
-void LivePlayback::notice_motion(const Frame& frame, Time now) {
+void LivePlayback::detect_motion(const Frame& frame, Time now) {
     const float noise = kMovedNoise * assembly_.plan().noise.at(0.5F);
     const float by = std::max(kMoved, noise) * static_cast<float>(frame.depth->highest_level);
-    if (!frames_.empty() && differ(*frames_.back().depth, *frame.depth, by)) moved_ = now;
+    if (!frames_.empty() && differ(*frames_.back().depth, *frame.depth, by)) moved_at_ = now;
 }
 
 /// When the signal counts as lost unless a frame arrives.
@@ -249,18 +249,20 @@ bool LivePlayback::watch_signal(Time now) {
     const bool lost = !frames_.empty() && playing_ && now >= lost_at();
     if (!lost) return false;
     if (std::exchange(lost_, true)) {
-        const bool again = now >= told_ + kTellAgain;
-        if (again) told_ = now;
+        const bool again = now >= status_at_ + kStatusInterval;
+        if (again) status_at_ = now;
         return again;
     }
-    told_ = now;
-    force_off_ = feed_->signal().last - moved_ < kMovedLately;
+    status_at_ = now;
+    force_off_ = feed_->signal().last - moved_at_ < kRecentMotion;
     return true;
 }
 
 Time LivePlayback::next_due(Time now) const {
     if (!playing_ && !frames_.empty()) return Time::max();
-    Time due = lost_ ? told_ + kTellAgain : frames_.empty() ? now + kTellAgain : lost_at();
+    Time due = lost_             ? status_at_ + kStatusInterval
+               : frames_.empty() ? now + kStatusInterval
+                                 : lost_at();
     if (const auto pair_due = feed_->due()) due = std::min(due, *pair_due);
     const PlaybackClock& clock = clock_.clock();
     if (frames_.size() > 1 && clock.speed > 0.0) {
@@ -275,7 +277,7 @@ FrameWindow LivePlayback::window() const {
     window.count = std::min(frames_.size(), FrameWindow::kFrames);
     std::copy_n(frames_.begin(), window.count, window.frames.begin());
     window.clock = clock_.clock();
-    window.discontinuity = kLiveOnes + discontinuity_;
+    window.discontinuity = kLiveDiscontinuities + discontinuity_;
     window.silent = force_off_;
     return window;
 }
@@ -287,17 +289,17 @@ LiveStatus LivePlayback::status(Time now) const {
     status.behind_s = behind_s_;
     status.dropped = dropped_;
     status.arrives_per_s = frames_.size() > 1 ? 1.0 / clock_.interval_s() : 0.0;
-    status.signal = !lost_ && !signal.other_form;
+    status.signal = !lost_ && !signal.format_changed;
     status.silent_s = lost_ ? seconds_between(signal.last, now) : 0.0;
     status.force_off = force_off_;
-    status.other_form = signal.other_form;
+    status.format_changed = signal.format_changed;
     status.trouble = signal.trouble;
     status.opened = opened_;
     status.media = frames_.empty() ? 0 : frames_.front().media;
     const MotionThrottle& throttle = assembly_.throttle();
-    status.motion_rests = assembly_.motion().motion && throttle.motion_rests();
-    status.in_betweens_rest =
-        assembly_.motion().in_betweens && (throttle.in_betweens_rest() || throttle.motion_rests());
+    status.motion_paused = assembly_.motion().motion && throttle.motion_paused();
+    status.in_betweens_paused = assembly_.motion().in_betweens &&
+                                (throttle.in_betweens_paused() || throttle.motion_paused());
     status.noise = noise_.value_or(DepthNoise{});
     return status;
 }

@@ -29,12 +29,12 @@ class LivePlayback {
 
     /// `now` is the clock that measures cleaning, which ends after the time that take() gets.
     explicit LivePlayback(Now now = std::chrono::steady_clock::now)
-        : now_(std::move(now)), assembly_(now_, kLongestRest) {}
+        : now_(std::move(now)), assembly_(now_, kLongestPause) {}
     ~LivePlayback() { close(); }
 
     /// The function is called on other threads whenever take() has something to do.
     void open(std::unique_ptr<Media> media, std::uint32_t number,
-              std::shared_ptr<const TouchMaps> maps, std::function<void()> news);
+              std::shared_ptr<const TouchMaps> maps, std::function<void()> listener);
     void close();
     [[nodiscard]] bool is_open() const { return media_ != nullptr; }
 
@@ -43,7 +43,7 @@ class LivePlayback {
     [[nodiscard]] bool playing() const { return playing_; }
     void set_cleaning(const CleaningOptions& options, Time now);
     /// What is computed between the frames that arrive from now on.
-    void set_motion(const MotionWanted& wanted) { assembly_.set_motion(wanted); }
+    void set_motion(const MotionRequest& wanted) { assembly_.set_motion(wanted); }
     void set_maps(std::shared_ptr<const TouchMaps> maps);
     /// Sends frames to the sink from the shown one on, which begins a file: frames carry `number`,
     /// their times count from it, and earlier depth is forgotten. Empty: stops sending.
@@ -62,17 +62,17 @@ class LivePlayback {
     [[nodiscard]] double clean_ms() const { return clean_ms_; }
 
   private:
-    static constexpr int kLongestRest = 1920;  ///< frames without motion: a minute
+    static constexpr int kLongestPause = 1920;  ///< frames without motion: a minute
 
     bool take_frame(Time now);
-    [[nodiscard]] bool measures(const RawFrame& raw);
+    [[nodiscard]] bool measure_noise(const RawFrame& raw);
     void make_plan();
     [[nodiscard]] Frame cleaned_frame(const RawFrame& raw);
     void show(Frame frame, Time now);
     void connect(const Frame& next, Time begin);
     void show_again(Time now);
-    void keep(const RawFrame& raw);
-    void notice_motion(const Frame& frame, Time now);
+    void send_to_sink(const RawFrame& raw);
+    void detect_motion(const Frame& frame, Time now);
     [[nodiscard]] bool watch_signal(Time now);
     [[nodiscard]] Time lost_at() const;
 
@@ -95,9 +95,9 @@ class LivePlayback {
     bool playing_{true};
     std::int64_t dropped_{0};
     double behind_s_{0.0};
-    Time moved_{};  ///< when the surface moved last
+    Time moved_at_{};  ///< when the surface moved last
     bool lost_{false};
-    Time told_{};  ///< of the last status update while the signal is lost
+    Time status_at_{};  ///< of the last status update while the signal is lost
     bool force_off_{false};
     LiveSink sink_{};
     std::optional<double> file_begin_s_{};  ///< stamp of the recording's first frame

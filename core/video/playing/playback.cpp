@@ -15,16 +15,17 @@ namespace {
 
 constexpr double kJump_s = 0.001;      ///< between frames: no two have the same playback time
 constexpr double kMostDecoding = 0.8;  ///< of the interval; above it skipping frames does not help
-constexpr double kNewestPlayed = 0.2;  ///< the weight of the newest frame in the means
-constexpr std::chrono::seconds kToldFor{3};  ///< so long the status says that the clock waited
-constexpr double kMuch = 1.5;  ///< intervals; frames that take less are late only now and then
+constexpr double kNewestWeight = 0.2;  ///< the weight of the newest frame in the means
+constexpr std::chrono::seconds kShownFor{3};  ///< so long the status says that the clock waited
+constexpr double kSlowConversion =
+    1.5;  ///< intervals; frames that take less are late only now and then
 constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
 
 }  // namespace
 
 void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader->set_cleaning(cleaning_);
-    reader->set_motion(motion_wanted_);
+    reader->set_motion(motion_request_);
     auto first = reader->at(0.0);
     if (!first)
         throw InputError("'" + reader->description().depth_path.string() +
@@ -38,7 +39,7 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
 /// Keeps the frames, so that the timeline continues.
 void Playback::close() {
     reader_.reset();
-    sought_s_.reset();
+    seek_target_s_.reset();
     playing_ = false;
 }
 
@@ -89,15 +90,15 @@ void Playback::pause(Time now) {
 void Playback::seek(double media_s, Time now) {
     if (!is_open()) return;
     steps_back_ = false;
-    sought_s_ = std::max(media_s, first_media_s_);
-    if (auto preview = reader_->preview(*sought_s_))
+    seek_target_s_ = std::max(media_s, first_media_s_);
+    if (auto preview = reader_->preview(*seek_target_s_))
         jump_to(std::move(*preview), now);
     else
-        read_sought(now);
+        read_seek_target(now);
 }
 
-bool Playback::read_sought(Time now) {
-    const double media_s = *std::exchange(sought_s_, std::nullopt);
+bool Playback::read_seek_target(Time now) {
+    const double media_s = *std::exchange(seek_target_s_, std::nullopt);
     auto frame = reader_->at(media_s);
     if (frame) jump_to(std::move(*frame), now);
     return frame.has_value();
@@ -105,7 +106,7 @@ bool Playback::read_sought(Time now) {
 
 void Playback::step(int frames, Time now) {
     if (!is_open()) return;
-    if (sought_s_) read_sought(now);
+    if (seek_target_s_) read_seek_target(now);
     pause(now);
     Frame reached = frames_.front();
     for (int k = 0; k < std::abs(frames); ++k) {
@@ -152,24 +153,24 @@ void Playback::set_cleaning(const CleaningOptions& options) {
     cleaning_ = options;
 }
 
-void Playback::set_motion(const MotionWanted& wanted) {
-    const bool other_surface = wanted.in_betweens != motion_wanted_.in_betweens;
-    motion_wanted_ = wanted;
+void Playback::set_motion(const MotionRequest& wanted) {
+    const bool other_surface = wanted.in_betweens != motion_request_.in_betweens;
+    motion_request_ = wanted;
     if (!is_open()) return;
     reader_->set_motion(wanted);
-    if (other_surface && put_between(wanted.in_betweens)) ++discontinuity_;
+    if (other_surface && update_in_betweens(wanted.in_betweens)) ++discontinuity_;
 }
 
 /// Adds or removes in-betweens of the present frames. Whether any changed.
-bool Playback::put_between(bool wanted) {
+bool Playback::update_in_betweens(bool wanted) {
     bool changed = false;
     for (std::size_t k = 0; k + 1 < frames_.size(); ++k) {
-        const bool had = frames_[k].between != nullptr;
+        const bool had = frames_[k].in_betweens != nullptr;
         if (wanted)
             reader_->connect(frames_[k], frames_[k + 1]);
         else
-            frames_[k].between.reset();
-        changed = changed || had != (frames_[k].between != nullptr);
+            frames_[k].in_betweens.reset();
+        changed = changed || had != (frames_[k].in_betweens != nullptr);
     }
     return changed;
 }
@@ -183,8 +184,8 @@ void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
 /// Cleans all present frames again, or none: no surface blends two cleanings.
 void Playback::clean_again(const CleaningOptions& options) {
     reader_->set_cleaning(options);
-    ready_before_s_.reset();
-    if (sought_s_) return;  // the target of the seek will be cleaned so
+    prepared_before_s_.reset();
+    if (seek_target_s_) return;  // the target of the seek will be cleaned so
     std::deque<Frame> cleaned;
     try {
         for (const Frame& frame : frames_) {
@@ -224,18 +225,18 @@ bool Playback::advance(Time now) {
 
 bool Playback::needs_frame() const {
     if (!is_open()) return false;
-    return sought_s_ || (!complete_ && frames_.size() < FrameWindow::kFrames);
+    return seek_target_s_ || (!complete_ && frames_.size() < FrameWindow::kFrames);
 }
 
 bool Playback::read_ahead(Time now) {
     reading_since_ = now;
     waited_before_s_ = reader_->waited_s();
-    return sought_s_ ? read_sought(now) : read_next(now);
+    return seek_target_s_ ? read_seek_target(now) : read_next(now);
 }
 
 bool Playback::read_next(Time now) {
     const Frame& newest = frames_.back();
-    const std::int64_t passed_over = reader_->passed_over();
+    const std::int64_t skipped_frames = reader_->skipped_frames();
     auto next = reader_->after(newest.media_s, pace(now));
     if (lap_ends_before(next)) {
         const double lasts_s =
@@ -248,8 +249,8 @@ bool Playback::read_next(Time now) {
     }
     complete_ = !next;
     if (!next) return false;
-    const auto passed = static_cast<double>(reader_->passed_over() - passed_over);
-    passed_over_ = moving_mean(passed_over_, passed, kNewestPlayed);
+    const auto passed = static_cast<double>(reader_->skipped_frames() - skipped_frames);
+    skipped_frames_ = moving_mean(skipped_frames_, passed, kNewestWeight);
     next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
     reader_->connect(frames_.back(), *next);
     frames_.push_back(std::move(*next));
@@ -279,15 +280,15 @@ double Playback::interval_s() const {
 /// The interval on the playback timeline that this machine sustains by skipping frames. It does not
 /// depend on how many were skipped lately: else one late frame would make the next one later.
 /// Nothing where the decoding takes too long: skipped frames have to be decoded, too.
-std::optional<double> Playback::taken_s() const {
+std::optional<double> Playback::sustainable_interval_s() const {
     const double decoding_s = clock_.speed * reader_->decoding_s();
-    const double making_s = clock_.speed * reader_->making_s();
+    const double conversion_s = clock_.speed * reader_->conversion_s();
     const double cleaning_s = clock_.speed * cleaning_s_;
     const double part = interval_s() > 0.0 ? decoding_s / interval_s() : 1.0;
     if (part > kMostDecoding) return std::nullopt;
-    if (making_s > 0.0) {  // side by side
-        const double made_s = making_s / (1.0 - part);
-        return std::max(cleaning_s, made_s > kMuch * interval_s() ? made_s : 0.0);
+    if (conversion_s > 0.0) {  // side by side
+        const double made_s = conversion_s / (1.0 - part);
+        return std::max(cleaning_s, made_s > kSlowConversion * interval_s() ? made_s : 0.0);
     }
     return std::max(decoding_s + cleaning_s, cleaning_s / (1.0 - part));
 }
@@ -297,10 +298,10 @@ std::optional<double> Playback::taken_s() const {
 Pace Playback::pace(Time now) const {
     if (!playing_ || starts_) return {};
     const double next_s = frames_.back().media_s + kTimeTolerance_s;
-    const std::optional<double> takes_s = taken_s();
+    const std::optional<double> takes_s = sustainable_interval_s();
     if (!takes_s) return {.earliest_s = next_s};
-    const double apart_s = *takes_s > interval_s() ? *takes_s : 0.0;
-    return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), apart_s};
+    const double spacing_s = *takes_s > interval_s() ? *takes_s : 0.0;
+    return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), spacing_s};
 }
 
 /// Of the next frame to read, on the playback timeline. Late frames are skipped up to one that is
@@ -310,17 +311,17 @@ Pace Playback::pace(Time now) const {
 double Playback::earliest_s(Time now, double takes_s) const {
     const double there_s = clock_.playback_s(now) + takes_s;
     const double newest_s = frames_.back().time_s;
-    const bool under_way = reader_->making_s() > 0.0;
+    const bool under_way = reader_->conversion_s() > 0.0;
     const double next_s = newest_s + (under_way ? std::max(takes_s, interval_s()) : interval_s());
     if (next_s < there_s) return there_s + takes_s;
     return frames_.size() < 3 && takes_s > interval_s() ? newest_s + takes_s : 0.0;
 }
 
-void Playback::arrived(Time now) {
+void Playback::on_frame_read(Time now) {
     const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
                           (reader_->waited_s() - waited_before_s_);
-    cleaning_s_ = moving_mean_from_first(cleaning_s_, std::max(took_s, 0.0), kNewestPlayed);
-    waits_ = waited_ && now - *waited_ < kToldFor;
+    cleaning_s_ = moving_mean_from_first(cleaning_s_, std::max(took_s, 0.0), kNewestWeight);
+    falls_behind_ = waited_ && now - *waited_ < kShownFor;
     if (frames_.size() < 2) return;
     const bool starts = std::exchange(starts_, false);
     if (!playing_ || frames_.size() > 2) return;
@@ -328,34 +329,34 @@ void Playback::arrived(Time now) {
     Frame& held = frames_.front();
     Frame& next = frames_.back();
     const double late_s = moment_s - (next.media_s + offset_s_);
-    const bool waits = late_s > kMostBehind_s;
+    const bool falls_behind = late_s > kMostBehind_s;
     if (starts) offset_s_ += moment_s - held.time_s;
-    if (waits && !starts) offset_s_ += late_s;
+    if (falls_behind && !starts) offset_s_ += late_s;
     next.time_s = std::max(next.time_s, next.media_s + offset_s_);
-    if (waits) waited_ = now;
+    if (falls_behind) waited_ = now;
     held.time_s = std::max(held.time_s, moment_s);
     next.time_s = std::max(next.time_s, held.time_s + std::max(kJump_s, 0.5 * interval_s()));
 }
 
 double Playback::shown_per_s() const {
-    return description().frames_per_s / (1.0 + passed_over_);
+    return description().frames_per_s / (1.0 + skipped_frames_);
 }
 
-bool Playback::has_time() const {
+bool Playback::can_prepare_step_back() const {
     return is_open() && !playing_ && steps_back_ && !needs_frame() &&
-           ready_before_s_ != frames_.front().media_s;
+           prepared_before_s_ != frames_.front().media_s;
 }
 
-void Playback::make_ready_to_step_back() {
-    ready_before_s_ = frames_.front().media_s;
+void Playback::prepare_step_back() {
+    prepared_before_s_ = frames_.front().media_s;
     try {
-        static_cast<void>(reader_->before(*ready_before_s_));  // the reader keeps it
-    } catch (const InputError&) {                              // the step itself reports it
+        static_cast<void>(reader_->before(*prepared_before_s_));  // the reader keeps it
+    } catch (const InputError&) {                                 // the step itself reports it
     }
 }
 
 void Playback::end_here() {
-    sought_s_.reset();
+    seek_target_s_.reset();
     complete_ = true;
 }
 
@@ -372,7 +373,7 @@ Playback::Time Playback::next_due() const {
 
 FrameWindow Playback::touchable() const {
     FrameWindow window = this->window();
-    if (!sought_s_) return window;
+    if (!seek_target_s_) return window;
     window.frames = {};
     window.count = 0;
     return window;

@@ -36,7 +36,7 @@ class Playback {
     void set_speed(double speed, Time now);
     void set_cleaning(const CleaningOptions& options);
     /// What is computed between frames read from now on; in-betweens also between present frames.
-    void set_motion(const MotionWanted& wanted);
+    void set_motion(const MotionRequest& wanted);
     /// Puts them on all frames at once; null: none.
     void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
@@ -49,13 +49,13 @@ class Playback {
     bool read_ahead(Time now);
     /// A frame was read ahead, and is ready now. After a jump the clock starts now. Where frames
     /// had run out, the surface moves on from where it was held, towards the clock.
-    void arrived(Time now);
+    void on_frame_read(Time now);
     /// Reading failed: plays the present frames and stops.
     void end_here();
     /// Whether another step back can be prepared: paused after one, and nothing else to read.
-    [[nodiscard]] bool has_time() const;
+    [[nodiscard]] bool can_prepare_step_back() const;
     /// Reads the frame before, so that a step back need not wait.
-    void make_ready_to_step_back();
+    void prepare_step_back();
     /// When advance() is due next; never when paused.
     [[nodiscard]] Time next_due() const;
 
@@ -66,9 +66,9 @@ class Playback {
     /// Mean number of frames shown of each second of the video [1/s].
     [[nodiscard]] double shown_per_s() const;
     /// The target of a seek while a preview is shown; media time [s].
-    [[nodiscard]] std::optional<double> sought_s() const { return sought_s_; }
+    [[nodiscard]] std::optional<double> seek_target_s() const { return seek_target_s_; }
     /// Even with skipped frames this machine is too slow: the clock waited for frames lately.
-    [[nodiscard]] bool waits() const { return waits_; }
+    [[nodiscard]] bool falls_behind() const { return falls_behind_; }
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
     [[nodiscard]] bool looping() const { return looping_; }
@@ -84,14 +84,14 @@ class Playback {
 
   private:
     void jump_to(Frame frame, Time now);
-    bool read_sought(Time now);
+    bool read_seek_target(Time now);
     bool read_next(Time now);
     [[nodiscard]] Pace pace(Time now) const;
     [[nodiscard]] double earliest_s(Time now, double takes_s) const;
-    [[nodiscard]] std::optional<double> taken_s() const;
+    [[nodiscard]] std::optional<double> sustainable_interval_s() const;
     [[nodiscard]] double interval_s() const;
     void clean_again(const CleaningOptions& options);
-    bool put_between(bool wanted);
+    bool update_in_betweens(bool wanted);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, at most the newest frame's
     [[nodiscard]] bool in_part() const;
@@ -104,18 +104,18 @@ class Playback {
     std::deque<Frame> frames_{};  ///< from the shown one on
     PlaybackClock clock_{};
     CleaningOptions cleaning_{};
-    MotionWanted motion_wanted_{};
+    MotionRequest motion_request_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
-    double offset_s_{0.0};              ///< from media time to playback time, in this loop
-    std::optional<double> sought_s_{};  ///< media time; meanwhile a preview is shown
-    bool starts_{false};                ///< the clock stands until the second frame after a jump
-    std::optional<Time> waited_{};      ///< when the clock last waited for a late frame
-    bool waits_{false};                 ///< it did so lately
+    double offset_s_{0.0};                   ///< from media time to playback time, in this loop
+    std::optional<double> seek_target_s_{};  ///< media time; meanwhile a preview is shown
+    bool starts_{false};            ///< the clock stands until the second frame after a jump
+    std::optional<Time> waited_{};  ///< when the clock last waited for a late frame
+    bool falls_behind_{false};      ///< it did so lately
     Time reading_since_{};
     double waited_before_s_{0.0};  ///< sum of the reader's waits before this frame
     double cleaning_s_{0.0};       ///< mean time of a frame without decoding
-    double passed_over_{0.0};      ///< mean number of frames skipped between two shown
+    double skipped_frames_{0.0};   ///< mean number of frames skipped between two shown
     double speed_{1.0};
     bool playing_{false};
     bool looping_{true};
@@ -123,7 +123,7 @@ class Playback {
     bool beyond_part_{false};  ///< a seek or step led there since the part was set
     bool complete_{false};     ///< no frame follows the newest
     bool steps_back_{false};
-    std::optional<double> ready_before_s_{};  ///< media time; the frame before it is read
+    std::optional<double> prepared_before_s_{};  ///< media time; the frame before it is read
 };
 
 }  // namespace dibhr

@@ -31,19 +31,19 @@ struct Command {
 };
 
 /// Requested changes; the status includes them at once, so that a second step adds to the first.
-struct Asked {
+struct RequestedState {
     std::optional<double> media_s{}, speed{};
     std::optional<bool> playing{}, looping{};
     std::optional<std::optional<MediaPart>> part{};
 
-    void replace(const Asked& newer) {
+    void replace(const RequestedState& newer) {
         if (newer.media_s) media_s = newer.media_s;
         if (newer.speed) speed = newer.speed;
         if (newer.playing) playing = newer.playing;
         if (newer.looping) looping = newer.looping;
         if (newer.part) part = newer.part;
     }
-    void tell(PlaybackStatus& status) const {
+    void apply_to(PlaybackStatus& status) const {
         status.media_s = media_s.value_or(status.media_s);
         status.speed = speed.value_or(status.speed);
         status.playing = playing.value_or(status.playing);
@@ -55,7 +55,7 @@ struct Asked {
 }  // namespace
 
 struct Player::Implementation {
-    void ask(Command command, const Asked& change = {});
+    void post(Command command, const RequestedState& change = {});
     void run();
 
     void publish_live();
@@ -78,45 +78,46 @@ struct Player::Implementation {
 
     // Used by all threads, under the mutex.
     std::mutex mutex{};
-    std::condition_variable asked{};
+    std::condition_variable wake{};
     std::vector<Command> commands{};
-    Asked asked_for{};  ///< by commands that are not published yet
+    RequestedState requested{};  ///< by commands that are not published yet
     PlaybackStatus status{};
     FrameWindow shown{};  ///< published last, for the time line
-    std::optional<double> sought_s{};
-    bool news{false};  ///< the live source has news
-    bool leaving{false};
+    std::optional<double> seek_target_s{};
+    bool live_update{false};  ///< the live source has news
+    bool stopping{false};
 
     std::thread thread{};
 };
 
-void Player::Implementation::ask(Command command, const Asked& change) {
+void Player::Implementation::post(Command command, const RequestedState& change) {
     {
         const std::lock_guard lock(mutex);
-        asked_for.replace(change);
+        requested.replace(change);
         if (command.kind != Kind::step && !commands.empty() && commands.back().kind == command.kind)
             commands.pop_back();
         commands.push_back(std::move(command));
     }
-    asked.notify_one();
+    wake.notify_one();
 }
 
 /// False when the player is to end.
 bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
-    const bool busy = !live.is_open() && (playback.needs_frame() || playback.has_time());
+    const bool busy =
+        !live.is_open() && (playback.needs_frame() || playback.can_prepare_step_back());
     const Time due =
         live.is_open() ? live.next_due(std::chrono::steady_clock::now()) : playback.next_due();
     std::unique_lock lock(mutex);
-    const auto called = [this] { return leaving || news || !commands.empty(); };
-    if (!busy) heart.rest();
+    const auto called = [this] { return stopping || live_update || !commands.empty(); };
+    if (!busy) heart.set_idle();
     if (!busy && due == Time::max())
-        asked.wait(lock, called);
+        wake.wait(lock, called);
     else if (!busy)
-        asked.wait_until(lock, due, called);
+        wake.wait_until(lock, due, called);
     taken.swap(commands);
-    news = false;
+    live_update = false;
     heart.beat();
-    return !leaving;
+    return !stopping;
 }
 
 /// Performs the commands, or without any reads one frame: a command waits for one frame at most.
@@ -132,12 +133,12 @@ void Player::Implementation::work(const std::vector<Command>& taken) {
     } else if (!changed && playback.needs_frame()) {
         const bool readable = attempt([&] {
             if (playback.read_ahead(std::chrono::steady_clock::now()))
-                playback.arrived(std::chrono::steady_clock::now());
+                playback.on_frame_read(std::chrono::steady_clock::now());
         });
         if (!readable) playback.end_here();
         changed = true;
-    } else if (!changed && playback.has_time()) {
-        playback.make_ready_to_step_back();
+    } else if (!changed && playback.can_prepare_step_back()) {
+        playback.prepare_step_back();
     }
     if (changed) publish();
 }
@@ -165,13 +166,13 @@ bool Player::Implementation::attempt(Action action) {
 
 void Player::Implementation::run() {
     pthread_setname_np(pthread_self(), "dibhr-video");
-    heart.also_computes();
+    heart.count_computing_as_beat();
     std::vector<Command> taken;
     while (wait_for_work(taken)) {
         work(taken);
         taken.clear();
     }
-    heart.rest();
+    heart.set_idle();
 }
 
 /// Publishes the same window to both readers; frees what the old windows held.
@@ -181,9 +182,9 @@ void Player::Implementation::publish() {
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     const std::lock_guard lock(mutex);
-    if (commands.empty()) asked_for = {};
+    if (commands.empty()) requested = {};
     shown = window;
-    sought_s = live.is_open() ? std::nullopt : playback.sought_s();
+    seek_target_s = live.is_open() ? std::nullopt : playback.seek_target_s();
     status.failure = failure;
     status.live.reset();
     if (live.is_open()) return publish_live();
@@ -198,7 +199,7 @@ void Player::Implementation::publish() {
     status.frames = playback.description().frames;
     status.frames_per_s = playback.description().frames_per_s;
     status.shown_per_s = playback.shown_per_s();
-    status.waits = playback.waits();
+    status.falls_behind = playback.falls_behind();
     status.cleaning = playback.cleaning_in_words();
     status.steps = playback.steps();
     const FrameCost& cost = playback.cost();
@@ -223,7 +224,7 @@ void Player::Implementation::publish_live() {
     status.frames_per_s =
         status.live->arrives_per_s > 0.0 ? status.live->arrives_per_s : media.frames_per_s;
     status.shown_per_s = status.frames_per_s;
-    status.waits = false;
+    status.falls_behind = false;
     status.cleaning = live.cleaning_in_words();
     status.steps = live.steps();
     status.decode_ms = status.clean_ms = live.clean_ms();
@@ -236,9 +237,9 @@ Player::Player() : implementation_(std::make_unique<Implementation>()) {
 Player::~Player() {
     {
         const std::lock_guard lock(implementation_->mutex);
-        implementation_->leaving = true;
+        implementation_->stopping = true;
     }
-    implementation_->asked.notify_one();
+    implementation_->wake.notify_one();
     implementation_->thread.join();
     implementation_->live.close();  // its threads lock the mutex until here
 }
@@ -248,14 +249,14 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
     Implementation* const player = implementation_.get();
     if (media->live()) {
         auto shared = std::make_shared<std::unique_ptr<Media>>(std::move(media));
-        const auto news = [player] {
+        const auto live_update = [player] {
             const std::lock_guard lock(player->mutex);
-            player->news = true;
-            player->asked.notify_one();
+            player->live_update = true;
+            player->wake.notify_one();
         };
-        player->ask({[=](Playback& playback, Time) {
+        player->post({[=](Playback& playback, Time) {
             playback.close();
-            player->live.open(std::move(*shared), number, maps, news);
+            player->live.open(std::move(*shared), number, maps, live_update);
             malloc_trim(0);
         }});
         return;
@@ -263,9 +264,9 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
     // std::function must be copyable, hence shared; the command moves the reader out.
     auto reader = std::make_shared<std::unique_ptr<FrameReader>>(std::make_unique<FrameReader>(
         std::move(media), number,
-        ReadingHearts{&implementation_->decoding, &implementation_->heart}));
+        ReaderHeartbeats{&implementation_->decoding, &implementation_->heart}));
     (*reader)->set_maps(std::move(maps));
-    implementation_->ask({[reader, player](Playback& playback, Time now) {
+    implementation_->post({[reader, player](Playback& playback, Time now) {
         playback.open(std::move(*reader), now);
         player->live.close();
         // Else the memory of the media before stays with the program.
@@ -274,70 +275,71 @@ void Player::play_media(std::unique_ptr<Media> media, std::uint32_t number,
 }
 
 void Player::play() {
-    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
-                             player->live.is_open() ? player->live.play() : playback.play(now);
-                         }},
-                         {.playing = true});
+    implementation_->post({[player = implementation_.get()](Playback& playback, Time now) {
+                              player->live.is_open() ? player->live.play() : playback.play(now);
+                          }},
+                          {.playing = true});
 }
 
 void Player::pause() {
-    implementation_->ask({[player = implementation_.get()](Playback& playback, Time now) {
-                             player->live.is_open() ? player->live.pause(now) : playback.pause(now);
-                         }},
-                         {.playing = false});
+    implementation_->post({[player = implementation_.get()](Playback& playback, Time now) {
+                              player->live.is_open() ? player->live.pause(now)
+                                                     : playback.pause(now);
+                          }},
+                          {.playing = false});
 }
 
 void Player::seek(double media_s) {
-    implementation_->ask({[player = implementation_.get(), media_s](Playback& playback, Time now) {
-                              if (!player->live.is_open()) playback.seek(media_s, now);
-                          },
-                          Kind::seek},
-                         {.media_s = media_s});
+    implementation_->post({[player = implementation_.get(), media_s](Playback& playback, Time now) {
+                               if (!player->live.is_open()) playback.seek(media_s, now);
+                           },
+                           Kind::seek},
+                          {.media_s = media_s});
 }
 
 void Player::step(int frames) {
-    implementation_->ask({[player = implementation_.get(), frames](Playback& playback, Time now) {
-                             player->live.is_open() ? player->live.pause(now)
-                                                    : playback.step(frames, now);
-                         }},
-                         {.playing = false});
+    implementation_->post({[player = implementation_.get(), frames](Playback& playback, Time now) {
+                              player->live.is_open() ? player->live.pause(now)
+                                                     : playback.step(frames, now);
+                          }},
+                          {.playing = false});
 }
 
 void Player::set_looping(bool looping) {
-    implementation_->ask({[looping](Playback& playback, Time) { playback.set_looping(looping); }},
-                         {.looping = looping});
+    implementation_->post({[looping](Playback& playback, Time) { playback.set_looping(looping); }},
+                          {.looping = looping});
 }
 
 void Player::set_part(const std::optional<MediaPart>& part) {
-    implementation_->ask({[part](Playback& playback, Time) { playback.set_part(part); }},
-                         {.part = part});
+    implementation_->post({[part](Playback& playback, Time) { playback.set_part(part); }},
+                          {.part = part});
 }
 
 void Player::set_speed(double speed) {
-    implementation_->ask(
+    implementation_->post(
         {[speed](Playback& playback, Time now) { playback.set_speed(speed, now); }},
         {.speed = speed});
 }
 
 void Player::set_cleaning(const CleaningOptions& options) {
     if (std::exchange(cleaning_, options) == options) return;
-    implementation_->ask({[player = implementation_.get(), options](Playback& playback, Time now) {
-                              player->live.set_cleaning(options, now);
-                              playback.set_cleaning(options);
-                          },
-                          Kind::cleaning});
+    implementation_->post({[player = implementation_.get(), options](Playback& playback, Time now) {
+                               player->live.set_cleaning(options, now);
+                               playback.set_cleaning(options);
+                           },
+                           Kind::cleaning});
 }
 
-void Player::set_motion(const MotionWanted& wanted) {
+void Player::set_motion(const MotionRequest& wanted) {
     if (std::exchange(motion_, wanted) == wanted) return;
-    implementation_->ask({[player = implementation_.get(), wanted](Playback& playback, Time) {
+    implementation_->post({[player = implementation_.get(), wanted](Playback& playback, Time) {
         player->live.set_motion(wanted);
         playback.set_motion(wanted);
     }});
 }
 
 void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
-    implementation_->ask(
+    implementation_->post(
         {[player = implementation_.get(), maps = std::move(maps)](Playback& playback, Time) {
              player->live.is_open() ? player->live.set_maps(maps) : playback.set_maps(maps);
          },
@@ -345,7 +347,7 @@ void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {
 }
 
 void Player::record_live(std::uint32_t number, LiveSink sink) {
-    implementation_->ask(
+    implementation_->post(
         {[player = implementation_.get(), number, sink = std::move(sink)](Playback&, Time now) {
             if (player->live.is_open()) player->live.record(number, sink, now);
         }});
@@ -364,15 +366,15 @@ PlaybackStatus Player::status() const {
                                : pair.to->media_s - pair.from->media_s;
     const double passed_s = pair.blend * lasts_s;
     status.frame = pair.from->index;
-    status.media_s = implementation_->sought_s.value_or(pair.from->media_s + passed_s);
-    implementation_->asked_for.tell(status);
+    status.media_s = implementation_->seek_target_s.value_or(pair.from->media_s + passed_s);
+    implementation_->requested.apply_to(status);
     return status;
 }
 
 const Heartbeat& Player::heart() const noexcept {
     return implementation_->heart;
 }
-const Heartbeat& Player::decoder_heart() const noexcept {
+const Heartbeat& Player::decoder_heartbeat() const noexcept {
     return implementation_->decoding;
 }
 TripleBuffer<FrameWindow>& Player::haptics() noexcept {

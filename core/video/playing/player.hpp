@@ -11,7 +11,7 @@
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_record.hpp"
-#include "core/video/motion/motion_wanted.hpp"
+#include "core/video/motion/motion_request.hpp"
 #include "core/video/playing/live_status.hpp"
 #include "core/video/playing/transport.hpp"
 #include "core/video/sources/media.hpp"
@@ -31,7 +31,7 @@ struct PlaybackStatus {
     std::int64_t frames{0};
     double frames_per_s{0.0};  ///< of the video
     double shown_per_s{0.0};   ///< frames shown; fewer: this machine is too slow
-    bool waits{false};         ///< even so the machine is too slow: the clock waits
+    bool falls_behind{false};  ///< even so the machine is too slow: the clock waits
     double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it
@@ -40,7 +40,7 @@ struct PlaybackStatus {
     std::optional<LiveStatus> live{};  ///< nothing: read from files
     std::string failure{};  ///< a sentence when a read failed or the file is shorter; else empty
 
-    [[nodiscard]] Course course() const {
+    [[nodiscard]] PlayState play_state() const {
         return {playing, looping, speed, media_s, 0.0, duration_s, part};
     }
 };
@@ -68,7 +68,7 @@ class Player final : public Transport {
     /// An unchanged value does nothing, so that the window may set it once a picture.
     void set_cleaning(const CleaningOptions& options);
     /// What is computed between frames; likewise.
-    void set_motion(const MotionWanted& wanted);
+    void set_motion(const MotionRequest& wanted);
     /// Puts them on the media given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
@@ -81,7 +81,7 @@ class Player final : public Transport {
     /// Of the thread that cleans and publishes, until the player ends.
     [[nodiscard]] const Heartbeat& heart() const noexcept;
     /// Of the thread that decodes: silent while it waits for a disk.
-    [[nodiscard]] const Heartbeat& decoder_heart() const noexcept;
+    [[nodiscard]] const Heartbeat& decoder_heartbeat() const noexcept;
 
     [[nodiscard]] TripleBuffer<FrameWindow>& haptics() noexcept;
     [[nodiscard]] TripleBuffer<FrameWindow>& picture() noexcept;
@@ -90,7 +90,7 @@ class Player final : public Transport {
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;
     CleaningOptions cleaning_{};
-    MotionWanted motion_{};
+    MotionRequest motion_{};
 };
 
 }  // namespace dibhr

@@ -9,7 +9,7 @@
 namespace dibhr {
 
 /// Position and settings of what plays; times on its own clock [s].
-struct Course {
+struct PlayState {
     bool playing{false};
     bool looping{false};
     double speed{1.0};

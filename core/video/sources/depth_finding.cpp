@@ -45,7 +45,7 @@ bool has_word(const std::string& name, std::string_view word) {
     return false;
 }
 
-DepthStatement said_by_name(const fs::path& file) {
+DepthStatement statement_by_name(const fs::path& file) {
     DepthStatement said;
     const std::string name = lower_case(file.filename().string());
     if (has_word(name, "disp") || has_word(name, "disparity")) said.unit = DepthUnit::disparity;
@@ -69,7 +69,7 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
 }
 
 /// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point.
-DepthStatement plain() {
+DepthStatement default_statement() {
     return {.packing = DepthPacking::separate,
             .code = DepthCode::grey,
             .geometry = Geometry::relief,
@@ -102,14 +102,15 @@ void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) 
 
 }  // namespace
 
-std::vector<cv::Mat> some_pictures(PictureSource& source) {
+std::vector<cv::Mat> sample_pictures(PictureSource& source) {
     const double pixels = static_cast<double>(source.facts().columns) * source.facts().rows;
     const double most =
         std::clamp<double>(kPixelsDecoded / std::max(pixels, 1.0), kLeastSampled, kMostSampled);
     return source.samples(static_cast<int>(most));
 }
 
-DepthStatement said_of(const fs::path& depth, const fs::path& colour, const DepthRequest& request) {
+DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
+                             const DepthRequest& request) {
     DepthStatement said = request.recorded;
     said.fill_in(request.command_line);
     if (!request.find_out) return said;
@@ -124,29 +125,29 @@ DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
     const bool said =
         request.command_line != DepthStatement{} || request.recorded != DepthStatement{};
     if (!request.find_out && !said) return DepthScale::as_recorded(facts.bits);
-    Voices voices{{Origin::recorded, request.recorded},
-                  {Origin::command_line, request.command_line}};
+    RankedStatements statements{{Origin::recorded, request.recorded},
+                                {Origin::command_line, request.command_line}};
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        voices.insert(voices.end(),
-                      {{Origin::panel, request.panel},
-                       {Origin::sidecar, sidecars_of(places)},
-                       {Origin::assumed, sources.assumed},
-                       {sources.by_look ? Origin::assumed : Origin::found, facts.known},
-                       {Origin::found, said_by_name(facts.file)},
-                       {Origin::found, sources.found},
-                       {Origin::found, plain()}});
+        statements.insert(statements.end(),
+                          {{Origin::panel, request.panel},
+                           {Origin::sidecar, sidecars_of(places)},
+                           {Origin::assumed, sources.assumed},
+                           {sources.by_appearance ? Origin::assumed : Origin::found, facts.known},
+                           {Origin::found, statement_by_name(facts.file)},
+                           {Origin::found, sources.found},
+                           {Origin::found, default_statement()}});
     } else {
-        voices.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
+        statements.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
     DepthMeaning meaning;
     meaning.found_in = facts.known_from;
-    hear(voices, meaning);
+    merge_by_priority(statements, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
     // Sampling a video takes long: only where something is left to guess.
-    if (!is_all_said(voices)) guess(some_pictures(depth), facts.bits, meaning, voices);
+    if (!is_all_stated(statements)) guess(sample_pictures(depth), facts.bits, meaning, statements);
     require_range(meaning, facts.bits, facts.file);
     return {meaning, facts.bits};
 }

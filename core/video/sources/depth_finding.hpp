@@ -14,9 +14,9 @@ namespace dibhr {
 /// The statement on depth before a file is opened. For each fact the strongest source counts: the
 /// request, the kept choice for the depth's place, then the sidecars of that place and of the
 /// colour's, which may be empty. Throws InputError for a file that cannot be parsed.
-[[nodiscard]] DepthStatement said_of(const std::filesystem::path& depth,
-                                     const std::filesystem::path& colour,
-                                     const DepthRequest& request);
+[[nodiscard]] DepthStatement statement_for(const std::filesystem::path& depth,
+                                           const std::filesystem::path& colour,
+                                           const DepthRequest& request);
 
 /// The meaning of the levels, found before the first frame is shown. Reads pictures from all over
 /// the depth, then starts it again. Throws InputError for a sidecar that cannot be parsed, and for
@@ -24,6 +24,6 @@ namespace dibhr {
 [[nodiscard]] DepthScale find_scale(const Sources& sources, const DepthRequest& request);
 
 /// As many sample pictures of a source as can be decoded within about half a second.
-[[nodiscard]] std::vector<cv::Mat> some_pictures(PictureSource& source);
+[[nodiscard]] std::vector<cv::Mat> sample_pictures(PictureSource& source);
 
 }  // namespace dibhr

@@ -102,14 +102,14 @@ LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.
-fs::path sayer_of(const fs::path& place) {
+fs::path role_name_of(const fs::path& place) {
     const fs::path own = place.has_filename() ? place : place.parent_path();
     return named_depth(own) || named_colour(own) ? own : own.parent_path();
 }
 
 bool are_swapped(const fs::path& colour, const fs::path& depth) {
-    const fs::path first = sayer_of(colour);
-    const fs::path second = sayer_of(depth);
+    const fs::path first = role_name_of(colour);
+    const fs::path second = role_name_of(depth);
     return named_depth(first) && !named_colour(first) && named_colour(second) &&
            !named_depth(second);
 }
@@ -160,16 +160,16 @@ std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
     return pairs;
 }
 
-std::string words_for(const MediaPlaces& pair) {
+std::string pair_text(const MediaPlaces& pair) {
     return shown(pair.colour.filename()) + " with " + shown(pair.depth.filename());
 }
 
 std::string others_of(const std::vector<MediaPlaces>& pairs) {
     constexpr std::size_t kMostNamed = 3;
     if (pairs.size() < 2) return {};
-    std::string said = "opened " + words_for(pairs.front()) + "; the folder also holds ";
+    std::string said = "opened " + pair_text(pairs.front()) + "; the folder also holds ";
     for (std::size_t k = 1; k < std::min(pairs.size(), kMostNamed + 1); ++k)
-        said += (k > 1 ? ", " : "") + words_for(pairs[k]);
+        said += (k > 1 ? ", " : "") + pair_text(pairs[k]);
     const std::size_t unnamed = pairs.size() - std::min(pairs.size(), kMostNamed + 1);
     return said + (unnamed > 0 ? " and " + std::to_string(unnamed) + " more pairs" : "");
 }
@@ -226,7 +226,7 @@ PictureSet pictures_at(const fs::path& place) {
     if (is_picture_pattern(place)) return pictures_of_pattern(place);
     if (!is_folder(place)) return read_picture_list(place);
     if (auto listed = read_lists_in(place)) return std::move(*listed);
-    PictureSet found = look_into(place);
+    PictureSet found = find_pictures_in(place);
     const fs::path folder = place.has_filename() ? place : place.parent_path();
     found.facts = facts_of(folder, found);
     return found;

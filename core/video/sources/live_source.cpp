@@ -24,11 +24,11 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = LiveFeed::Clock;
 
-constexpr std::chrono::seconds kPatience{6};  ///< without a picture: an error
+constexpr std::chrono::seconds kPictureTimeout{6};  ///< without a picture: an error
 /// Where packets arrive: wait for a key frame, which encoders send every 250 frames by default.
-constexpr std::chrono::seconds kPatienceWithKey{12};
+constexpr std::chrono::seconds kKeyFrameTimeout{12};
 constexpr int kMostSamples = 10;  ///< a third of a second
-constexpr int kLookedAtLive = 4;
+constexpr int kLiveKindSamples = 4;
 
 /// The position of one reader in a feed.
 struct LiveCursor {
@@ -45,8 +45,9 @@ struct LiveCursor {
     bool goes_on() {
         const std::uint64_t number = pair ? pair->number : 0;
         const auto begin = Clock::now();
-        auto next = feed->after(number, begin + kPatience);
-        if (!next && feed->signal().heard) next = feed->after(number, begin + kPatienceWithKey);
+        auto next = feed->after(number, begin + kPictureTimeout);
+        if (!next && feed->signal().packet_received)
+            next = feed->after(number, begin + kKeyFrameTimeout);
         if (!next) return false;
         if (!pair) first_s = next->depth.stamp_s;
         pair = std::move(next);
@@ -55,15 +56,15 @@ struct LiveCursor {
     }
     [[nodiscard]] std::string why_none() const {
         const LiveSignal signal = feed->signal();
-        if (signal.other_form)
+        if (signal.format_changed)
             return shown(feed->depth()) + " now sends pictures of another form: open it again";
         if (!signal.trouble.empty()) return signal.trouble;
-        if (signal.heard)
+        if (signal.packet_received)
             return shown(feed->depth()) +
                    " sends, but no whole key frame has come yet: let it send one more often "
                    "(-g 30), and lose less on the way";
         return "no signal from " + shown(feed->depth()) + " for " +
-               std::to_string(kPatience.count()) + " s: start the sender, and check the name";
+               std::to_string(kPictureTimeout.count()) + " s: start the sender, and check the name";
     }
 };
 
@@ -132,18 +133,19 @@ std::unique_ptr<PictureSource> pictures_of(const std::shared_ptr<LiveCursor>& cu
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
-                const DepthStatement& said) {
+                const DepthStatement& statement) {
     Sources sources;
-    const bool says_grey = said.code == DepthCode::grey;
-    const bool hue = said.code == DepthCode::hue || (!says_grey && kind == PictureKind::hue_depth);
+    const bool says_grey = statement.code == DepthCode::grey;
+    const bool hue =
+        statement.code == DepthCode::hue || (!says_grey && kind == PictureKind::hue_depth);
     if (hue) {
         sources.depth =
             hue_decoded(pictures_of(cursor, Which::depth_as_seen), HueCode{}, "its hues");
         sources.assumed.code = DepthCode::hue;
-        sources.by_look = true;
+        sources.by_appearance = true;
     } else if (!says_grey && kind == PictureKind::ramp_depth) {
         sources.depth = ramp_decoded(pictures_of(cursor, Which::depth_as_seen), "its colours");
-        sources.by_look = true;
+        sources.by_appearance = true;
     } else {
         sources.depth = pictures_of(cursor, Which::depth);
     }
@@ -156,35 +158,36 @@ Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form
                   pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth), form);
 }
 
-PictureGuess look_at(const std::shared_ptr<LiveCursor>& cursor) {
-    return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLookedAtLive));
+PictureGuess guess_kind_of(const std::shared_ptr<LiveCursor>& cursor) {
+    return guess_kind(pictures_of(cursor, Which::depth_as_seen)->samples(kLiveKindSamples));
 }
 
 /// One connection: halves as the statement says or as the pictures look, else depth alone.
-Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& said) {
-    const bool says_halves = said.packing && is_of_halves(*said.packing);
-    const PictureGuess look = look_at(cursor);
-    if (says_halves || (!said.packing && look.kind == PictureKind::packed)) {
-        PackedForm form{.packing = says_halves ? *said.packing : look.packing,
+Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& statement) {
+    const bool says_halves = statement.packing && is_of_halves(*statement.packing);
+    const PictureGuess guess = guess_kind_of(cursor);
+    if (says_halves || (!statement.packing && guess.kind == PictureKind::packed)) {
+        PackedForm form{.packing = says_halves ? *statement.packing : guess.packing,
                         .known_from = says_halves ? "" : "its pictures"};
-        const bool looks_hue = look.kind == PictureKind::packed && look.code == DepthCode::hue;
-        if (said.code ? *said.code == DepthCode::hue : looks_hue) form.hue.emplace();
+        const bool looks_hue = guess.kind == PictureKind::packed && guess.code == DepthCode::hue;
+        if (statement.code ? *statement.code == DepthCode::hue : looks_hue) form.hue.emplace();
         Sources sources = halves(cursor, form);
         if (!says_halves) {
             sources.assumed = std::exchange(sources.found, {});
-            sources.by_look = true;
+            sources.by_appearance = true;
         }
         return sources;
     }
     const LivePicture& first = cursor->pair->depth;
-    const bool is_depth = look.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
-                          said.code == DepthCode::hue || said.packing == DepthPacking::separate;
+    const bool is_depth = guess.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
+                          statement.code == DepthCode::hue ||
+                          statement.packing == DepthPacking::separate;
     if (!is_depth) {
         throw InputError(shown(cursor->feed->depth()) +
                          " shows colour: give the source of its depth as the second name, or say "
                          "how the depth is in it with --packing (separate: it is all depth)");
     }
-    return decoded(cursor, look.kind, said);
+    return decoded(cursor, guess.kind, statement);
 }
 
 }  // namespace
@@ -193,28 +196,28 @@ bool any_live(const fs::path& colour, const fs::path& depth) {
     return is_live(colour) || is_live(depth);
 }
 
-Sources find_live_sources(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
-                          std::shared_ptr<LiveFeed> feed) {
+Sources find_live_sources(const fs::path& colour, const fs::path& depth,
+                          const DepthStatement& statement, std::shared_ptr<LiveFeed> feed) {
     const fs::path& only = depth.empty() ? colour : depth;
     const bool two = !colour.empty() && colour != only;
     if (!is_live(only) || (two && !is_live(colour)))
         throw InputError(shown(two ? colour : only) + " and " + shown(only) +
                          " do not go together: colour and depth are both live, or both files");
-    if (!feed || !feed->is_of(colour, depth) || feed->signal().other_form)
+    if (!feed || !feed->is_of(colour, depth) || feed->signal().format_changed)
         feed = std::make_shared<LiveFeed>(two ? colour : fs::path{}, only);
-    feed->want(true, true);
+    feed->set_outputs(true, true);
     const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
     cursor->advance();
     Sources sources;
     if (two) {
-        sources = decoded(cursor, PictureKind::grey_depth, said);
+        sources = decoded(cursor, PictureKind::grey_depth, statement);
         sources.colour = pictures_of(cursor, Which::colour);
-        feed->want(said.code == DepthCode::hue, said.code != DepthCode::hue);
+        feed->set_outputs(statement.code == DepthCode::hue, statement.code != DepthCode::hue);
     } else {
-        sources = of_one(cursor, said);
+        sources = of_one(cursor, statement);
         const bool as_seen = sources.colour != nullptr ||
-                             sources.depth->facts().bits == kRealBits || sources.by_look;
-        feed->want(as_seen, true);
+                             sources.depth->facts().bits == kRealBits || sources.by_appearance;
+        feed->set_outputs(as_seen, true);
     }
     sources.live = std::move(feed);
     return sources;

@@ -20,6 +20,7 @@ namespace dibhr {
 /// only one of the two is live, and when there is no depth.
 [[nodiscard]] Sources find_live_sources(const std::filesystem::path& colour,
                                         const std::filesystem::path& depth,
-                                        const DepthStatement& said, std::shared_ptr<LiveFeed> feed);
+                                        const DepthStatement& statement,
+                                        std::shared_ptr<LiveFeed> feed);
 
 }  // namespace dibhr

@@ -56,8 +56,8 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
                                                std::move(scale), painted);
     media->add_notice(sources.notice);
     media->add_notice(notice);
-    media->panel_said(request.panel);
-    media->comes_from(std::move(sources.live));
+    media->set_panel_statement(request.panel);
+    media->set_live_feed(std::move(sources.live));
     return media;
 }
 
@@ -72,10 +72,10 @@ fs::path depth_of_pair(const fs::path& colour, const fs::path& depth) {
 }
 
 /// The sources of a live pair, of depth alone, or of files.
-Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthStatement& said,
+Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthStatement& statement,
                    const DepthRequest& request) {
-    if (any_live(colour, depth)) return find_live_sources(colour, depth, said, request.live);
-    return colour.empty() ? find_depth(depth, said) : find_sources(colour, depth, said);
+    if (any_live(colour, depth)) return find_live_sources(colour, depth, statement, request.live);
+    return colour.empty() ? find_depth(depth, statement) : find_sources(colour, depth, statement);
 }
 
 MediaDescription described(const fs::path& place, const DepthRequest& request,
@@ -83,9 +83,9 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
     const MediaPlaces places =
         is_live(place) ? MediaPlaces{.colour = place} : places_for(place, {});
     const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
-    const DepthStatement said = said_of(depth, place, request);
+    const DepthStatement statement = statement_for(depth, place, request);
     Sources sources =
-        is_live(place) ? sources_of(place, {}, said, request) : find_content(place, said);
+        is_live(place) ? sources_of(place, {}, statement, request) : find_content(place, statement);
     if (sources.depth == nullptr) {
         sources.colour->count_frames(kMostCounted);
         MediaDescription description;
@@ -94,7 +94,7 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         description.notice = sources.colour->facts().notice;
         return description;
     }
-    const std::vector<cv::Mat> pictures = some_pictures(*sources.depth);
+    const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
     const auto media = media_of(std::move(sources), request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
@@ -136,8 +136,8 @@ Fit fit_of(const MediaDescription& media) {
 
 CleaningOptions cleaning_on(const MediaDescription& media, CleaningOptions asked) {
     if (asked.preset != CleaningPreset::automatic || !media.meaning) return asked;
-    const CleaningChoice& said = media.meaning->cleaning.value;
-    return {.preset = said.preset, .own = said.own, .finger = asked.finger};
+    const CleaningChoice& statement = media.meaning->cleaning.value;
+    return {.preset = statement.preset, .own = statement.own, .finger = asked.finger};
 }
 
 double finger_mm_on(const MediaDescription& media, double asked_mm) {
@@ -148,15 +148,16 @@ double finger_mm_on(const MediaDescription& media, double asked_mm) {
 std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
                                   const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        const DepthStatement said = said_of(depth_of_pair(colour, depth), colour, request);
-        return media_of(sources_of(colour, depth, said, request), request, true, notice);
+        const DepthStatement statement =
+            statement_for(depth_of_pair(colour, depth), colour, request);
+        return media_of(sources_of(colour, depth, statement, request), request, true, notice);
     });
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const fs::path depth = is_live(place) ? place : depth_place_for(place);
-        Sources sources = sources_of({}, place, said_of(depth, place, request), request);
+        Sources sources = sources_of({}, place, statement_for(depth, place, request), request);
         sources.colour.reset();
         return media_of(std::move(sources), request, false, notice);
     });

@@ -12,29 +12,29 @@
 #include "core/error.hpp"
 #include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
-#include "core/video/cleaning/lone_depth.hpp"
+#include "core/video/cleaning/single_frame_depth.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
 
 class LiveFeed;
-struct TakenPictures;
+struct SourcePictures;
 
 /// A decoded pair, not yet cleaned. NaN in its depth: no data.
 struct RawFrame {
     DepthImage depth{};
-    std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by RememberingMedia
+    std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by HeldLevelsMedia
     /// Depth cleaned ahead of time from `depth` and `held`, which then are empty; by DecodedAhead.
-    std::shared_ptr<const LoneDepth> lone{};
-    double lone_ms{0.0};  ///< how long that took
+    std::shared_ptr<const SingleFrameDepth> single_frame{};
+    double single_frame_ms{0.0};  ///< how long that took
     ColourImage colour{};
-    std::shared_ptr<const TakenPictures> taken{};  ///< of a live source: the original pictures
+    std::shared_ptr<const SourcePictures> taken{};  ///< of a live source: the original pictures
     bool colour_of_view{false};  ///< a camera's picture, as far as known from the depth's view
     double media_s{0.0};
     std::int64_t index{0};
-    bool always_whole{false};  ///< no frame of this media has a pixel without data
-    double passing_s{0.0};     ///< mean time to skip a frame; 0: as long as reading it
+    bool never_has_holes{false};  ///< no frame of this media has a pixel without data
+    double skipping_s{0.0};       ///< mean time to skip a frame; 0: as long as reading it
 };
 
 /// Thrown for colour with no depth in it or beside it.

@@ -32,7 +32,8 @@ constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "dis
 constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
 constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
 constexpr std::array<std::string_view, 4> kMayBeColour{"image", "images", "img", "left"};
-constexpr std::array<std::string_view, 2> kSayNothing{"map", "mono"};  // "mono_depth", "depth map"
+constexpr std::array<std::string_view, 2> kNeutralWords{"map",
+                                                        "mono"};  // "mono_depth", "depth map"
 
 constexpr std::array<std::string_view, 18> kPictureEndings{
     ".bmp", ".exr", ".heic", ".heif", ".hif", ".jpeg", ".jpg", ".npy",  ".npz",
@@ -194,7 +195,7 @@ std::string subject_of(const fs::path& file) {
         }
         if (word.empty() || is_one_of(word, kShortColourWords) ||
             is_one_of(word, kShortDepthWords) || is_one_of(word, kMayBeColour) ||
-            is_one_of(word, kSayNothing))
+            is_one_of(word, kNeutralWords))
             continue;
         if (!subject.empty()) subject += ' ';
         subject += word;

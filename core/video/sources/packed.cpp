@@ -26,7 +26,7 @@ bool is_side_by_side(DepthPacking packing) noexcept {
 
 /// Opens the longest row of pictures in a folder of packed pictures.
 std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureRole role) {
-    PictureSet found = look_into(folder);
+    PictureSet found = find_pictures_in(folder);
     const auto longest =
         std::max({&found.unnamed, &found.colour, &found.depth},
                  [](const PictureRow* a, const PictureRow* b) { return a->size() < b->size(); });
@@ -66,7 +66,7 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
     };
     if (role == PictureRole::colour)
         return std::make_unique<ChangedPictures>(std::move(half), change, [](SourceFacts&) {});
-    const auto tell = [form](SourceFacts& facts) {
+    const auto change_facts = [form](SourceFacts& facts) {
         DepthStatement known = form.known;
         const cv::Size size(facts.columns, facts.rows);
         if (known.intrinsics && !form.intrinsics_size.empty())
@@ -75,7 +75,7 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
         facts.known = std::move(known);
         if (!form.known_from.empty()) facts.known_from = form.known_from;
     };
-    return std::make_unique<ChangedPictures>(std::move(half), change, tell);
+    return std::make_unique<ChangedPictures>(std::move(half), change, change_facts);
 }
 
 /// The meaning of levels decoded by this code.
@@ -107,7 +107,7 @@ struct PackingWord {
     std::string_view word;
     std::optional<DepthPacking> packing;
     bool half_size;
-    bool says_depth;
+    bool names_depth;
 };
 
 constexpr std::array<PackingWord, 18> kPackingWords{{
@@ -154,18 +154,18 @@ std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colour
         depth.convertTo(depth, CV_32F, code.metres->far - near, near);
         return depth;
     };
-    const auto tell = [code, from = std::move(known_from)](SourceFacts& facts) {
+    const auto change_facts = [code, from = std::move(known_from)](SourceFacts& facts) {
         facts.bits = kRealBits;
         facts.channels = 1;
         facts.known_from = from;
         facts.known.fill_in(meaning_of(code));
     };
-    return std::make_unique<ChangedPictures>(std::move(colours), decode, tell);
+    return std::make_unique<ChangedPictures>(std::move(colours), decode, change_facts);
 }
 
 std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
                                             std::string known_from) {
-    const auto tell = [from = std::move(known_from)](SourceFacts& facts) {
+    const auto change_facts = [from = std::move(known_from)](SourceFacts& facts) {
         facts.bits = 8;
         facts.channels = 1;
         facts.known_from = from;
@@ -175,7 +175,7 @@ std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colou
         ramp.no_data = {0.0};
         facts.known.fill_in(ramp);
     };
-    return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, tell);
+    return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, change_facts);
 }
 
 bool is_of_halves(DepthPacking packing) noexcept {
@@ -223,8 +223,8 @@ std::optional<NamedPacking> packing_by_name(const fs::path& file) {
         if (known == nullptr) continue;
         if (known->packing) said.packing = *known->packing;
         said.half_size = said.half_size || known->half_size;
-        said.says_depth = said.says_depth || known->says_depth;
-        says = says || known->packing || known->says_depth;
+        said.names_depth = said.names_depth || known->names_depth;
+        says = says || known->packing || known->names_depth;
     }
     if (!says) return std::nullopt;
     return said;

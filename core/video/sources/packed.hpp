@@ -23,7 +23,7 @@ struct PackedForm {
     std::optional<HueCode> hue{};  ///< how depth is coded by hue; nothing: by brightness
     DepthStatement known{};        ///< other facts of the file's metadata about its depth
     std::string known_from{};      ///< the source of these facts; empty: none
-    cv::Size intrinsics_size{};  ///< size of the picture of known.intrinsics; 0: the depth's own
+    cv::Size intrinsics_size{};    ///< size of the picture of known.intrinsics; 0: the depth's own
 };
 
 /// Decodes the colours of a source to depth in real numbers: metres where the code has a range,
@@ -56,7 +56,7 @@ struct PackedForm {
 struct NamedPacking {
     DepthPacking packing{DepthPacking::left_right};
     bool half_size{false};
-    bool says_depth{false};  ///< false: the halves may be an ordinary stereo pair
+    bool names_depth{false};  ///< false: the halves may be an ordinary stereo pair
 
     bool operator==(const NamedPacking&) const = default;
 };

@@ -78,7 +78,7 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
 
 ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
     : source_(std::move(source)),
-      starts_later_s_(colour_start_s(source_->facts(), depth)),
+      start_offset_s_(colour_start_s(source_->facts(), depth)),
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
@@ -86,7 +86,7 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
-    const double latest_s = depth_time_s - starts_later_s_ + kNotLater * interval_s_;
+    const double latest_s = depth_time_s - start_offset_s_ + kNotLater * interval_s_;
     if (std::exchange(near_, false)) {
         source_->seek_near(latest_s);
         now_ = source_->next().value_or(now_);
@@ -137,7 +137,7 @@ std::optional<RawFrame> PairedMedia::next_from(double earliest_s) {
 
 std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken) {
     describe_time(depth_->facts(), description_);
-    tell_trouble(depth_->facts());
+    report_trouble(depth_->facts());
     if (!taken) return std::nullopt;
     keep_size(taken->picture);
     RawFrame frame;
@@ -145,17 +145,17 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     frame.media_s = taken->time_s;
     frame.index = taken->index;
     frame.colour_of_view = colour_of_view_;
-    frame.always_whole = scale_.is_always_data() && !shape_;
+    frame.never_has_holes = scale_.is_always_data() && !shape_;
     cv::Mat colour;
     const cv::Mat as_taken = colour_ ? colour_->shown_at(taken->time_s) : cv::Mat();
     if (colour_) colour = colour_for(*taken, as_taken);
     if (taken->pair)
-        frame.taken = std::make_shared<const TakenPictures>(
-            TakenPictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
-    if (frame.always_whole && taken->decoding_s > 0.0)
-        frame.passing_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
+        frame.taken = std::make_shared<const SourcePictures>(
+            SourcePictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
+    if (frame.never_has_holes && taken->decoding_s > 0.0)
+        frame.skipping_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
     if (shape_)
-        put_straight(frame, colour);
+        apply_true_shape(frame, colour);
     else if (colour_)
         frame.colour = colour_of(colour);
     if (painted_) frame.colour = painted_depth(frame.depth);
@@ -164,11 +164,12 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
 
 /// The colour picture as the depth camera would see it.
 cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour) {
-    tell_trouble(colour_->facts());
+    report_trouble(colour_->facts());
     if (cameras_ && !colour.empty())
-        return moved(cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour),
-                     registration_, size_);
-    return moved(colour, registration_, size_);
+        return apply_registration(
+            cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour), registration_,
+            size_);
+    return apply_registration(colour, registration_, size_);
 }
 
 void PairedMedia::take_range() {
@@ -210,13 +211,14 @@ void PairedMedia::take_true_shape() {
                          "FX,FY,CX,CY or a field of view, as in 60deg (--intrinsics), or the "
                          "relief (--geometry relief)");
     std::vector<cv::Mat> samples_mm;
-    const std::vector<cv::Mat> pictures = some_pictures(*depth_);
+    const std::vector<cv::Mat> pictures = sample_pictures(*depth_);
     samples_mm.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
     const SourceFacts& facts = depth_->facts();
     const bool is_its_own = meaning->intrinsics.value == facts.known.intrinsics;
-    const Camera camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
-    shape_.emplace(size_, camera, range_mm_, straight_grid(size_, camera, range_mm_, samples_mm));
+    const CameraModel camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
+    shape_.emplace(size_, camera, range_mm_,
+                   orthographic_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
     description_.depth_rows = shape_->grid().rows;
     description_.true_fit = Fit{shape_->relief_px(), shape_->grid().pitch_mm};
@@ -230,8 +232,8 @@ cv::Mat PairedMedia::in_mm(const DepthImage& depth) const {
     return depth_mm;
 }
 
-void PairedMedia::put_straight(RawFrame& frame, const cv::Mat& colour) {
-    StraightPicture straight = shape_->seen_straight_on(in_mm(frame.depth), colour);
+void PairedMedia::apply_true_shape(RawFrame& frame, const cv::Mat& colour) {
+    OrthographicPicture straight = shape_->orthographic_view(in_mm(frame.depth), colour);
     frame.depth = std::move(straight.depth);
     frame.colour = std::move(straight.colour);
 }
@@ -257,7 +259,7 @@ void PairedMedia::add_notice(const std::string& sentence) {
     notice += (notice.empty() ? "" : "; ") + sentence;
 }
 
-void PairedMedia::tell_trouble(const SourceFacts& facts) {
+void PairedMedia::report_trouble(const SourceFacts& facts) {
     if (description_.trouble.empty()) description_.trouble = facts.trouble;
 }
 

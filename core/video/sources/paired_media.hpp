@@ -37,7 +37,7 @@ class ColourTrack {
 
   private:
     std::unique_ptr<PictureSource> source_;
-    double starts_later_s_;  ///< start of the colour after that of the depth
+    double start_offset_s_;  ///< start of the colour after that of the depth
     double interval_s_;      ///< as known at the opening; never updated
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
@@ -64,9 +64,9 @@ class PairedMedia : public Media {
 
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
-    void comes_from(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
+    void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
     /// Stored in the description.
-    void panel_said(const DepthStatement& panel) { description_.panel = panel; }
+    void set_panel_statement(const DepthStatement& panel) { description_.panel = panel; }
 
   private:
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
@@ -75,8 +75,8 @@ class PairedMedia : public Media {
     void take_registration(const SourceFacts& colour);
     [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
-    void put_straight(RawFrame& frame, const cv::Mat& colour);
-    void tell_trouble(const SourceFacts& facts);
+    void apply_true_shape(RawFrame& frame, const cv::Mat& colour);
+    void report_trouble(const SourceFacts& facts);
     void keep_size(cv::Mat& picture) const;
 
     std::unique_ptr<PictureSource> depth_;

@@ -74,7 +74,7 @@ void append_pictures_of(const fs::path& folder, PictureRow& row) {
 
 /// Beside depth, unnamed pictures count as colour where a word allows it, else where their names
 /// are those of depth pictures without the word for depth.
-void adopt_colour(PictureSet& set) {
+void accept_as_colour(PictureSet& set) {
     if (set.depth.empty() || !set.colour.empty()) return;
     std::set<std::string> subjects;
     for (const NumberedPicture& picture : set.depth) subjects.insert(subject_of(picture.file));
@@ -90,7 +90,7 @@ void adopt_colour(PictureSet& set) {
 }
 
 /// Adds the pictures of subfolders named depth or colour; of several the first.
-void look_into_folders(const std::vector<fs::path>& entries, PictureSet& set) {
+void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& set) {
     for (const fs::path& entry : entries) {
         if (!is_folder(entry)) continue;
         PictureRow& row = row_for(set, entry.filename());
@@ -111,7 +111,7 @@ void sort_by_number(PictureRow& row) {
     });
 }
 
-PictureSet look_into(const fs::path& folder) {
+PictureSet find_pictures_in(const fs::path& folder) {
     PictureSet found;
     const std::vector<fs::path> entries = entries_of(folder);
     for (const fs::path& entry : entries) {
@@ -119,9 +119,9 @@ PictureSet look_into(const fs::path& folder) {
     }
     const bool has_own = !found.colour.empty() || !found.depth.empty() || !found.unnamed.empty();
     if (has_own)
-        adopt_colour(found);
+        accept_as_colour(found);
     else
-        look_into_folders(entries, found);
+        find_pictures_in_folders(entries, found);
     sort_by_number(found.colour);
     sort_by_number(found.depth);
     sort_by_number(found.unnamed);
@@ -173,13 +173,13 @@ std::vector<double> times_s(const PictureRow& row, const PictureRow& other, doub
 }
 
 PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<double> times,
-                                 PictureRole role, const LayoutFacts& said)
+                                 PictureRole role, const LayoutFacts& layout)
     : row_(std::move(row)), role_(role) {
     StillFile first(row_.front().file, role_);
     facts_ = first.facts();
     last_ = first.next()->picture;
     facts_.file = std::move(place);
-    take_in(said);
+    apply_layout(layout);
     const double lasts_s = times.back() - times.front();
     if (row_.size() > 1 && !(lasts_s <= kLongestRow_s))
         throw InputError(shown(facts_.file) + " has pictures that are " + short_text(lasts_s) +
@@ -187,16 +187,17 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
     take_times(std::move(times));
 }
 
-void PictureSequence::take_in(const LayoutFacts& said) {
-    facts_.notice = said.notice;
+void PictureSequence::apply_layout(const LayoutFacts& layout) {
+    facts_.notice = layout.notice;
     if (role_ != PictureRole::depth || facts_.bits != 16) return;
-    DepthStatement known = said.known;
+    DepthStatement known = layout.known;
     const bool is_size =
-        said.columns == 0 || (said.columns == facts_.columns && said.rows == facts_.rows);
+        layout.columns == 0 || (layout.columns == facts_.columns && layout.rows == facts_.rows);
     if (!is_size) known.intrinsics.reset();
-    if (facts_.known_from.empty() && known != DepthStatement{}) facts_.known_from = said.known_from;
+    if (facts_.known_from.empty() && known != DepthStatement{})
+        facts_.known_from = layout.known_from;
     facts_.known.fill_in(known);
-    facts_.other_camera = said.other_camera;
+    facts_.other_camera = layout.other_camera;
 }
 
 cv::Mat PictureSequence::picture(std::size_t at) {
@@ -204,7 +205,7 @@ cv::Mat PictureSequence::picture(std::size_t at) {
         StillFile still(row_[at].file, role_);
         last_ = with_bits(still.next()->picture, still.facts().bits, facts_.bits);
     } catch (const InputError& error) {
-        tell_trouble(error.what());
+        report_trouble(error.what());
     }
     return last_;
 }

@@ -54,7 +54,7 @@ void sort_by_number(PictureRow& row);
 
 /// The pictures of a folder; where it has none, those of its subfolders named colour or depth.
 /// Throws InputError when it cannot be read.
-[[nodiscard]] PictureSet look_into(const std::filesystem::path& folder);
+[[nodiscard]] PictureSet find_pictures_in(const std::filesystem::path& folder);
 
 /// The colour row joined with a depth row by time: for each depth picture the nearest colour within
 /// 0.02 s, as TUM's associate.py does, else the newest before it. Where the rows have no times, or
@@ -74,11 +74,11 @@ class PictureSequence : public IndexedPictures {
     /// `times`: one for each picture, increasing. Throws InputError when the first picture cannot
     /// be read, or when the times span more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
-                    PictureRole role, const LayoutFacts& said = {});
+                    PictureRole role, const LayoutFacts& layout = {});
 
   private:
     [[nodiscard]] cv::Mat picture(std::size_t at) override;
-    void take_in(const LayoutFacts& said);
+    void apply_layout(const LayoutFacts& layout);
 
     PictureRow row_;
     PictureRole role_;

@@ -20,7 +20,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kLongSide = 320;  ///< of the reduced pictures [px]
-constexpr std::size_t kMostLooked = 24;
+constexpr std::size_t kMostKindSamples = 24;
 
 // Bounds for single pixels, in levels of 255.
 constexpr int kDark = 40;       ///< the highest channel is below
@@ -67,14 +67,14 @@ double range_of(const cv::Mat& levels, const cv::Mat& mask) {
 }
 
 /// Statistics of 8-bit levels where the mask is not 0.
-SurfaceLook surface_look(const cv::Mat& levels, const cv::Mat& mask) {
-    SurfaceLook look;
-    look.covered = share(cv::countNonZero(mask), static_cast<double>(mask.total()));
-    look.range = range_of(levels, mask);
+SurfaceStatistics surface_statistics(const cv::Mat& levels, const cv::Mat& mask) {
+    SurfaceStatistics statistics;
+    statistics.covered = share(cv::countNonZero(mask), static_cast<double>(mask.total()));
+    statistics.range = range_of(levels, mask);
     cv::Mat inner;  // pixels whose neighbours have levels, too
     cv::erode(mask, inner, cv::Mat::ones(5, 5, CV_8U));
     const int count = cv::countNonZero(inner);
-    if (count == 0 || look.range < 1.0) return look;
+    if (count == 0 || statistics.range < 1.0) return statistics;
     cv::Mat around;
     cv::medianBlur(levels, around, 5);
     cv::Mat apart;
@@ -87,30 +87,30 @@ SurfaceLook surface_look(const cv::Mat& levels, const cv::Mat& mask) {
     cv::magnitude(across, down, rise);
     const cv::Mat edges = (rise >= kEdge) & inner;
     const cv::Mat slopes = (rise >= kFlat) & (rise < kSlope) & inner;
-    look.edges = share(cv::countNonZero(edges), count);
-    look.slopes = share(cv::countNonZero(slopes), count);
-    look.texture = cv::mean(apart, inner & ~edges)[0] / look.range;
-    return look;
+    statistics.edges = share(cv::countNonZero(edges), count);
+    statistics.slopes = share(cv::countNonZero(slopes), count);
+    statistics.texture = cv::mean(apart, inner & ~edges)[0] / statistics.range;
+    return statistics;
 }
 
-SurfaceLook brightness_look(const cv::Mat& small) {
+SurfaceStatistics brightness_statistics(const cv::Mat& small) {
     cv::Mat grey;
     cv::cvtColor(small, grey, cv::COLOR_BGR2GRAY);
-    return surface_look(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
+    return surface_statistics(grey, cv::Mat(grey.size(), CV_8U, cv::Scalar(255)));
 }
 
 /// Resizes by the nearest pixel: hues are never mixed.
-SurfaceLook hue_look(const cv::Mat& picture) {
+SurfaceStatistics hue_statistics(const cv::Mat& picture) {
     const cv::Mat hues = hues_of(reduced(picture, kLongSide, cv::INTER_NEAREST), HueCode{});
     const cv::Mat mask = hues == hues;  // not NaN
     cv::Mat levels;
     hues.convertTo(levels, CV_8U, 255.0);
     levels.setTo(0, ~mask);
-    return surface_look(levels, mask);
+    return surface_statistics(levels, mask);
 }
 
 /// Adds the weighted statistics of one picture to a mean.
-void add(SurfaceLook& sum, const SurfaceLook& one, double weight) {
+void add(SurfaceStatistics& sum, const SurfaceStatistics& one, double weight) {
     sum.covered += weight * one.covered;
     sum.range += weight * one.range;
     sum.texture += weight * one.texture;
@@ -118,7 +118,7 @@ void add(SurfaceLook& sum, const SurfaceLook& one, double weight) {
     sum.edges += weight * one.edges;
 }
 
-void add(PictureLook& sum, const PictureLook& one, double weight) {
+void add(PictureStatistics& sum, const PictureStatistics& one, double weight) {
     sum.lit += weight * one.lit;
     sum.coloured += weight * one.coloured;
     sum.pure += weight * one.pure;
@@ -144,23 +144,26 @@ constexpr SurfaceBounds kHueDepth{0.35, 0.003, 0.006};
 constexpr SurfaceBounds kGreyHalf{0.18, 0.008, 0.008};
 
 /// Whether it has enough relief and is smooth.
-bool is_surface(const SurfaceLook& look, const SurfaceBounds& bounds) {
+bool is_surface(const SurfaceStatistics& statistics, const SurfaceBounds& bounds) {
     constexpr double kLeastRange = 40.0;
     constexpr double kMostEdges = 0.2;
-    return look.range >= kLeastRange && look.edges >= bounds.edges && look.edges <= kMostEdges &&
-           look.slopes >= bounds.slopes && look.texture <= bounds.texture;
+    return statistics.range >= kLeastRange && statistics.edges >= bounds.edges &&
+           statistics.edges <= kMostEdges && statistics.slopes >= bounds.slopes &&
+           statistics.texture <= bounds.texture;
 }
 
-bool looks_grey_depth(const PictureLook& look, const SurfaceBounds& bounds) {
-    return look.coloured <= 0.01 && is_surface(look.brightness, bounds);
+bool looks_grey_depth(const PictureStatistics& statistics, const SurfaceBounds& bounds) {
+    return statistics.coloured <= 0.01 && is_surface(statistics.brightness, bounds);
 }
 
-bool looks_hue_depth(const PictureLook& look) {
-    return look.pure >= 0.8 && look.hue.covered >= 0.05 && is_surface(look.hue, kHueDepth);
+bool looks_hue_depth(const PictureStatistics& statistics) {
+    return statistics.pure >= 0.8 && statistics.hue.covered >= 0.05 &&
+           is_surface(statistics.hue, kHueDepth);
 }
 
-bool looks_ramp_depth(const PictureLook& look) {
-    return look.ramp >= 0.9 && look.coloured >= 0.2 && is_surface(look.brightness, kGreyDepth);
+bool looks_ramp_depth(const PictureStatistics& statistics) {
+    return statistics.ramp >= 0.9 && statistics.coloured >= 0.2 &&
+           is_surface(statistics.brightness, kGreyDepth);
 }
 
 // Halves.
@@ -221,13 +224,14 @@ double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
 }
 
 /// Mean statistics of each picture's depth half; without a packing, of whole pictures.
-PictureLook mean_look(std::span<const cv::Mat> pictures, std::optional<DepthPacking> packing = {}) {
-    PictureLook mean;
+PictureStatistics mean_statistics(std::span<const cv::Mat> pictures,
+                                  std::optional<DepthPacking> packing = {}) {
+    PictureStatistics mean;
     for (const cv::Mat& picture : pictures) {
         const cv::Rect whole({}, picture.size());
         const cv::Rect part =
             packing ? half_of(picture.size(), *packing, PictureRole::depth) : whole;
-        add(mean, look_of(picture(part)), 1.0 / static_cast<double>(pictures.size()));
+        add(mean, picture_statistics(picture(part)), 1.0 / static_cast<double>(pictures.size()));
     }
     return mean;
 }
@@ -250,8 +254,8 @@ void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
 /// Whether one half looks like depth, whose code it stores, and the other like a photograph.
 bool could_be_packed(PictureGuess& halves) {
     constexpr double kRougher = 2.5;
-    const PictureLook& colour = halves.colour_half;
-    const PictureLook& depth = halves.depth_half;
+    const PictureStatistics& colour = halves.colour_half;
+    const PictureStatistics& depth = halves.depth_half;
     if (looks_hue_depth(depth)) {
         halves.code = DepthCode::hue;
         return colour.lit >= 0.02 && colour.pure <= 0.3;
@@ -274,15 +278,15 @@ PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
     // Each packing stands beside the one with exchanged halves: index ^ 1.
     static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
                                           DepthPacking::top_bottom, DepthPacking::bottom_top};
-    std::array<PictureLook, kPackings.size()> looks;
-    std::transform(kPackings.begin(), kPackings.end(), looks.begin(),
-                   [pictures](DepthPacking packing) { return mean_look(pictures, packing); });
+    std::array<PictureStatistics, kPackings.size()> depth_statistics;
+    std::transform(kPackings.begin(), kPackings.end(), depth_statistics.begin(),
+                   [pictures](DepthPacking packing) { return mean_statistics(pictures, packing); });
     PictureGuess best;
     for (std::size_t k = 0; k < kPackings.size(); ++k) {
         PictureGuess halves;
         halves.packing = kPackings[k];
-        halves.depth_half = looks[k];
-        halves.colour_half = looks[k ^ 1U];
+        halves.depth_half = depth_statistics[k];
+        halves.colour_half = depth_statistics[k ^ 1U];
         if (!could_be_packed(halves)) continue;
         compare_halves(pictures, halves);
         if (!belong_together(halves) || halves.edges_agree < best.edges_agree) continue;
@@ -299,7 +303,7 @@ bool is_large_enough(const cv::Mat& picture) {
 
 }  // namespace
 
-PictureLook look_of(const cv::Mat& picture) {
+PictureStatistics picture_statistics(const cv::Mat& picture) {
     const cv::Mat small = reduced(picture, kLongSide, cv::INTER_AREA);
     int lit = 0;
     int coloured = 0;
@@ -315,22 +319,22 @@ PictureLook look_of(const cv::Mat& picture) {
             pure += static_cast<int>(chroma >= kPure);
         }
     }
-    PictureLook look;
-    look.lit = share(lit, static_cast<double>(small.total()));
-    look.coloured = share(coloured, lit);
-    look.pure = share(pure, lit);
-    look.ramp = share_on_ramp(small);
-    look.brightness = brightness_look(small);
-    if (look.pure >= kMostlyPure) look.hue = hue_look(picture);
-    return look;
+    PictureStatistics statistics;
+    statistics.lit = share(lit, static_cast<double>(small.total()));
+    statistics.coloured = share(coloured, lit);
+    statistics.pure = share(pure, lit);
+    statistics.ramp = share_on_ramp(small);
+    statistics.brightness = brightness_statistics(small);
+    if (statistics.pure >= kMostlyPure) statistics.hue = hue_statistics(picture);
+    return statistics;
 }
 
 PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
-    pictures = pictures.first(std::min(pictures.size(), kMostLooked));
+    pictures = pictures.first(std::min(pictures.size(), kMostKindSamples));
     if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))
         return {};
     PictureGuess guess = guess_packing(pictures);
-    guess.whole = mean_look(pictures);
+    guess.whole = mean_statistics(pictures);
     if (guess.kind == PictureKind::packed) return guess;
     if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
     if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;

@@ -18,7 +18,7 @@ enum class PictureKind {
 };
 
 /// Statistics of one picture as a surface of levels from 0 to 255.
-struct SurfaceLook {
+struct SurfaceStatistics {
     double covered{0.0};  ///< share of the pixels that have a level
     double range{0.0};    ///< between the percentiles 2 and 98
     double texture{0.0};  ///< mean distance of a level from the median around it, as a part of
@@ -28,13 +28,13 @@ struct SurfaceLook {
 };
 
 /// Statistics of one picture. Shares are of the pixels that are not dark.
-struct PictureLook {
+struct PictureStatistics {
     double lit{0.0};       ///< share of all pixels that are not dark
     double coloured{0.0};  ///< not grey
     double pure{0.0};      ///< share with nearly pure hues
     double ramp{0.0};      ///< share on the colour ramp, of the coloured pixels
-    SurfaceLook brightness{};
-    SurfaceLook hue{};  ///< only where at least half is pure
+    SurfaceStatistics brightness{};
+    SurfaceStatistics hue{};  ///< only where at least half is pure
 };
 
 /// The kind of pictures, and the statistics that decided it: means over the pictures. `packing`,
@@ -43,15 +43,15 @@ struct PictureGuess {
     PictureKind kind{PictureKind::photo};
     DepthPacking packing{DepthPacking::separate};
     DepthCode code{DepthCode::grey};
-    PictureLook whole{};
-    PictureLook colour_half{};
-    PictureLook depth_half{};
+    PictureStatistics whole{};
+    PictureStatistics colour_half{};
+    PictureStatistics depth_half{};
     double brightness_alike{0.0};  ///< correlation of the halves, 0 to 1
     double edges_agree{0.0};       ///< correlation of the halves' edges, -1 to 1
     double edges_by_chance{0.0};   ///< the highest with one half moved or mirrored
 };
 
-[[nodiscard]] PictureLook look_of(const cv::Mat& picture);
+[[nodiscard]] PictureStatistics picture_statistics(const cv::Mat& picture);
 
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.

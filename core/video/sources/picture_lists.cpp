@@ -117,27 +117,27 @@ Kind kind_of(const fs::path& name) {
 }
 
 /// Counts of ignored entries, for the notice.
-struct PassedOver {
+struct IgnoredEntries {
     std::size_t lines{0};
     std::size_t missing{0};
     std::size_t repeated{0};
     std::string first_missing{};
 };
 
-std::string sentence(const fs::path& list, const PassedOver& passed) {
+std::string sentence(const fs::path& list, const IgnoredEntries& ignored) {
     std::string said;
     const auto add = [&said](std::size_t count, const std::string& what) {
         if (count == 0) return;
         said += (said.empty() ? "" : ", ") + std::to_string(count) + " " + what;
     };
-    add(passed.lines, "lines that do not name a time and a picture");
-    add(passed.missing, "missing pictures (the first: " + shown(passed.first_missing) + ")");
-    add(passed.repeated, "pictures with the time of another picture");
+    add(ignored.lines, "lines that do not name a time and a picture");
+    add(ignored.missing, "missing pictures (the first: " + shown(ignored.first_missing) + ")");
+    add(ignored.repeated, "pictures with the time of another picture");
     return said.empty() ? said : shown(list) + ": dibhr ignores " + said;
 }
 
 /// Sorts by time, and keeps each time once.
-void put_in_order(PictureRow& row, PassedOver& passed) {
+void put_in_order(PictureRow& row, IgnoredEntries& ignored) {
     const auto by_time = [](const NumberedPicture& a, const NumberedPicture& b) {
         return *a.number < *b.number;
     };
@@ -146,7 +146,7 @@ void put_in_order(PictureRow& row, PassedOver& passed) {
     };
     std::stable_sort(row.begin(), row.end(), by_time);
     const auto repeated = std::unique(row.begin(), row.end(), same_time);
-    passed.repeated += static_cast<std::size_t>(row.end() - repeated);
+    ignored.repeated += static_cast<std::size_t>(row.end() - repeated);
     row.erase(repeated, row.end());
 }
 
@@ -184,7 +184,7 @@ class ListReader {
 
     void take(std::string_view text) {
         const Line line = line_of(text);
-        if (line.empty()) ++passed_.lines;
+        if (line.empty()) ++ignored_.lines;
         if (line.size() == 1) add(line[0], kind_of_single(line[0].name), line[0].time);
         if (line.size() != 2) return;
         const bool depth_first =
@@ -199,16 +199,16 @@ class ListReader {
         PictureRow* const rows[] = {&set_.colour, &set_.depth, &set_.unnamed};
         for (PictureRow* const row : rows) {
             for (NumberedPicture& picture : *row) picture.decimal = decimal_;
-            put_in_order(*row, passed_);
+            put_in_order(*row, ignored_);
         }
         if (set_.colour.empty() && set_.depth.empty() && set_.unnamed.empty())
             throw InputError(shown(list_) + " names no picture that is there" +
-                             (passed_.missing > 0
-                                  ? " (the first: " + shown(passed_.first_missing) + ")"
+                             (ignored_.missing > 0
+                                  ? " (the first: " + shown(ignored_.first_missing) + ")"
                                   : std::string()) +
                              ": put it beside the folders of its pictures");
         set_.facts = facts_of_tum(list_);
-        set_.facts.notice = sentence(list_, passed_);
+        set_.facts.notice = sentence(list_, ignored_);
         return std::move(set_);
     }
 
@@ -220,7 +220,7 @@ class ListReader {
     void add(const Entry& entry, Kind kind, double time) {
         fs::path file = folder_ / entry.name;
         if (!is_file(file)) {
-            if (passed_.missing++ == 0) passed_.first_missing = std::string(entry.name);
+            if (ignored_.missing++ == 0) ignored_.first_missing = std::string(entry.name);
             return;
         }
         decimal_ = decimal_ || entry.decimal;
@@ -234,7 +234,7 @@ class ListReader {
     fs::path folder_;
     Kind kind_of_list_;
     PictureSet set_{};
-    PassedOver passed_{};
+    IgnoredEntries ignored_{};
     bool decimal_{false};
 };
 

@@ -111,14 +111,15 @@ constexpr std::array kReaders{
     Reader{"video by libav", PictureForm::video,
            [](const fs::path&, std::string_view) { return true; }, nullptr, open_file<VideoFile>,
            both_tracks}};
-constexpr std::size_t kOfManyFiles = 2;  ///< the first readers; all others are for single files
+constexpr std::size_t kMultiFileReaders =
+    2;  ///< the first readers; all others are for single files
 
 }  // namespace
 
 const Reader& reader_of(const fs::path& place) {
     const std::string head = head_of(place);
     const auto takes = [&](const Reader& reader) { return reader.is_own(place, head); };
-    const auto of_one_file = kReaders.begin() + kOfManyFiles;
+    const auto of_one_file = kReaders.begin() + kMultiFileReaders;
     auto found = std::find_if(kReaders.begin(), of_one_file, takes);
     if (found == of_one_file) {
         require_readable(place);

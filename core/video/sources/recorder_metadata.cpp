@@ -124,7 +124,7 @@ bool has_proportions(cv::Size picture, const Crop& crop) {
     return std::abs(shown / (crop.size.x / crop.size.y) - 1.0) < kAlike;
 }
 
-void tell_camera(const Json& camera, const Crop& crop, PackedForm& form) {
+void set_camera(const Json& camera, const Crop& crop, PackedForm& form) {
     const auto focal = pair_in(camera, "depthFocalLength");
     const auto centre = pair_in(camera, "depthPrincipalPoint");
     if (!focal || !centre) return;
@@ -149,7 +149,7 @@ std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, 
     PackedForm form;
     form.packing = DepthPacking::top_bottom;
     form.hue = HueCode{range};
-    if (has_proportions(picture, *crop)) tell_camera(camera, *crop, form);
+    if (has_proportions(picture, *crop)) set_camera(camera, *crop, form);
     return form;
 }
 

@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kLookedAt = 6;  ///< pictures used to guess their kind
+constexpr int kKindSamples = 6;  ///< pictures used to guess their kind
 
 /// A place and its reader.
 struct Place {
@@ -47,98 +47,100 @@ cv::Size picture_size(const fs::path& place) {
 }
 
 /// Opens a place as colour pictures; of a video that track.
-std::unique_ptr<PictureSource> open_look(const fs::path& place, int track = 0) {
+std::unique_ptr<PictureSource> open_as_colour(const fs::path& place, int track = 0) {
     if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
     return open_picture_source(place, PictureRole::colour);
 }
 
 /// Sample pictures of a place as colour; none of depth in real numbers, which has no colours.
-std::vector<cv::Mat> looks_of(const fs::path& place, int most, int track = 0) {
+std::vector<cv::Mat> colour_samples(const fs::path& place, int most, int track = 0) {
     try {
-        return open_look(place, track)->samples(most);
+        return open_as_colour(place, track)->samples(most);
     } catch (const InputError&) {
         return {};  // depth in a form without colours
     }
 }
 
 /// The packing in halves by the statement, a recorder's metadata or the name; else nothing.
-std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& said) {
+std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& statement) {
     std::optional<PackedForm> form;
-    if (said.packing && !is_of_halves(*said.packing)) return form;
+    if (statement.packing && !is_of_halves(*statement.packing)) return form;
     if (place.is(PictureForm::video)) form = form_by_recorder(place.path, picture_size(place.path));
     const auto named = packing_by_name(place.path);
-    if (!form && named && (named->says_depth || said.packing))
+    if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
             .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
-    if (!said.packing) return form;
+    if (!statement.packing) return form;
     if (!form) form.emplace();
-    form->packing = *said.packing;
-    if (said.code == DepthCode::hue && !form->hue) form->hue.emplace();
-    if (said.code == DepthCode::grey) form->hue.reset();
+    form->packing = *statement.packing;
+    if (statement.code == DepthCode::hue && !form->hue) form->hue.emplace();
+    if (statement.code == DepthCode::grey) form->hue.reset();
     return form;
 }
 
 /// The halves, where the pictures look packed; else nothing.
-std::optional<Sources> halves_by_look(const fs::path& place, const PictureGuess& look) {
-    if (look.kind != PictureKind::packed) return std::nullopt;
-    PackedForm form{.packing = look.packing, .known_from = "its pictures"};
-    if (look.code == DepthCode::hue) form.hue.emplace();
+std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
+    if (guess.kind != PictureKind::packed) return std::nullopt;
+    PackedForm form{.packing = guess.packing, .known_from = "its pictures"};
+    if (guess.code == DepthCode::hue) form.hue.emplace();
     Sources sources = open_packed(place, form);
     sources.assumed = std::exchange(sources.found, {});
-    sources.by_look = true;
+    sources.by_appearance = true;
     return sources;
 }
 
 /// Whether the first picture has colours, so that more pictures are worth sampling.
 bool begins_in_colours(const fs::path& place, int track) {
     constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
-    const std::vector<cv::Mat> first = looks_of(place, 1, track);
-    return !first.empty() && look_of(first.front()).coloured > kMostColoured;
+    const std::vector<cv::Mat> first = colour_samples(place, 1, track);
+    return !first.empty() && picture_statistics(first.front()).coloured > kMostColoured;
 }
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
-Sources decoded(const Place& place, Sources sources, const DepthStatement& said) {
+Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
     const int track = sources.depth_track;
-    const bool may_be_coded = said.code != DepthCode::hue && sources.depth->facts().channels != 1 &&
+    const bool may_be_coded = statement.code != DepthCode::hue &&
+                              sources.depth->facts().channels != 1 &&
                               (place.is(PictureForm::video) || place.is(PictureForm::still)) &&
                               begins_in_colours(place.path, track);
     PictureKind kind = PictureKind::grey_depth;
-    if (may_be_coded) kind = guess_kind(looks_of(place.path, kLookedAt, track)).kind;
-    if (said.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
-    sources.by_look = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
-    const bool is_hue = said.code == DepthCode::hue || kind == PictureKind::hue_depth;
+    if (may_be_coded) kind = guess_kind(colour_samples(place.path, kKindSamples, track)).kind;
+    if (statement.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
+    sources.by_appearance = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
+    const bool is_hue = statement.code == DepthCode::hue || kind == PictureKind::hue_depth;
     if (is_hue) {
-        sources.depth = hue_decoded(open_look(place.path, track), HueCode{}, "its hues");
+        sources.depth = hue_decoded(open_as_colour(place.path, track), HueCode{}, "its hues");
         sources.assumed.code = DepthCode::hue;
     } else if (kind == PictureKind::ramp_depth) {
-        sources.depth = ramp_decoded(open_look(place.path, track), "its colours");
+        sources.depth = ramp_decoded(open_as_colour(place.path, track), "its colours");
     }
     return sources;
 }
 
 /// Colour and depth of one place; no depth when it does not hold both.
-Sources both_in(const Place& place, const DepthStatement& said) {
+Sources both_in(const Place& place, const DepthStatement& statement) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
     if (both.depth == nullptr || !place.is(PictureForm::video)) return both;
-    return decoded(place, std::move(both), said);
+    return decoded(place, std::move(both), statement);
 }
 
 /// The depth of a place that holds no colour.
-Sources depth_in(const Place& place, const DepthStatement& said) {
-    return decoded(place, {open_picture_source(place.path, PictureRole::depth), nullptr}, said);
+Sources depth_in(const Place& place, const DepthStatement& statement) {
+    return decoded(place, {open_picture_source(place.path, PictureRole::depth), nullptr},
+                   statement);
 }
 
 /// Whether a single place is depth: by its name, its levels or its appearance, which is a guess.
-bool is_depth(const Place& place, const PictureGuess& look) {
+bool is_depth(const Place& place, const PictureGuess& guess) {
     if (named_depth(place.path) || place.is(PictureForm::bag)) return true;
     if (place.is(PictureForm::row)) {
         const PictureSet found = pictures_at(place.path);
         if (!found.depth.empty()) return true;
         if (found.unnamed.empty()) return false;
     }
-    if (look.kind == PictureKind::grey_depth || look.kind == PictureKind::hue_depth ||
-        look.kind == PictureKind::ramp_depth)
+    if (guess.kind == PictureKind::grey_depth || guess.kind == PictureKind::hue_depth ||
+        guess.kind == PictureKind::ramp_depth)
         return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
     return source->facts().bits > 8 && source->facts().channels == 1;
@@ -157,92 +159,95 @@ bool is_row(const fs::path& place) {
 }
 
 /// Opens colour and depth of two places, each a file, a folder, a list or a pattern.
-Sources of_two_places(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
+Sources of_two_places(const fs::path& colour, const fs::path& depth,
+                      const DepthStatement& statement) {
     if (is_row(colour) && is_row(depth)) return rows_of_two(colour, depth);
     // First, so that an error of the colour file is not reported as one of the depth.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
-    Sources sources = depth_in(Place(depth), said);
+    Sources sources = depth_in(Place(depth), statement);
     sources.colour = std::move(colour_source);
     return sources;
 }
 
 /// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth
 /// where these give none.
-Sources both_as_said(const Place& place, const DepthStatement& said) {
-    if (!said.packing || !is_of_halves(*said.packing)) {
-        if (Sources both = both_in(place, said); both.depth) return both;
+Sources both_as_stated(const Place& place, const DepthStatement& statement) {
+    if (!statement.packing || !is_of_halves(*statement.packing)) {
+        if (Sources both = both_in(place, statement); both.depth) return both;
     }
     if (place.is(PictureForm::bag)) return {};
-    const auto form = packed_form(place, said);
+    const auto form = packed_form(place, statement);
     return form ? open_packed(place.path, *form) : Sources{};
 }
 
 /// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
-Sources as_it_looks(const Place& place, const DepthStatement& said) {
-    PictureGuess look;
-    if (!place.is(PictureForm::bag)) look = guess_kind(looks_of(place.path, kLookedAt));
-    if (!said.packing) {
-        if (auto halves = halves_by_look(place.path, look)) return std::move(*halves);
+Sources guessed_content(const Place& place, const DepthStatement& statement) {
+    PictureGuess guess;
+    if (!place.is(PictureForm::bag)) guess = guess_kind(colour_samples(place.path, kKindSamples));
+    if (!statement.packing) {
+        if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
     }
-    if (is_depth(place, look) || said.code == DepthCode::hue) return depth_in(place, said);
+    if (is_depth(place, guess) || statement.code == DepthCode::hue)
+        return depth_in(place, statement);
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 
 /// The same place was given twice: it holds both, else its pictures are colour and depth at once.
-Sources of_the_same_place(const fs::path& place, const DepthStatement& said) {
-    if (Sources both = both_as_said(Place(place), said); both.depth) return both;
-    const PictureGuess look = guess_kind(looks_of(place, kLookedAt));
-    if (auto halves = halves_by_look(place, look)) return std::move(*halves);
-    return of_two_places(place, place, said);
+Sources of_the_same_place(const fs::path& place, const DepthStatement& statement) {
+    if (Sources both = both_as_stated(Place(place), statement); both.depth) return both;
+    const PictureGuess guess = guess_kind(colour_samples(place, kKindSamples));
+    if (auto halves = halves_by_appearance(place, guess)) return std::move(*halves);
+    return of_two_places(place, place, statement);
 }
 
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
-Sources of_one_place(const Place& place, const DepthStatement& said) {
-    if (Sources both = both_as_said(place, said); both.depth) return both;
+Sources of_one_place(const Place& place, const DepthStatement& statement) {
+    if (Sources both = both_as_stated(place, statement); both.depth) return both;
     std::string looked_for;
     if (const auto depth = find_depth_beside(place.path, looked_for))
-        return of_two_places(place.path, *depth, said);
-    Sources sources = as_it_looks(place, said);
+        return of_two_places(place.path, *depth, statement);
+    Sources sources = guessed_content(place, statement);
     if (!sources.depth) refuse_without_depth(place.path, looked_for);
     return sources;
 }
 
 }  // namespace
 
-Sources find_sources(const fs::path& colour, const fs::path& depth, const DepthStatement& said) {
+Sources find_sources(const fs::path& colour, const fs::path& depth,
+                     const DepthStatement& statement) {
     set_up_libraries();
     const MediaPlaces places = places_for(colour, depth);
     Sources sources;
     if (places.depth.empty())
-        sources = of_one_place(Place(places.colour), said);
+        sources = of_one_place(Place(places.colour), statement);
     else if (places.depth == places.colour)
-        sources = of_the_same_place(places.colour, said);
+        sources = of_the_same_place(places.colour, statement);
     else
-        sources = of_two_places(places.colour, places.depth, said);
+        sources = of_two_places(places.colour, places.depth, statement);
     sources.notice = places.notice;
     return sources;
 }
 
-Sources find_depth(const fs::path& place, const DepthStatement& said) {
+Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     set_up_libraries();
     const fs::path found = depth_place_for(place);
     const Place depth(found);
-    Sources sources = both_as_said(depth, said);
-    if (!sources.depth) sources = depth_in(depth, said);
+    Sources sources = both_as_stated(depth, statement);
+    if (!sources.depth) sources = depth_in(depth, statement);
     sources.colour.reset();
     return sources;
 }
 
-Sources find_content(const fs::path& place, const DepthStatement& said) {
+Sources find_content(const fs::path& place, const DepthStatement& statement) {
     set_up_libraries();
     const MediaPlaces places = places_for(place, {});
     Sources sources;
     if (!places.depth.empty()) {
-        sources = of_two_places(places.colour, places.depth, said);
+        sources = of_two_places(places.colour, places.depth, statement);
     } else {
         const Place only(place);
-        sources = both_as_said(only, said);
-        if (!sources.depth) sources = as_it_looks(only, said);
+        sources = both_as_stated(only, statement);
+        if (!sources.depth) sources = guessed_content(only, statement);
     }
     sources.notice = places.notice;
     return sources;

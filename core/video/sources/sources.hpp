@@ -18,7 +18,7 @@ struct Sources {
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
     DepthStatement found{};                   ///< from files, names and metadata
     DepthStatement assumed{};                 ///< guessed from the pictures
-    bool by_look{false};                      ///< the depth's own facts are guessed, too
+    bool by_appearance{false};                ///< the depth's own facts are guessed, too
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files
@@ -28,12 +28,15 @@ struct Sources {
 /// one place, depth beside it, or depth alone. The statement may give packing and code. Throws
 /// InputError when there is no depth.
 [[nodiscard]] Sources find_sources(const std::filesystem::path& colour,
-                                   const std::filesystem::path& depth, const DepthStatement& said);
+                                   const std::filesystem::path& depth,
+                                   const DepthStatement& statement);
 
 /// The depth in a place, without the colour.
-[[nodiscard]] Sources find_depth(const std::filesystem::path& place, const DepthStatement& said);
+[[nodiscard]] Sources find_depth(const std::filesystem::path& place,
+                                 const DepthStatement& statement);
 
 /// The content of a place: colour, depth or both; ignores files beside it.
-[[nodiscard]] Sources find_content(const std::filesystem::path& place, const DepthStatement& said);
+[[nodiscard]] Sources find_content(const std::filesystem::path& place,
+                                   const DepthStatement& statement);
 
 }  // namespace dibhr

@@ -183,7 +183,7 @@ std::shared_ptr<const TouchMaps> read_touch_maps(const fs::path& depth, int colu
         maps->of(kind) = read_map(file, limits->at(kind));
     }
     if (maps->empty()) return nullptr;
-    lay(*maps, columns, rows);
+    lay_heights(*maps, columns, rows);
     return maps;
 }
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 
 namespace dibhr::falcon {
 
@@ -35,24 +35,24 @@ struct Press {
 
 /// Waits until a button is down (`pressed`) or none is, and the bits no longer change. `last`: the
 /// bits before.
-Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
-    const milliseconds calm = desk.options.times.button_calm;
+Press watch_until(CheckContext& context, bool pressed, std::uint8_t last) {
+    const milliseconds calm = context.options.times.button_calm;
     Press press;
     Clock::time_point first_change{};
     Clock::time_point last_change{};
     for (;;) {
-        if (desk.answered()) return press;  // Enter: this button does nothing
-        const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
-        if (!heard) continue;
-        const std::uint8_t bits = heard->reply.buttons;
+        if (context.answered()) return press;  // Enter: this button does nothing
+        const auto received = context.falcon.exchange(no_force(Led::blue), kPeriod);
+        if (!received) continue;
+        const std::uint8_t bits = received->reply.buttons;
         if (bits != last) {
-            if (press.changes++ == 0) first_change = heard->at;
-            last_change = heard->at;
+            if (press.changes++ == 0) first_change = received->at;
+            last_change = received->at;
             last = bits;
         }
         press.bits |= bits;
         const bool there = (bits != 0) == pressed;
-        if (press.changes > 0 && there && heard->at - last_change >= calm) break;
+        if (press.changes > 0 && there && received->at - last_change >= calm) break;
     }
     press.bounced = std::chrono::duration_cast<milliseconds>(last_change - first_change);
     return press;
@@ -60,33 +60,33 @@ Press watch_until(CheckDesk& desk, bool pressed, std::uint8_t last) {
 
 }  // namespace
 
-void check_buttons(CheckDesk& desk, Json& measured) {
-    int as_told = 0;
+void check_buttons(CheckContext& context, Json& measured) {
+    int as_expected = 0;
     std::string others;
     for (const Named& button : kButtons) {
-        desk.guide.ask(std::string("Press and hold the button ") + button.where +
-                       ". Enter = it does nothing, s = skip, q = quit");
-        const Press down = watch_until(desk, true, 0);
+        context.console.ask(std::string("Press and hold the button ") + button.where +
+                            ". Enter = it does nothing, s = skip, q = quit");
+        const Press down = watch_until(context, true, 0);
         Json part{
             {"bits", down.bits}, {"changes", down.changes}, {"bounced_ms", down.bounced.count()}};
         if (down.bits != 0) {
-            desk.guide.ask("Release the button.");
-            const Press up = watch_until(desk, false, down.bits);
+            context.console.ask("Release the button.");
+            const Press up = watch_until(context, false, down.bits);
             part["release_changes"] = up.changes;
             part["release_bounced_ms"] = up.bounced.count();
         }
         measured[button.name] = part;
         if (down.bits == static_cast<std::uint8_t>(button.bit)) {
-            ++as_told;
+            ++as_expected;
         } else {
             others += std::string(others.empty() ? "" : ", ") + button.name + " gives " +
                       std::to_string(down.bits);
         }
     }
-    desk.findings.settle(OpenQuestion::buttons,
-                         as_told == static_cast<int>(kButtons.size())
-                             ? "plus 1, forward 2, centre 4, minus 8, as expected"
-                             : others);
+    context.findings.record_answer(OpenQuestion::buttons,
+                                   as_expected == static_cast<int>(kButtons.size())
+                                       ? "plus 1, forward 2, centre 4, minus 8, as expected"
+                                       : others);
 }
 
 }  // namespace dibhr::falcon

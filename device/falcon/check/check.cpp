@@ -4,14 +4,14 @@
 #include <array>
 #include <string>
 
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 #include "device/hand/check/run.hpp"
 
 namespace dibhr::falcon {
 
 namespace {
 
-using Step = StepAt<CheckDesk>;
+using Step = DeviceStep<CheckContext>;
 
 constexpr std::array kSteps{
     Step{{"descriptors", "What the Falcon says it is",
@@ -65,16 +65,16 @@ constexpr std::array kSteps{
 
 }  // namespace
 
-CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
+CheckResult run_check(const CheckOptions& options, CheckConsole& console) {
     CheckedFalcon falcon(options.serial);
-    CheckDesk desk(guide, falcon, options);
+    CheckContext context(console, falcon, options);
     CheckRecord record(options.record, {"falcon", "serial", falcon.attached().serial},
                        options.facts);
-    guide.say("Checks " + full_name_of(falcon.attached()) + "; the record is " +
-              record.file().string() + ", written again after every step.");
-    if (const std::string fault = falcon.unguarded(); !fault.empty()) guide.say(fault);
+    console.print("Checks " + full_name_of(falcon.attached()) + "; the record is " +
+                  record.file().string() + ", written again after every step.");
+    if (const std::string fault = falcon.unguarded(); !fault.empty()) console.print(fault);
     return run_steps(
-        kSteps, desk, record, [&] { falcon.let_go(); },
+        kSteps, context, record, [&] { falcon.release_force(); },
         [&] {
             const bool answers = falcon.answering() || falcon.answers();
             return answers ? std::string{} : std::string("the Falcon gives no replies");

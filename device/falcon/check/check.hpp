@@ -10,7 +10,7 @@
 
 #include "device/falcon/firmware_image.hpp"
 #include "device/falcon/kinematics.hpp"
-#include "device/hand/check/guide.hpp"
+#include "device/hand/check/console.hpp"
 
 namespace dibhr::falcon {
 
@@ -43,6 +43,6 @@ struct CheckOptions {
 /// is force only in steps that announce it: homed, ramped, at most 3 s, and ended at once by any
 /// key or fault. However the check ends, it sends five packets without force. Throws DeviceError
 /// when no Falcon is attached, InputError when the record cannot be written.
-[[nodiscard]] CheckResult run_check(const CheckOptions& options, CheckGuide& guide);
+[[nodiscard]] CheckResult run_check(const CheckOptions& options, CheckConsole& console);
 
 }  // namespace dibhr::falcon

@@ -10,7 +10,7 @@ namespace dibhr::falcon {
 
 namespace {
 
-constexpr std::chrono::milliseconds kBeatsEvery{10};  // the guardian's timeout is 50 ms
+constexpr std::chrono::milliseconds kBeatPeriod{10};  // the guardian's timeout is 50 ms
 
 }  // namespace
 
@@ -22,11 +22,11 @@ CheckedFalcon::CheckedFalcon(const std::string& serial) {
 }
 
 CheckedFalcon::~CheckedFalcon() {
-    end_talk();
+    close_link();
 }
 
 FtdiPort& CheckedFalcon::port() {
-    end_talk();
+    close_link();
     if (!port_) port_.emplace(usb_, which_);
     return *port_;
 }
@@ -36,28 +36,28 @@ bool CheckedFalcon::answers() {
     return answering_;
 }
 
-Link& CheckedFalcon::talk() {
-    if (!talk_) {
+Link& CheckedFalcon::open_link() {
+    if (!link_) {
         FtdiPort& opened = port();
-        guarded_.emplace(guardian_, opened.descriptor(usb_), farewell());
+        guarded_.emplace(guardian_, opened.descriptor(usb_), stop_packet());
         opened.request(event_character_ ? kFlushOnReplyEnd : kNoEventCharacter);
-        talk_.emplace(usb_, opened, wake_);
+        link_.emplace(usb_, opened, wake_);
     }
-    return *talk_;
+    return *link_;
 }
 
-void CheckedFalcon::end_talk() noexcept {
-    if (!talk_) return;
-    const bool gone = talk_->loss() && talk_->loss()->gone();
-    talk_.reset();
-    if (!gone) leave_without_force(*port_);
+void CheckedFalcon::close_link() noexcept {
+    if (!link_) return;
+    const bool unplugged = link_->loss() && link_->loss()->unplugged();
+    link_.reset();
+    if (!unplugged) send_stop_packets(*port_);
     guarded_.reset();
 }
 
 void CheckedFalcon::wait(Clock::time_point until) {
-    talk().wait(std::min(until, Clock::now() + kBeatsEvery));
+    open_link().wait(std::min(until, Clock::now() + kBeatPeriod));
     guardian_.beat();
-    if (talk_->loss()) throw UsbError(*talk_->loss());
+    if (link_->loss()) throw UsbError(*link_->loss());
     if (guardian_.died()) {
         throw DeviceError(
             "the process that takes the force off when dibhr dies was ended: begin "
@@ -65,45 +65,45 @@ void CheckedFalcon::wait(Clock::time_point until) {
     }
 }
 
-std::optional<CheckedFalcon::Heard> CheckedFalcon::exchange(const Command& command,
-                                                            Clock::duration period) {
+std::optional<CheckedFalcon::Received> CheckedFalcon::exchange(const Command& command,
+                                                               Clock::duration period) {
     constexpr std::chrono::milliseconds kReplyLimit{20};  // ../README.md, Safety numbers
-    Link& link = talk();
+    Link& link = open_link();
     const auto begin = Clock::now();
     std::optional<Clock::time_point> sent;
-    std::optional<Heard> heard;
-    for (auto now = begin; !heard || now < begin + period; now = Clock::now()) {
-        if (!heard && now > begin + kReplyLimit) return std::nullopt;
-        if (!sent && link.takes_command(now)) {
+    std::optional<Received> received;
+    for (auto now = begin; !received || now < begin + period; now = Clock::now()) {
+        if (!received && now > begin + kReplyLimit) return std::nullopt;
+        if (!sent && link.can_send(now)) {
             link.send(encode(command), now);
             sent = now;
         }
-        const auto patience = heard ? begin + period : begin + kReplyLimit;
-        wait(sent ? patience : std::min(patience, link.patience_ends()));
-        if (sent && !heard && !link.replies().empty()) {
+        const auto patience = received ? begin + period : begin + kReplyLimit;
+        wait(sent ? patience : std::min(patience, link.retry_at()));
+        if (sent && !received && !link.replies().empty()) {
             const auto came = Clock::now();
-            heard = Heard{link.replies().back(), came, came - *sent};
+            received = Received{link.replies().back(), came, came - *sent};
         }
     }
-    return heard;
+    return received;
 }
 
-void CheckedFalcon::be_silent(Clock::time_point until) {
+void CheckedFalcon::pause_sending(Clock::time_point until) {
     while (Clock::now() < until) wait(until);
 }
 
 LinkCounts CheckedFalcon::counts() {
-    return talk().counts();
+    return open_link().counts();
 }
 
-void CheckedFalcon::let_go() noexcept {
-    if (!talk_ && port_ && answering_) leave_without_force(*port_);
-    end_talk();
+void CheckedFalcon::release_force() noexcept {
+    if (!link_ && port_ && answering_) send_stop_packets(*port_);
+    close_link();
     port_.reset();
 }
 
-bool CheckedFalcon::look_again() {
-    let_go();
+bool CheckedFalcon::find_again() {
+    release_force();
     const auto found = choose(attached_falcons(usb_), which_.serial);
     if (found) which_ = *found;
     return found.has_value();

@@ -5,9 +5,9 @@
 #include <optional>
 #include <string>
 
-#include "device/falcon/exchange.hpp"
 #include "device/falcon/link.hpp"
 #include "device/falcon/packet.hpp"
+#include "device/falcon/thread_buffers.hpp"
 #include "device/falcon/usb.hpp"
 #include "device/hand/guardian.hpp"
 
@@ -17,7 +17,7 @@ class CheckedFalcon {
   public:
     using Clock = Link::Clock;
 
-    struct Heard {
+    struct Received {
         Reply reply{};
         Clock::time_point at{};
         Clock::duration round_trip{};  ///< from the command to its reply
@@ -49,20 +49,20 @@ class CheckedFalcon {
 
     /// Sends `command` and returns its reply, not before `period` has passed. Nothing when no reply
     /// came within 20 ms.
-    std::optional<Heard> exchange(const Command& command, Clock::duration period = {});
+    std::optional<Received> exchange(const Command& command, Clock::duration period = {});
     /// Sends nothing until `until`.
-    void be_silent(Clock::time_point until);
+    void pause_sending(Clock::time_point until);
     /// Counts of this link.
     [[nodiscard]] LinkCounts counts();
 
     /// Sends five packets without force to a Falcon that answers; then closes the port.
-    void let_go() noexcept;
+    void release_force() noexcept;
     /// Closes the port and finds the Falcon on the USB again, by its serial. Throws UsbError.
-    [[nodiscard]] bool look_again();
+    [[nodiscard]] bool find_again();
 
   private:
-    Link& talk();
-    void end_talk() noexcept;
+    Link& open_link();
+    void close_link() noexcept;
     void wait(Clock::time_point until);
 
     Guardian guardian_{"Falcon"};
@@ -73,7 +73,7 @@ class CheckedFalcon {
     bool event_character_{false};
     std::optional<FtdiPort> port_{};
     std::optional<Guarded> guarded_{};  // from opening the link until after the last packet
-    std::optional<Link> talk_{};
+    std::optional<Link> link_{};
 };
 
 }  // namespace dibhr::falcon

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "device/falcon/check/desk.hpp"
-#include "device/falcon/reply_watch.hpp"
+#include "device/falcon/check/context.hpp"
+#include "device/falcon/homing_watch.hpp"
 
 namespace dibhr::falcon {
 
@@ -59,21 +59,22 @@ struct Phase {
     int replies{0};
 };
 
-Phase run_phase(CheckDesk& desk, const char* name, bool homing, Json& measured) {
+Phase run_phase(CheckContext& context, const char* name, bool homing, Json& measured) {
     Phase phase;
     const Command command{.motor = {}, .led = Led::blue, .homing = homing};
     const auto begin = Clock::now();
     std::optional<double> first_change_ms;
-    while (Clock::now() - begin < desk.options.times.homing_bit || phase.replies == 0) {
-        desk.quit_if_interrupted();
-        const auto heard = desk.falcon.exchange(command, kPeriod);
-        if (!heard) continue;
-        if (phase.replies++ == 0) phase.first = heard->reply;
-        if (heard->reply.homed != kAllAxes && !first_change_ms) {
-            first_change_ms = std::chrono::duration<double, std::milli>(heard->at - begin).count();
+    while (Clock::now() - begin < context.options.times.homing_bit || phase.replies == 0) {
+        context.quit_if_interrupted();
+        const auto received = context.falcon.exchange(command, kPeriod);
+        if (!received) continue;
+        if (phase.replies++ == 0) phase.first = received->reply;
+        if (received->reply.homed != kAllAxes && !first_change_ms) {
+            first_change_ms =
+                std::chrono::duration<double, std::milli>(received->at - begin).count();
         }
-        phase.always &= heard->reply.homed;
-        phase.last = heard->reply;
+        phase.always &= received->reply.homed;
+        phase.last = received->reply;
     }
     Json part{{"homing_bit", homing},
               {"replies", phase.replies},
@@ -98,7 +99,7 @@ std::string in_words(const Phase& kept, const Phase& cleared, const Phase& again
 
 }  // namespace
 
-void home_with_person(CheckDesk& desk, Json& measured) {
+void home_with_person(CheckContext& context, Json& measured) {
     constexpr int kLook = 20;  // the first replies may be older than the homing bit
     constexpr std::chrono::milliseconds kShowEvery{100};
     const auto begin = Clock::now();
@@ -109,42 +110,43 @@ void home_with_person(CheckDesk& desk, Json& measured) {
     bool asked = false;
     bool hinted = false;
     for (int replies = 0; !watch.ready();) {
-        const auto heard = desk.falcon.exchange(no_force(Led::red), kPeriod);
-        if (heard) {
-            watch.add(heard->reply, heard->at);
-            references.add(heard->reply, std::chrono::duration<double>(heard->at - begin).count());
+        const auto received = context.falcon.exchange(no_force(Led::red), kPeriod);
+        if (received) {
+            watch.add(received->reply, received->at);
+            references.add(received->reply,
+                           std::chrono::duration<double>(received->at - begin).count());
             ++replies;
         }
         if (watch.ready() || replies < kLook) continue;
         if (!asked) {
-            desk.guide.ask(
+            context.console.ask(
                 "Pull the grip all the way out, then push it straight in, until all "
                 "three axes say homed. s = skip, q = quit");
             asked = true;
         }
-        desk.answered();
+        context.answered();
         const auto now = Clock::now();
-        if (heard && now - shown >= kShowEvery) {
-            desk.guide.show(live_state(heard->reply));
+        if (received && now - shown >= kShowEvery) {
+            context.console.show(live_state(received->reply));
             shown = now;
         }
         if (watch.idle(now) && !hinted) {
-            desk.guide.say("no motion and no homing for 20 s: check the power adapter");
+            context.console.print("no motion and no homing for 20 s: check the power adapter");
             hinted = true;
         }
     }
     if (asked) measured["references"] = references.lines();
 }
 
-void check_homing(CheckDesk& desk, Json& measured) {
-    home_with_person(desk, measured);
-    desk.guide.say("Homed. Let the grip hang, and do not touch it.");
-    const Phase kept = run_phase(desk, "kept", true, measured);
-    const Phase cleared = run_phase(desk, "cleared", false, measured);
-    const Phase again = run_phase(desk, "set_again", true, measured);
+void check_homing(CheckContext& context, Json& measured) {
+    home_with_person(context, measured);
+    context.console.print("Homed. Let the grip hang, and do not touch it.");
+    const Phase kept = run_phase(context, "kept", true, measured);
+    const Phase cleared = run_phase(context, "cleared", false, measured);
+    const Phase again = run_phase(context, "set_again", true, measured);
     const std::string found = in_words(kept, cleared, again);
-    desk.findings.settle(OpenQuestion::homing_bit, found);
-    desk.guide.say(found);
+    context.findings.record_answer(OpenQuestion::homing_bit, found);
+    context.console.print(found);
 }
 
 }  // namespace dibhr::falcon

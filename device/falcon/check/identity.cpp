@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 
 namespace dibhr::falcon {
 
@@ -106,8 +106,8 @@ void add_status(libusb_device_handle* handle, Json& measured) {
 
 }  // namespace
 
-void check_identity(CheckDesk& desk, Json& measured) {
-    FtdiPort& port = desk.falcon.port();
+void check_identity(CheckContext& context, Json& measured) {
+    FtdiPort& port = context.falcon.port();
     libusb_device_handle* const handle = port.handle();
     libusb_device* const device = libusb_get_device(handle);
     libusb_device_descriptor found{};
@@ -139,8 +139,8 @@ void check_identity(CheckDesk& desk, Json& measured) {
                              (serial.empty() ? "unreadable" : serial) + ", bcdDevice " + release +
                              (found.bcdDevice == kExpectedRelease ? ", as an FT232R has it"
                                                                   : ", where an FT232R has 0x0600");
-    desk.findings.settle(OpenQuestion::identity, says);
-    desk.guide.say(says);
+    context.findings.record_answer(OpenQuestion::identity, says);
+    context.console.print(says);
 }
 
 }  // namespace dibhr::falcon

@@ -47,28 +47,28 @@ std::optional<Vec3> place_of(Vec3 encoder_counts, const Geometry& geometry) {
     return position_with(angles_of_counts(encoder_counts, geometry), kMiddle_m, geometry);
 }
 
-CountsSample sample_counts(CheckDesk& desk) {
+CountsSample sample_counts(CheckContext& context) {
     CountsSample sample;
-    const auto time = desk.options.times.sample;
+    const auto time = context.options.times.sample;
     const auto begin = CheckedFalcon::Clock::now();
     for (auto now = begin; sample.replies == 0 || now < begin + time;
          now = CheckedFalcon::Clock::now()) {
-        desk.quit_if_interrupted();
-        const auto heard = desk.falcon.exchange(no_force(Led::blue), kPeriod);
-        if (!heard || heard->at < begin + time / 2) continue;
-        sample.mean += as_vec(heard->reply.encoder);
+        context.quit_if_interrupted();
+        const auto received = context.falcon.exchange(no_force(Led::blue), kPeriod);
+        if (!received || received->at < begin + time / 2) continue;
+        sample.mean += as_vec(received->reply.encoder);
         ++sample.replies;
     }
     sample.mean /= static_cast<double>(sample.replies);
     return sample;
 }
 
-Counts downward(CheckDesk& desk, Vec3 encoder_counts, int most_counts) {
-    const auto jacobian = jacobian_of(encoder_counts, desk.options.geometry);
+Counts downward(CheckContext& context, Vec3 encoder_counts, int most_counts) {
+    const auto jacobian = jacobian_of(encoder_counts, context.options.geometry);
     const auto torques =
         jacobian ? torques_of(Vec3(0.0, -1.0, 0.0), *jacobian) : std::optional<Vec3>();
     if (!torques) {
-        desk.guide.say(
+        context.console.print(
             "By its counts the grip is where it cannot be: unplug the power adapter, "
             "and home the Falcon again.");
         throw StepSkipped{};
@@ -90,15 +90,16 @@ std::optional<double> downward_force(const Counts& motor, Vec3 encoder_counts,
     return downward;
 }
 
-std::string strength_of(const CheckDesk& desk, const Counts& motor, Vec3 encoder_counts) {
-    const double unit = downward_force(motor, encoder_counts, desk.options.geometry).value_or(0.0);
+std::string strength_of(const CheckContext& context, const Counts& motor, Vec3 encoder_counts) {
+    const double unit =
+        downward_force(motor, encoder_counts, context.options.geometry).value_or(0.0);
     const double least = unit / kHighestScale;
     const double most = unit / kLowestScale;
     std::string text = number_text(least, 1) + " to " + number_text(most, 1) + " N (" +
                        number_text(least * kGrams_per_newton, 0) + " to " +
                        number_text(most * kGrams_per_newton, 0) + " g";
-    if (desk.counts_per_newton_metre) {
-        const double measured = unit / *desk.counts_per_newton_metre;
+    if (context.counts_per_newton_metre) {
+        const double measured = unit / *context.counts_per_newton_metre;
         text += ", by your readings " + number_text(measured * kGrams_per_newton, 0) + " g";
     }
     return text + ")";
@@ -113,9 +114,9 @@ const char* sentence_of(PushEnd end) noexcept {
     return kSentences[static_cast<std::size_t>(end)];
 }
 
-Push::Push(CheckDesk& desk, const Counts& motor)
-    : CheckPush(desk.guide, [&desk] { send_last_packets(desk.falcon); }),
-      desk_(desk),
+Push::Push(CheckContext& context, const Counts& motor)
+    : CheckPush(context.console, [&context] { send_last_packets(context.falcon); }),
+      context_(context),
       motor_(motor) {}
 
 PushEnd Push::exchange(double part) {
@@ -123,18 +124,18 @@ PushEnd Push::exchange(double part) {
     for (auto& count : command.motor) {
         count = static_cast<std::int16_t>(std::lround(part * count));
     }
-    const auto heard = desk_.falcon.exchange(command, kPeriod);
-    if (!heard) return PushEnd::no_reply;
-    reply_ = heard->reply;
+    const auto received = context_.falcon.exchange(command, kPeriod);
+    if (!received) return PushEnd::no_reply;
+    reply_ = received->reply;
     if ((reply_.homed & kAllAxes) != kAllAxes) return PushEnd::not_homed;
-    const auto place = place_of(as_vec(reply_.encoder), desk_.options.geometry);
+    const auto place = place_of(as_vec(reply_.encoder), context_.options.geometry);
     if (!place) return PushEnd::moved_away;
     if (!start_m_) start_m_ = place;
     return glm::distance(*place, *start_m_) > kMostMotion_m ? PushEnd::moved_away : PushEnd::held;
 }
 
 PushEnd Push::step(double part) {
-    const PushEnd end = goes_on() ? exchange(part) : PushEnd::let_go;
+    const PushEnd end = may_continue() ? exchange(part) : PushEnd::released;
     if (end != PushEnd::held) release();
     return end;
 }
@@ -142,7 +143,7 @@ PushEnd Push::step(double part) {
 PushEnd Push::ramp(double from, double to) {
     // A late packet makes the ramp longer, not steeper.
     constexpr std::chrono::milliseconds kMostStep{5};
-    const std::chrono::duration<double> whole = desk_.options.times.ramp;
+    const std::chrono::duration<double> whole = context_.options.times.ramp;
     PushEnd end = step(from);
     auto last = Clock::now();
     for (double done = 0.0; done < 1.0 && end == PushEnd::held;) {
@@ -181,10 +182,10 @@ PushEnd Push::fall() {
     return end;
 }
 
-PushEnd Push::be_silent(std::chrono::milliseconds time, Reply& reply) {
-    const bool lasted =
-        CheckPush::be_silent(time, [this](Time until) { desk_.falcon.be_silent(until); });
-    const PushEnd end = lasted ? exchange(0.0) : PushEnd::let_go;
+PushEnd Push::pause_sending(std::chrono::milliseconds time, Reply& reply) {
+    const bool lasted = CheckPush::pause_sending(
+        time, [this](Time until) { context_.falcon.pause_sending(until); });
+    const PushEnd end = lasted ? exchange(0.0) : PushEnd::released;
     reply = reply_;
     release();
     return end;

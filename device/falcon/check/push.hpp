@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/haptics/vec.hpp"
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 #include "device/falcon/kinematics.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/hand/check/push.hpp"
@@ -29,11 +29,11 @@ struct CountsSample {
 
 /// Averages the counts while the motors get zero, over the second half of CheckTimes::sample: in
 /// the first half the grip may still swing back after a force. Throws UsbError without replies.
-[[nodiscard]] CountsSample sample_counts(CheckDesk& desk);
+[[nodiscard]] CountsSample sample_counts(CheckContext& context);
 
 /// Motor counts that push the grip straight down from where it is, with `most_counts` on the motor
 /// with the largest torque. Prints a note and throws StepSkipped when these counts have no pose.
-[[nodiscard]] Counts downward(CheckDesk& desk, Vec3 encoder_counts, int most_counts);
+[[nodiscard]] Counts downward(CheckContext& context, Vec3 encoder_counts, int most_counts);
 
 /// The force downwards [N] of these motor counts at this place for a torque scale of 1 count per
 /// newton metre: divide it by the real torque scale.
@@ -42,13 +42,13 @@ struct CountsSample {
 
 /// "1.2 to 3.4 N (120 to 350 g)": the expected force for the torque scales of the sources, and for
 /// the measured one, once there is one.
-[[nodiscard]] std::string strength_of(const CheckDesk& desk, const Counts& motor,
+[[nodiscard]] std::string strength_of(const CheckContext& context, const Counts& motor,
                                       Vec3 encoder_counts);
 
 /// How a push went.
 enum class PushEnd : std::size_t {
     held,        ///< for the whole time
-    let_go,      ///< the user pressed a key
+    released,    ///< the user pressed a key
     moved_away,  ///< the grip left its place by more than 30 mm
     not_homed,   ///< an axis was not homed any more
     no_reply     ///< the newest reply was older than 20 ms
@@ -60,7 +60,7 @@ enum class PushEnd : std::size_t {
 /// packets without force when a part of it does not end as `held`, and by the destructor.
 class Push : public CheckPush {
   public:
-    Push(CheckDesk& desk, const Counts& motor);
+    Push(CheckContext& context, const Counts& motor);
 
     // These throw PersonQuits and UsbError.
 
@@ -70,7 +70,7 @@ class Push : public CheckPush {
     [[nodiscard]] PushEnd hold(std::chrono::milliseconds time);
     [[nodiscard]] PushEnd fall();
     /// Sends nothing for `time`. Then `reply` is the answer to the first packet without force.
-    [[nodiscard]] PushEnd be_silent(std::chrono::milliseconds time, Reply& reply);
+    [[nodiscard]] PushEnd pause_sending(std::chrono::milliseconds time, Reply& reply);
 
     [[nodiscard]] const Reply& last_reply() const noexcept { return reply_; }
     /// Mean counts of about the last 0.1 s of the last hold, however it ended.
@@ -84,7 +84,7 @@ class Push : public CheckPush {
     PushEnd ramp(double from, double to);
     [[nodiscard]] PushEnd exchange(double part);
 
-    CheckDesk& desk_;
+    CheckContext& context_;
     Counts motor_;
     std::optional<Vec3> start_m_{};  // where the grip was at the first reply
     Reply reply_{};

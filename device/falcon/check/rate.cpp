@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 #include "device/hand/check/numbers.hpp"
 
 namespace dibhr::falcon {
@@ -37,27 +37,27 @@ struct Rate {
     }
 };
 
-Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
-    FtdiPort& port = desk.falcon.port();
+Rate measure(CheckContext& context, const Setting& setting, Json& measured) {
+    FtdiPort& port = context.falcon.port();
     port.request(setting.latency);
     std::array<std::uint8_t, 1> latency_ms{};
     port.ask(kReadLatencyTimer, latency_ms);
-    desk.falcon.use_event_character(setting.event_character);
+    context.falcon.use_event_character(setting.event_character);
 
     Rate rate;
     int missing = 0;
     const auto begin = CheckedFalcon::Clock::now();
-    const auto end = begin + desk.options.times.rate;
+    const auto end = begin + context.options.times.rate;
     while (CheckedFalcon::Clock::now() < end) {
-        desk.quit_if_interrupted();
-        const auto heard = desk.falcon.exchange(no_force(Led::red));
-        missing += heard ? 0 : 1;
-        if (!heard) continue;
+        context.quit_if_interrupted();
+        const auto received = context.falcon.exchange(no_force(Led::red));
+        missing += received ? 0 : 1;
+        if (!received) continue;
         rate.round_trips_ms.add(
-            std::chrono::duration<double, std::milli>(heard->round_trip).count());
+            std::chrono::duration<double, std::milli>(received->round_trip).count());
     }
     const std::chrono::duration<double> took = CheckedFalcon::Clock::now() - begin;
-    const LinkCounts counts = desk.falcon.counts();
+    const LinkCounts counts = context.falcon.counts();
     const Sample& round_trips_ms = rate.round_trips_ms;
     rate.replies_per_s = static_cast<double>(round_trips_ms.count()) / took.count();
     measured[setting.name] = {{"seconds", took.count()},
@@ -77,24 +77,25 @@ Rate measure(CheckDesk& desk, const Setting& setting, Json& measured) {
 
 }  // namespace
 
-void check_rate(CheckDesk& desk, Json& measured) {
-    const Rate plain = measure(desk, kPlain, measured);
-    desk.guide.say("without the event character: " + plain.in_words());
-    const Rate event = measure(desk, kEvent, measured);
-    desk.guide.say("with the event character: " + event.in_words());
-    const Rate alone = measure(desk, kEventAlone, measured);
-    desk.falcon.port().request(kLatencyRunTime);
+void check_rate(CheckContext& context, Json& measured) {
+    const Rate plain = measure(context, kPlain, measured);
+    context.console.print("without the event character: " + plain.in_words());
+    const Rate event = measure(context, kEvent, measured);
+    context.console.print("with the event character: " + event.in_words());
+    const Rate alone = measure(context, kEventAlone, measured);
+    context.falcon.port().request(kLatencyRunTime);
 
     const bool works = alone.replies_per_s > 0.0 && alone.median_ms() < kAtOnce_ms;
     const bool helps = works && event.median_ms() < plain.median_ms() + kNoticeable_ms;
-    desk.findings.settle(OpenQuestion::reply_rate,
-                         plain.in_words() + "; with the event character " + event.in_words());
-    desk.findings.settle(
+    context.findings.record_answer(
+        OpenQuestion::reply_rate,
+        plain.in_words() + "; with the event character " + event.in_words());
+    context.findings.record_answer(
         OpenQuestion::event_character,
         std::string(works ? "the chip sends at once" : "the chip still waits for its timer") +
             ": with a latency of 16 ms " + alone.in_words());
-    desk.findings.set("event-character", helps ? "true" : "false");
-    desk.falcon.use_event_character(helps);
+    context.findings.set("event-character", helps ? "true" : "false");
+    context.falcon.use_event_character(helps);
 }
 
 }  // namespace dibhr::falcon

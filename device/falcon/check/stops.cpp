@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 #include "device/falcon/check/push.hpp"
 
 namespace dibhr::falcon {
@@ -27,7 +27,7 @@ constexpr double kHighestAngle_deg = 70.0;
 constexpr double kAngleStep_deg = 0.05;
 
 // A fit is too vague if an error of 1 mm on the ruler changes the angle by more than this.
-constexpr double kMostDoubt_deg = 3.0;
+constexpr double kMostUncertainty_deg = 3.0;
 constexpr double kMostMisfit_mm = 3.0;
 
 /// Martin & Hillier 2009, second-hand. The angle is 50 in the paper; the user who published the
@@ -82,10 +82,10 @@ double misfit_mm(const std::vector<Length>& lengths, const Geometry& geometry) {
 struct Fit {
     double angle_deg{0.0};
     double misfit_mm{std::numeric_limits<double>::infinity()};
-    double doubt_deg{std::numeric_limits<double>::infinity()};  ///< for 1 mm on the ruler
+    double uncertainty_deg{std::numeric_limits<double>::infinity()};  ///< for 1 mm on the ruler
 
-    [[nodiscard]] bool settles() const {
-        return misfit_mm <= kMostMisfit_mm && doubt_deg <= kMostDoubt_deg;
+    [[nodiscard]] bool is_conclusive() const {
+        return misfit_mm <= kMostMisfit_mm && uncertainty_deg <= kMostUncertainty_deg;
     }
 };
 
@@ -93,7 +93,7 @@ Fit fit(const std::vector<Length>& lengths, const Geometry& geometry) {
     Fit best;
     for (double angle = kLowestAngle_deg; angle <= kHighestAngle_deg; angle += kAngleStep_deg) {
         const double misfit = misfit_mm(lengths, with_angle(geometry, angle));
-        if (misfit < best.misfit_mm) best = {angle, misfit, best.doubt_deg};
+        if (misfit < best.misfit_mm) best = {angle, misfit, best.uncertainty_deg};
     }
     double squared_slopes = 0.0;  // of the lengths over the angle
     for (const Length& length : lengths) {
@@ -103,7 +103,7 @@ Fit fit(const std::vector<Length>& lengths, const Geometry& geometry) {
         const double slope = (*more - *less) / 2.0;
         squared_slopes += slope * slope;
     }
-    if (squared_slopes > 0.0) best.doubt_deg = 1.0 / std::sqrt(squared_slopes);
+    if (squared_slopes > 0.0) best.uncertainty_deg = 1.0 / std::sqrt(squared_slopes);
     return best;
 }
 
@@ -138,79 +138,85 @@ Json meaning_of(Vec3 out, Vec3 in, const std::vector<Length>& lengths, const Geo
     const Fit fitted = fit(lengths, geometry);
     part["fitted_angle_deg"] = fitted.angle_deg;
     part["fit_misfit_mm"] = fitted.misfit_mm;
-    part["fit_doubt_deg_per_mm"] = fitted.doubt_deg;
+    part["fit_doubt_deg_per_mm"] = fitted.uncertainty_deg;
     return part;
 }
 
-Vec3 counts_where(CheckDesk& desk, const char* name, const std::string& question, Json& measured) {
-    desk.word(question + " Enter = it is there, s = skip, q = quit");
-    const CountsSample sample = sample_counts(desk);
+Vec3 counts_where(CheckContext& context, const char* name, const std::string& question,
+                  Json& measured) {
+    context.word(question + " Enter = it is there, s = skip, q = quit");
+    const CountsSample sample = sample_counts(context);
     measured[name] = {{"mean_counts", as_json(sample.mean)}, {"replies", sample.replies}};
     return sample.mean;
 }
 
 /// Asks for the ruler's number; leaves the length out when there is none.
-void ask_length(CheckDesk& desk, Length length, const std::string& question,
+void ask_length(CheckContext& context, Length length, const std::string& question,
                 std::vector<Length>& lengths, Json& measured) {
     constexpr double kLongest_mm = 200.0;
     const auto ruler =
-        desk.number(question + " [mm] (Enter alone = not measured)", 1.0, kLongest_mm);
+        context.number(question + " [mm] (Enter alone = not measured)", 1.0, kLongest_mm);
     if (!ruler) return;
     length.ruler_mm = *ruler;
     lengths.push_back(length);
     measured[std::string(length.name) + "_by_ruler"] = *ruler;
 }
 
-void settle(CheckDesk& desk, Vec3 out, Vec3 in, const std::vector<Length>& lengths) {
+void record_answer(CheckContext& context, Vec3 out, Vec3 in, const std::vector<Length>& lengths) {
     const auto heights = [&](const Geometry& geometry) {
         const auto place_out = place_mm(out, geometry);
         const auto place_in = place_mm(in, geometry);
         return (place_out ? number_text(place_out->z, 1) : "?") + " and " +
                (place_in ? number_text(place_in->z, 1) : "?") + " mm";
     };
-    const Geometry& ours = desk.options.geometry;
-    desk.findings.settle(OpenQuestion::end_stops,
-                         "out " + number_text((out.x + out.y + out.z) / 3.0, 1) + ", in " +
-                             number_text((in.x + in.y + in.z) / 3.0, 1) + " counts on average: z " +
-                             heights(Geometry{}) + " by libnifalcon, " +
-                             heights(martin_hillier(40.0)) + " by Martin & Hillier at 40 degrees");
+    const Geometry& ours = context.options.geometry;
+    context.findings.record_answer(
+        OpenQuestion::end_stops, "out " + number_text((out.x + out.y + out.z) / 3.0, 1) + ", in " +
+                                     number_text((in.x + in.y + in.z) / 3.0, 1) +
+                                     " counts on average: z " + heights(Geometry{}) +
+                                     " by libnifalcon, " + heights(martin_hillier(40.0)) +
+                                     " by Martin & Hillier at 40 degrees");
     if (lengths.empty()) return;
     const Fit fitted = fit(lengths, ours);
     const std::string found = number_text(fitted.angle_deg, 1) + " degrees by the ruler, +-" +
-                              number_text(fitted.doubt_deg, 1) +
+                              number_text(fitted.uncertainty_deg, 1) +
                               " for 1 mm, which misses the lengths by " +
                               number_text(fitted.misfit_mm, 1) + " mm";
-    desk.findings.settle(OpenQuestion::angle_at_zero,
-                         found + (fitted.settles() ? "" : ": too vague to be used"));
-    if (fitted.settles()) desk.findings.set("angle-at-zero", number_text(fitted.angle_deg, 1));
+    context.findings.record_answer(
+        OpenQuestion::angle_at_zero,
+        found + (fitted.is_conclusive() ? "" : ": too vague to be used"));
+    if (fitted.is_conclusive())
+        context.findings.set("angle-at-zero", number_text(fitted.angle_deg, 1));
 }
 
 }  // namespace
 
-void check_stops(CheckDesk& desk, Json& measured) {
-    home_with_person(desk, measured);
+void check_stops(CheckContext& context, Json& measured) {
+    home_with_person(context, measured);
     std::vector<Length> lengths;
-    const Vec3 out = counts_where(
-        desk, "pulled_out", "Pull the grip straight out to its stop, and hold it there.", measured);
-    const Vec3 in = counts_where(
-        desk, "pushed_in", "Push the grip straight in to its stop, and hold it there.", measured);
-    ask_length(desk, {"stop_to_stop_mm", out, in}, "How far has the grip moved between the stops?",
-               lengths, measured);
+    const Vec3 out =
+        counts_where(context, "pulled_out",
+                     "Pull the grip straight out to its stop, and hold it there.", measured);
+    const Vec3 in =
+        counts_where(context, "pushed_in",
+                     "Push the grip straight in to its stop, and hold it there.", measured);
+    ask_length(context, {"stop_to_stop_mm", out, in},
+               "How far has the grip moved between the stops?", lengths, measured);
     const Vec3 left = counts_where(
-        desk, "left",
+        context, "left",
         "Half way out, lay a ruler across, and hold the grip at the ruler's left, some 3 cm left "
         "of the middle.",
         measured);
     const Vec3 right = counts_where(
-        desk, "right", "Hold the grip at the ruler's right, some 3 cm right of the middle.",
+        context, "right", "Hold the grip at the ruler's right, some 3 cm right of the middle.",
         measured);
-    ask_length(desk, {"left_to_right_mm", left, right}, "How far has it moved along the ruler?",
+    ask_length(context, {"left_to_right_mm", left, right}, "How far has it moved along the ruler?",
                lengths, measured);
-    measured["by_the_settings"] = meaning_of(out, in, lengths, desk.options.geometry);
+    measured["by_the_settings"] = meaning_of(out, in, lengths, context.options.geometry);
     measured["by_libnifalcon"] = meaning_of(out, in, lengths, Geometry{});
     measured["by_martin_hillier_50"] = meaning_of(out, in, lengths, martin_hillier(50.0));
     measured["by_martin_hillier_40"] = meaning_of(out, in, lengths, martin_hillier(40.0));
-    settle(desk, out, in, lengths);
+    record_answer(context, out, in, lengths);
 }
 
 }  // namespace dibhr::falcon

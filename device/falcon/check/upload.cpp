@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "device/falcon/bring_up.hpp"
-#include "device/falcon/check/desk.hpp"
+#include "device/falcon/check/context.hpp"
 
 namespace dibhr::falcon {
 
@@ -36,18 +36,18 @@ std::vector<std::uint8_t> raw_reply(FtdiPort& port) {
     return bytes;
 }
 
-void probe(CheckDesk& desk, const char* name, Json& measured) {
+void probe(CheckContext& context, const char* name, Json& measured) {
     const auto begin = Clock::now();
-    const bool answers = desk.falcon.answers();
+    const bool answers = context.falcon.answers();
     Json part{{"answers", answers}, {"took_ms", ms_since(begin)}};
     if (answers) {
-        const auto bytes = raw_reply(desk.falcon.port());
+        const auto bytes = raw_reply(context.falcon.port());
         part["reply"] = hexadecimal(bytes);
         if (bytes.size() == kPacketBytes) {
             const std::array<std::uint8_t, 1> last{bytes[kPacketBytes - 2]};
-            desk.findings.settle(OpenQuestion::last_byte, last[0] == kUsualLastByte
-                                                              ? "41, as expected"
-                                                              : hexadecimal(last) + ", not 41");
+            context.findings.record_answer(
+                OpenQuestion::last_byte,
+                last[0] == kUsualLastByte ? "41, as expected" : hexadecimal(last) + ", not 41");
         }
     }
     measured[name] = part;
@@ -56,7 +56,7 @@ void probe(CheckDesk& desk, const char* name, Json& measured) {
 /// Number of bytes before the known answer.
 std::size_t stray_bytes(const UploadStep& step) {
     const std::size_t answer = std::string(step.name) == "hello" ? 4 : 1;
-    return step.heard.size() - std::min(step.heard.size(), answer);
+    return step.received.size() - std::min(step.received.size(), answer);
 }
 
 /// Result of one upload.
@@ -73,21 +73,21 @@ Json as_json(const UploadStep& step, double at_ms) {
               {"done", step.done},
               {"baud_value", step.baud.value},
               {"baud_index", step.baud.index}};
-    if (!step.heard.empty()) line["heard"] = hexadecimal(step.heard);
+    if (!step.received.empty()) line["heard"] = hexadecimal(step.received);
     return line;
 }
 
 /// Uploads, each with its log in the record, also when it fails.
 class LoggedUploads {
   public:
-    LoggedUploads(CheckDesk& desk, Json& measured) : desk_(desk), measured_(measured) {}
+    LoggedUploads(CheckContext& context, Json& measured) : context_(context), measured_(measured) {}
 
     /// Repeats the upload until it succeeds or the user skips it.
     Upload run(bool slower) {
         Upload upload = once(slower, false);
         try {
             while (!upload.done) {
-                desk_.word(
+                context_.word(
                     "Unplug the power adapter, wait ten seconds, plug it in again. Enter = try "
                     "again, s = leave this speed out, q = quit");
                 upload = once(slower, true);
@@ -107,27 +107,27 @@ class LoggedUploads {
         const auto begin = Clock::now();
         UploadOptions options;
         options.slower = slower;
-        options.tell = [&](double in, int number) {
+        options.on_progress = [&](double in, int number) {
             result.tries = number;
-            desk_.guide.show("try " + std::to_string(number) + ": " +
-                             std::to_string(static_cast<int>(in * 100.0)) + " %");
-            if (desk_.guide.interrupted()) stop.request_stop();
+            context_.console.show("try " + std::to_string(number) + ": " +
+                                  std::to_string(static_cast<int>(in * 100.0)) + " %");
+            if (context_.console.interrupted()) stop.request_stop();
         };
-        options.watch = [&](const UploadStep& step) {
+        options.on_step = [&](const UploadStep& step) {
             steps.push_back(as_json(step, ms_since(begin)));
             note_stray_bytes(step, result.stray);
         };
         Json& part = measured_["upload_" + std::to_string(++number_)];
         part = {{"baud", slower ? 140351 : 142857}, {"after_power_cycle", after_power_cycle}};
-        desk_.falcon.set_answering(false);
+        context_.falcon.set_answering(false);
         try {
-            result.done = upload(desk_.falcon.port(), desk_.options.firmware.bytes, options,
+            result.done = upload(context_.falcon.port(), context_.options.firmware.bytes, options,
                                  stop.get_token());
         } catch (const UploadError& failure) {
             part["failure"] = failure.what();
-            desk_.guide.say(failure.what());
+            context_.console.print(failure.what());
         }
-        desk_.falcon.set_answering(result.done);
+        context_.falcon.set_answering(result.done);
         part["done"] = result.done;
         part["took_ms"] = ms_since(begin);
         part["tries"] = result.tries;
@@ -137,13 +137,13 @@ class LoggedUploads {
     }
 
     static void note_stray_bytes(const UploadStep& step, std::string& words) {
-        const std::size_t stray = step.done && !step.heard.empty() ? stray_bytes(step) : 0;
+        const std::size_t stray = step.done && !step.received.empty() ? stray_bytes(step) : 0;
         if (stray == 0) return;
-        words += (words.empty() ? "" : ", ") + hexadecimal(step.heard.first(stray)) +
+        words += (words.empty() ? "" : ", ") + hexadecimal(step.received.first(stray)) +
                  " before the " + step.name + "'s answer";
     }
 
-    CheckDesk& desk_;
+    CheckContext& context_;
     Json& measured_;
     int number_{0};
 };
@@ -153,26 +153,26 @@ std::string in_words(const Upload& upload) {
     return upload.tries == 1 ? "at the first try" : "at try " + std::to_string(upload.tries);
 }
 
-void load_at_both_speeds(CheckDesk& desk, Json& measured) {
-    const bool ran_before = desk.falcon.answering();
-    LoggedUploads uploads(desk, measured);
+void load_at_both_speeds(CheckContext& context, Json& measured) {
+    const bool ran_before = context.falcon.answering();
+    LoggedUploads uploads(context, measured);
     const Upload fast = uploads.run(false);
     const Upload slow = uploads.run(true);
     const std::string speeds = "142 857: " + in_words(fast) + "; 140 351: " + in_words(slow);
-    desk.findings.settle(OpenQuestion::upload_speed, speeds);
-    desk.guide.say(speeds);
-    if (!fast.done && slow.done) desk.findings.set("slower-upload", "true");
+    context.findings.record_answer(OpenQuestion::upload_speed, speeds);
+    context.console.print(speeds);
+    if (!fast.done && slow.done) context.findings.set("slower-upload", "true");
     if (fast.done || slow.done) {
         const bool both = !fast.stray.empty() && !slow.stray.empty();
         const std::string stray = fast.stray + (both ? "; " : "") + slow.stray;
-        desk.findings.settle(OpenQuestion::stray_bytes, stray.empty() ? "none" : stray);
+        context.findings.record_answer(OpenQuestion::stray_bytes, stray.empty() ? "none" : stray);
     }
     if ((fast.done && slow.done) || (ran_before && fast.done)) {
-        desk.findings.settle(OpenQuestion::loading_again,
-                             "DTR puts a running Falcon back into its boot loader");
+        context.findings.record_answer(OpenQuestion::loading_again,
+                                       "DTR puts a running Falcon back into its boot loader");
     }
-    if (!desk.falcon.answering() && !desk.falcon.answers()) {
-        throw DeviceError("no firmware gets into " + full_name_of(desk.falcon.attached()) +
+    if (!context.falcon.answering() && !context.falcon.answers()) {
+        throw DeviceError("no firmware gets into " + full_name_of(context.falcon.attached()) +
                           ": unplug its power adapter and its USB cable for ten seconds, then run "
                           "the check again");
     }
@@ -180,24 +180,24 @@ void load_at_both_speeds(CheckDesk& desk, Json& measured) {
 
 }  // namespace
 
-void check_upload(CheckDesk& desk, Json& measured) {
-    probe(desk, "probe", measured);
-    const FirmwareImage& image = desk.options.firmware;
+void check_upload(CheckContext& context, Json& measured) {
+    probe(context, "probe", measured);
+    const FirmwareImage& image = context.options.firmware;
     if (image.empty()) {
         measured["firmware"] = nullptr;
-        if (!desk.falcon.answering()) {
-            throw DeviceError(firmware_is_wanted(desk.falcon.attached()) +
+        if (!context.falcon.answering()) {
+            throw DeviceError(missing_firmware_advice(context.falcon.attached()) +
                               "; then: dibhr devices --check --firmware FILE");
         }
-        desk.guide.say("It answers. No firmware file is at hand, so none is loaded.");
+        context.console.print("It answers. No firmware file is at hand, so none is loaded.");
         return;
     }
     measured["firmware"] = image.name;
     measured["firmware_sha256"] = image.sha256;
-    desk.begin(std::string(desk.falcon.answering() ? "It answers" : "It does not answer") +
-               ". Enter = load " + image.name + " twice, s = load nothing, q = quit");
-    load_at_both_speeds(desk, measured);
-    probe(desk, "probe_after", measured);
+    context.begin(std::string(context.falcon.answering() ? "It answers" : "It does not answer") +
+                  ". Enter = load " + image.name + " twice, s = load nothing, q = quit");
+    load_at_both_speeds(context, measured);
+    probe(context, "probe_after", measured);
 }
 
 }  // namespace dibhr::falcon

@@ -8,35 +8,36 @@
 
 namespace dibhr {
 
-CheckPush::CheckPush(CheckGuide& guide, std::function<void()> let_go)
-    : guide_(guide), let_go_(std::move(let_go)) {
-    guide_.force_begins();
+CheckPush::CheckPush(CheckConsole& console, std::function<void()> release_force)
+    : console_(console), release_force_(std::move(release_force)) {
+    console_.force_begins();
 }
 
 void CheckPush::release() noexcept {
     if (!std::exchange(acts_, false)) return;
-    let_go_();
-    guide_.force_ended();
+    release_force_();
+    console_.force_ended();
 }
 
-bool CheckPush::goes_on() {
-    const CheckGuide::Wish wish = guide_.wish();
-    if (wish == CheckGuide::Wish::quit) {
+bool CheckPush::may_continue() {
+    const CheckConsole::Request request = console_.request();
+    if (request == CheckConsole::Request::quit) {
         release();
         throw PersonQuits{};
     }
-    return wish == CheckGuide::Wish::none;
+    return request == CheckConsole::Request::none;
 }
 
-bool CheckPush::be_silent(std::chrono::milliseconds span, const std::function<void(Time)>& wait) {
+bool CheckPush::pause_sending(std::chrono::milliseconds span,
+                              const std::function<void(Time)>& wait) {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::milliseconds kLook{5};
     const auto end = Clock::now() + span;
     for (auto now = Clock::now(); now < end; now = Clock::now()) {
-        if (!goes_on()) return false;
+        if (!may_continue()) return false;
         wait(std::min(end, now + kLook));
     }
-    return goes_on();
+    return may_continue();
 }
 
 }  // namespace dibhr

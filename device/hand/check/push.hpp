@@ -4,7 +4,7 @@
 #include <chrono>
 #include <functional>
 
-#include "device/hand/check/guide.hpp"
+#include "device/hand/check/console.hpp"
 
 namespace dibhr {
 
@@ -15,8 +15,8 @@ class CheckPush {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `let_go` leaves the device without force and does not throw; `guide` outlives this.
-    CheckPush(CheckGuide& guide, std::function<void()> let_go);
+    /// `release_force` leaves the device without force and does not throw; `guide` outlives this.
+    CheckPush(CheckConsole& console, std::function<void()> release_force);
     ~CheckPush() { release(); }
     CheckPush(const CheckPush&) = delete;
     CheckPush& operator=(const CheckPush&) = delete;
@@ -25,15 +25,15 @@ class CheckPush {
     void release() noexcept;
     /// Polls the user's request, about every millisecond of a force; false: end the force. Throws
     /// PersonQuits after it has ended the force.
-    [[nodiscard]] bool goes_on();
+    [[nodiscard]] bool may_continue();
     /// Sends nothing for `span`. `wait` sleeps until a time at most 5 ms away; after each sleep the
-    /// user's request is polled. Result as of goes_on().
-    [[nodiscard]] bool be_silent(std::chrono::milliseconds span,
-                                 const std::function<void(Time)>& wait);
+    /// user's request is polled. Result as of may_continue().
+    [[nodiscard]] bool pause_sending(std::chrono::milliseconds span,
+                                     const std::function<void(Time)>& wait);
 
   private:
-    CheckGuide& guide_;
-    std::function<void()> let_go_;
+    CheckConsole& console_;
+    std::function<void()> release_force_;
     bool acts_{true};
 };
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "device/hand/check/guide.hpp"
+#include "device/hand/check/console.hpp"
 
 namespace dibhr {
 
@@ -13,7 +13,7 @@ struct StepSkipped {};
 /// Thrown when the user quits the check.
 struct PersonQuits {};
 /// Thrown when the user ended a force, which ends the step.
-struct ForceLetGo {};
+struct ForceReleased {};
 
 /// Every question may throw StepSkipped (the answer "s") and PersonQuits ("q", Ctrl+C). When the
 /// input has ended, steps that need an answer are skipped. Single letters may be upper or lower
@@ -21,10 +21,10 @@ struct ForceLetGo {};
 class CheckQuestions {
   public:
     /// `person` must outlive this object.
-    explicit CheckQuestions(CheckGuide& person) : guide(person) {}
+    explicit CheckQuestions(CheckConsole& person) : console(person) {}
     virtual ~CheckQuestions() = default;
 
-    CheckGuide& guide;
+    CheckConsole& console;
 
     /// Returns after any answer, or at once when the input has ended.
     void begin(const std::string& question);
@@ -47,7 +47,7 @@ class CheckQuestions {
 
   protected:
     /// Called every few milliseconds while a question is open: keeps the link to the device alive.
-    virtual void keep_talking() = 0;
+    virtual void keep_alive() = 0;
 
   private:
     [[nodiscard]] std::optional<std::string> typed();

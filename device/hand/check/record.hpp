@@ -28,7 +28,7 @@ class CheckFindings {
     /// `question`: of an enumeration in the order of the questions. A later answer replaces an
     /// earlier one.
     template <typename Question>
-    void settle(Question question, std::string found) {
+    void record_answer(Question question, std::string found) {
         found_.at(static_cast<std::size_t>(question)) = std::move(found);
     }
     /// Adds a line for the table of the settings file: `value` in TOML syntax.
@@ -47,7 +47,7 @@ class CheckFindings {
 };
 
 /// How a step ended.
-enum class CheckEnd : std::size_t { done, skipped, let_go, quit, failed, not_begun };
+enum class CheckEnd : std::size_t { done, skipped, released, quit, failed, not_begun };
 
 struct CheckedDevice {
     std::string kind{};      ///< "falcon"
@@ -62,9 +62,9 @@ class CheckRecord {
                 const std::vector<std::pair<std::string, std::string>>& facts);
 
     /// Adds these members to the head of the record.
-    void tell(const Json& members) { head_.update(members); }
+    void add_to_head(const Json& members) { head_.update(members); }
     /// Sets the legend, the last member of the record: the meaning of every name.
-    void explain(Json legend) { legend_ = std::move(legend); }
+    void set_legend(Json legend) { legend_ = std::move(legend); }
     /// `remark`: why it failed or was not begun.
     void add(const char* step, CheckEnd end, const std::string& remark, double seconds,
              const Json& measured);

@@ -9,12 +9,12 @@
 namespace dibhr {
 
 CheckRun::CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFindings& findings,
-                   std::size_t steps, std::function<void()> let_go)
+                   std::size_t steps, std::function<void()> release_force)
     : questions_(questions),
       record_(record),
       findings_(findings),
       steps_(steps),
-      let_go_(std::move(let_go)) {
+      release_force_(std::move(release_force)) {
     record_.write(findings_);  // before any step: fails at once when the file cannot be written
 }
 
@@ -28,7 +28,7 @@ void CheckRun::step(const CheckStep& step, const std::function<std::string()>& w
     const CheckEnd end =
         over_ ? CheckEnd::not_begun : guarded(step, why_not, run, measured, remark);
     over_ = over_ || end == CheckEnd::quit || end == CheckEnd::failed;
-    if (over_) let_go_();
+    if (over_) release_force_();
     const std::chrono::duration<double> took = Clock::now() - begin;
     record_.add(step.name, end, remark, took.count(), measured);
     record_.write(findings_);
@@ -45,9 +45,9 @@ CheckEnd CheckRun::guarded(const CheckStep& step, const std::function<std::strin
         return CheckEnd::done;
     } catch (const StepSkipped&) {
         return CheckEnd::skipped;
-    } catch (const ForceLetGo&) {
-        questions_.guide.say("Released: there is no force any more. This step ends here.");
-        return CheckEnd::let_go;
+    } catch (const ForceReleased&) {
+        questions_.console.print("Released: there is no force any more. This step ends here.");
+        return CheckEnd::released;
     } catch (const PersonQuits&) {
         return CheckEnd::quit;
     } catch (const DeviceError& failure) {
@@ -57,8 +57,8 @@ CheckEnd CheckRun::guarded(const CheckStep& step, const std::function<std::strin
 }
 
 void CheckRun::introduce(const CheckStep& step) {
-    questions_.guide.say("\n" + std::to_string(number_) + " of " + std::to_string(steps_) + ": " +
-                         step.title + "\n" + step.meaning);
+    questions_.console.print("\n" + std::to_string(number_) + " of " + std::to_string(steps_) +
+                             ": " + step.title + "\n" + step.meaning);
     const char* const question = "Enter = go on, s = skip, q = quit";
     switch (step.needs) {
         case StepNeeds::nobody:

@@ -29,9 +29,10 @@ struct CheckStep {
 
 class CheckRun {
   public:
-    /// All must outlive this object. `let_go` leaves the device without force; no step runs then.
+    /// All must outlive this object. `release_force` leaves the device without force; no step runs
+    /// then.
     CheckRun(CheckQuestions& questions, CheckRecord& record, const CheckFindings& findings,
-             std::size_t steps, std::function<void()> let_go);
+             std::size_t steps, std::function<void()> release_force);
 
     /// Prints the step's text, runs the step and writes the record. Does not run it when the check
     /// is over, or when `why_not` returns a reason.
@@ -52,34 +53,35 @@ class CheckRun {
     CheckRecord& record_;
     const CheckFindings& findings_;
     std::size_t steps_;
-    std::function<void()> let_go_;
+    std::function<void()> release_force_;
     std::size_t number_{0};
     std::string fault_{};
     bool over_{false};
 };
 
 /// A step of a device's check: its text and its function.
-template <typename Desk>
-struct StepAt {
-    CheckStep told;
-    void (*run)(Desk& desk, Json& measured);
+template <typename Context>
+struct DeviceStep {
+    CheckStep introduction;
+    void (*run)(Context& context, Json& measured);
     bool needs_answers{true};  ///< not run while the device does not answer
 };
 
 /// Runs all steps in turn, then prints the findings. The second argument is a CheckQuestions with
-/// `findings`; `let_go`: as of CheckRun; `why_silent`: why the device does not answer, or empty.
-template <typename Desk, std::size_t N>
-CheckResult run_steps(const std::array<StepAt<Desk>, N>& steps, Desk& desk, CheckRecord& record,
-                      const std::function<void()>& let_go,
-                      const std::function<std::string()>& why_silent) {
-    CheckRun run(desk, record, desk.findings, N, let_go);
-    for (const StepAt<Desk>& step : steps) {
+/// `findings`; `release_force`: as of CheckRun; `why_no_answer`: why the device does not answer, or
+/// empty.
+template <typename Context, std::size_t N>
+CheckResult run_steps(const std::array<DeviceStep<Context>, N>& steps, Context& context,
+                      CheckRecord& record, const std::function<void()>& release_force,
+                      const std::function<std::string()>& why_no_answer) {
+    CheckRun run(context, record, context.findings, N, release_force);
+    for (const DeviceStep<Context>& step : steps) {
         run.step(
-            step.told, [&] { return step.needs_answers ? why_silent() : std::string{}; },
-            [&](Json& measured) { step.run(desk, measured); });
+            step.introduction, [&] { return step.needs_answers ? why_no_answer() : std::string{}; },
+            [&](Json& measured) { step.run(context, measured); });
     }
-    let_go();
-    desk.guide.say(desk.findings.summary() + "The record: " + record.file().string());
+    release_force();
+    context.console.print(context.findings.summary() + "The record: " + record.file().string());
     return {record.file(), run.fault()};
 }
 

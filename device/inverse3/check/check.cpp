@@ -5,13 +5,13 @@
 #include <string>
 
 #include "device/hand/check/run.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 
 namespace dibhr::inverse3 {
 
 namespace {
 
-using Step = StepAt<CheckDesk>;
+using Step = DeviceStep<CheckContext>;
 
 constexpr std::array kSteps{
     Step{{"service", "What the service says",
@@ -57,32 +57,33 @@ constexpr std::array kSteps{
 };
 
 /// The head of the record.
-Json about(const CheckTalk& talk, const ConnectionOptions& connection) {
-    Json head{{"simulated", talk.is_simulated()},
+Json about(const CheckedInverse3& device, const ConnectionOptions& connection) {
+    Json head{{"simulated", device.is_simulated()},
               {"service_port", connection.port},
               {"older_port", connection.older_port},
               {"dialect_setting", connection.dialect ? name_of(*connection.dialect) : "automatic"},
-              {"preset_asked", talk.newer() ? Json(connection.preset.view()) : Json()}};
-    head.update(told_frame(talk));
+              {"preset_asked", device.newer() ? Json(connection.preset.view()) : Json()}};
+    head.update(reported_frame(device));
     return head;
 }
 
 }  // namespace
 
-CheckResult run_check(const CheckOptions& options, CheckGuide& guide) {
-    CheckTalk talk(options.connection);
-    CheckDesk desk(guide, talk, options);
-    CheckRecord record(options.record, {"inverse3", "device_id", talk.id()}, options.facts);
-    guide.say("Checks the Inverse3 " + talk.id() + "; the record is " + record.file().string() +
-              ", written again after every step.");
-    record.tell(about(talk, options.connection));
-    record.explain(check_legend());
-    if (talk.is_simulated()) {
-        guide.say("This is dibhr's own simulated service: nothing here is measured on a device.");
+CheckResult run_check(const CheckOptions& options, CheckConsole& console) {
+    CheckedInverse3 device(options.connection);
+    CheckContext context(console, device, options);
+    CheckRecord record(options.record, {"inverse3", "device_id", device.id()}, options.facts);
+    console.print("Checks the Inverse3 " + device.id() + "; the record is " +
+                  record.file().string() + ", written again after every step.");
+    record.add_to_head(about(device, options.connection));
+    record.set_legend(check_legend());
+    if (device.is_simulated()) {
+        console.print(
+            "This is dibhr's own simulated service: nothing here is measured on a device.");
     }
-    if (const std::string fault = talk.unguarded(); !fault.empty()) guide.say(fault);
+    if (const std::string fault = device.unguarded(); !fault.empty()) console.print(fault);
     return run_steps(
-        kSteps, desk, record, [&] { talk.let_go(); }, [] { return std::string{}; });
+        kSteps, context, record, [&] { device.release_force(); }, [] { return std::string{}; });
 }
 
 }  // namespace dibhr::inverse3

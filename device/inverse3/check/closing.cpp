@@ -2,7 +2,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/files/plain_text.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 #include "device/inverse3/check/push.hpp"
 
 namespace dibhr::inverse3 {
@@ -11,53 +11,53 @@ namespace {
 
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
-void close_once(CheckDesk& desk, ForceDialect dialect, CheckTimes::Span closed, ForceEnd& end,
+void close_once(CheckContext& context, ForceDialect dialect, CheckTimes::Span closed, ForceEnd& end,
                 Json& line) {
     line["closed_ms"] = closed.count();
-    Push push(desk);
-    push.hold(kWeak_newton, dialect, desk.options.times.closing_hold);
-    const auto pushed_at = desk.talk.sent_at();
-    desk.talk.break_off();
-    push.be_silent(closed);
-    const CheckTalk::Found found = desk.talk.connect_again();
-    line["gap_ms"] = Milliseconds(CheckTalk::Clock::now() - pushed_at).count();
-    line["told_unasked"] = found.unasked;
+    Push push(context);
+    push.hold(kWeak_newton, dialect, context.options.times.closing_hold);
+    const auto pushed_at = context.device.sent_at();
+    context.device.drop_connection();
+    push.pause_sending(closed);
+    const CheckedInverse3::Found found = context.device.reconnect();
+    line["gap_ms"] = Milliseconds(CheckedInverse3::Clock::now() - pushed_at).count();
+    line["told_unasked"] = found.unrequested;
     if (!found.arm.force_newton) return;
     line["force_newton"] = glm::length(*found.arm.force_newton);
-    if (tells_weak_force(*push.last())) {
-        end.add(line["gap_ms"].get<double>(), tells_weak_force(found.arm));
+    if (reports_weak_force(*push.last())) {
+        end.add(line["gap_ms"].get<double>(), reports_weak_force(found.arm));
     }
 }
 
 }  // namespace
 
-void check_closing(CheckDesk& desk, Json& measured) {
+void check_closing(CheckContext& context, Json& measured) {
     constexpr double kLongest_s = 60.0;
-    const ForceDialect dialect = desk.likely_dialect();
-    const CheckTimes& times = desk.options.times;
+    const ForceDialect dialect = context.likely_dialect();
+    const CheckTimes& times = context.options.times;
     measured["dialect"] = name_of(dialect);
     measured["closings"] = Json::array();
     ForceEnd end;
     for (const CheckTimes::Span closed : times.closings) {
         Json& line = measured["closings"].emplace_back(Json::object());
-        close_once(desk, dialect, closed, end, line);
+        close_once(context, dialect, closed, end, line);
     }
     end.add_to(measured);
     const Milliseconds pushed = times.ramp + times.closing_hold;
     const Milliseconds closed = times.closings.back();
     measured["pushed_s"] = pushed.count() / 1000.0;
     std::string words = end.in_words() + ", as told to the next connection";
-    const auto felt_s = desk.number("For how many seconds did it pull, the last time? " +
-                                        number_text(pushed.count() / 1000.0, 1) +
-                                        " if it ended with the connection, " +
-                                        number_text((pushed + closed).count() / 1000.0, 1) +
-                                        " or more if it went on (Enter alone: not known)",
-                                    0.0, kLongest_s);
+    const auto felt_s = context.number("For how many seconds did it pull, the last time? " +
+                                           number_text(pushed.count() / 1000.0, 1) +
+                                           " if it ended with the connection, " +
+                                           number_text((pushed + closed).count() / 1000.0, 1) +
+                                           " or more if it went on (Enter alone: not known)",
+                                       0.0, kLongest_s);
     measured["felt_s"] = felt_s ? Json(*felt_s) : Json();
     if (felt_s)
         words += "; felt for " + number_text(*felt_s, 1) + " s, of which " +
                  number_text(pushed.count() / 1000.0, 1) + " s before it ended";
-    desk.findings.settle(OpenQuestion::closed, words);
+    context.findings.record_answer(OpenQuestion::closed, words);
 }
 
 }  // namespace dibhr::inverse3

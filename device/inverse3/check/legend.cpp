@@ -1,7 +1,7 @@
 // The legend of the record: the meaning of every name, its unit, and how it was measured.
 #include <array>
 
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 
 namespace dibhr::inverse3 {
 

@@ -7,13 +7,13 @@
 
 #include "core/files/plain_text.hpp"
 #include "device/hand/check/numbers.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 
 namespace dibhr::inverse3 {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
+using Clock = CheckedInverse3::Clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr double kNoise_mm = 1e-6;           // rounding errors, smaller than any encoder's step
@@ -92,34 +92,36 @@ class Positions {
 
 }  // namespace
 
-void check_moving(CheckDesk& desk, Json& measured) {
-    desk.guide.ask(
+void check_moving(CheckContext& context, Json& measured) {
+    context.console.ask(
         "Move the grip slowly, then to every end; Enter when you have been everywhere. No force.");
     Positions positions;
-    const auto limit = Clock::now() + desk.options.times.moving;
+    const auto limit = Clock::now() + context.options.times.moving;
     bool answered = false;
-    while (!(answered = desk.answered()) && Clock::now() < limit) {
-        const auto heard = desk.talk.exchange(std::nullopt, desk.likely_dialect());
-        if (heard.arm.position_m) positions.add(*heard.arm.position_m * kMetre_mm, Clock::now());
+    while (!(answered = context.answered()) && Clock::now() < limit) {
+        const auto received = context.device.exchange(std::nullopt, context.likely_dialect());
+        if (received.arm.position_m)
+            positions.add(*received.arm.position_m * kMetre_mm, Clock::now());
     }
     measured["ended_by_enter"] = answered;
-    if (!answered) desk.tell_gone_on(desk.options.times.moving);
+    if (!answered) context.print_timeout(context.options.times.moving);
     if (positions.count == 0) throw DeviceError("no position came that makes sense");
     positions.add_to(measured);
-    measured.update(told_frame(desk.talk));
+    measured.update(reported_frame(context.device));
     if (!(positions.new_per_s() > 0.0)) {
-        desk.guide.say("The grip was not moved: its steps and its workspace stay open.");
+        context.console.print("The grip was not moved: its steps and its workspace stay open.");
         return;
     }
     const Vec3 size_mm = positions.highest_mm - positions.lowest_mm;
-    desk.findings.settle(OpenQuestion::device_rate,
-                         number_text(positions.new_per_s(), 0) + " while it moved");
-    desk.findings.settle(
+    context.findings.record_answer(OpenQuestion::device_rate,
+                                   number_text(positions.new_per_s(), 0) + " while it moved");
+    context.findings.record_answer(
         OpenQuestion::step,
         number_text(positions.step_mm(), 4) + " mm (95 % of the steps along an axis are longer)");
-    desk.findings.settle(OpenQuestion::workspace,
-                         number_text(size_mm.x, 0) + " x " + number_text(size_mm.y, 0) + " x " +
-                             number_text(size_mm.z, 0) + " mm (x, y, z) were reached");
+    context.findings.record_answer(OpenQuestion::workspace, number_text(size_mm.x, 0) + " x " +
+                                                                number_text(size_mm.y, 0) + " x " +
+                                                                number_text(size_mm.z, 0) +
+                                                                " mm (x, y, z) were reached");
 }
 
 }  // namespace dibhr::inverse3

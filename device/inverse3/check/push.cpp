@@ -11,28 +11,30 @@ namespace dibhr::inverse3 {
 
 namespace {
 
-using Clock = CheckTalk::Clock;
+using Clock = CheckedInverse3::Clock;
 
 }  // namespace
 
-bool tells_weak_force(const Arm& state) {
+bool reports_weak_force(const Arm& state) {
     constexpr double kToldBack = 0.05;
     return state.force_newton &&
            glm::length(*state.force_newton) >= kToldBack * glm::length(kWeak_newton);
 }
 
-Push::Push(CheckDesk& desk) : CheckPush(desk.guide, [&desk] { desk.talk.let_go(); }), desk_(desk) {}
+Push::Push(CheckContext& context)
+    : CheckPush(context.console, [&context] { context.device.release_force(); }),
+      context_(context) {}
 
 void Push::hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) {
     using Seconds = std::chrono::duration<double>;
-    const Seconds ramp = desk_.options.times.ramp;
+    const Seconds ramp = context_.options.times.ramp;
     const auto begin = Clock::now();
-    const auto end = begin + desk_.options.times.ramp + hold;
+    const auto end = begin + context_.options.times.ramp + hold;
     sent_newton_ = force_newton;
     while (Clock::now() < end) {
-        if (!goes_on()) throw ForceLetGo{};
+        if (!may_continue()) throw ForceReleased{};
         const Seconds since = Clock::now() - begin;
-        last_ = desk_.talk.exchange(std::min(1.0, since / ramp) * force_newton, dialect).arm;
+        last_ = context_.device.exchange(std::min(1.0, since / ramp) * force_newton, dialect).arm;
         if (!first_) first_ = last_;
         held_s_ = std::max(0.0, (Seconds(Clock::now() - begin) - ramp).count());
         if (!last_->calibrated || !last_->powered) {
@@ -41,9 +43,9 @@ void Push::hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold) 
     }
 }
 
-void Push::be_silent(CheckTimes::Span span) {
-    const auto wait = [this](Time until) { desk_.talk.keep_silent(until); };
-    if (!CheckPush::be_silent(span, wait)) throw ForceLetGo{};
+void Push::pause_sending(CheckTimes::Span span) {
+    const auto wait = [this](Time until) { context_.device.pause_sending(until); };
+    if (!CheckPush::pause_sending(span, wait)) throw ForceReleased{};
 }
 
 void Push::add_to(Json& part) const {

@@ -5,26 +5,26 @@
 #include <string>
 
 #include "device/hand/check/push.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 
 namespace dibhr::inverse3 {
 
 inline constexpr Vec3 kWeak_newton{-0.5, 0.0, 0.0};  // to the left
 
 /// The state reports at least 5 % of the weak force: the service's filters may reduce it so far.
-[[nodiscard]] bool tells_weak_force(const Arm& state);
+[[nodiscard]] bool reports_weak_force(const Arm& state);
 
 /// A force acts during the lifetime of this object; the destructor ends it.
 class Push : public CheckPush {
   public:
-    explicit Push(CheckDesk& desk);
+    explicit Push(CheckContext& context);
 
-    // These throw ForceLetGo, PersonQuits and DeviceError.
+    // These throw ForceReleased, PersonQuits and DeviceError.
 
     /// Rises to the force and holds it for `hold`.
     void hold(Vec3 force_newton, ForceDialect dialect, CheckTimes::Span hold);
     /// Sends nothing.
-    void be_silent(CheckTimes::Span span);
+    void pause_sending(CheckTimes::Span span);
 
     /// The state in the answer to the last force; nothing: none was sent.
     [[nodiscard]] const std::optional<Arm>& last() const noexcept { return last_; }
@@ -34,7 +34,7 @@ class Push : public CheckPush {
     void add_to(Json& part) const;
 
   private:
-    CheckDesk& desk_;
+    CheckContext& context_;
     Vec3 sent_newton_{0.0};
     std::optional<Arm> first_{};
     std::optional<Arm> last_{};

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/files/plain_text.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 #include "device/inverse3/check/push.hpp"
 
 namespace dibhr::inverse3 {
@@ -27,25 +27,25 @@ struct InUse {
 };
 
 /// Result of a force in one dialect.
-struct Spelled {
+struct DialectTrial {
     ForceDialect dialect{};
-    bool told{false};
+    bool reported{false};
     bool felt{false};
 
     [[nodiscard]] std::string in_words() const {
         const std::string name = name_of(dialect);
-        if (felt) return name + " is felt" + (told ? " and confirmed by the service" : "");
-        return name + (told ? " is confirmed by the service but not felt" : " is not felt");
+        if (felt) return name + " is felt" + (reported ? " and confirmed by the service" : "");
+        return name + (reported ? " is confirmed by the service but not felt" : " is not felt");
     }
 };
 
-Spelled pull_with(CheckDesk& desk, ForceDialect dialect, InUse& in_use, Json& part) {
-    Spelled found{dialect};
+DialectTrial try_dialect(CheckContext& context, ForceDialect dialect, InUse& in_use, Json& part) {
+    DialectTrial found{dialect};
     try {
-        Push push(desk);
-        push.hold(kWeak_newton, dialect, desk.options.times.dialect);
+        Push push(context);
+        push.hold(kWeak_newton, dialect, context.options.times.dialect);
         push.add_to(part);
-        found.told = tells_weak_force(*push.last());
+        found.reported = reports_weak_force(*push.last());
         in_use.during = in_use.during || push.last()->in_use;
     } catch (const LinkError&) {
         throw;
@@ -53,122 +53,124 @@ Spelled pull_with(CheckDesk& desk, ForceDialect dialect, InUse& in_use, Json& pa
         part["complaint"] = complaint.what();
     }
     // Asked after the force has ended.
-    found.felt = desk.yes_or_no(std::string("Did the grip pull to the left with \"") +
-                                name_of(dialect) + "\"?");
-    part["told_back"] = found.told;
+    found.felt = context.yes_or_no(std::string("Did the grip pull to the left with \"") +
+                                   name_of(dialect) + "\"?");
+    part["told_back"] = found.reported;
     part["felt"] = found.felt;
     return found;
 }
 
 /// A reported force proves only that the service understood: the settings get only a felt dialect.
-void choose_dialect(CheckDesk& desk, const std::array<Spelled, 2>& spelled) {
-    std::string words = spelled[0].in_words() + "; " + spelled[1].in_words();
+void choose_dialect(CheckContext& context, const std::array<DialectTrial, 2>& trials) {
+    std::string words = trials[0].in_words() + "; " + trials[1].in_words();
     bool any_felt = false;
-    for (const Spelled& one : spelled) {
-        if (one.felt && !any_felt) desk.dialect = one.dialect;
-        if (one.told && !desk.dialect) desk.dialect = one.dialect;
+    for (const DialectTrial& one : trials) {
+        if (one.felt && !any_felt) context.dialect = one.dialect;
+        if (one.reported && !context.dialect) context.dialect = one.dialect;
         any_felt = any_felt || one.felt;
     }
-    if (any_felt) desk.findings.set("dialect", '"' + std::string(name_of(*desk.dialect)) + '"');
-    if (!any_felt && desk.dialect) words += "; so no line for the settings file follows";
-    desk.findings.settle(OpenQuestion::dialect, words);
+    if (any_felt)
+        context.findings.set("dialect", '"' + std::string(name_of(*context.dialect)) + '"');
+    if (!any_felt && context.dialect) words += "; so no line for the settings file follows";
+    context.findings.record_answer(OpenQuestion::dialect, words);
 }
 
 /// Pushes, pauses, and reads whether the service still reports the force.
-void be_silent_once(CheckDesk& desk, ForceDialect dialect, CheckTimes::Span silence, ForceEnd& end,
-                    Json& line) {
+void measure_silence(CheckContext& context, ForceDialect dialect, CheckTimes::Span silence,
+                     ForceEnd& end, Json& line) {
     line["silence_ms"] = silence.count();
-    Push push(desk);
-    push.hold(kWeak_newton, dialect, desk.options.times.short_hold);
+    Push push(context);
+    push.hold(kWeak_newton, dialect, context.options.times.short_hold);
     if (!push.last()->force_newton) return;
     line["force_before_newton"] = glm::length(*push.last()->force_newton);
-    const auto pushed_at = desk.talk.sent_at();
-    push.be_silent(silence);
-    const Arm after = desk.talk.exchange(std::nullopt, dialect).arm;
-    const std::chrono::duration<double, std::milli> gap = desk.talk.sent_at() - pushed_at;
+    const auto pushed_at = context.device.sent_at();
+    push.pause_sending(silence);
+    const Arm after = context.device.exchange(std::nullopt, dialect).arm;
+    const std::chrono::duration<double, std::milli> gap = context.device.sent_at() - pushed_at;
     line["gap_ms"] = gap.count();
     line["force_newton"] = after.force_newton ? Json(glm::length(*after.force_newton)) : Json();
-    if (tells_weak_force(*push.last())) end.add(gap.count(), tells_weak_force(after));
+    if (reports_weak_force(*push.last())) end.add(gap.count(), reports_weak_force(after));
 }
 
 /// Presses once; a key ends it early.
-void press(CheckDesk& desk, double wanted_newton, Json& part) {
-    Push push(desk);
-    bool let_go = false;
+void press(CheckContext& context, double wanted_newton, Json& part) {
+    Push push(context);
+    bool released = false;
     try {
-        push.hold({0.0, 0.0, -wanted_newton}, desk.likely_dialect(), desk.options.times.hold);
-    } catch (const ForceLetGo&) {
-        let_go = true;
+        push.hold({0.0, 0.0, -wanted_newton}, context.likely_dialect(), context.options.times.hold);
+    } catch (const ForceReleased&) {
+        released = true;
     }
-    part["let_go"] = let_go;
+    part["let_go"] = released;
     push.add_to(part);
 }
 
 }  // namespace
 
-void check_dialect(CheckDesk& desk, Json& measured) {
+void check_dialect(CheckContext& context, Json& measured) {
     InUse in_use;
-    in_use.before = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
-    std::array<Spelled, 2> spelled{Spelled{ForceDialect::vector}, Spelled{ForceDialect::values}};
-    for (Spelled& one : spelled) {
+    in_use.before = context.device.exchange(std::nullopt, context.likely_dialect()).arm.in_use;
+    std::array<DialectTrial, 2> trials{DialectTrial{ForceDialect::vector},
+                                       DialectTrial{ForceDialect::values}};
+    for (DialectTrial& one : trials) {
         if (one.dialect == ForceDialect::values) {
-            desk.agree_to_force("F and Enter = pull with the other format, s = skip, q = quit");
+            context.agree_to_force("F and Enter = pull with the other format, s = skip, q = quit");
         }
         Json& part = measured[name_of(one.dialect)] = Json::object();
-        one = pull_with(desk, one.dialect, in_use, part);
+        one = try_dialect(context, one.dialect, in_use, part);
     }
-    choose_dialect(desk, spelled);
-    in_use.after = desk.talk.exchange(std::nullopt, desk.likely_dialect()).arm.in_use;
+    choose_dialect(context, trials);
+    in_use.after = context.device.exchange(std::nullopt, context.likely_dialect()).arm.in_use;
     measured["in_use"] = {
         {"before", in_use.before}, {"during", in_use.during}, {"after", in_use.after}};
-    if (desk.dialect)
-        desk.findings.settle(OpenQuestion::in_use, in_use.in_words());  // a force acted
+    if (context.dialect)
+        context.findings.record_answer(OpenQuestion::in_use, in_use.in_words());  // a force acted
 }
 
-void check_silence(CheckDesk& desk, Json& measured) {
-    const ForceDialect dialect = desk.likely_dialect();
+void check_silence(CheckContext& context, Json& measured) {
+    const ForceDialect dialect = context.likely_dialect();
     measured["dialect"] = name_of(dialect);
     measured["silences"] = Json::array();
     ForceEnd end;
-    for (const CheckTimes::Span silence : desk.options.times.silences) {
+    for (const CheckTimes::Span silence : context.options.times.silences) {
         Json& line = measured["silences"].emplace_back(Json::object());
-        be_silent_once(desk, dialect, silence, end, line);
+        measure_silence(context, dialect, silence, end, line);
         if (!line.contains("force_before_newton")) {
-            desk.guide.say(
+            context.console.print(
                 "This service does not report its force: it cannot be measured in this way.");
             throw StepSkipped{};
         }
     }
     end.add_to(measured);
-    desk.findings.settle(
+    context.findings.record_answer(
         OpenQuestion::silence,
         end.in_words() + ", as told to a message without force, which may itself end it");
 }
 
-void check_force(CheckDesk& desk, Json& measured) {
+void check_force(CheckContext& context, Json& measured) {
     std::string words;
     measured["pushes"] = Json::array();
     for (const double wanted_newton : kOnTheScale_newton) {
-        desk.agree_to_force("F and Enter = press with " + number_text(wanted_newton, 0) +
-                            " N, s = skip, q = quit");
+        context.agree_to_force("F and Enter = press with " + number_text(wanted_newton, 0) +
+                               " N, s = skip, q = quit");
         Json& part = measured["pushes"].emplace_back(Json{{"wanted_newton", wanted_newton}});
-        press(desk, wanted_newton, part);
-        const bool let_go = part["let_go"].get<bool>();
-        if (let_go) desk.guide.say("Released: there is no force any more.");
-        if (let_go && !(part.value("held_s", 0.0) > 0.0)) continue;
-        const auto grams = desk.number(
+        press(context, wanted_newton, part);
+        const bool released = part["let_go"].get<bool>();
+        if (released) context.console.print("Released: there is no force any more.");
+        if (released && !(part.value("held_s", 0.0) > 0.0)) continue;
+        const auto grams = context.number(
             "Grams that the scale showed while the force acted, at its end (Enter alone: not read)",
             0.0, kHeaviest_g);
         if (!grams) continue;
-        const double felt_newton = *grams * kStandardGravity / 1000.0;
-        const double share = felt_newton / wanted_newton;
+        const double scale_newton = *grams * kStandardGravity / 1000.0;
+        const double share = scale_newton / wanted_newton;
         part["grams"] = *grams;
-        part["newton"] = felt_newton;
+        part["newton"] = scale_newton;
         part["share"] = share;
-        if (let_go) continue;
-        words += (words.empty() ? "" : ", ") + number_text(felt_newton, 2) + " N of " +
+        if (released) continue;
+        words += (words.empty() ? "" : ", ") + number_text(scale_newton, 2) + " N of " +
                  number_text(wanted_newton, 0) + " (" + number_text(100.0 * share, 0) + " %)";
-        desk.findings.settle(OpenQuestion::force, words);
+        context.findings.record_answer(OpenQuestion::force, words);
     }
 }
 

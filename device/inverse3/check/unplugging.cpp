@@ -5,14 +5,14 @@
 #include <thread>
 
 #include "core/files/plain_text.hpp"
-#include "device/inverse3/check/desk.hpp"
+#include "device/inverse3/check/context.hpp"
 
 namespace dibhr::inverse3 {
 
 namespace {
 
 using Seconds = std::chrono::duration<double>;
-using Time = CheckTalk::Clock::time_point;
+using Time = CheckedInverse3::Clock::time_point;
 
 /// What the service reports about a device while its cable is out.
 class Absence {
@@ -46,20 +46,21 @@ class Absence {
 
     [[nodiscard]] std::string in_words(Seconds counts_as_frozen) const {
         std::string words;
-        const auto say = [&words](const std::string& more) {
+        const auto append = [&words](const std::string& more) {
             words += (words.empty() ? "" : ", ") + more;
         };
         if (gone_.count() > 0.0)
-            say("it goes (" + number_text(gone_.count(), 1) + " s)");
+            append("it goes (" + number_text(gone_.count(), 1) + " s)");
         else if (frozen_ && *frozen_ > counts_as_frozen)
-            say("it stays, frozen (" + number_text(frozen_->count(), 1) + " s)");
+            append("it stays, frozen (" + number_text(frozen_->count(), 1) + " s)");
         else if (out_at_ && !frozen_)
-            say("its position never changed again");
-        if (not_powered_) say("told to have no power");
-        if (not_calibrated_) say("told not to be calibrated");
-        if (not_ready_) say("told not to be ready");
-        if (!ended_by.empty()) say("and then: " + ended_by);
-        if (words.empty()) say(out_at_ ? "nothing of it changed" : "nobody said that it was out");
+            append("its position never changed again");
+        if (not_powered_) append("told to have no power");
+        if (not_calibrated_) append("told not to be calibrated");
+        if (not_ready_) append("told not to be ready");
+        if (!ended_by.empty()) append("and then: " + ended_by);
+        if (words.empty())
+            append(out_at_ ? "nothing of it changed" : "nobody said that it was out");
         return words;
     }
     void add_to(Json& measured) const {
@@ -86,7 +87,7 @@ class Absence {
         stays_since_.reset();
     }
 
-    Time seen_{CheckTalk::Clock::now()};
+    Time seen_{CheckedInverse3::Clock::now()};
     std::optional<Time> out_at_{}, gone_at_{}, stays_since_{};
     Seconds gone_{0.0};  // longest time without an entry
     Seconds last_stay_{0.0};
@@ -104,30 +105,30 @@ std::string names_in(const ServiceMessage& message) {
 }
 
 /// Polls the device until Enter; false: the time was over.
-bool watch(CheckDesk& desk, const std::string& question, Absence& absence) {
-    desk.guide.ask(question);
-    const auto limit = CheckTalk::Clock::now() + desk.options.times.unplugging;
-    while (CheckTalk::Clock::now() < limit) {
-        if (desk.answered()) return true;
-        absence.add(desk.talk.look(desk.likely_dialect()), CheckTalk::Clock::now());
+bool watch(CheckContext& context, const std::string& question, Absence& absence) {
+    context.console.ask(question);
+    const auto limit = CheckedInverse3::Clock::now() + context.options.times.unplugging;
+    while (CheckedInverse3::Clock::now() < limit) {
+        if (context.answered()) return true;
+        absence.add(context.device.poll(context.likely_dialect()), CheckedInverse3::Clock::now());
         std::this_thread::sleep_for(std::chrono::milliseconds(5));
     }
-    desk.tell_gone_on(desk.options.times.unplugging);
+    context.print_timeout(context.options.times.unplugging);
     return false;
 }
 
 }  // namespace
 
-void check_unplugged(CheckDesk& desk, Json& measured) {
+void check_unplugged(CheckContext& context, Json& measured) {
     Absence absence;
     try {
-        if (watch(desk,
+        if (watch(context,
                   "Keep the grip moving, pull the USB cable out meanwhile; Enter as soon as it is "
                   "out",
                   absence))
-            absence.cable_is_out(CheckTalk::Clock::now());
+            absence.cable_is_out(CheckedInverse3::Clock::now());
         (void)watch(
-            desk,
+            context,
             "Count to five, plug the USB cable in again, wait until the light is as before, "
             "and move the grip; then Enter",
             absence);
@@ -135,11 +136,11 @@ void check_unplugged(CheckDesk& desk, Json& measured) {
         absence.ended_by = failure.what();
     }
     absence.add_to(measured);
-    measured["at_the_end"] = names_in(desk.talk.message());
-    desk.findings.settle(
+    measured["at_the_end"] = names_in(context.device.message());
+    context.findings.record_answer(
         OpenQuestion::unplugged,
-        absence.in_words(desk.options.times.frozen) +
-            (absence.is_back ? "" : "; not back, there is " + names_in(desk.talk.message())));
+        absence.in_words(context.options.times.frozen) +
+            (absence.is_back ? "" : "; not back, there is " + names_in(context.device.message())));
 }
 
 }  // namespace dibhr::inverse3

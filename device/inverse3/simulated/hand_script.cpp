@@ -40,7 +40,7 @@ bool set_flag(Scene& scene, const std::string& name, const std::string& value) {
     if (value != "on" && value != "off") return false;
     const bool on = value == "on";
     if (name == "silence") {
-        scene.manners.answers = !on;
+        scene.behaviour.answers = !on;
         return true;
     }
     if (scene.arms.empty()) return false;
@@ -68,7 +68,7 @@ std::string state_of(const Scene& scene) {
 
 HandScript::HandScript(Service& service) : service_(service) {}
 
-std::string HandScript::obey(const std::string& line) {
+std::string HandScript::run_line(const std::string& line) {
     std::istringstream words(line);
     std::string verb;
     if (!(words >> verb)) return {};

@@ -21,7 +21,7 @@ class HandScript {
     /// `service` must outlive this object.
     explicit HandScript(Service& service);
     /// Runs one line and returns the answer to print: empty, or an error for an unknown command.
-    [[nodiscard]] std::string obey(const std::string& line);
+    [[nodiscard]] std::string run_line(const std::string& line);
 
   private:
     Service& service_;

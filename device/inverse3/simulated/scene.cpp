@@ -27,7 +27,7 @@ Json config_of(const Arm& arm, bool newer) {
 constexpr const char* kPositionHere = "position is put here";
 
 Json entry_of(const Arm& arm, const Scene& scene, bool whole) {
-    const bool newer = scene.manners.newer_shape;
+    const bool newer = scene.behaviour.newer_shape;
     Json entry{{"device_id", arm.id}};
     if (whole) entry["config"] = config_of(arm, newer);
     Json state{{"cursor_position", vector_of(arm.position_m)},
@@ -69,37 +69,40 @@ std::optional<Vec3> vector_in(const Json& force, const char* dialect) {
     return Vec3{found->value("x", 0.0), found->value("y", 0.0), found->value("z", 0.0)};
 }
 
-void obey_force(Scene& scene, const Json& force, Arm* arm, Clock::time_point now, Obeyed& done) {
-    const Takes takes = scene.manners.takes;
+void apply_force(Scene& scene, const Json& force, Arm* arm, Clock::time_point now,
+                 MessageEffect& done) {
+    const AcceptedDialect accepts = scene.behaviour.accepts;
     const auto vector = vector_in(force, "vector");
     const auto values = vector_in(force, "values");
     done.drives = true;
     done.force_newton = vector ? *vector : values.value_or(Vec3{0.0});
-    done.wrong_dialect = vector ? takes == Takes::values : takes == Takes::vector;
+    done.wrong_dialect =
+        vector ? accepts == AcceptedDialect::values : accepts == AcceptedDialect::vector;
     if (arm == nullptr || done.wrong_dialect) return;
     arm->force_newton = done.force_newton;
     arm->force_at = now;
 }
 
-void obey_device(Scene& scene, const Json& device, Clock::time_point now, Obeyed& done) {
+void apply_to_device(Scene& scene, const Json& device, Clock::time_point now, MessageEffect& done) {
     done.arm = device.value("device_id", "");
     Arm* const arm = scene.arm(done.arm);
     const Json configure = device.value("configure", Json::object());
-    done.asks_preset = configure.contains("preset");
-    if (arm != nullptr && done.asks_preset && scene.manners.takes_preset) {
+    done.requests_preset = configure.contains("preset");
+    if (arm != nullptr && done.requests_preset && scene.behaviour.takes_preset) {
         arm->preset = configure["preset"].value("preset", arm->preset);
         arm->basis = "XYZ";
     }
     const Json commands = device.value("commands", Json::object());
     if (commands.contains("set_cursor_force")) {
-        obey_force(scene, commands["set_cursor_force"], arm, now, done);
+        apply_force(scene, commands["set_cursor_force"], arm, now, done);
     }
 }
 
-void obey_message(Scene& scene, const Json& root, Clock::time_point now, Obeyed& done) {
-    done.wants_whole = root.value("session", Json::object()).contains("force_render_full_state");
+void apply_commands(Scene& scene, const Json& root, Clock::time_point now, MessageEffect& done) {
+    done.requests_whole_state =
+        root.value("session", Json::object()).contains("force_render_full_state");
     for (const Json& device : root.value("inverse3", Json::array())) {
-        obey_device(scene, device, now, done);
+        apply_to_device(scene, device, now, done);
     }
 }
 
@@ -112,15 +115,15 @@ Arm* Scene::arm(std::string_view id) {
 }
 
 void Scene::forget_old_forces(Clock::time_point now) {
-    if (manners.force_held.count() == 0) return;
+    if (behaviour.force_held.count() == 0) return;
     for (Arm& one : arms) {
-        if (now - one.force_at > manners.force_held) one.force_newton = Vec3{0.0};
+        if (now - one.force_at > behaviour.force_held) one.force_newton = Vec3{0.0};
     }
 }
 
 std::string state_text(const Scene& scene, bool whole) {
     Json message;
-    if (scene.manners.newer_shape) message["session_id"] = 7;
+    if (scene.behaviour.newer_shape) message["session_id"] = 7;
     message["inverse3"] = Json::array();
     for (const Arm& arm : scene.arms) message["inverse3"].push_back(entry_of(arm, scene, whole));
     for (const Grip& grip : scene.grips) message[grip.list].push_back(entry_of(grip));
@@ -134,12 +137,12 @@ std::string state_text(const Scene& scene, bool whole) {
     return text;
 }
 
-Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now) {
-    Obeyed done;
+MessageEffect apply_message(Scene& scene, std::string_view message, Clock::time_point now) {
+    MessageEffect done;
     const Json root = parsed_json(message);
     if (!root.is_object()) return done;
     try {
-        obey_message(scene, root, now, done);
+        apply_commands(scene, root, now, done);
         done.understood = true;
     } catch (const Json::exception&) {
         done.understood = false;  // a member has the wrong type

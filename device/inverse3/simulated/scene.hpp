@@ -43,8 +43,8 @@ struct Grip {
     double battery{0.8};
 };
 
-enum class Takes { vector, values, both };
-enum class OnWrong { ignores, refuses, closes };
+enum class AcceptedDialect { vector, values, both };
+enum class OnWrongDialect { ignores, refuses, closes };
 
 /// What is sent in place of an answer.
 enum class Garble {
@@ -64,11 +64,11 @@ enum class Garble {
     two           ///< a whole answer, and another one that was not requested
 };
 
-struct Manners {
+struct Behaviour {
     std::string version{"3.5.0"};
     bool newer_shape{true};  ///< 3.5: session_id, preset, current_cursor_force; else 3.1
-    Takes takes{Takes::vector};
-    OnWrong on_wrong{OnWrong::ignores};
+    AcceptedDialect accepts{AcceptedDialect::vector};
+    OnWrongDialect on_wrong_dialect{OnWrongDialect::ignores};
     bool inventory_at_once{true};
     bool takes_preset{true};            ///< else the service keeps its own preset
     bool answers{true};                 ///< else no answers come: a half-open connection
@@ -87,7 +87,7 @@ struct Manners {
 struct Scene {
     std::vector<Arm> arms{Arm{}};
     std::vector<Grip> grips{};
-    Manners manners{};
+    Behaviour behaviour{};
     /// Position of the first arm's hand at a time [s] since the service began; null: constant.
     std::function<Vec3(double)> hand_m{};
 
@@ -100,17 +100,17 @@ struct Scene {
 [[nodiscard]] std::string state_text(const Scene& scene, bool whole);
 
 /// Effect of one message.
-struct Obeyed {
+struct MessageEffect {
     bool understood{false};  ///< JSON of a known shape
     bool drives{false};      ///< the message has a force, taken or not
     bool wrong_dialect{false};
-    bool wants_whole{false};
-    bool asks_preset{false};
+    bool requests_whole_state{false};
+    bool requests_preset{false};
     Vec3 force_newton{0.0};
     std::string arm{};
 };
 
 /// Applies a client's message to the scene.
-Obeyed obey(Scene& scene, std::string_view message, Clock::time_point now);
+MessageEffect apply_message(Scene& scene, std::string_view message, Clock::time_point now);
 
 }  // namespace dibhr::inverse3::simulated

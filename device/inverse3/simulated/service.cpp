@@ -23,7 +23,7 @@ namespace dibhr::inverse3::simulated {
 namespace {
 
 constexpr int kPatience_ms = 20;  // period of the checks whether the service has to end
-constexpr std::size_t kMostHeard = 1'000'000;
+constexpr std::size_t kMostReceived = 1'000'000;
 
 /// Throws DeviceError.
 int listening_socket(std::uint16_t& port) {
@@ -83,15 +83,15 @@ std::string http_answer(const std::string& status, const std::string& body) {
 /// The page for the head of an HTTP request, on the older port or the WebSocket's; empty: no such
 /// page.
 std::string page_of(const Scene& scene, const std::string& head, bool older) {
-    const Manners& manners = scene.manners;
-    if (!(older ? manners.http_older : manners.http_beside)) return {};
+    const Behaviour& behaviour = scene.behaviour;
+    if (!(older ? behaviour.http_older : behaviour.http_beside)) return {};
     if (head.starts_with("GET /version ")) {
         return R"({"project_name":")" + std::string(kProjectName) + R"(","project_version":")" +
-               manners.version + "\"}";
+               behaviour.version + "\"}";
     }
     for (const Arm& arm : scene.arms) {
         if (head.starts_with("GET /inverse3/" + arm.id + "/config/gravity_compensation")) {
-            return manners.gravity_compensation;
+            return behaviour.gravity_compensation;
         }
     }
     return {};
@@ -148,14 +148,14 @@ void Service::listen() {
     listening_ = true;
 }
 
-std::vector<Heard> Service::heard() const {
+std::vector<ReceivedMessage> Service::received() const {
     const std::lock_guard lock(mutex_);
-    return heard_;
+    return received_;
 }
 
-void Service::forget_heard() {
+void Service::clear_received() {
     const std::lock_guard lock(mutex_);
-    heard_.clear();
+    received_.clear();
 }
 
 void Service::accept_clients() {
@@ -208,7 +208,7 @@ void Service::reap(bool all) {
 
 void Service::serve(Client& client, bool older) {
     prctl(PR_SET_TIMERSLACK, 1UL);  // for punctual ticks
-    if (shake_hands(client, older)) talk(client);
+    if (shake_hands(client, older)) exchange_messages(client);
     ::close(client.descriptor);
     client.done = true;
 }
@@ -236,8 +236,8 @@ bool Service::shake_hands(Client& client, bool older) {
     return false;
 }
 
-void Service::talk(Client& client) {
-    const bool tells = with([](const Scene& scene) { return scene.manners.inventory_at_once; });
+void Service::exchange_messages(Client& client) {
+    const bool tells = with([](const Scene& scene) { return scene.behaviour.inventory_at_once; });
     if (tells && !send_all(client.descriptor, answer_bytes(true))) return;
     while (!client.done) {
         const auto came = take_frame(client.came);
@@ -254,45 +254,46 @@ void Service::talk(Client& client) {
 
 bool Service::answer(Client& client, const std::string& message) {
     const auto now = Clock::now();
-    Obeyed done;
-    Manners manners;
+    MessageEffect done;
+    Behaviour behaviour;
     {
         const std::lock_guard lock(mutex_);
-        done = obey(scene_, message, now);
-        manners = scene_.manners;
-        if (heard_.size() < kMostHeard) {
-            heard_.push_back({now, done.drives, done.force_newton, done.arm, done.asks_preset});
+        done = apply_message(scene_, message, now);
+        behaviour = scene_.behaviour;
+        if (received_.size() < kMostReceived) {
+            received_.push_back(
+                {now, done.drives, done.force_newton, done.arm, done.requests_preset});
         }
     }
     if (!done.understood) ++not_understood_;
     const bool wrong = done.wrong_dialect || !done.understood;
-    if (wrong && manners.on_wrong == OnWrong::closes) return false;
+    if (wrong && behaviour.on_wrong_dialect == OnWrongDialect::closes) return false;
     wait_before_answer();
-    while (!with([](const Scene& scene) { return scene.manners.answers; })) {
+    while (!with([](const Scene& scene) { return scene.behaviour.answers; })) {
         if (client.done || ending_) return false;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    note_what_waits(client);
+    count_waiting_message(client);
     ++exchanges_;
-    if (wrong && manners.on_wrong == OnWrong::refuses) {
+    if (wrong && behaviour.on_wrong_dialect == OnWrongDialect::refuses) {
         return send_all(client.descriptor,
                         frame(R"({"ok":false,"error":"set_cursor_force: unknown field"})"));
     }
-    return send_all(client.descriptor, answer_bytes(done.wants_whole));
+    return send_all(client.descriptor, answer_bytes(done.requests_whole_state));
 }
 
 void Service::wait_before_answer() {
-    const Manners manners = with([](const Scene& scene) { return scene.manners; });
+    const Behaviour behaviour = with([](const Scene& scene) { return scene.behaviour; });
     thread_local std::minstd_rand chance{12345};
-    auto pause = manners.delay;
-    if (manners.jitter.count() > 0) {
+    auto pause = behaviour.delay;
+    if (behaviour.jitter.count() > 0) {
         pause += std::chrono::microseconds(static_cast<std::int64_t>(chance()) %
-                                           (manners.jitter.count() + 1));
+                                           (behaviour.jitter.count() + 1));
     }
     if (pause.count() > 0) std::this_thread::sleep_for(pause);
-    if (manners.tick.count() == 0) return;
+    if (behaviour.tick.count() == 0) return;
     const auto since = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - began_);
-    const std::chrono::nanoseconds tick = manners.tick;
+    const std::chrono::nanoseconds tick = behaviour.tick;
     std::this_thread::sleep_until(began_ + (since / tick + 1) * tick);
 }
 
@@ -307,7 +308,7 @@ std::string Service::answer_bytes(bool whole) {
             scene_.arms.front().position_m = scene_.hand_m(seconds());
         }
         text = state_text(scene_, whole);
-        garble = scene_.manners.garble;
+        garble = scene_.behaviour.garble;
     }
     switch (garble) {
         case Garble::none:
@@ -342,7 +343,7 @@ std::string Service::answer_bytes(bool whole) {
     return {};
 }
 
-void Service::note_what_waits(Client& client) {
+void Service::count_waiting_message(Client& client) {
     // Only peeks at the waiting bytes: the message is read when its turn comes.
     std::array<char, 256> piece;
     const ssize_t waits =

@@ -16,12 +16,12 @@
 namespace dibhr::inverse3::simulated {
 
 /// One received message of a client.
-struct Heard {
+struct ReceivedMessage {
     Clock::time_point at{};
     bool drives{false};
     Vec3 force_newton{0.0};
     std::string arm{};
-    bool asks_preset{false};
+    bool requests_preset{false};
 };
 
 /// How the connection of a client ends.
@@ -58,8 +58,8 @@ class Service {
     void listen();
 
     // What the service has received.
-    [[nodiscard]] std::vector<Heard> heard() const;
-    void forget_heard();
+    [[nodiscard]] std::vector<ReceivedMessage> received() const;
+    void clear_received();
     [[nodiscard]] std::uint64_t exchanges() const noexcept { return exchanges_; }
     /// Messages that came while an earlier one had no answer yet.
     [[nodiscard]] std::uint64_t too_many_in_flight() const noexcept { return too_many_; }
@@ -79,11 +79,11 @@ class Service {
     void take_client(int descriptor, bool older);
     void serve(Client& client, bool older);
     [[nodiscard]] bool shake_hands(Client& client, bool older);
-    void talk(Client& client);
+    void exchange_messages(Client& client);
     [[nodiscard]] bool answer(Client& client, const std::string& message);
     void wait_before_answer();
     [[nodiscard]] std::string answer_bytes(bool whole);
-    void note_what_waits(Client& client);
+    void count_waiting_message(Client& client);
     void reap(bool all);
 
     std::uint16_t port_{0};
@@ -95,8 +95,8 @@ class Service {
     const Clock::time_point began_{Clock::now()};
 
     mutable std::mutex mutex_{};
-    Scene scene_;                 // guarded by mutex_
-    std::vector<Heard> heard_{};  // guarded by mutex_
+    Scene scene_;                              // guarded by mutex_
+    std::vector<ReceivedMessage> received_{};  // guarded by mutex_
     std::atomic<std::uint64_t> exchanges_{0};
     std::atomic<std::uint64_t> too_many_{0};
     std::atomic<std::uint64_t> not_understood_{0};

@@ -99,7 +99,7 @@ TEST_CASE("an Inverse3 that can be used is told with its service and its grip",
     CHECK(says(result.output,
                "kept by the service for all programs, not changed by dibhr:\n"
                "    gravity compensation: on, gravity scaling factor 1\n"));
-    CHECK(service.heard().empty());  // nothing was driven, nothing even asked
+    CHECK(service.received().empty());  // nothing was driven, nothing even asked
 }
 
 TEST_CASE("an Inverse3 that cannot be used is told with its next step, and the command ends with 1",
@@ -126,9 +126,9 @@ TEST_CASE("without a device or a service the mouse can be used, and what to do i
     Service service;
     service.with([&which = what](Scene& scene) {
         if (which == "no device") scene.arms.clear();
-        if (which == "too old") scene.manners.version = "3.0.9";
-        if (which == "no service") scene.manners.http_older = false;
-        if (which == "nonsense") scene.manners.garble = Garble::cut;
+        if (which == "too old") scene.behaviour.version = "3.0.9";
+        if (which == "no service") scene.behaviour.http_older = false;
+        if (which == "nonsense") scene.behaviour.garble = Garble::cut;
     });
     if (what == "no service") service.refuse();
     const ProgramResult result = Home(service).run({"devices"});
@@ -162,7 +162,7 @@ TEST_CASE("the check is of an Inverse3 that is attached, whether or not it can b
     CHECK(result.exit_code == 1);
     CHECK(says(result.errors, one.says));
     CHECK(says(result.errors, one.next_step));
-    CHECK(service.heard().empty());
+    CHECK(service.received().empty());
 }
 
 TEST_CASE("a file that is no firmware is refused before the check of an Inverse3, too",
@@ -191,5 +191,5 @@ TEST_CASE(
     const std::string record = read_text(home.folder() / "check.json");
     CHECK(says(record, "\"format\": \"dibhr inverse3 check\""));
     CHECK(says(record, "exchanges_per_s"));
-    for (const Heard& one : service.heard()) CHECK_FALSE(one.drives);
+    for (const ReceivedMessage& one : service.received()) CHECK_FALSE(one.drives);
 }

@@ -12,7 +12,7 @@
 #include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/explanation.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/support/catch.hpp"
@@ -83,8 +83,8 @@ std::size_t compare(const TemporaryFolder& folder, const std::filesystem::path& 
     auto media = open_depth(depth, request.depth_request());
     const MediaDescription description = media->description();
     request.given.fit(description, request.raw_depth, parameters);
-    const DepthInTime first(std::move(media), DepthInTime::Wanted::first,
-                            request.cleaning(parameters, description));
+    const DepthTimeline first(std::move(media), DepthTimeline::Wanted::first,
+                              request.cleaning(parameters, description));
     const DepthSurface surface = first.now().surface(parameters.shape);
 
     const std::vector<Vec3> goals = goals_over(surface);

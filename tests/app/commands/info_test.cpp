@@ -146,7 +146,7 @@ TEST_CASE("info says of a session what people want to know first, and what decod
 }
 
 TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
-    const int stand_in = GENERATE(0, 1, 372, 1000);
+    const int mouse_fallback = GENERATE(0, 1, 372, 1000);
     const TemporaryFolder folder;
     {
         const auto ring = std::make_unique<TickRing>();
@@ -155,7 +155,7 @@ TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
             TickRecord record;
             record.tick = k;
             record.surface = k < 1000;  // or there is no hand
-            record.stand_in = k < stand_in;
+            record.mouse_fallback = k < mouse_fallback;
             REQUIRE(ring->push(record));
         }
     }
@@ -166,7 +166,7 @@ TEST_CASE("info says for how much of a session the mouse stood in", "[info]") {
         {1, "Novint Falcon 1234; the mouse replaced it for 0.1 % of the ticks\n"},
         {372, "Novint Falcon 1234; the mouse replaced it for 37.2 % of the ticks\n"},
         {1000, " mouse\n"}};
-    CHECK(says(result, devices.at(stand_in)));
+    CHECK(says(result, devices.at(mouse_fallback)));
 }
 
 TEST_CASE("info tells of the file it cannot read and describes the others", "[info]") {

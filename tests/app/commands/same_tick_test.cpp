@@ -15,8 +15,8 @@
 #include "core/replay/session_replay.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/session.hpp"
-#include "core/video/motion/motion_wanted.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/motion/motion_request.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 #include "core/video/sources/media.hpp"
 #include "device/goal_stream.hpp"
 #include "tests/app/program/command_program.hpp"
@@ -77,9 +77,9 @@ void record_loop(const TemporaryFolder& folder, const TouchParameters& parameter
     recorder.media(1, colour, depth);
     recorder.parameters({.version = 1, .touch = parameters, .limits = {}, .bump = {}});
     settings.publish({.parameters = parameters, .recording = true, .version = 1});
-    DepthInTime video(open_media(colour, depth), DepthInTime::Wanted::all,
-                      {.preset = CleaningPreset::raw},
-                      motion_wanted(parameters.carry, InBetweens::automatic));
+    DepthTimeline video(open_media(colour, depth), DepthTimeline::Wanted::all,
+                        {.preset = CleaningPreset::raw},
+                        motion_request(parameters.carry, InBetweens::automatic));
     FrameWindow window;
     std::chrono::steady_clock::time_point begin{};
     double last_s = goals.front().t_s;

@@ -32,12 +32,12 @@ std::string text_of(double number) {
 }
 
 /// What the 640x480 camera saw, in whole millimetres, as a relief that the program reads.
-StraightGrid write_true_shape(const TemporaryFolder& folder,
-                              const std::vector<float>& distances_mm) {
+OrthographicGrid write_true_shape(const TemporaryFolder& folder,
+                                  const std::vector<float>& distances_mm) {
     const cv::Mat depth_mm = cv::Mat(in_whole_mm(distances_mm), true).reshape(1, kSeenRows);
-    const StraightGrid grid = straight_grid(depth_mm.size(), kSeenBy, kRange_mm);
-    TrueShape shape(depth_mm.size(), kSeenBy, kRange_mm, grid);
-    DepthImage image = shape.seen_straight_on(depth_mm, {}).depth;
+    const OrthographicGrid grid = orthographic_grid(depth_mm.size(), kCamera, kRange_mm);
+    TrueShape shape(depth_mm.size(), kCamera, kRange_mm, grid);
+    DepthImage image = shape.orthographic_view(depth_mm, {}).depth;
     for (float& level : image.levels) level = std::isnan(level) ? 0.0F : level;
     const DepthSurface surface(image, image, 0.0, {shape.relief_px(), 0.0});
     OutputFile file(folder / "relief.png");
@@ -49,7 +49,7 @@ StraightGrid write_true_shape(const TemporaryFolder& folder,
 /// Where a hand is that comes down on the surface again and again, and 5 mm into it, within
 /// `reach_mm` of a place; `distance_mm`: that of the surface beside the place.
 template <typename Distance>
-std::string goals_around(const StraightGrid& grid, glm::dvec2 middle_mm, double reach_mm,
+std::string goals_around(const OrthographicGrid& grid, glm::dvec2 middle_mm, double reach_mm,
                          Distance&& distance_mm) {
     constexpr int kSteps = 10;
     std::string text = "t,x,y,z\n";
@@ -71,7 +71,7 @@ std::string goals_around(const StraightGrid& grid, glm::dvec2 middle_mm, double 
 }
 
 /// The proxies in contact, in millimetres and the camera's axes.
-std::vector<glm::dvec3> touched(const TemporaryFolder& folder, const StraightGrid& grid) {
+std::vector<glm::dvec3> touched(const TemporaryFolder& folder, const OrthographicGrid& grid) {
     const double relief_px = (kRange_mm.far - kRange_mm.near) / grid.pitch_mm;
     const ProgramResult result = run_dibhr(
         folder, {"touch", "--raw-depth", "--depth", "relief.png", "--goals", "goals.csv",
@@ -107,7 +107,7 @@ TEST_CASE("a sphere that a camera saw is touched as a sphere of its radius", "[s
     CAPTURE(distance_mm);
     const TemporaryFolder folder;
     const glm::dvec3 centre{0.1 * distance_mm, 0.05 * distance_mm, distance_mm};
-    const StraightGrid grid = write_true_shape(folder, seen_sphere(centre));
+    const OrthographicGrid grid = write_true_shape(folder, seen_sphere(centre));
     const auto front_mm = [&](glm::dvec2 off) {
         return centre.z - std::sqrt(kSphere_mm * kSphere_mm - glm::dot(off, off));
     };
@@ -119,7 +119,7 @@ TEST_CASE("a sphere that a camera saw is touched as a sphere of its radius", "[s
 
 TEST_CASE("a tilted table that a camera saw is touched as a plane", "[surface]") {
     const TemporaryFolder folder;
-    const StraightGrid grid = write_true_shape(folder, seen_table(900.0, 0.3, -1.2));
+    const OrthographicGrid grid = write_true_shape(folder, seen_table(900.0, 0.3, -1.2));
     write_text(folder / "goals.csv", goals_around(grid, {0.0, 0.0}, 100.0, [](glm::dvec2 off) {
                    return 900.0 + 0.3 * off.x - 1.2 * off.y;
                }));
@@ -141,7 +141,7 @@ TEST_CASE("a field of view is all that a camera of square pixels needs to be kno
         return read_text(folder / "ball.stl");
     };
     const Intrinsics camera = in_pixels({.field_of_view_deg = 60.0}, kSeenColumns, kSeenRows);
-    CHECK_THAT(camera.fx, WithinRel(kSeenBy.fx, 1e-12));
+    CHECK_THAT(camera.fx, WithinRel(kCamera.fx, 1e-12));
     CHECK(surface("60deg") == surface(text_of(camera)));
 }
 

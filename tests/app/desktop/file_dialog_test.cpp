@@ -10,9 +10,9 @@
 
 #include "tests/app/program/session_bus.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 namespace fs = std::filesystem;
 using namespace dibhr;
@@ -28,9 +28,9 @@ const FileQuestion question_asked{
     .x11_window = 0x2a0000f};
 
 /// No timeout passes, and every answer is slow enough to be a person's.
-constexpr DialogTimes kPatient{.bus = 1h, .portal = 1h, .quickest_person = 0ms};
+constexpr DialogTimeouts kPatient{.bus = 1h, .portal = 1h, .shortest_human_reply = 0ms};
 /// No timeout passes, and every answer is too quick to be a person's.
-constexpr DialogTimes kAllAtOnce{.bus = 1h, .portal = 1h, .quickest_person = 1h};
+constexpr DialogTimeouts kAllAtOnce{.bus = 1h, .portal = 1h, .shortest_human_reply = 1h};
 
 /// The answer of a dialog, and the request that the portal received.
 struct Asked {
@@ -38,13 +38,13 @@ struct Asked {
     PortalAsked portal{};
 };
 
-Asked ask(const PortalManner& manner, const DialogTimes& times = kPatient) {
+Asked ask(const PortalManner& manner, const DialogTimeouts& times = kPatient) {
     const SessionBus bus;
     const Portal portal(bus, manner);
-    const Variable address("DBUS_SESSION_BUS_ADDRESS", bus.address().c_str());
-    const CallOff off;
+    const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", bus.address().c_str());
+    const Cancellation cancellation;
     Asked asked;
-    asked.answer = ask_portal(question_asked, off, times);
+    asked.answer = ask_portal(question_asked, cancellation, times);
     if (!manner.replies) static_cast<void>(eventually([&] { return portal.asked().closed; }));
     asked.portal = portal.asked();
     return asked;
@@ -71,11 +71,11 @@ class Helpers {
 };
 
 FileAnswer ask(const Helpers& helpers, const std::string& desktop = "GNOME",
-               const DialogTimes& times = kPatient) {
-    const Variable path("PATH", helpers.path().c_str());
-    const Variable kind("XDG_CURRENT_DESKTOP", desktop.c_str());
-    const CallOff off;
-    return ask_helper(question_asked, off, times);
+               const DialogTimeouts& times = kPatient) {
+    const EnvironmentVariable path("PATH", helpers.path().c_str());
+    const EnvironmentVariable kind("XDG_CURRENT_DESKTOP", desktop.c_str());
+    const Cancellation cancellation;
+    return ask_helper(question_asked, cancellation, times);
 }
 
 /// The answer of a dialog that was called off.
@@ -93,7 +93,7 @@ TEST_CASE("the portal is asked for files, over the window, and gives those that 
     const Asked asked =
         ask({.old = old,
              .addresses = {"file:///tmp/a%20film%C3%A4.mp4", "file://host/tmp/line%0Abreak.png"}});
-    CHECK(asked.answer.of == FileAnswer::Of::chosen);
+    CHECK(asked.answer.outcome == FileAnswer::Outcome::chosen);
     CHECK(asked.answer.files ==
           std::vector<fs::path>{"/tmp/a film\xc3\xa4.mp4", "/tmp/line\nbreak.png"});
     CHECK(asked.portal.parent == "x11:2a0000f");
@@ -107,32 +107,36 @@ TEST_CASE("the portal is asked for files, over the window, and gives those that 
 }
 
 TEST_CASE("a person who cancels has answered, a portal that gives up at once has not", "[dialog]") {
-    CHECK(ask({.response = 1}, kAllAtOnce).answer.of == FileAnswer::Of::cancelled);
-    CHECK(ask({.response = 2}, kPatient).answer.of == FileAnswer::Of::cancelled);
-    CHECK(ask({.response = 2}, kAllAtOnce).answer.of == FileAnswer::Of::nobody);
-    CHECK(ask({.response = 0}, kAllAtOnce).answer.of == FileAnswer::Of::nobody);  // nothing chosen
+    CHECK(ask({.response = 1}, kAllAtOnce).answer.outcome == FileAnswer::Outcome::cancelled);
+    CHECK(ask({.response = 2}, kPatient).answer.outcome == FileAnswer::Outcome::cancelled);
+    CHECK(ask({.response = 2}, kAllAtOnce).answer.outcome == FileAnswer::Outcome::unavailable);
+    CHECK(ask({.response = 0}, kAllAtOnce).answer.outcome ==
+          FileAnswer::Outcome::unavailable);  // nothing chosen
 }
 
 TEST_CASE("a portal that is missing, refuses, goes away or does not answer is not waited for",
           "[dialog]") {
-    constexpr DialogTimes kBriefToPortal{.bus = 1h, .portal = 20ms};
-    constexpr DialogTimes kBriefToBus{.bus = 20ms, .portal = 1h};
-    CHECK(ask({.refuses = true}).answer.of == FileAnswer::Of::nobody);
-    CHECK(ask({.vanishes = true}).answer.of == FileAnswer::Of::nobody);
+    constexpr DialogTimeouts kBriefToPortal{.bus = 1h, .portal = 20ms};
+    constexpr DialogTimeouts kBriefToBus{.bus = 20ms, .portal = 1h};
+    CHECK(ask({.refuses = true}).answer.outcome == FileAnswer::Outcome::unavailable);
+    CHECK(ask({.vanishes = true}).answer.outcome == FileAnswer::Outcome::unavailable);
     const Asked mute = ask({.replies = false}, kBriefToPortal);
-    CHECK(mute.answer.of == FileAnswer::Of::nobody);
+    CHECK(mute.answer.outcome == FileAnswer::Outcome::unavailable);
     CHECK(mute.portal.closed);  // it may only be slow
-    const CallOff off;
+    const Cancellation cancellation;
     {
         const SessionBus empty;
-        const Variable address("DBUS_SESSION_BUS_ADDRESS", empty.address().c_str());
-        CHECK(ask_portal(question_asked, off, kPatient).of == FileAnswer::Of::nobody);
+        const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", empty.address().c_str());
+        CHECK(ask_portal(question_asked, cancellation, kPatient).outcome ==
+              FileAnswer::Outcome::unavailable);
         empty.stop();
-        CHECK(ask_portal(question_asked, off, kBriefToBus).of == FileAnswer::Of::nobody);
+        CHECK(ask_portal(question_asked, cancellation, kBriefToBus).outcome ==
+              FileAnswer::Outcome::unavailable);
     }
     for (const char* const wrong : {"disabled:", "unix:path=/gone", "nonsense", "unix:"}) {
-        const Variable address("DBUS_SESSION_BUS_ADDRESS", wrong);
-        CHECK(ask_portal(question_asked, off, kPatient).of == FileAnswer::Of::nobody);
+        const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", wrong);
+        CHECK(ask_portal(question_asked, cancellation, kPatient).outcome ==
+              FileAnswer::Outcome::unavailable);
     }
 }
 
@@ -141,33 +145,35 @@ TEST_CASE("a question that is called off closes its dialog, answered by the port
     const bool replies = GENERATE(true, false);
     const SessionBus bus;
     const Portal portal(bus, {.replies = replies, .answers = false});
-    const Variable address("DBUS_SESSION_BUS_ADDRESS", bus.address().c_str());
-    const CallOff off;
-    auto asking = std::async(std::launch::async,
-                             [&off] { return ask_portal(question_asked, off, kPatient); });
+    const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", bus.address().c_str());
+    const Cancellation cancellation;
+    auto asking = std::async(std::launch::async, [&cancellation] {
+        return ask_portal(question_asked, cancellation, kPatient);
+    });
     REQUIRE(eventually([&] { return portal.asked().times == 1; }));
-    off.call_off();
-    CHECK(answer_of(asking).of == FileAnswer::Of::cancelled);
+    cancellation.cancel();
+    CHECK(answer_of(asking).outcome == FileAnswer::Outcome::cancelled);
     CHECK(eventually([&] { return portal.asked().closed; }));
 }
 
 TEST_CASE("without a session bus, and from another machine, there is no desktop", "[dialog]") {
-    const Variable here("SSH_CONNECTION", "");
-    const Variable folder("XDG_RUNTIME_DIR", "/nowhere");
+    const EnvironmentVariable here("SSH_CONNECTION", "");
+    const EnvironmentVariable folder("XDG_RUNTIME_DIR", "/nowhere");
     {
-        const Variable address("DBUS_SESSION_BUS_ADDRESS", "unix:path=/run/user/1000/bus");
+        const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS",
+                                          "unix:path=/run/user/1000/bus");
         CHECK(has_desktop());
-        const Variable afar("SSH_CONNECTION", "10.0.0.1 5000 10.0.0.2 22");
+        const EnvironmentVariable afar("SSH_CONNECTION", "10.0.0.1 5000 10.0.0.2 22");
         CHECK_FALSE(has_desktop());
     }
     for (const char* const none : {"", "disabled:"}) {
-        const Variable address("DBUS_SESSION_BUS_ADDRESS", none);
+        const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", none);
         CHECK_FALSE(has_desktop());
     }
     const TemporaryFolder runtime;
     write_text(runtime / "bus", "");
-    const Variable address("DBUS_SESSION_BUS_ADDRESS", "");
-    const Variable usual("XDG_RUNTIME_DIR", runtime.path().c_str());
+    const EnvironmentVariable address("DBUS_SESSION_BUS_ADDRESS", "");
+    const EnvironmentVariable usual("XDG_RUNTIME_DIR", runtime.path().c_str());
     CHECK(has_desktop());
 }
 
@@ -178,7 +184,7 @@ TEST_CASE("zenity is asked without a shell, and gives paths with blanks and line
                 helpers.writes_arguments() +
                     "printf '/a b/$HOME.mp4\\n/tmp/two\\nlines.png\\n/tmp/\"c\".png\\n'\n");
     const FileAnswer answer = ask(helpers);
-    CHECK(answer.of == FileAnswer::Of::chosen);
+    CHECK(answer.outcome == FileAnswer::Outcome::chosen);
     CHECK(answer.files ==
           std::vector<fs::path>{"/a b/$HOME.mp4", "/tmp/two\nlines.png", "/tmp/\"c\".png"});
     CHECK(read_text(helpers.file("words")) ==
@@ -206,10 +212,10 @@ TEST_CASE("a helper's person may cancel; one that cannot show itself leaves it t
     helpers.add("kdialog", "exit 254\n");
     helpers.add("qarma", "kill -SEGV $$\n");
     helpers.add("zenity", "exit 1\n");
-    CHECK(ask(helpers, "GNOME", kPatient).of == FileAnswer::Of::cancelled);
-    CHECK(ask(helpers, "GNOME", kAllAtOnce).of == FileAnswer::Of::nobody);
+    CHECK(ask(helpers, "GNOME", kPatient).outcome == FileAnswer::Outcome::cancelled);
+    CHECK(ask(helpers, "GNOME", kAllAtOnce).outcome == FileAnswer::Outcome::unavailable);
     helpers.add("zenity", "exit 0\n");
-    CHECK(ask(helpers, "GNOME", kAllAtOnce).of == FileAnswer::Of::cancelled);
+    CHECK(ask(helpers, "GNOME", kAllAtOnce).outcome == FileAnswer::Outcome::cancelled);
     helpers.add("zenity", "exit 1\n");
     helpers.add("qarma", "echo /tmp/q.mp4\n");
     CHECK(ask(helpers, "GNOME", kAllAtOnce).files == std::vector<fs::path>{"/tmp/q.mp4"});
@@ -221,14 +227,15 @@ TEST_CASE("a helper that hangs is ended when the question is called off, with al
     const fs::path told = helpers.file("told");
     const std::string stubborn = GENERATE("", "trap '' TERM\n", "exec >&-\n");
     helpers.add("zenity", stubborn + "/bin/sleep 1000 & echo $! > '" + told.string() + "'\nwait\n");
-    const Variable path("PATH", helpers.path().c_str());
-    const Variable kind("XDG_CURRENT_DESKTOP", "");
-    const CallOff off;
-    auto asking = std::async(std::launch::async,
-                             [&off] { return ask_helper(question_asked, off, kPatient); });
+    const EnvironmentVariable path("PATH", helpers.path().c_str());
+    const EnvironmentVariable kind("XDG_CURRENT_DESKTOP", "");
+    const Cancellation cancellation;
+    auto asking = std::async(std::launch::async, [&cancellation] {
+        return ask_helper(question_asked, cancellation, kPatient);
+    });
     REQUIRE(eventually([&] { return fs::exists(told) && !read_text(told).empty(); }));
-    off.call_off();
-    CHECK(answer_of(asking).of == FileAnswer::Of::cancelled);
+    cancellation.cancel();
+    CHECK(answer_of(asking).outcome == FileAnswer::Outcome::cancelled);
     const std::string child = read_text(told);
     const fs::path words = "/proc/" + child.substr(0, child.find('\n')) + "/cmdline";
     CHECK(eventually([&words] { return read_text(words).empty(); }));

@@ -49,7 +49,7 @@ void write_settings(const fs::path& folder) {
 }
 
 void write_history(const fs::path& folder) {
-    remember({folder / "a.mp4", folder / "b.mp4"}, folder / "state" / "recent");
+    add_recent_file({folder / "a.mp4", folder / "b.mp4"}, folder / "state" / "recent");
     keep_memory(folder / "state" / "files", folder / "a.mp4", {.relief_px = 50.0, .at_s = 3.0});
     keep_choice(folder / "state" / "depth", folder / "a.mp4", {.near = NearLevels::dark});
     Consent(folder / "state" / "agreed").agree("estimator --of {colour}");
@@ -77,9 +77,9 @@ void write_pictures(const fs::path& folder) {
     const ColourImage picture{32, 24, std::vector<std::uint8_t>(std::size_t{32} * 24 * 3, 90)};
     write_png(picture, folder / "one.png");
     if (!fs::exists(folder / "two.png")) write_new_png(picture, folder / "two.png");
-    ClipFile clip(folder / "clip.mp4", ClipName::replaces);
+    ClipFile clip(folder / "clip.mp4", ClipNameConflict::replaces);
     for (int k = 0; k < 5; ++k) clip.add(picture, 0.1 * k);
-    clip.finish(0.5, ClipEnd::well);
+    clip.finish(0.5, ClipEnd::indexed);
     kept();
 }
 

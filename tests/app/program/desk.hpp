@@ -136,11 +136,11 @@ struct Row {
     bool pressed{false};
     int cut{0};
     double video_s{0.0};
-    bool surface{false};   ///< there was one to touch
-    bool ready{false};     ///< the hand gives poses
-    bool stand_in{false};  ///< it is the mouse, in place of a Falcon
-    bool lets_go{false};   ///< a proxy in contact begins anew, above the goal
-    bool in_time{false};   ///< its two frames follow each other in the file, as far apart as there
+    bool surface{false};           ///< there was one to touch
+    bool ready{false};             ///< the hand gives poses
+    bool mouse_fallback{false};    ///< it is the mouse, in place of a Falcon
+    bool releases_contact{false};  ///< a proxy in contact begins anew, above the goal
+    bool in_time{false};  ///< its two frames follow each other in the file, as far apart as there
     double stiffness_newton_per_mm{0.0};  ///< as the device could stand it
 };
 

@@ -97,7 +97,7 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
         const auto now = begin + std::chrono::milliseconds(k);
         bool changed = playback.advance(now) || k == 0;
         while (playback.needs_frame() && playback.read_ahead(now)) {
-            playback.arrived(now);
+            playback.on_frame_read(now);
             changed = true;
         }
         const bool surface = k < count - wanted.ticks_without_surface;

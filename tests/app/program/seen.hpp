@@ -63,7 +63,7 @@ struct Seen {
     bool as_recorded{false};
     bool explained{false};
     std::uint64_t explained_steps{0};  ///< taken
-    std::uint64_t doubts{0};           ///< of the settings, about which a person is asked
+    std::uint64_t unsafe_settings{0};  ///< of the settings, about which a person is asked
     bool asks_command{false};          ///< whether to run it
     bool depth_offered{false};
     bool depth_made{false};                     ///< while something else was opened
@@ -94,8 +94,9 @@ struct Seen {
     bool study{false};
     int study_step{-1};  ///< a StudyStep
     int trial{-1}, interval{-1};
-    bool waits{false};    ///< for the surface of an interval
-    bool agrees{false};   ///< whoever leads the study is asked whether it may protect the hand less
+    bool waits{false};  ///< for the surface of an interval
+    bool asks_consent{
+        false};           ///< whoever leads the study is asked whether it may protect the hand less
     bool leaving{false};  ///< the participant is asked whether to leave
     double asked_s{0.0};  ///< by the steady clock: what is asked is on the screen; 0: not yet
     /// By the same clock, the newest question was on the screen; and its trial, -1: none was.

@@ -26,8 +26,8 @@ std::vector<Rows> strokes(const Rows& rows) {
     std::vector<Rows> all(1);
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const bool jumps = rows[k].video_s < rows[k - 1].video_s;
-        const bool anew = rows[k].lets_go && rows[k - 1].contact;
-        const bool as_in_file = rows[k].surface && !rows[k].stand_in && rows[k].in_time;
+        const bool anew = rows[k].releases_contact && rows[k - 1].contact;
+        const bool as_in_file = rows[k].surface && !rows[k].mouse_fallback && rows[k].in_time;
         const bool other_spring =
             std::fabs(rows[k].stiffness_newton_per_mm - rows[k - 1].stiffness_newton_per_mm) > 0.0;
         if (jumps || anew || other_spring || !as_in_file) all.emplace_back();

@@ -57,8 +57,8 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.rows = static_cast<int>(ui.window_height);
     seen.help = ui.help_open;
     seen.dialog = ui.dialog.shown;
-    seen.dialog_reads = ui.dialog.reads;
-    seen.dialog_typing = ui.dialog.shown && ui.dialog.asks_for_keyboard == 0;
+    seen.dialog_reads = ui.dialog.is_reading;
+    seen.dialog_typing = ui.dialog.shown && ui.dialog.pictures_to_focus == 0;
     seen.dialog_entries = ui.dialog.rows.entries.size();
     seen.statistics = ui.statistics;
     seen.ruler = ui.ruler.has_value();
@@ -68,8 +68,8 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.can_undo = ui.brush.can_undo;
     seen.explained = ui.explained.has_value();
     seen.explained_steps = ui.explained ? ui.explained->taken : 0;
-    seen.doubts = ui.doubts.size();
-    seen.asks_command = ui.depth_offer && !ui.depth_offer->asks.empty();
+    seen.unsafe_settings = ui.unsafe_settings.size();
+    seen.asks_command = ui.depth_offer && !ui.depth_offer->unconfirmed_command.empty();
     seen.depth_offered = ui.depth_offer.has_value();
     seen.depth_made = ui.depth_offer && !ui.depth_offer->depth.empty();
     if (ui.under_pointer) {
@@ -90,7 +90,7 @@ void see_touch(const TouchState& touch, Seen& seen) {
     seen.touchable = haptic.touchable;
     seen.contact = haptic.touch.proxy.contact;
     seen.ready = haptic.hand.ready;
-    seen.mouse_fallback = haptic.hand.stand_in;
+    seen.mouse_fallback = haptic.hand.mouse_fallback;
     seen.force_enabled = touch.force_enabled;
     seen.buttons = haptic.hand.buttons;
     seen.cut = static_cast<int>(haptic.touch.cut);
@@ -118,14 +118,14 @@ Seen seen_of(const PictureShown& shown, std::uint64_t number) {
     seen.interval = shown.study->interval;
     seen.waits = shown.study->waits;
     seen.leaving = shown.study->leaving;
-    seen.agrees = shown.study->agrees;
+    seen.asks_consent = shown.study->asks_consent;
     if (shown.study->seen_since) seen.asked_s = seconds_of(*shown.study->seen_since);
     return seen;
 }
 
 /// Stays until the next one is seen.
 void see_question(const PictureShown& shown, Seen& last) {
-    const StudyPlace* const place = shown.study;
+    const StudyPosition* const place = shown.study;
     if (place == nullptr || place->step != static_cast<int>(StudyStep::question)) return;
     if (place->leaving || !place->seen_since || place->trial == last.question_trial) return;
     last.question_trial = place->trial;

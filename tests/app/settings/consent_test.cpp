@@ -17,9 +17,9 @@
 #include "device/falcon/settings.hpp"
 #include "tests/app/settings/own_settings.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -29,7 +29,7 @@ namespace {
 /// A machine on which nobody has agreed to anything.
 struct Machine {
     TemporaryFolder folder{};
-    Variable home{"XDG_STATE_HOME", folder.path().c_str()};
+    EnvironmentVariable home{"XDG_STATE_HOME", folder.path().c_str()};
     Consent consent{};
 
     [[nodiscard]] Settings file(const std::string& text) const {
@@ -41,9 +41,9 @@ struct Machine {
     }
 };
 
-std::vector<std::string> records_of(const std::vector<Doubt>& doubts) {
+std::vector<std::string> records_of(const std::vector<UnsafeSetting>& unsafe_settings) {
     std::vector<std::string> records;
-    for (const Doubt& doubt : doubts) records.push_back(doubt.record);
+    for (const UnsafeSetting& doubt : unsafe_settings) records.push_back(doubt.record);
     return records;
 }
 
@@ -84,20 +84,21 @@ TEST_CASE("what protects the hand less in a file of others is held until a perso
          {"falcon", "base-shift = -0.04"}}));
     CAPTURE(table, value);
     const Machine machine;
-    const Settings asked = machine.file('[' + table + "]\n" + value + '\n');
-    Settings held = asked;
-    const std::vector<Doubt> doubts = machine.consent.hold(held);
-    REQUIRE(doubts.size() == 1);
+    const Settings requested = machine.file('[' + table + "]\n" + value + '\n');
+    Settings held = requested;
+    const std::vector<UnsafeSetting> unsafe_settings = machine.consent.replace_unsafe(held);
+    REQUIRE(unsafe_settings.size() == 1);
     CHECK(same_settings(held, Settings{}));
-    CHECK(doubts[0].usual != doubts[0].asked);
-    CHECK_FALSE(doubts[0].what.empty());
-    const std::string told = in_words(doubts, "sent.toml");
-    CHECK(contains(told, doubts[0].asked + " in place of " + doubts[0].usual));
-    copy_doubted(doubts, asked, held);
-    CHECK(same_settings(held, asked));
-    machine.consent.agree(doubts);
-    CHECK(Consent().hold(held).empty());
-    CHECK(same_settings(held, asked));
+    CHECK(unsafe_settings[0].usual != unsafe_settings[0].requested);
+    CHECK_FALSE(unsafe_settings[0].what.empty());
+    const std::string told = warning_text(unsafe_settings, "sent.toml");
+    CHECK(
+        contains(told, unsafe_settings[0].requested + " in place of " + unsafe_settings[0].usual));
+    copy_unsafe(unsafe_settings, requested, held);
+    CHECK(same_settings(held, requested));
+    machine.consent.agree(unsafe_settings);
+    CHECK(Consent().replace_unsafe(held).empty());
+    CHECK(same_settings(held, requested));
 }
 
 TEST_CASE("what protects the hand as usual or more, or has nothing to do with it, is not asked",
@@ -109,10 +110,10 @@ TEST_CASE("what protects the hand as usual or more, or has nothing to do with it
                  "[falcon]\nbutton-plus = \"force-off\"\nscale = 4.0\n",
                  "[touch]\nstiffness = 10.0\ndamping = 100.0\nmaterial = \"bark\"\n");
     const Machine machine;
-    const Settings asked = machine.file(text);
-    Settings held = asked;
-    CHECK(machine.consent.hold(held).empty());
-    CHECK(same_settings(held, asked));
+    const Settings requested = machine.file(text);
+    Settings held = requested;
+    CHECK(machine.consent.replace_unsafe(held).empty());
+    CHECK(same_settings(held, requested));
 }
 
 TEST_CASE("who agreed to a limit agreed to lower ones, and is asked about higher ones",
@@ -120,7 +121,7 @@ TEST_CASE("who agreed to a limit agreed to lower ones, and is asked about higher
     const Machine machine;
     const auto doubted = [&](const char* newton) {
         Settings settings = machine.file(std::string("[device]\nmax-force = ") + newton + "\n");
-        return machine.consent.hold(settings);
+        return machine.consent.replace_unsafe(settings);
     };
     machine.consent.agree(doubted("6.5"));
     CHECK(doubted("6.5").empty());
@@ -148,10 +149,10 @@ TEST_CASE("everything that turns a force into what the Falcon's motors do is ask
     std::size_t changed = 0;
     Settings first = usual;
     Settings second = all;
-    for (std::size_t k = 0; k < list_of(first).size(); ++k)
-        changed += same(list_of(first)[k], list_of(second)[k]) ? 0 : 1;
+    for (std::size_t k = 0; k < all_settings(first).size(); ++k)
+        changed += same(all_settings(first)[k], all_settings(second)[k]) ? 0 : 1;
     CHECK(changed > 10);
-    CHECK(Machine().consent.hold(second).size() == changed);
+    CHECK(Machine().consent.replace_unsafe(second).size() == changed);
 }
 
 TEST_CASE("a record that is damaged or not there means that nobody has agreed", "[consent]") {
@@ -165,7 +166,7 @@ TEST_CASE("a record that is damaged or not there means that nobody has agreed", 
     std::filesystem::create_directories(consent_path().parent_path());
     write_text(consent_path(), record);
     Settings settings = machine.file("[device]\nmax-force = 8.0\n");
-    CHECK(machine.consent.hold(settings).size() == 1);
+    CHECK(machine.consent.replace_unsafe(settings).size() == 1);
 }
 
 TEST_CASE("what a person changes in the window is their word, and is not asked about later",
@@ -174,11 +175,11 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     const auto file = machine.folder / "settings.toml";
     const Settings in_file = machine.file("[touch]\nstability = false\n");
     Settings started = in_file;
-    std::vector<Doubt> doubts = machine.consent.hold(started);
-    REQUIRE(doubts.size() == 1);
-    Errands errands;
-    ErrandsInOrder writing(errands);
-    SettingsKeeper keeper(in_file, started, file, writing);
+    std::vector<UnsafeSetting> unsafe_settings = machine.consent.replace_unsafe(started);
+    REQUIRE(unsafe_settings.size() == 1);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
+    SettingsSaver keeper(in_file, started, file, writing);
     Settings now = started;
     now.max_force_newton = 7.0;
     now.force_in_front_only = false;
@@ -186,7 +187,7 @@ TEST_CASE("what a person changes in the window is their word, and is not asked a
     writing.finish(std::chrono::seconds(60));
     Settings next = load_settings(file);
     CHECK_FALSE(next.stability);  // the file's value, to be asked about again
-    CHECK(records_of(machine.consent.hold(next)) ==
+    CHECK(records_of(machine.consent.replace_unsafe(next)) ==
           std::vector<std::string>{"touch.stability false"});
     CHECK(next.max_force_newton > 6.9);
     CHECK_FALSE(next.force_in_front_only);
@@ -197,16 +198,16 @@ TEST_CASE("a value of the file that a person sets in the window is their word, t
     const auto file = machine.folder / "settings.toml";
     const Settings in_file = machine.file("[device]\nmax-force = 8.0\n");
     Settings started = in_file;
-    REQUIRE(machine.consent.hold(started).size() == 1);
-    Errands errands;
-    ErrandsInOrder writing(errands);
-    SettingsKeeper keeper(in_file, started, file, writing);
+    REQUIRE(machine.consent.replace_unsafe(started).size() == 1);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
+    SettingsSaver keeper(in_file, started, file, writing);
     Settings now = started;
     now.max_force_newton = in_file.max_force_newton;
     keeper.finish(now);
     writing.finish(std::chrono::seconds(60));
     Settings next = load_settings(file);
-    CHECK(machine.consent.hold(next).empty());
+    CHECK(machine.consent.replace_unsafe(next).empty());
 }
 
 TEST_CASE("words that are given at once are all kept", "[consent]") {
@@ -221,7 +222,8 @@ TEST_CASE("words that are given at once are all kept", "[consent]") {
     for (std::thread& one : people) one.join();
     for (int person = 0; person < 4; ++person)
         for (int k = 0; k < kEach; ++k)
-            CHECK(Consent().knows("run " + std::to_string(person) + " " + std::to_string(k)));
+            CHECK(
+                Consent().has_agreed_to("run " + std::to_string(person) + " " + std::to_string(k)));
 }
 
 TEST_CASE("an option of the command line is a word for one run alone", "[consent]") {
@@ -229,9 +231,9 @@ TEST_CASE("an option of the command line is a word for one run alone", "[consent
     const auto file = machine.folder / "settings.toml";
     Settings started = machine.file("");
     started.stability = false;
-    Errands errands;
-    ErrandsInOrder writing(errands);
-    SettingsKeeper keeper({}, started, file, writing);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
+    SettingsSaver keeper({}, started, file, writing);
     Settings now = started;
     now.mute = true;
     keeper.finish(now);
@@ -245,15 +247,15 @@ TEST_CASE("a value that a person changes, or gives on the command line, is not a
     const Machine machine;
     Settings now =
         machine.file("[touch]\nstability = false\n[device]\nmax-force = 8.0\n[falcon]\ngear = 5\n");
-    std::vector<Doubt> doubts = machine.consent.hold(now);
-    REQUIRE(doubts.size() == 3);
-    drop_changed(doubts, now);
-    CHECK(doubts.size() == 3);
+    std::vector<UnsafeSetting> unsafe_settings = machine.consent.replace_unsafe(now);
+    REQUIRE(unsafe_settings.size() == 3);
+    drop_changed(unsafe_settings, now);
+    CHECK(unsafe_settings.size() == 3);
     now.stability = false;
     now.max_force_newton = 3.0;
-    drop_changed(doubts, now);
-    REQUIRE(doubts.size() == 1);
-    CHECK(doubts[0].name == "gear");
+    drop_changed(unsafe_settings, now);
+    REQUIRE(unsafe_settings.size() == 1);
+    CHECK(unsafe_settings[0].name == "gear");
 }
 
 TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") {
@@ -262,14 +264,14 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
     const Settings in_file =
         machine.file("[device]\nmax-force = 8.0\n[touch]\nstiffness = 0.4\n[sound]\nmute = true\n");
     Settings started = in_file;
-    const std::vector<Doubt> doubts = machine.consent.hold(started);
-    Errands errands;
-    ErrandsInOrder writing(errands);
-    SettingsKeeper keeper(in_file, started, file, writing);
+    const std::vector<UnsafeSetting> unsafe_settings = machine.consent.replace_unsafe(started);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
+    SettingsSaver keeper(in_file, started, file, writing);
     keeper.finish(started);
     writing.finish(std::chrono::seconds(60));
     CHECK(load_settings(file).max_force_newton > 7.9);  // no answer yet
-    keeper.forget(doubts);
+    keeper.use_defaults(unsafe_settings);
     keeper.finish(started);
     writing.finish(std::chrono::seconds(60));
     const Settings kept = load_settings(file);
@@ -281,15 +283,15 @@ TEST_CASE("whoever keeps the usual values finds them in the file", "[consent]") 
 TEST_CASE("whoever closes the question says nothing, and a replay has none to close", "[consent]") {
     Player player;
     ViewerState state;
-    state.ui.doubts.resize(2);
+    state.ui.unsafe_settings.resize(2);
     state.ui.help_open = true;
     state.touch.replay.emplace();
     perform(Action::close_topmost, state, player);
-    CHECK(state.ui.doubts.size() == 2);
+    CHECK(state.ui.unsafe_settings.size() == 2);
     CHECK_FALSE(state.ui.help_open);
     state.touch.replay.reset();
     perform(Action::close_topmost, state, player);
-    CHECK(state.ui.doubts.empty());
+    CHECK(state.ui.unsafe_settings.empty());
     CHECK(state.commands.empty());
 }
 
@@ -298,7 +300,7 @@ TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen
     const Machine machine;
     const std::string agreed = "env -C ~/MiDaS run {frames} {output}";
     machine.consent.agree(agreed);
-    CHECK(Consent().knows(agreed));
+    CHECK(Consent().has_agreed_to(agreed));
     const std::string other = GENERATE_COPY(
         as<std::string>(), "", agreed + " ", ' ' + agreed, agreed + '\n', agreed + ";x",
         "env -C ~/MiDaS run  {frames} {output}", "env -C ~/MiDaS run\t{frames} {output}",
@@ -313,20 +315,20 @@ TEST_CASE("a command is known as it was agreed to, to the last byte, and is seen
     sent.estimators = {{"mine", other, {}}};
     save_settings(sent, machine.folder / "sent.toml");
     CHECK(load_settings(machine.folder / "sent.toml").estimators == sent.estimators);
-    CHECK_FALSE(Consent().knows(other));
+    CHECK_FALSE(Consent().has_agreed_to(other));
     const std::string seen = escaped_text(other);
     CHECK(seen != escaped_text(agreed));
     CHECK(std::all_of(seen.begin(), seen.end(), [](char c) { return c >= ' ' && c <= '~'; }));
     machine.consent.agree(other);
-    CHECK(Consent().knows(other));
+    CHECK(Consent().has_agreed_to(other));
     Settings settings = machine.file("[device]\nmax-force = 8.0\n");
-    CHECK(Consent().hold(settings).size() == 1);  // no command is a line of another kind
+    CHECK(Consent().replace_unsafe(settings).size() == 1);  // no command is a line of another kind
 }
 
 TEST_CASE("a study that has stability or the hand's damping off is asked about", "[consent]") {
     const Machine machine;
     const auto doubted = [&](const Protocol& protocol) {
-        return records_of(doubts_of(protocol, machine.consent));
+        return records_of(unsafe_settings_of(protocol, machine.consent));
     };
     const std::vector<std::string> stability{"touch.stability false"};
     const std::vector<std::string> damping{"touch.damping-as-needed false"};
@@ -337,6 +339,6 @@ TEST_CASE("a study that has stability or the hand's damping off is asked about",
     CHECK(doubted(study_with({.numbers = {{"damping-cutoff", 0.0}}})) == damping);
     CHECK(doubted(study_with({}, "damping")) == damping);
     machine.consent.agree(
-        doubts_of(study_with({.words = {{"stability", "off"}}}), machine.consent));
+        unsafe_settings_of(study_with({.words = {{"stability", "off"}}}), machine.consent));
     CHECK(doubted(study_with({.words = {{"stability", "off"}}}, "damping")) == damping);
 }

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "app/settings/grip_buttons.hpp"
+#include "app/settings/button_action_names.hpp"
 #include "app/settings/settings.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/falcon/settings.hpp"

@@ -52,11 +52,11 @@ TEST_CASE("colour and depth of one recording are one row, wherever the words sta
     CHECK(names_of(read) == std::vector<std::string>{"lonely_depth.mp4",
                                                      "take2_color.mp4 + Take2-Depth.mp4",
                                                      "take3_depth.mkv", "take3_rgb.png"});
-    const auto pair = entry_of(read, folder / "Take2-Depth.mp4");
+    const auto pair = index_of_entry(read, folder / "Take2-Depth.mp4");
     REQUIRE(pair);
     CHECK(read.entries[*pair].bytes == 130);
     CHECK(read.entries[*pair].file == folder / "take2_color.mp4");
-    CHECK_FALSE(entry_of(read, folder / "gone.mp4"));
+    CHECK_FALSE(index_of_entry(read, folder / "gone.mp4"));
 }
 
 TEST_CASE("what the program opens is told from what it does not", "[folder]") {
@@ -110,12 +110,12 @@ TEST_CASE("what is typed means a file that is there, from the folder on; else th
     for (const char* name : {"one_color.mp4", "one_depth.mp4", "below/two.mp4"}) put(folder / name);
     const Folder read = read_folder(folder.path());
     const FolderEntry chosen{FileKind::video, folder / "one_color.mp4"};
-    CHECK(entry_meant(read, "one_depth.mp4", {}).name() == "one_color.mp4 + one_depth.mp4");
-    CHECK(entry_meant(read, "below/two.mp4", chosen).file == folder / "below/two.mp4");
-    CHECK(entry_meant(read, "below", {}).kind == FileKind::folder);
-    CHECK(entry_meant(read, (folder / "below").string(), {}).file == folder / "below");
-    CHECK(entry_meant(read, "one", chosen).file == chosen.file);
-    CHECK(entry_meant(read, "gone.mp4", {}).file == "gone.mp4");
+    CHECK(resolve_typed(read, "one_depth.mp4", {}).name() == "one_color.mp4 + one_depth.mp4");
+    CHECK(resolve_typed(read, "below/two.mp4", chosen).file == folder / "below/two.mp4");
+    CHECK(resolve_typed(read, "below", {}).kind == FileKind::folder);
+    CHECK(resolve_typed(read, (folder / "below").string(), {}).file == folder / "below");
+    CHECK(resolve_typed(read, "one", chosen).file == chosen.file);
+    CHECK(resolve_typed(read, "gone.mp4", {}).file == "gone.mp4");
 }
 
 TEST_CASE("a folder that holds no pictures itself is told apart from a file that is none",
@@ -131,7 +131,7 @@ TEST_CASE("a folder that holds no pictures itself is told apart from a file that
     fs::create_directory(folder / "pictures");
     write_depth_png(folder / "pictures/depth_000.png", 8, 6, 100);
     request.colour = folder / "pictures";
-    const Opened opened = try_open(request);
+    const OpenResult opened = try_open(request);
     CAPTURE(opened.failure);
     CHECK(opened.media);
     CHECK_FALSE(opened.is_folder);

@@ -50,5 +50,5 @@ TEST_CASE("what is set for the Inverse3 is kept, and reaches the device", "[inve
     CHECK_THAT(tuning.tilt_deg, WithinAbs(30.0, 1e-12));
     CHECK_THAT(tuning.max_force_newton, WithinAbs(2.5, 1e-12));
     CHECK(tuning.clutch_buttons == 3);  // A by default, and B
-    CHECK(tuning.centred == 7);
+    CHECK(tuning.centre_count == 7);
 }

@@ -10,9 +10,9 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -63,7 +63,7 @@ std::vector<std::string> without_times(const std::string& csv) {
 /// During its life, settings and the user's own materials are in this folder.
 struct OwnSettings {
     TemporaryFolder folder{};
-    Variable home{"XDG_CONFIG_HOME", folder.path().c_str()};
+    EnvironmentVariable home{"XDG_CONFIG_HOME", folder.path().c_str()};
 };
 
 }  // namespace
@@ -109,7 +109,7 @@ TEST_CASE("a material's bumps have their millimetres whatever a pixel's size", "
         CAPTURE(pitch_mm);
         TouchParameters parameters;
         parameters.coupling.pixel_pitch_mm = pitch_mm;
-        lay(oak, parameters);
+        apply_material(oak, parameters);
         CHECK_THAT(parameters.shape.roughness_px * pitch_mm, WithinRel(2.0, 1e-12));
         // 16 columns: where 8 pixels are more than 16 mm, the map is laid larger.
         CHECK_THAT(parameters.shape.bump_size_px, WithinRel(std::max(16.0 / pitch_mm, 8.0), 1e-12));
@@ -118,7 +118,7 @@ TEST_CASE("a material's bumps have their millimetres whatever a pixel's size", "
         parameters.friction.static_coefficient += 0.1;
         CHECK(has_texture(oak, parameters));
         CHECK_FALSE(is_made_of(oak, parameters));
-        lay({}, parameters);
+        apply_material({}, parameters);
         TouchParameters plain;
         plain.coupling.pixel_pitch_mm = pitch_mm;
         CHECK(parameters == plain);
@@ -131,7 +131,7 @@ TEST_CASE("a person's own material is kept with its map, comes back, and can be 
     const TemporaryFolder folder;
     TouchParameters parameters;
     parameters.coupling.pixel_pitch_mm = 0.1;
-    lay(read_material(write_oak(folder.path())), parameters);
+    apply_material(read_material(write_oak(folder.path())), parameters);
     parameters.friction = {1.0, 0.25};
     write_depth_png(folder / "elsewhere.png", 16, 8, 0, 10);
     const auto bumps = read_material(folder / "oak.toml").bumps;
@@ -146,18 +146,18 @@ TEST_CASE("a person's own material is kept with its map, comes back, and can be 
     const fs::path elsewhere = folder / "another machine";
     fs::copy(own_materials_folder(), elsewhere, fs::copy_options::recursive);
     for (const Material& material :
-         {material_called("my oak"), material_called((elsewhere / "my oak.toml").string())}) {
+         {material_named("my oak"), material_named((elsewhere / "my oak.toml").string())}) {
         TouchParameters again;
         again.coupling.pixel_pitch_mm = 0.1;
-        lay(material, again);
+        apply_material(material, again);
         CHECK_THAT(again.shape.roughness_px, WithinAbs(parameters.shape.roughness_px, 1e-9));
         CHECK_THAT(again.shape.bump_size_px, WithinAbs(parameters.shape.bump_size_px, 1e-9));
         CHECK(again.friction == parameters.friction);
         CHECK(material.sound == mine.sound);
         CHECK(material.bumps->heights == bumps->heights);
     }
-    CHECK_NOTHROW(save_material(material_called("my oak")));  // replaces itself
-    CHECK(material_called("my oak").bumps->heights == bumps->heights);
+    CHECK_NOTHROW(save_material(material_named("my oak")));  // replaces itself
+    CHECK(material_named("my oak").bumps->heights == bumps->heights);
 }
 
 TEST_CASE("a bump map stretched over the whole surface is kept as wide as that", "[material]") {
@@ -191,10 +191,10 @@ TEST_CASE("all materials that come with the program can be laid, and feel differ
     std::vector<TouchParameters> all(1);
     for (const std::string& name : names) {
         CAPTURE(name);
-        const Material material = material_called(name);
+        const Material material = material_named(name);
         CHECK(material.bumps);
         TouchParameters parameters;
-        lay(material, parameters);
+        apply_material(material, parameters);
         CHECK(is_made_of(material, parameters));
         CHECK(parameters.shape.roughness_px > 0.0);
         for (const TouchParameters& other : all) CHECK(parameters != other);
@@ -291,7 +291,7 @@ TEST_CASE("a session is replayed through a material", "[material]") {
     const bool differs = rows("oak.csv") != rows("mine.csv");
     CHECK(differs);
     // Recorded over it, it comes again bit for bit; whoever replays that as recorded leaves it on.
-    lay(read_material(folder / "oak.toml"), session.parameters);
+    apply_material(read_material(folder / "oak.toml"), session.parameters);
     session.bump = folder / "oak.png";
     record_session(folder / "with.dibhr", session);
     CHECK(contains(run_dibhr(folder, {"replay", "with.dibhr"}).output, "identical, bit for bit"));

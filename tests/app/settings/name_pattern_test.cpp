@@ -41,11 +41,11 @@ TEST_CASE("names of later moments stand after those before", "[names]") {
 }
 
 TEST_CASE("a pattern with another placeholder, or that names no file, is none", "[names]") {
-    CHECK(lacking_of({}).empty());
-    CHECK(lacking_of({"%Y%m%d%H%M%S%%{file}{time}{frame} {"}) != "");
+    CHECK(problem_of({}).empty());
+    CHECK(problem_of({"%Y%m%d%H%M%S%%{file}{time}{frame} {"}) != "");
     for (const char* pattern : {"", "folder/", "%", "%Q", "x%", "{name}", "{file", "a\nb"}) {
         CAPTURE(pattern);
-        CHECK_FALSE(lacking_of({pattern}).empty());
+        CHECK_FALSE(problem_of({pattern}).empty());
     }
     const TemporaryFolder folder;
     const ProgramResult result =

@@ -24,9 +24,10 @@ TEST_CASE("the last file opened is the first, twelve are kept, and none twice", 
     CHECK(read_recent_files(history).empty());
     for (int k = 0; k < 20; ++k) {
         const std::string name = "/films/" + std::to_string(k);
-        remember({name + " a.mp4", k % 2 == 0 ? fs::path{} : fs::path(name + " b.mp4")}, history);
+        add_recent_file({name + " a.mp4", k % 2 == 0 ? fs::path{} : fs::path(name + " b.mp4")},
+                        history);
     }
-    remember({"/films/15 a.mp4", "/films/15 b.mp4"}, history);
+    add_recent_file({"/films/15 a.mp4", "/films/15 b.mp4"}, history);
     const std::vector<RecentFile> files = read_recent_files(history);
     REQUIRE(files.size() == 12);
     CHECK(files[0] == RecentFile{"/films/15 a.mp4", "/films/15 b.mp4"});
@@ -39,10 +40,10 @@ TEST_CASE("the last file opened is the first, twelve are kept, and none twice", 
 TEST_CASE("paths are kept whole, and what a line cannot hold is not", "[recent]") {
     const TemporaryFolder folder;
     const fs::path history = folder / "recent";
-    remember({"film.mp4", {}}, history);
-    remember({"two\nlines.mp4", {}}, history);
-    remember({"a\ttab.mp4", {}}, history);
-    remember({}, history);
+    add_recent_file({"film.mp4", {}}, history);
+    add_recent_file({"two\nlines.mp4", {}}, history);
+    add_recent_file({"a\ttab.mp4", {}}, history);
+    add_recent_file({}, history);
     const std::vector<RecentFile> files = read_recent_files(history);
     REQUIRE(files.size() == 1);
     CHECK(files[0].colour == fs::current_path() / "film.mp4");
@@ -53,10 +54,10 @@ TEST_CASE("paths are kept whole, and what a line cannot hold is not", "[recent]"
 TEST_CASE("a tilde is the home folder, and only at the beginning", "[recent]") {
     const char* const home = std::getenv("HOME");
     REQUIRE(home != nullptr);
-    CHECK(typed_path("~/films/a.mp4") == fs::path(home) / "films/a.mp4");
-    CHECK(typed_path("~") == fs::path(home));
-    CHECK(typed_path("a~/b.mp4") == fs::path("a~/b.mp4"));
-    CHECK(typed_path("~other/b.mp4") == fs::path("~other/b.mp4"));
+    CHECK(expand_home("~/films/a.mp4") == fs::path(home) / "films/a.mp4");
+    CHECK(expand_home("~") == fs::path(home));
+    CHECK(expand_home("a~/b.mp4") == fs::path("a~/b.mp4"));
+    CHECK(expand_home("~other/b.mp4") == fs::path("~other/b.mp4"));
 }
 
 TEST_CASE("a file opened before is opened again from the list of recent ones", "[window]") {
@@ -65,7 +66,7 @@ TEST_CASE("a file opened before is opened again from the list of recent ones", "
     write_depth_png(folder / "first_depth.png", 64, 48, 100, 2);
     write_depth_png(folder / "next_depth.png", 32, 24, 100, 2);
     const fs::path history = folder / "state/dibhr/recent";
-    remember({folder / "first_depth.png", {}}, history);
+    add_recent_file({folder / "first_depth.png", {}}, history);
     WindowProgram viewer =
         desk.start_viewer(folder, {"next_depth.png", "--device", "mouse", "--size", "1280x800"});
     viewer.wait_for_surface();

@@ -44,7 +44,7 @@ Settings unusual_settings() {
     settings.touch.friction = {0.7, 0.3};
     settings.touch.coupling.damping_cutoff_hz = 62.5;
     settings.cleaning.own.fill_holes = false;
-    settings.look.light = 0.125;
+    settings.relief_style.light = 0.125;
     settings.straight_view = true;
     settings.others = true;
     settings.screenshot_name.text = "shots/\"{file}\" 100%% {frame}";
@@ -72,7 +72,7 @@ TEST_CASE("no two settings are kept in one place, and none has the name of anoth
     Settings settings;
     std::set<const void*> places;
     std::set<std::string> names;
-    for (const Setting& setting : list_of(settings)) {
+    for (const Setting& setting : all_settings(settings)) {
         const std::string name = std::string(setting.table) + "." + std::string(setting.name);
         CAPTURE(name);
         CHECK(names.insert(name).second);
@@ -189,17 +189,17 @@ TEST_CASE("only what a person changed in the window gets into the file", "[setti
     in_file.touch.shape.relief_px = 100.0;
     Settings started = in_file;
     started.touch.shape.relief_px = 300.0;  // the command line's
-    Errands errands;
-    ErrandsInOrder writing(errands);
-    SettingsKeeper keeper(in_file, started, file, writing);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
+    SettingsSaver keeper(in_file, started, file, writing);
     Settings now = started;
     keeper.finish(now);
     writing.finish(std::chrono::seconds(60));
     CHECK_FALSE(std::filesystem::exists(file));
     now.touch.friction = {0.9, 0.9};
-    keeper.look(now, 1.0);
+    keeper.poll(now, 1.0);
     CHECK_FALSE(std::filesystem::exists(file));
-    keeper.look(now, 3.5);
+    keeper.poll(now, 3.5);
     writing.finish(std::chrono::seconds(60));
     const Settings saved = load_settings(file);
     CHECK_THAT(saved.touch.shape.relief_px, WithinAbs(100.0, 1e-12));
@@ -208,8 +208,8 @@ TEST_CASE("only what a person changed in the window gets into the file", "[setti
 
 TEST_CASE("what is to last is written in order, and whoever asks for it waits for no disk",
           "[settings]") {
-    Errands errands;
-    ErrandsInOrder writing(errands);
+    TaskGroup tasks;
+    TaskQueue writing(tasks);
     std::promise<void> disk;
     std::vector<int> written;  // by threads that run one after the other
     writing.add([&, answers = disk.get_future().share()] {
@@ -221,14 +221,14 @@ TEST_CASE("what is to last is written in order, and whoever asks for it waits fo
         throw InputError("no room");
     });
     writing.add([&] { written.push_back(3); });
-    writing.look();
+    writing.poll();
     CHECK(writing.done_so_far().wait_for(std::chrono::seconds(0)) == std::future_status::timeout);
     CHECK_THROWS_AS(writing.finish(std::chrono::seconds(0)), InputError);  // the task hangs
     disk.set_value();
     CHECK_THROWS_AS(writing.finish(std::chrono::seconds(60)), InputError);
     writing.finish(std::chrono::seconds(60));
     CHECK(written == std::vector{1, 2, 3});
-    CHECK(errands.come_home(std::chrono::seconds(60)));
+    CHECK(tasks.wait_all(std::chrono::seconds(60)));
 }
 
 TEST_CASE("no key does two things, and every job is on the help sheet", "[keys]") {
@@ -256,24 +256,24 @@ TEST_CASE("a key is read as it is written, capital or small, and as nothing else
         const KeyTable keys;
         for (const Key& key : keys.keys_for(job.action)) {
             CAPTURE(name_of(key));
-            CHECK(key_called(name_of(key)) == key);
+            CHECK(key_named(name_of(key)) == key);
         }
     }
     for (const std::string name : {"Ctrl+Shift+F12", "Page up", "Shift+Page down", "F24", "Shift+G",
                                    "Ctrl+[", "+", "#", "Ctrl+Shift+Space", "\u00e4", "\u0444"}) {
         CAPTURE(name);
-        const auto key = key_called(name);
+        const auto key = key_named(name);
         REQUIRE(key);
         CHECK(name_of(*key) == name);
     }
-    CHECK(key_called("ctrl + r") == key_called("Ctrl+R"));
-    CHECK(key_called("pageUp") == key_called("Page up"));
-    CHECK(key_called("g") == key_called("G"));
+    CHECK(key_named("ctrl + r") == key_named("Ctrl+R"));
+    CHECK(key_named("pageUp") == key_named("Page up"));
+    CHECK(key_named("g") == key_named("G"));
     for (const char* const wrong :
          {"", " ", "Spcae", "Ctrl+", "Shift+", "Alt+X", "F0", "F25", "Shift+[", "Ctrl+{",
           "Shift+Ctrl+R", "ab", "\n", "\xc3", "\xa4"}) {
         CAPTURE(wrong);
-        CHECK_FALSE(key_called(wrong));
+        CHECK_FALSE(key_named(wrong));
     }
 }
 
@@ -287,19 +287,19 @@ TEST_CASE("a person's own keys take the place of the usual ones, and are lost to
     std::vector<std::string> complaints;
     const KeyTable keys(own, &complaints);
     CHECK(complaints == std::vector<std::string>(own.size()));
-    CHECK(pressed(keys, *key_called("F5")) == Action::play_or_pause);
-    CHECK(pressed(keys, *key_called("F")) == Action::play_or_pause);
-    CHECK_FALSE(pressed(keys, *key_called("Space")));
-    CHECK_FALSE(pressed(keys, *key_called("U")));
+    CHECK(pressed(keys, *key_named("F5")) == Action::play_or_pause);
+    CHECK(pressed(keys, *key_named("F")) == Action::play_or_pause);
+    CHECK_FALSE(pressed(keys, *key_named("Space")));
+    CHECK_FALSE(pressed(keys, *key_named("U")));
     CHECK(keys.names_for(Action::toggle_force) == "no key");
     CHECK(keys.names_for(Action::toggle_sound) == "no key");
     CHECK(keys.names_for(Action::play_or_pause) == "F5 or F");
-    CHECK(pressed(keys, *key_called("Shift+L")) == Action::mark);
-    CHECK(pressed(keys, *key_called("L")) == Action::toggle_loop);
+    CHECK(pressed(keys, *key_named("Shift+L")) == Action::mark);
+    CHECK(pressed(keys, *key_named("L")) == Action::toggle_loop);
     CHECK(keys.held_keys(Action::show_as_recorded) == std::vector<int>{GLFW_KEY_F6});
-    CHECK(pressed(keys, *key_called("Ctrl+Shift+R")) == Action::record);
-    CHECK_FALSE(pressed(keys, *key_called("Ctrl+R")));
-    CHECK(pressed(keys, *key_called("S")) == Action::take_screenshot);
+    CHECK(pressed(keys, *key_named("Ctrl+Shift+R")) == Action::record);
+    CHECK_FALSE(pressed(keys, *key_named("Ctrl+R")));
+    CHECK(pressed(keys, *key_named("S")) == Action::take_screenshot);
 }
 
 TEST_CASE("wherever a key is named it is the person's own, and none where there is none",
@@ -403,9 +403,9 @@ TEST_CASE("a key held down does not switch anything again and again", "[keys]") 
 TEST_CASE("Shift makes a seek small, and takes nothing from the other keys", "[keys]") {
     const KeyTable keys;
     CHECK(keys.action_of_key(GLFW_KEY_RIGHT, false, false) == Action::seek_forward);
-    CHECK(pressed(keys, *key_called("Shift+Right")) == Action::seek_forward_little);
-    CHECK(pressed(keys, *key_called("Shift+Left")) == Action::seek_back_little);
-    CHECK(pressed(keys, *key_called("Shift+F8")) == Action::force_off);
+    CHECK(pressed(keys, *key_named("Shift+Right")) == Action::seek_forward_little);
+    CHECK(pressed(keys, *key_named("Shift+Left")) == Action::seek_back_little);
+    CHECK(pressed(keys, *key_named("Shift+F8")) == Action::force_off);
     CHECK(keys.action_of_character('?', false, true) == Action::toggle_help);
 }
 

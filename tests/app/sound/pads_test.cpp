@@ -15,8 +15,8 @@
 
 #include "app/sound/pad_output.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/eventually.hpp"
-#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -40,7 +40,7 @@ struct Told {
 class Joysticks {
   public:
     Joysticks() {
-        teach_sdl_manners();
+        configure_sdl();
         REQUIRE(SDL_InitSubSystem(SDL_INIT_JOYSTICK) == 0);
     }
     ~Joysticks() { SDL_QuitSubSystem(SDL_INIT_JOYSTICK); }
@@ -141,7 +141,7 @@ struct Touching {
         return is_so();
     }
     [[nodiscard]] bool finds(std::size_t pads) const {
-        return eventually([&] { return output.news().found.size() == pads; });
+        return eventually([&] { return output.info().found.size() == pads; });
     }
 
     static constexpr int kMostTicks = 60'000;
@@ -162,7 +162,7 @@ double middle_of(std::vector<double> values) {
 }  // namespace
 
 TEST_CASE("a tap rumbles a pad, and force off stops it", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     VirtualPad pad("Virtual pad");
     Touching touching;
@@ -185,7 +185,7 @@ TEST_CASE("a tap rumbles a pad, and force off stops it", "[pads]") {
 
 TEST_CASE("a pad rumbles within 30 ms of a tap, and stops within 30 ms of force off",
           "[pads][realtime]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     VirtualPad pad("Virtual pad");
     Touching touching;
@@ -214,22 +214,22 @@ TEST_CASE("a pad rumbles within 30 ms of a tap, and stops within 30 ms of force 
 }
 
 TEST_CASE("a pad that is pulled out is no error, and it or another is found again", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     Touching touching;
     CHECK(touching.finds(0));
     for (const char* name : {"First", "Second"}) {
         VirtualPad pad(name);
         const FoundPad found{.name = name, .rumbles = true, .has_coils = false};
-        CHECK(eventually([&] { return touching.output.news().found == std::vector{found}; }));
+        CHECK(eventually([&] { return touching.output.info().found == std::vector{found}; }));
         CHECK(touching.rub_until([&] { return pad.turns(); }));
     }
-    CHECK(touching.rub_until([&] { return touching.output.news().found.empty(); }));
+    CHECK(touching.rub_until([&] { return touching.output.info().found.empty(); }));
 }
 
 TEST_CASE("the motors stop when pads are switched off, when ticks stay away, and at the end",
           "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     VirtualPad pad("Virtual pad");
     {
@@ -240,7 +240,7 @@ TEST_CASE("the motors stop when pads are switched off, when ticks stay away, and
         REQUIRE(touching.rub_until([&] { return pad.turns(); }));
         touching.output.choose({}, false, false);
         CHECK(eventually([&] { return !pad.turns(); }));
-        CHECK(eventually([&] { return touching.output.news() == PadNews{}; }));
+        CHECK(eventually([&] { return touching.output.info() == PadInfo{}; }));
         pad.forget();
         touching.push(50, kTouch);
         CHECK(pad.told().empty());
@@ -252,16 +252,16 @@ TEST_CASE("the motors stop when pads are switched off, when ticks stay away, and
 }
 
 TEST_CASE("all pads rumble that can, but those whose voice coils move with the sound", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     const VirtualPad coils("DualSense", kDualSense);
     const VirtualPad motors("Other");
     const VirtualPad silent("Still", 0, false);
     Touching touching;
     REQUIRE(touching.finds(3));
-    const PadNews news = touching.output.news();
-    CHECK(news.has_coils());
-    CHECK(std::count_if(news.found.begin(), news.found.end(),
+    const PadInfo info = touching.output.info();
+    CHECK(info.has_coils());
+    CHECK(std::count_if(info.found.begin(), info.found.end(),
                         [](const FoundPad& found) { return found.rumbles; }) == 2);
     CHECK(touching.rub_until([&] { return coils.turns() && motors.turns(); }));
     touching.output.choose({}, true, true);
@@ -270,7 +270,7 @@ TEST_CASE("all pads rumble that can, but those whose voice coils move with the s
 }
 
 TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     const Joysticks joysticks;
     VirtualPad pad("Virtual pad");
     auto touching = std::make_unique<Touching>();
@@ -290,7 +290,7 @@ TEST_CASE("a pad that hangs holds up neither who touches nor the end", "[pads]")
 }
 
 TEST_CASE("what is pressed on a pad goes nowhere, and signals are left to the program", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", "disabled:");
     struct sigaction before {};
     REQUIRE(sigaction(SIGINT, nullptr, &before) == 0);
     const Joysticks joysticks;
@@ -314,16 +314,16 @@ TEST_CASE("what is pressed on a pad goes nowhere, and signals are left to the pr
 }
 
 TEST_CASE("where SDL would copy the process to start a D-Bus, no pad is looked for", "[pads]") {
-    const Variable bus("DBUS_SESSION_BUS_ADDRESS", nullptr);
-    const Variable runtime("XDG_RUNTIME_DIR", nullptr);
+    const EnvironmentVariable bus("DBUS_SESSION_BUS_ADDRESS", nullptr);
+    const EnvironmentVariable runtime("XDG_RUNTIME_DIR", nullptr);
     {
-        const Variable display("DISPLAY", nullptr);
+        const EnvironmentVariable display("DISPLAY", nullptr);
         CHECK_FALSE(pads_would_copy_process());  // the D-Bus library starts no bus either
     }
-    const Variable display("DISPLAY", ":77");
+    const EnvironmentVariable display("DISPLAY", ":77");
     CHECK(pads_would_copy_process());
     PadOutput output(std::make_shared<TouchSource>());
     output.choose({}, true, false);
-    CHECK(eventually([&] { return output.news().state == PadNews::State::no_session; }));
+    CHECK(eventually([&] { return output.info().state == PadInfo::State::no_session; }));
     CHECK(SDL_WasInit(SDL_INIT_JOYSTICK) == 0);
 }

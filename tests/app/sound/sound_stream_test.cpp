@@ -14,10 +14,10 @@
 #include <SDL.h>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;

@@ -639,7 +639,7 @@ TEST_CASE("a study that has stability off begins when whoever leads it agrees, o
           "[study window]") {
     const Sitting at(kTitle + media("png") + kBase + "stability = false\n" + kPairs);
     const std::vector<std::string> device{"--device", "auto"};
-    const auto asks = [](const Seen& now) { return now.study && now.agrees; };
+    const auto asks = [](const Seen& now) { return now.study && now.asks_consent; };
     {
         Participant person(at, device, {});
         person.wait_until(asks);
@@ -653,14 +653,14 @@ TEST_CASE("a study that has stability off begins when whoever leads it agrees, o
         Participant person(at, device, {});
         person.wait_until(asks);
         person.press("a");
-        person.wait_until([](const Seen& now) { return !now.agrees; });
+        person.wait_until([](const Seen& now) { return !now.asks_consent; });
         CHECK(Participant::is_at(person.seen(), StudyStep::instructions));
         CHECK(person.leave_early() == 0);
     }
     CHECK(contains(read_text(at.folder / "state/dibhr/agreed"), "touch.stability false\n"));
     Participant person(at, device, {});
     person.wait_for(StudyStep::instructions);
-    CHECK_FALSE(person.seen().agrees);
+    CHECK_FALSE(person.seen().asks_consent);
     CHECK(person.leave_early() == 0);
     CHECK(at.errors().empty());
 }

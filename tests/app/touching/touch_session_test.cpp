@@ -80,8 +80,9 @@ struct Touched {
     MediaState media{};
     Heartbeat heart{};
     std::atomic<bool> without_force{false};
-    LastWords words{};
-    TouchSession session{resting_hand(), {heart, without_force, words}, {settings, touch, media}};
+    CrashNote crash_note{};
+    TouchSession session{
+        resting_hand(), {heart, without_force, crash_note}, {settings, touch, media}};
 };
 
 }  // namespace

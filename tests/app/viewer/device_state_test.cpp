@@ -6,7 +6,7 @@
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
-#include "app/settings/grip_buttons.hpp"
+#include "app/settings/button_action_names.hpp"
 #include "app/touching/force_law.hpp"
 #include "core/haptics/safety.hpp"
 #include "device/falcon/falcon_device.hpp"
@@ -28,14 +28,14 @@ std::uint8_t bit_of(Button button) {
 constexpr std::size_t kFalcon = 0;
 constexpr std::size_t kInverse3 = 1;
 
-DeviceNews& look_for(ViewerState& state, std::size_t kind) {
+DeviceInfo& look_for(ViewerState& state, std::size_t kind) {
     state.touch.devices.push_back({.kind = kind});
     return state.touch.devices.back();
 }
 
 /// Makes the device the one that touched in the last tick.
 void touch_with(ViewerState& state, std::size_t kind) {
-    state.touch.haptic.hand.which = static_cast<std::uint8_t>(kind + 1);
+    state.touch.haptic.hand.device_number = static_cast<std::uint8_t>(kind + 1);
 }
 
 DeviceState state_at(falcon::Stage stage, const std::string& sentence = {}) {
@@ -85,14 +85,14 @@ TEST_CASE("stiffness is held for the Falcon, and left to the mouse while none an
     state.settings.touch.coupling.stiffness_newton_per_mm = 2.0;
     test::own_settings<falcon::FalconSettings>(state.settings).workspace.scale = 4.0;
     const auto stiffness = [&state] {
-        return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
+        return effective_coupling(state.settings, state.touch).stiffness_newton_per_mm;
     };
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    DeviceNews& news = look_for(state, kFalcon);
+    DeviceInfo& info = look_for(state, kFalcon);
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));  // before the devices' states are known
-    news.asked = true;
+    info.answered = true;
     CHECK_THAT(stiffness(), WithinAbs(2.0, 0.0));
-    news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
+    info.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
     CHECK_THAT(stiffness(), WithinAbs(0.25, 1e-12));
 }
 
@@ -103,7 +103,7 @@ TEST_CASE("the stiffness shown for a device that answers late is the one that th
     look_for(state, kFalcon).state = state_at(falcon::Stage::ready);
     state.touch.haptic.hand.limits = DeviceLimits{.max_stiffness_newton_per_mm = 0.3};
     const auto stiffness = [&state] {
-        return felt_coupling(state.settings, state.touch).stiffness_newton_per_mm;
+        return effective_coupling(state.settings, state.touch).stiffness_newton_per_mm;
     };
     CHECK_THAT(stiffness(), WithinAbs(0.5, 0.0));  // the mouse's
     touch_with(state, kFalcon);
@@ -115,16 +115,16 @@ TEST_CASE("only the force of a Falcon waits for the window, and only when it is 
     ViewerState state;
     state.touch.in_front = false;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));  // the mouse touches
-    DeviceNews& news = look_for(state, kFalcon);
-    news.asked = true;
+    DeviceInfo& info = look_for(state, kFalcon);
+    info.answered = true;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));  // no Falcon is attached
-    news.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
+    info.state = state_at(GENERATE(falcon::Stage::homing, falcon::Stage::ready));
     CHECK(waits_for_front(state.settings, state.touch));
-    CHECK_FALSE(asked_settings(state.settings, state.touch).force_enabled);
+    CHECK_FALSE(requested_settings(state.settings, state.touch).force_enabled);
     CHECK(state.touch.force_enabled);  // the person's own switch stays as it is
     state.touch.in_front = true;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));
-    CHECK(asked_settings(state.settings, state.touch).force_enabled);
+    CHECK(requested_settings(state.settings, state.touch).force_enabled);
     state.touch.in_front = false;
     state.settings.force_in_front_only = false;
     CHECK_FALSE(waits_for_front(state.settings, state.touch));
@@ -148,18 +148,18 @@ TEST_CASE("the window says over the relief what an attached or lost Falcon needs
           "[falcon][banner]") {
     ViewerState state;
     CHECK(banner_of(state).empty());
-    DeviceNews& news = look_for(state, kFalcon);
-    news.state = state_at(falcon::Stage::looking, "plug it in");
+    DeviceInfo& info = look_for(state, kFalcon);
+    info.state = state_at(falcon::Stage::looking, "plug it in");
     CHECK(banner_of(state).empty());  // never attached: only the panel says so
-    news.state.trouble = true;        // one could not be brought up
+    info.state.trouble = true;        // one could not be brought up
     CHECK(banner_of(state) == "plug it in");
-    news.state.trouble = false;
-    news.was_ready = true;  // one was lost
+    info.state.trouble = false;
+    info.was_ready = true;  // one was lost
     CHECK(banner_of(state) == "plug it in");
-    news.state = state_at(falcon::Stage::ready, "plug it in");
+    info.state = state_at(falcon::Stage::ready, "plug it in");
     CHECK(banner_of(state).empty());
-    news.was_ready = false;
-    news.state = state_at(GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
+    info.was_ready = false;
+    info.state = state_at(GENERATE(falcon::Stage::cannot_open, falcon::Stage::no_firmware,
                                    falcon::Stage::loading, falcon::Stage::homing),
                           "plug it in");
     CHECK(banner_of(state) == "plug it in");
@@ -169,12 +169,12 @@ TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[
     ViewerState state;
     state.touch.haptic.hand.buttons = bit_of(Button::centre);
     CHECK_FALSE(clutched(state.settings, state.touch));  // the mouse's button
-    DeviceNews& news = look_for(state, kFalcon);
+    DeviceInfo& info = look_for(state, kFalcon);
     CHECK_FALSE(clutched(state.settings, state.touch));
     touch_with(state, kFalcon);
-    news.state = state_at(falcon::Stage::ready);
+    info.state = state_at(falcon::Stage::ready);
     CHECK(clutched(state.settings, state.touch));
-    state.touch.haptic.hand.stand_in = true;
+    state.touch.haptic.hand.mouse_fallback = true;
     CHECK_FALSE(clutched(state.settings, state.touch));
     state.touch.haptic.hand = {.buttons = bit_of(Button::plus)};
     CHECK_FALSE(clutched(state.settings, state.touch));
@@ -183,20 +183,20 @@ TEST_CASE("a held clutch is told as such, and only of a Falcon that touches", "[
 TEST_CASE("the window says over the relief what an Inverse3 that is there lacks",
           "[inverse3][banner]") {
     ViewerState state;
-    DeviceNews& news = look_for(state, kInverse3);
-    news.state = state_at(inverse3::Stage::looking, "do this");
+    DeviceInfo& info = look_for(state, kInverse3);
+    info.state = state_at(inverse3::Stage::looking, "do this");
     CHECK(banner_of(state).empty());  // no service, and nobody asked for one
-    CHECK_FALSE(in_sight(news));
-    news.state = state_at(inverse3::Stage::no_device, "do this");
+    CHECK_FALSE(attached_or_expected(info));
+    info.state = state_at(inverse3::Stage::no_device, "do this");
     CHECK(banner_of(state).empty());
-    news.state =
-        state_at(GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
-                          inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::deaf,
-                          inverse3::Stage::too_old, inverse3::Stage::not_understood),
-                 "do this");
+    info.state = state_at(
+        GENERATE(inverse3::Stage::no_power, inverse3::Stage::not_calibrated,
+                 inverse3::Stage::locked, inverse3::Stage::in_use, inverse3::Stage::force_refused,
+                 inverse3::Stage::too_old, inverse3::Stage::not_understood),
+        "do this");
     CHECK(banner_of(state) == "do this");
-    CHECK(in_sight(news));
-    news.state = state_at(inverse3::Stage::ready, "do this");
+    CHECK(attached_or_expected(info));
+    info.state = state_at(inverse3::Stage::ready, "do this");
     CHECK(banner_of(state).empty());
 }
 

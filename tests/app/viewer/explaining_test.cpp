@@ -45,13 +45,13 @@ class ExplainedScene {
     std::optional<Answer> press(Action action) {
         return explaining_.perform(action, state_, player_, nullptr);
     }
-    const ExplainedNews& show(double now_s = 0.0) {
+    const ExplainedInfo& show(double now_s = 0.0) {
         explaining_.advance(blend(), state_, camera_, now_s);
         return *state_.ui.explained;
     }
     ViewerState& state() { return state_; }
     [[nodiscard]] glm::dmat4 view() const { return camera_.clip_from_grid(1.5); }
-    void leave_camera() { explaining_.leave_camera(); }
+    void keep_camera() { explaining_.keep_camera(); }
     void finish() { explaining_.advance(blend(), state_, camera_, 0.0); }
 
   private:
@@ -68,8 +68,8 @@ class ExplainedScene {
     ViewerExplaining explaining_{};
 };
 
-bool ends_as(const ExplainedNews& news, const Proxy& proxy) {
-    const Proxy& result = news.update.result;
+bool ends_as(const ExplainedInfo& info, const Proxy& proxy) {
+    const Proxy& result = info.update.result;
     return result.position == proxy.position && result.active == proxy.active &&
            result.moves == proxy.moves;
 }
@@ -83,10 +83,10 @@ TEST_CASE("Explain shows the update from where the proxy was to where the hand p
     const Proxy expected = scene.if_moved(to);
     REQUIRE(scene.press(Action::explain));
     scene.move_hand(to);
-    const ExplainedNews& news = scene.show();
-    CHECK(ends_as(news, expected));
-    CHECK(news.update.steps.size() > 10);
-    CHECK(news.taken == 0);
+    const ExplainedInfo& info = scene.show();
+    CHECK(ends_as(info, expected));
+    CHECK(info.update.steps.size() > 10);
+    CHECK(info.taken == 0);
 
     scene.move_hand({24.0, 17.0, 200.0});  // lifted: the goal stays where it was pressed
     CHECK(ends_as(scene.show(), expected));
@@ -149,7 +149,7 @@ TEST_CASE("at its end the view stays where a person took it meanwhile", "[explai
     scene.press(Action::explain);
     scene.show();
     const glm::dmat4 there = scene.view();
-    scene.leave_camera();
+    scene.keep_camera();
     scene.press(Action::explain);
     scene.finish();
     CHECK(scene.view() == there);

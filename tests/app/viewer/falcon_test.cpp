@@ -31,7 +31,7 @@ constexpr const char* kKeepUsual = "mousemove 230 142 click 1";
 const std::string kWithoutPanels = "[window]\npanels-visible = false\n";
 
 bool falcon_touches(const Row& row) {
-    return row.contact && row.ready && !row.stand_in;
+    return row.contact && row.ready && !row.mouse_fallback;
 }
 
 bool is_firm(const Row& row) {
@@ -76,7 +76,7 @@ TickRows steps_of(const TickRows& rows, double least_mm, double most_mm) {
     for (std::size_t k = 1; k < rows.size(); ++k) {
         const Row& before = rows[k - 1];
         const Row& after = rows[k];
-        const bool of_falcon = before.surface && !before.stand_in && !after.stand_in;
+        const bool of_falcon = before.surface && !before.mouse_fallback && !after.mouse_fallback;
         const bool in_time = std::fabs(after.t_s - before.t_s - 1e-3) < 2e-4;
         const double step_mm = glm::distance(before.goal, after.goal) * kSlopePitch_mm;
         if (of_falcon && in_time && step_mm > least_mm && step_mm < most_mm) steps.push_back(after);
@@ -97,7 +97,7 @@ TickRows jumps(const TickRows& rows) {
 /// Whether the Falcon took over in contact, the force began at zero, and is firm again.
 bool rises_anew(const TickRows& rows) {
     const auto anew = std::find_if(rows.begin(), rows.end(), [](const Row& row) {
-        return row.lets_go && falcon_touches(row);
+        return row.releases_contact && falcon_touches(row);
     });
     const auto weak = std::find_if(anew, rows.end(), [](const Row& row) {
         return falcon_touches(row) && cut_for(SafetyCut::none, row) &&
@@ -163,11 +163,12 @@ TEST_CASE("a Falcon pulled in mid-touch leaves the mouse, and is taken back afte
     const auto touched = std::find_if(rows.begin(), rows.end(), falcon_touches);
     REQUIRE(touched != rows.end());
     const auto lost =
-        std::find_if(touched, rows.end(), [](const Row& row) { return row.stand_in; });
+        std::find_if(touched, rows.end(), [](const Row& row) { return row.mouse_fallback; });
     REQUIRE(lost != rows.end());
     CHECK(strongest({touched, lost}) > 0.5);
     CHECK_THAT(glm::length(lost->sent_newton), WithinAbs(0.0, 1e-12));
-    const auto back = std::find_if(lost, rows.end(), [](const Row& row) { return !row.stand_in; });
+    const auto back =
+        std::find_if(lost, rows.end(), [](const Row& row) { return !row.mouse_fallback; });
     REQUIRE(back != rows.end());
     const TickRows of_mouse(lost, back);
     CHECK(std::any_of(of_mouse.begin(), of_mouse.end(),
@@ -271,7 +272,7 @@ TEST_CASE(
         other.close();
     }
     FalconOnUsb::wait_until([&] { return pressed_newton() > 3.9; });
-    CHECK(at.viewer.seen().doubts == 2);
+    CHECK(at.viewer.seen().unsafe_settings == 2);
     CHECK(strongest(at.rows()) <= SafetyLimits{}.max_force_newton + 1e-9);
     at.viewer.act(kAgree);
     FalconOnUsb::wait_until([&] { return pressed_newton() > 6.0; });
@@ -280,7 +281,7 @@ TEST_CASE(
         at.falcon.wait_for_forces(300.0);
         other.close();
     }
-    CHECK(at.viewer.seen().doubts == 0);
+    CHECK(at.viewer.seen().unsafe_settings == 0);
     at.desk.press("key q");
     REQUIRE(at.viewer.wait() == 0);
     CHECK(
@@ -293,9 +294,9 @@ TEST_CASE(
 TEST_CASE("whoever keeps the usual values is not asked again", "[falcon][window]") {
     FalconScene at(
         {.settings = kWithoutPanels + "[touch]\nstability = false\ndamping-as-needed = false\n"});
-    at.viewer.wait_until([](const Seen& now) { return now.doubts == 2; });
+    at.viewer.wait_until([](const Seen& now) { return now.unsafe_settings == 2; });
     at.viewer.act(kKeepUsual);
-    at.viewer.wait_until([](const Seen& now) { return now.doubts == 0; });
+    at.viewer.wait_until([](const Seen& now) { return now.unsafe_settings == 0; });
     at.desk.press("key q");
     REQUIRE(at.viewer.wait() == 0);
     CHECK(contains(read_text(at.folder / "config/dibhr/settings.toml"), "stability = true\n"));

@@ -86,7 +86,7 @@ class Inverse3Scene {
     }
     /// The ticks recorded up to now.
     [[nodiscard]] TickRows rows() const { return read_session(folder / "hand.dibhr"); }
-    void tell(const std::string& line) { CHECK(script.obey(line).empty()); }
+    void tell(const std::string& line) { CHECK(script.run_line(line).empty()); }
     /// The hand goes there, mm from the middle of its box: right, forward, up; and has arrived.
     void move_hand(Vec3 to_mm, double seconds) {
         tell("hand " + std::to_string(to_mm.x) + ' ' + std::to_string(to_mm.y) + ' ' +
@@ -177,10 +177,10 @@ TEST_CASE(
     CHECK_THAT(worst_touched_again(rows), WithinAbs(0.0, 1e-12));
     require_same_bits(at.folder, session);
     // The last message to the service has zero force.
-    const auto heard = at.service.heard();
-    const auto last =
-        std::find_if(heard.rbegin(), heard.rend(), [](const Heard& one) { return one.drives; });
-    REQUIRE(last != heard.rend());
+    const auto received = at.service.received();
+    const auto last = std::find_if(received.rbegin(), received.rend(),
+                                   [](const ReceivedMessage& one) { return one.drives; });
+    REQUIRE(last != received.rend());
     CHECK_THAT(glm::length(last->force_newton), WithinAbs(0.0, 1e-12));
 }
 
@@ -245,14 +245,14 @@ TEST_CASE(
     const auto first =
         std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.surface; });
     REQUIRE(first != rows.end());
-    CHECK(first->stand_in);
+    CHECK(first->mouse_fallback);
     const std::string told = read_text(at.folder / "told.log");
     CHECK(contains(told, "device: the Inverse3 049D is not calibrated"));
     CHECK(contains(told, "device: the Inverse3 049D was unplugged"));
     const auto changes = [&] {
         std::size_t count = 0;
         for (auto row = first + 1; row != rows.end(); ++row) {
-            if (row->stand_in == (row - 1)->stand_in) continue;
+            if (row->mouse_fallback == (row - 1)->mouse_fallback) continue;
             ++count;
             CHECK_THAT(glm::length(row->sent_newton), WithinAbs(0.0, 1e-12));
         }
@@ -272,7 +272,7 @@ TEST_CASE(
 TEST_CASE("poses stay young while the program decodes, draws and records", "[inverse3][bench]") {
     constexpr double kOldest_ms = 2.0;  // of 99 ticks in 100, as measured
     Scene scene = Inverse3Scene::scene_with_grip();
-    scene.manners.tick = GENERATE(1000us, 250us);
+    scene.behaviour.tick = GENERATE(1000us, 250us);
     Inverse3Scene at({"--device", "inverse3"}, scene);
     at.move_hand({0.0, 8.0, 0.0}, 0.3);
     at.wait_for_force();
@@ -280,8 +280,8 @@ TEST_CASE("poses stay young while the program decodes, draws and records", "[inv
     at.viewer.wait_until([before](const Seen& now) { return now.recorded_rows > before + 4000; });
     (void)at.finish();
     const std::filesystem::path session = at.folder / "hand.dibhr";
-    std::cout << "tick of the service " << scene.manners.tick.count() << " us: age of the pose p50 "
-              << age_ms(session, "half") << ", p99 " << age_ms(session, "most") << ", worst "
-              << age_ms(session, "worst") << " ms\n";
+    std::cout << "tick of the service " << scene.behaviour.tick.count()
+              << " us: age of the pose p50 " << age_ms(session, "half") << ", p99 "
+              << age_ms(session, "most") << ", worst " << age_ms(session, "worst") << " ms\n";
     CHECK(age_ms(session, "most") < 5.0 * kOldest_ms);
 }

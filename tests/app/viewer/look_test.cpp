@@ -151,13 +151,13 @@ TEST_CASE(
     const auto named = [&] {
         const ColourImage picture = picture_of(desk);
         return std::count_if(algorithms.begin(), algorithms.end(), [&](Algorithm algorithm) {
-            return pixels_of(picture, look_of(algorithm).stroke.ink) > 20;
+            return pixels_of(picture, style_of(algorithm).stroke.ink) > 20;
         });
     };
     const auto coloured = [&] {
         const ColourImage picture = picture_of(desk);
         return std::count_if(algorithms.begin(), algorithms.end(), [&](Algorithm algorithm) {
-            return pixels_of(picture, look_of(algorithm).stroke.ink) > 0;
+            return pixels_of(picture, style_of(algorithm).stroke.ink) > 0;
         });
     };
     viewer.act("key o");

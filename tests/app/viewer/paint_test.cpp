@@ -33,7 +33,7 @@ Lay lays(TouchMapKind kind, double value) {
 }
 
 double felt(const TouchMap& map, double x, double y) {
-    return felt_value(map, x, y, map.columns, map.rows, 0.5);
+    return map_value(map, x, y, map.columns, map.rows, 0.5);
 }
 
 MapStroke stroke_of(const TouchMaps& before, Lay lay, const std::vector<Vec3>& places,
@@ -105,12 +105,12 @@ TEST_CASE("passing over a place again in one stroke lays no more, another stroke
 TEST_CASE("nothing as paint takes away what lies there, and only there", "[paint]") {
     TouchMaps maps =
         stroke_of({}, lays(TouchMapKind::height, 9.0), {{10, 20, 0}, {50, 20, 0}}).maps();
-    const double before = felt_value(maps.height, 12, 20, kWide, kHigh, 0.0);
+    const double before = map_value(maps.height, 12, 20, kWide, kHigh, 0.0);
     CHECK_THAT(before, WithinAbs(9.0, 1e-3));
     CHECK_THAT(maps.at_vertices.heights_px.at(20 * kWide + 12), WithinAbs(9.0, 1e-3));
     maps = stroke_of(maps, {TouchMapKind::height}, {{45, 20, 0}}).maps();
-    CHECK(felt_value(maps.height, 45, 20, kWide, kHigh, 0.0) == 0.0);
-    CHECK(felt_value(maps.height, 12, 20, kWide, kHigh, 0.0) == before);
+    CHECK(map_value(maps.height, 45, 20, kWide, kHigh, 0.0) == 0.0);
+    CHECK(map_value(maps.height, 12, 20, kWide, kHigh, 0.0) == before);
 }
 
 TEST_CASE("a map of another resolution is painted over as it was felt", "[paint]") {
@@ -126,7 +126,7 @@ TEST_CASE("a map of another resolution is painted over as it was felt", "[paint]
         stroke_of(maps, lays(TouchMapKind::friction, 2.0), {{55, 35, 0}}).maps();
     CHECK_THAT(felt(painted.friction, 55, 35), WithinAbs(2.0, 2e-5));
     for (int i = 0; i < 45; ++i) {
-        const double was = felt_value(maps.friction, i, 10, kWide, kHigh, 0.5);
+        const double was = map_value(maps.friction, i, 10, kWide, kHigh, 0.5);
         CHECK_THAT(felt(painted.friction, i, 10), WithinAbs(was, 1e-4));
     }
 }

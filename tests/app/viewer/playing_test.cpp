@@ -57,7 +57,7 @@ class FilmWindow {
     FilmWindow(const fs::path& film, std::shared_ptr<TemporaryFolder> home,
                std::vector<std::string> options, const std::string& settings = {})
         : home_(std::move(home)),
-          session_(fresh_session(*home_)),
+          session_(new_session_file(*home_)),
           viewer_(start(film, std::move(options), settings)) {
         viewer_.wait_for_surface();
     }
@@ -127,7 +127,7 @@ class FilmWindow {
         options.emplace_back("--raw-depth");
         return options;
     }
-    static fs::path fresh_session(const TemporaryFolder& home) {
+    static fs::path new_session_file(const TemporaryFolder& home) {
         for (int number = 1;; ++number) {
             const fs::path session = home / ("hand" + std::to_string(number) + ".dibhr");
             if (!fs::exists(session)) return session;

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "app/touching/pointer.hpp"
-#include "app/viewer/errand.hpp"
 #include "app/viewer/files.hpp"
 #include "app/viewer/input.hpp"
+#include "app/viewer/task_group.hpp"
 #include "app/viewer/trace.hpp"
 #include "core/error.hpp"
 #include "core/video/sources/media.hpp"
@@ -153,12 +153,12 @@ TEST_CASE("of two dropped pictures the depth is known by its name, else by being
 TEST_CASE("opening in the background gives the words of the error, and can be tried again",
           "[opening]") {
     const TemporaryFolder folder;
-    Errands errands;
-    Errand<Opened> opening(errands);
+    TaskGroup tasks;
+    BackgroundTask<OpenResult> opening(tasks);
     const OpenRequest request{folder / "nowhere.mp4", {}, false};
     for (int attempt = 0; attempt < 2; ++attempt) {
         REQUIRE(opening.start([request] { return try_open(request); }));
-        std::optional<Opened> opened;
+        std::optional<OpenResult> opened;
         REQUIRE(eventually(
             [&] {
                 opened = opening.take();
@@ -172,26 +172,26 @@ TEST_CASE("opening in the background gives the words of the error, and can be tr
 
 TEST_CASE("work that never ends is left behind, which whoever ends the program is told",
           "[opening]") {
-    Errands errands;
-    CHECK(errands.come_home(std::chrono::milliseconds(0)));
+    TaskGroup tasks;
+    CHECK(tasks.wait_all(std::chrono::milliseconds(0)));
     const auto let_go = std::make_shared<std::promise<void>>();
     {
-        Errand<int> errand(errands);
+        BackgroundTask<int> errand(tasks);
         REQUIRE(errand.start([let_go] {
             let_go->get_future().wait();
             return 1;
         }));
         CHECK_FALSE(errand.start([] { return 2; }));
         CHECK_FALSE(errand.take());
-        errand.start_anew([] { return 2; });  // the first result is dropped
+        errand.restart([] { return 2; });  // the first result is dropped
         CHECK(eventually([&] { return errand.take() == 2; }, std::chrono::minutes(1)));
     }
     // A wait for the task until here would never end.
-    CHECK_FALSE(errands.come_home(std::chrono::milliseconds(1)));
+    CHECK_FALSE(tasks.wait_all(std::chrono::milliseconds(1)));
     let_go->set_value();
-    CHECK(errands.come_home(std::chrono::minutes(1)));
-    errands.give_one_up();
-    CHECK_FALSE(errands.come_home(std::chrono::milliseconds(0)));
+    CHECK(tasks.wait_all(std::chrono::minutes(1)));
+    tasks.abandon_one();
+    CHECK_FALSE(tasks.wait_all(std::chrono::milliseconds(0)));
 }
 
 TEST_CASE("a device that cannot be used says what to do", "[device]") {

@@ -422,11 +422,12 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     const TemporaryFolder folder;
     const std::string note = "O'Brien; \"x\" -- %s \\ \u00e9\u20ac\u4e16 \xF0\x9F\x96\x90";
     const auto ticks = std::make_unique<TickRing>();
-    LastWords words;
+    CrashNote crash_note;
     Player player;
     const auto state = std::make_unique<ViewerState>();
     const KeyTable& keys = state->keys;
-    TouchRecording recording(*ticks, words, player, {state->settings, state->touch, state->media});
+    TouchRecording recording(*ticks, crash_note, player,
+                             {state->settings, state->touch, state->media});
     const auto type = [](TextField& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);
     };
@@ -434,7 +435,7 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     type(state->touch.session_fields.participant, "P07");
     recording.start(folder / "mine.dibhr");
     REQUIRE(recording.active());
-    recording.hand_over({.recording = true, .version = 1});
+    recording.record_parameters({.recording = true, .version = 1});
     for (std::int64_t k = 0; k < 50; ++k) {
         REQUIRE(ticks->push({.tick = k,
                              .t_s = 0.001 * static_cast<double>(k),

@@ -252,7 +252,7 @@ TEST_CASE(
     CHECK(force_off);
     const SessionParameters& chosen = session.parameters().back();
     CHECK(chosen.bump.file.filename() == "bark.png");
-    CHECK(is_made_of(material_called("bark"), chosen.touch));
+    CHECK(is_made_of(material_named("bark"), chosen.touch));
     CHECK_FALSE(chosen.touch == plain);
     require_same_bits(folder, file);
 

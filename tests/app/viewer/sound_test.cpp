@@ -22,9 +22,9 @@
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/sound_file.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -236,9 +236,9 @@ TEST_CASE("a sound server that never answers holds up neither the window nor its
 }
 
 TEST_CASE("a sound device is opened when it is wanted, and that there is none is told", "[sound]") {
-    constexpr SoundOutput::Wish kHeard{.speaker = true};
+    constexpr SoundOutput::Request kHeard{.speaker = true};
     SECTION("a device that plays") {
-        const Variable driver("SDL_AUDIODRIVER", "dummy");
+        const EnvironmentVariable driver("SDL_AUDIODRIVER", "dummy");
         SoundOutput output(std::make_shared<TouchSource>());
         CHECK(output.state() == State::quiet);
         for (int k = 0; k < 3; ++k) {
@@ -250,14 +250,14 @@ TEST_CASE("a sound device is opened when it is wanted, and that there is none is
         }
     }
     SECTION("a pad with voice coils that shows no sound device") {
-        const Variable driver("SDL_AUDIODRIVER", "dummy");
+        const EnvironmentVariable driver("SDL_AUDIODRIVER", "dummy");
         SoundOutput output(std::make_shared<TouchSource>());
         output.choose({}, {.speaker = true, .coils = true});
         CHECK(eventually([&] { return output.state() == State::playing; }));
         CHECK_FALSE(output.moves_coils());
     }
     SECTION("none") {
-        const Variable driver("SDL_AUDIODRIVER", "nonsense");
+        const EnvironmentVariable driver("SDL_AUDIODRIVER", "nonsense");
         SoundOutput output(std::make_shared<TouchSource>());
         output.choose({}, kHeard);
         CHECK(eventually([&] { return output.state() == State::no_device; }));

@@ -1,5 +1,5 @@
 // Shutdown requests and crashes, each in a child process that contains only their handlers.
-#include "app/window/ending.hpp"
+#include "app/window/shutdown_watchdog.hpp"
 
 #include <sys/resource.h>
 #include <sys/socket.h>
@@ -19,7 +19,7 @@
 #include <thread>
 
 #include "app/window/crash_handler.hpp"
-#include "app/window/last_words.hpp"
+#include "app/window/crash_note.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 
@@ -93,19 +93,19 @@ void tell(int told) {
 
 /// A program that shuts down when requested.
 int end_when_asked(int told) {
-    LastWords words;
-    Ending ending(words);
+    CrashNote crash_note;
+    ShutdownWatchdog shutdown(crash_note);
     tell(told);
-    const bool asked = test::eventually([&] { return ending.asked().load(); }, 60s);
-    return asked && ending.without_force() ? 0 : 98;
+    const bool requested = test::eventually([&] { return shutdown.requested().load(); }, 60s);
+    return requested && shutdown.without_force() ? 0 : 98;
 }
 
 /// A program that does not.
 int hang(int told) {
-    LastWords words;
-    words.doing("sleeping");
-    words.recording("hand.dibhr");
-    const Ending ending(words);
+    CrashNote crash_note;
+    crash_note.set_activity("sleeping");
+    crash_note.set_recording("hand.dibhr");
+    const ShutdownWatchdog shutdown(crash_note);
     tell(told);
     for (;;) ::pause();
 }
@@ -116,9 +116,9 @@ void say_first() noexcept {
 }
 
 int crash(const std::function<void()>& how) {
-    LastWords words;
-    words.recording("hand.dibhr");
-    const CrashHandler handler(words, &say_first);
+    CrashNote crash_note;
+    crash_note.set_recording("hand.dibhr");
+    const CrashHandler handler(crash_note, &say_first);
     how();
     return 0;
 }
@@ -126,8 +126,8 @@ int crash(const std::function<void()>& how) {
 }  // namespace
 
 TEST_CASE("two signals within 200 ms are one request to end; a later one is another", "[ending]") {
-    const EndRequests::Time begin{};
-    EndRequests requests;
+    const ShutdownRequests::Time begin{};
+    ShutdownRequests requests;
     CHECK_FALSE(requests.is_repeated(begin));
     CHECK_FALSE(requests.is_repeated(begin + 199ms));
     CHECK(requests.is_repeated(begin + 200ms));
@@ -137,15 +137,15 @@ TEST_CASE("two signals within 200 ms are one request to end; a later one is anot
 TEST_CASE(
     "patience with the program lasts 600 ms from the first request, which no other one renews",
     "[ending]") {
-    const EndRequests::Time begin{};
-    EndRequests requests;
-    CHECK_FALSE(requests.patience_left(begin));
+    const ShutdownRequests::Time begin{};
+    ShutdownRequests requests;
+    CHECK_FALSE(requests.time_left(begin));
     (void)requests.is_repeated(begin);
-    CHECK(requests.patience_left(begin) == 600ms);
+    CHECK(requests.time_left(begin) == 600ms);
     (void)requests.is_repeated(begin + 150ms);
-    CHECK(requests.patience_left(begin + 599ms + 1us) == 1ms);  // rounded up
-    CHECK(requests.patience_left(begin + 600ms) == 0ms);
-    CHECK(requests.patience_left(begin + 5s) == 0ms);
+    CHECK(requests.time_left(begin + 599ms + 1us) == 1ms);  // rounded up
+    CHECK(requests.time_left(begin + 600ms) == 0ms);
+    CHECK(requests.time_left(begin + 5s) == 0ms);
 }
 
 TEST_CASE("a signal asks for the end and takes the force off, whichever of the four it is",
@@ -176,14 +176,14 @@ TEST_CASE("a display that goes takes the force off, and asks for nothing", "[end
     Child program([](int told) {
         std::array<int, 2> display{};
         if (::socketpair(AF_UNIX, SOCK_STREAM, 0, display.data()) != 0) return 96;
-        LastWords words;
-        Ending ending(words);
-        ending.watch_display(display[0]);
+        CrashNote crash_note;
+        ShutdownWatchdog shutdown(crash_note);
+        shutdown.watch_display(display[0]);
         tell(told);
-        if (ending.without_force()) return 95;
+        if (shutdown.without_force()) return 95;
         ::close(display[1]);
-        if (!test::eventually([&] { return ending.without_force().load(); }, 60s)) return 94;
-        return ending.asked() ? 93 : 0;
+        if (!test::eventually([&] { return shutdown.without_force().load(); }, 60s)) return 94;
+        return shutdown.requested() ? 93 : 0;
     });
     CHECK(program.wait().status == 0);
 }

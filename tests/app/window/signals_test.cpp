@@ -36,7 +36,7 @@ bool is_pending(int signal) {
 TEST_CASE("a wish to end arrives even when a thread that was there before takes the signal",
           "[signals]") {
     const std::jthread foreign(idle);  // blocks no signal
-    EndingSignals signals;
+    ShutdownSignals signals;
     const int signal = GENERATE(as<int>{}, SIGTERM, SIGINT, SIGHUP, SIGQUIT);
     CAPTURE(signal);
     for (int k = 0; k < 3; ++k) {
@@ -46,7 +46,7 @@ TEST_CASE("a wish to end arrives even when a thread that was there before takes 
 }
 
 TEST_CASE("Ctrl+Z neither stops the viewer nor ends it", "[signals]") {
-    EndingSignals signals;
+    ShutdownSignals signals;
     REQUIRE(::kill(::getpid(), SIGTSTP) == 0);
     REQUIRE(is_pending(SIGTSTP));
     CHECK_FALSE(signals.arrived());

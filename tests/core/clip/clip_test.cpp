@@ -120,10 +120,10 @@ TEST_CASE(
     "[clip]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "view.mp4";
-    const ClipEnd how = GENERATE(ClipEnd::well, ClipEnd::at_once);
+    const ClipEnd how = GENERATE(ClipEnd::indexed, ClipEnd::at_once);
     const std::vector<double> shown{0.0, 0.033, 0.05, 0.4, 0.433, 1.9, 1.95, 2.0, 2.6};
     {
-        ClipFile clip(file, ClipName::replaces);
+        ClipFile clip(file, ClipNameConflict::replaces);
         unsigned seed = 0;
         for (const double at_s : shown) clip.add(noisy(160, 90, ++seed), at_s);
         clip.add(noisy(160, 90, 99), 2.6);  // no time between the two
@@ -139,7 +139,7 @@ TEST_CASE(
         contains(probed(folder, file, "stream=codec_name,pix_fmt,width,height"), "160,90,yuv420p"));
     const std::string bytes = read_text(file);
     CHECK(bytes.find("moov") < bytes.find("mdat"));
-    CHECK((bytes.find("moof") == std::string::npos) == (how == ClipEnd::well));
+    CHECK((bytes.find("moof") == std::string::npos) == (how == ClipEnd::indexed));
     CHECK(names(folder) == std::vector<std::string>{"view.mp4"});
 }
 
@@ -148,9 +148,9 @@ TEST_CASE("a clip has the colours of its pictures, whatever their size", "[clip]
     const fs::path file = folder / "view.mp4";
     const int odd = GENERATE(0, 1);
     const std::array<std::uint8_t, 3> colour{200, 60, 30};
-    ClipFile clip(file, ClipName::replaces);
+    ClipFile clip(file, ClipNameConflict::replaces);
     for (int k = 0; k < 10; ++k) clip.add(plain(160 + odd, 90 + odd, colour), 0.05 * k);
-    clip.finish(0.5, ClipEnd::well);
+    clip.finish(0.5, ClipEnd::indexed);
     const Picture last = last_picture(folder, file, 160, 90);
     for (int channel = 0; channel < 3; ++channel)
         CHECK(std::abs(last.level(80, 45, channel) - colour[static_cast<std::size_t>(channel)]) <=
@@ -163,9 +163,9 @@ TEST_CASE("a clip of a window of odd size loses a row and a column, and is as cr
     ColourImage stripes = plain(161, 91, {0, 0, 0});
     for (std::size_t k = 0; k < stripes.rgb.size(); ++k)
         if (k / 3 % 161 % 2 == 1) stripes.rgb[k] = 255;
-    ClipFile clip(file, ClipName::replaces);
+    ClipFile clip(file, ClipNameConflict::replaces);
     for (int k = 0; k < 5; ++k) clip.add(stripes, 0.1 * k);
-    clip.finish(0.5, ClipEnd::well);
+    clip.finish(0.5, ClipEnd::indexed);
     const Picture last = last_picture(folder, file, 160, 90);
     for (int i = 0; i < 160; ++i) {
         INFO(i);
@@ -177,10 +177,10 @@ TEST_CASE("a picture of another size keeps its shape, between black borders", "[
     const TemporaryFolder folder;
     const fs::path file = folder / "view.mp4";
     const int columns = GENERATE(90, 61, 77, 102, 113);
-    ClipFile clip(file, ClipName::replaces);
+    ClipFile clip(file, ClipNameConflict::replaces);
     clip.add(plain(160, 90, {20, 200, 20}), 0.0);
     clip.add(plain(columns, 90, {20, 200, 20}), 0.1);
-    clip.finish(0.5, ClipEnd::well);
+    clip.finish(0.5, ClipEnd::indexed);
     const Picture last = last_picture(folder, file, 160, 90);
     INFO(columns);
     const int left = (160 - columns) / 2;
@@ -198,16 +198,16 @@ TEST_CASE("a picture with nothing in it leaves the one before it", "[clip]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "view.mp4";
     const auto [columns, rows] = GENERATE(std::pair{0, 0}, std::pair{1, 90}, std::pair{90, 0});
-    ClipFile clip(file, ClipName::replaces);
+    ClipFile clip(file, ClipNameConflict::replaces);
     clip.add(plain(160, 90, {20, 200, 20}), 0.0);
     clip.add(plain(columns, rows, {200, 20, 20}), 0.1);
-    clip.finish(0.5, ClipEnd::well);
+    clip.finish(0.5, ClipEnd::indexed);
     CHECK(last_picture(folder, file, 160, 90).level(80, 45, 1) > 180);
 }
 
 TEST_CASE("what is written of a clip plays before it is finished", "[clip]") {
     const TemporaryFolder folder;
-    ClipFile clip(folder / "view.mp4", ClipName::replaces);
+    ClipFile clip(folder / "view.mp4", ClipNameConflict::replaces);
     unsigned seed = 0;
     for (int k = 0; k < 30; ++k) clip.add(noisy(160, 90, ++seed), k / 9.0);  // a slow machine
     const fs::path copy = folder / "copy.mp4";
@@ -221,7 +221,7 @@ TEST_CASE("what is written of a clip plays before it is finished", "[clip]") {
 TEST_CASE("a clip knows from when on what is written of it plays", "[clip]") {
     const double apart_s = GENERATE(0.2, 0.7, 3.0);
     const TemporaryFolder folder;
-    ClipFile clip(folder / "view.mp4", ClipName::replaces);
+    ClipFile clip(folder / "view.mp4", ClipNameConflict::replaces);
     CHECK_FALSE(clip.plays());
     unsigned seed = 0;
     for (int k = 0; k < 12; ++k) {
@@ -240,12 +240,12 @@ TEST_CASE("of a clip that is given up, or has no picture, nothing remains", "[cl
     const fs::path file = folder / "view.mp4";
     write_text(file, "before");
     {
-        ClipRecorder clip(file, ClipName::replaces);
+        ClipRecorder clip(file, ClipNameConflict::replaces);
         clip.add(noisy(160, 90, 1), ClipRecorder::Clock::now());
     }
     {
-        ClipRecorder clip(file, ClipName::replaces);
-        clip.stop(ClipRecorder::Clock::now(), ClipEnd::well);
+        ClipRecorder clip(file, ClipNameConflict::replaces);
+        clip.stop(ClipRecorder::Clock::now(), ClipEnd::indexed);
         CHECK_THROWS_AS(clip.result(), InputError);
     }
     CHECK(read_text(file) == "before");
@@ -255,10 +255,10 @@ TEST_CASE("of a clip that is given up, or has no picture, nothing remains", "[cl
 TEST_CASE("a clip beside others replaces none", "[clip]") {
     const TemporaryFolder folder;
     write_text(folder / "view.mp4", "before");
-    ClipRecorder clip(folder / "view.mp4", ClipName::stands_beside);
+    ClipRecorder clip(folder / "view.mp4", ClipNameConflict::adds_number);
     const auto begin = ClipRecorder::Clock::now();
     clip.add(noisy(160, 90, 1), begin);
-    clip.stop(begin + std::chrono::seconds(1), ClipEnd::well);
+    clip.stop(begin + std::chrono::seconds(1), ClipEnd::indexed);
     CHECK(clip.result() == folder / "view-2.mp4");
     CHECK_THAT(length_s(folder, folder / "view-2.mp4"), WithinAbs(1.0, kRounding_s));
     CHECK(read_text(folder / "view.mp4") == "before");
@@ -278,7 +278,7 @@ long waits() {
 TEST_CASE("a clip that falls behind drops pictures, never time, and waits for nobody", "[clip]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "view.mp4";
-    ClipRecorder clip(file, ClipName::replaces);
+    ClipRecorder clip(file, ClipNameConflict::replaces);
     const ColourImage large = noisy(640, 400, 1);
     const auto begin = ClipRecorder::Clock::now();
     // In bursts that lie ready: handed over faster than anything encodes, however slow the machine.
@@ -297,7 +297,7 @@ TEST_CASE("a clip that falls behind drops pictures, never time, and waits for no
         }
         waited += waits() - before;
     }
-    clip.stop(begin + std::chrono::seconds(3), ClipEnd::well);
+    clip.stop(begin + std::chrono::seconds(3), ClipEnd::indexed);
     CHECK(clip.result() == file);
     CHECK(refused > 0);
     CHECK(clip.encoded() < kPictures);
@@ -309,14 +309,14 @@ TEST_CASE("a clip that falls behind drops pictures, never time, and waits for no
 
 TEST_CASE("a clip that cannot be written says which file and why, and nothing remains", "[clip]") {
     const TemporaryFolder folder;
-    CHECK_THROWS_WITH(ClipRecorder(folder / "nowhere/view.mp4", ClipName::replaces),
+    CHECK_THROWS_WITH(ClipRecorder(folder / "nowhere/view.mp4", ClipNameConflict::replaces),
                       Catch::Matchers::Contains("nowhere/view.mp4"));
     // As on a full disk.
     rlimit before{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
     const auto ignored = std::signal(SIGXFSZ, SIG_IGN);
     {
-        ClipRecorder clip(folder / "view.mp4", ClipName::replaces);
+        ClipRecorder clip(folder / "view.mp4", ClipNameConflict::replaces);
         const rlimit small{100'000, before.rlim_max};
         REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
         const auto begin = ClipRecorder::Clock::now();

@@ -91,7 +91,7 @@ TEST_CASE("all that an estimator has started ends when it is asked to, or given 
         for (const bool asked : {true, false}) {
             const std::string time = own_time();
             std::optional<ChildProgram> child(std::in_place, program(script, time),
-                                              ChildManner::ordinary);
+                                              ChildPriority::normal);
             CHECK(goes_on(time));
             if (asked) child->end();
             if (asked) CHECK(processes_told(time) == 0);
@@ -107,7 +107,7 @@ TEST_CASE("all that an estimator has started ends when dibhr is killed", "[estim
         const std::string time = own_time();
         const pid_t dibhr = ::fork();
         if (dibhr == 0) {
-            const ChildProgram child(program(script, time), ChildManner::polite);
+            const ChildProgram child(program(script, time), ChildPriority::low);
             while (true) ::pause();
         }
         CHECK(goes_on(time));
@@ -130,7 +130,7 @@ TEST_CASE("what an estimator leaves when it ends by itself ends with it, and it 
                              Way{"sleep $0 & kill -HUP $$", 0, SIGHUP});
     CAPTURE(way.script);
     const std::string time = own_time();
-    ChildProgram child(program(way.script, time), ChildManner::ordinary);
+    ChildProgram child(program(way.script, time), ChildPriority::normal);
     CHECK(eventually([&] { return child.ended().has_value(); }));
     CHECK(processes_told(time) == 0);
     const ChildEnd end = child.ended().value_or(ChildEnd{});
@@ -141,7 +141,7 @@ TEST_CASE("what an estimator leaves when it ends by itself ends with it, and it 
 
 TEST_CASE("one that talks faster than anybody listens is listened to in pieces", "[estimate]") {
     ChildProgram child({"/bin/sh", "-c", "yes 'all of it, again and again'"},
-                       ChildManner::ordinary);
+                       ChildPriority::normal);
     for (int k = 0; k < 5; ++k) {
         std::string text;
         CHECK(eventually([&] {

@@ -311,7 +311,7 @@ TEST_CASE("whatever one that talks without end says, no disk is filled", "[estim
 TEST_CASE("one that shows no sign of life is ended when patience is", "[estimate]") {
     Bench bench("sleep 60\n");
     EstimateRequest request = bench.request();
-    request.patience_s = 1.0;
+    request.timeout_s = 1.0;
     CHECK(contains(bench.failure(request), "wrote and printed nothing for 1 s and was ended"));
 }
 
@@ -483,7 +483,7 @@ TEST_CASE("a scale of its own in each frame is seen as one when the depth is ope
     REQUIRE(made);
     FrameReader reader(open_media(bench.clip(), made->depth, {.find_out = true}));
     REQUIRE(reader.at(0.2));
-    CHECK(reader.plan().noise.of_scale);
+    CHECK(reader.plan().noise.per_frame_scale);
 }
 
 TEST_CASE("depth of a still picture is a picture", "[estimate]") {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/estimate/spoken_progress.hpp"
+#include "core/estimate/printed_progress.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 
@@ -57,7 +57,7 @@ TEST_CASE("what cannot be a command is told what it lacks", "[estimate]") {
 }
 
 TEST_CASE("of what an estimator prints the count of its frames is understood", "[estimate]") {
-    SpokenProgress spoken;
+    PrintedProgress spoken;
     CHECK_FALSE(spoken.done_of(24));
     spoken.take("Loading checkpoint shards: 100%|##| 2/2 [00:01<00:00]\n");
     CHECK_FALSE(spoken.done_of(24));

@@ -169,7 +169,7 @@ TEST_CASE("algorithms differ in colour, dashes, marker and name", "[style]") {
     std::set<Marker> markers;
     std::set<int> colours;
     for (const Algorithm algorithm : all_algorithms()) {
-        const SeriesLook look = look_of(algorithm);
+        const SeriesStyle look = style_of(algorithm);
         names.insert(look.name);
         dashes.insert(look.stroke.dash);
         markers.insert(look.marker);
@@ -224,9 +224,9 @@ TEST_CASE("every picture of a path shows each algorithm in its own ink", "[plots
         CHECK(picture.columns == 1200);
         CHECK(picture.rows >= 600);
         for (const AlgorithmRun& run : path.runs) {
-            CHECK(pixels_of(picture, look_of(run.algorithm).stroke.ink) > 100);
+            CHECK(pixels_of(picture, style_of(run.algorithm).stroke.ink) > 100);
         }
-        CHECK(pixels_of(picture, look_of(Algorithm::neighborhood).stroke.ink) == 0);
+        CHECK(pixels_of(picture, style_of(Algorithm::neighborhood).stroke.ink) == 0);
     }
 }
 
@@ -246,8 +246,8 @@ TEST_CASE("the sweep's picture shows each algorithm that was swept, and no point
         }
     }
     const ColourImage picture = plot_sweep(points).finished();
-    CHECK(pixels_of(picture, look_of(Algorithm::neighborhood).stroke.ink) > 200);
-    CHECK(pixels_of(picture, look_of(Algorithm::god_object).stroke.ink) == 0);
+    CHECK(pixels_of(picture, style_of(Algorithm::neighborhood).stroke.ink) > 200);
+    CHECK(pixels_of(picture, style_of(Algorithm::god_object).stroke.ink) == 0);
     CHECK(plot_sweep({}).finished().columns == picture.columns);
 }
 

@@ -142,7 +142,7 @@ TEST_CASE("another algorithm over a smaller image, or after letting go, starts a
     for (const double z : {150.0, 90.0}) {
         renderer.update(first, {270.0, 180.0, z}, parameters, input, {});
     }
-    if (!smaller) renderer.let_go();
+    if (!smaller) renderer.release_contact();
     parameters.algorithm = to;
     const Proxy& proxy = renderer.update(second, {20.0, 15.0, 80.0}, parameters, input, {}).proxy;
     CHECK(proxy.contact);

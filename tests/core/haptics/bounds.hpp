@@ -53,7 +53,7 @@ class BoundsWatch {
     }
 
     /// The next update begins in the air.
-    void let_go() { pressed_ = false; }
+    void release_contact() { pressed_ = false; }
 
   private:
     bool pressed_{false};

@@ -87,7 +87,7 @@ class CarriedOnPlane {
   public:
     CarriedOnPlane(MovingScene& scene, Vec2 foot, double radius_px)
         : scene_(scene), foot_(foot), radius_px_(radius_px), place_(foot) {
-        point_.stand_at(place_, motion_between(scene_, 0.0, 0.0));
+        point_.attach_at(place_, motion_between(scene_, 0.0, 0.0));
     }
 
     void go_on(double last_s, double now_s) {
@@ -96,7 +96,7 @@ class CarriedOnPlane {
         const double off_px = glm::length(place_ - foot_);
         slides_ = off_px > radius_px_;
         if (slides_) place_ = foot_ + radius_px_ / off_px * (place_ - foot_);
-        point_.stand_at(place_, motion);
+        point_.attach_at(place_, motion);
     }
     [[nodiscard]] Vec2 place() const { return place_; }
     [[nodiscard]] bool slides() const { return slides_; }
@@ -136,12 +136,12 @@ TEST_CASE("a material point is where it is, however often it was asked for on th
             MaterialPoint point;
             Vec2 place = named.touched;
             double last_s = 0.0;
-            point.stand_at(place, motion_between(scene, 0.0, 0.0));
+            point.attach_at(place, motion_between(scene, 0.0, 0.0));
             while (last_s < end_s) {
                 const double now_s = std::min(next_s(last_s), end_s);
                 const SurfaceMotion motion = motion_between(scene, last_s, now_s);
                 place += point.step_from(place, motion);
-                point.stand_at(place, motion);
+                point.attach_at(place, motion);
                 last_s = now_s;
             }
             return place;
@@ -433,7 +433,7 @@ TEST_CASE("what only touches the air, or begins anew, is not carried", "[carry]"
         CHECK(tick(pressed, {.from_zero = true}).carried == Vec3(0.0));
     }
     SECTION("a hand that lets go") {
-        renderer.let_go();
+        renderer.release_contact();
         CHECK(tick(pressed).carried == Vec3(0.0));
     }
     SECTION("an update that was refused") {

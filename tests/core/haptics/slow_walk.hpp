@@ -32,7 +32,7 @@ class SlowWalk {
     }
 
   private:
-    static constexpr double kThere_px = 1e-11;
+    static constexpr double kArrived_px = 1e-11;
 
     struct Line {
         Vec3 begin, end;
@@ -83,7 +83,8 @@ class SlowWalk {
             exit = here[k] / fall;
             across = k;
         }
-        if (exit > 1.0 + kThere_px || (1.0 - exit) * far < cone_px(foot)) return stop_at_cone(foot);
+        if (exit > 1.0 + kArrived_px || (1.0 - exit) * far < cone_px(foot))
+            return stop_at_cone(foot);
         const auto corners = corners_of(triangle);
         const Vec3 a = corners[(across + 1) % 3];
         const Vec3 b = corners[(across + 2) % 3];
@@ -104,7 +105,7 @@ class SlowWalk {
 
     bool visit_edge(const Primitive& edge) {
         const TrianglePair pair = triangles_of(surface_, edge);
-        double steepest = 10.0 * kThere_px;
+        double steepest = 10.0 * kArrived_px;
         std::optional<Primitive> into;
         for (const auto& triangle : {pair.first, pair.second}) {
             const double gain = triangle ? gain_into(edge, *triangle) : 0.0;
@@ -138,7 +139,7 @@ class SlowWalk {
     }
 
     bool visit_vertex(const Primitive& vertex) {
-        const auto spoke = steepest_spoke(vertex, kThere_px, [](double, double) { return true; });
+        const auto spoke = steepest_spoke(vertex, kArrived_px, [](double, double) { return true; });
         if (spoke) {
             proxy_.active = *spoke;
             return true;
@@ -214,7 +215,7 @@ class SlowWalk {
         const auto here = shares(triangle, proxy_.position);
         const auto there = shares(triangle, foot);
         for (std::size_t k = 0; k < 3; ++k)
-            if (here[k] < kOn && there[k] <= kThere_px) return false;
+            if (here[k] < kOn && there[k] <= kArrived_px) return false;
         return true;
     }
 
@@ -272,7 +273,8 @@ class SlowWalk {
 
     [[nodiscard]] Primitive lowest() const {
         constexpr double kOnGrid_px = 1e-12;
-        return lowest_under(proxy_.active, proxy_.position.x, proxy_.position.y, kOnGrid_px);
+        return smallest_primitive_under(proxy_.active, proxy_.position.x, proxy_.position.y,
+                                        kOnGrid_px);
     }
 
     [[nodiscard]] double mu() const {
@@ -282,7 +284,7 @@ class SlowWalk {
         return friction_.dynamic_coefficient * glm::length(goal_ - foot);
     }
     [[nodiscard]] bool is_held(double far, double aside) const {
-        return far <= mu() * aside * (1.0 + 1e-12) + kThere_px;
+        return far <= mu() * aside * (1.0 + 1e-12) + kArrived_px;
     }
 
     bool stop_at_cone(Vec3 foot) {
@@ -297,7 +299,7 @@ class SlowWalk {
     }
 
     void move_to(Vec3 at) {
-        const bool moves = glm::length(at - proxy_.position) > kThere_px;
+        const bool moves = glm::length(at - proxy_.position) > kArrived_px;
         proxy_.position = at;
         if (moves) moved_ = proxy_.slipping = true;
     }

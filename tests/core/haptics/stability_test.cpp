@@ -113,7 +113,7 @@ TEST_CASE("slow motion of the video is followed, flicker is not, and nothing sta
         double highest = 0.0;
         for (int k = 1; k <= 8000; ++k) {
             const double place = std::sin(2.0 * std::numbers::pi * hertz * k * kTick_s);
-            felt += motion.followed(place - before, kTick_s, kFar);
+            felt += motion.filtered_rise(place - before, kTick_s, kFar);
             before = place;
             if (k > 4000) highest = std::max(highest, felt);
         }
@@ -122,8 +122,8 @@ TEST_CASE("slow motion of the video is followed, flicker is not, and nothing sta
     CHECK(passed(0.25) > 0.99);
     CHECK(passed(15.0) < 0.3);
     VideoMotion motion;
-    double felt = motion.followed(5.0, kTick_s, kFar);
-    for (int k = 0; k < 1000; ++k) felt += motion.followed(0.0, kTick_s, kFar);
+    double felt = motion.filtered_rise(5.0, kTick_s, kFar);
+    for (int k = 0; k < 1000; ++k) felt += motion.filtered_rise(0.0, kTick_s, kFar);
     CHECK_THAT(felt, WithinAbs(5.0, 1e-6));
 }
 
@@ -146,7 +146,8 @@ TEST_CASE("a spring felt late creates energy, and the controller takes it out", 
                                                  kDevice);
         (against.z * way > 0.0 ? taken_mj : given_mj) += against.z * way;
         strongest = std::max(strongest, control.flow().damping_newton_s_per_m);
-        control.sent({0.0, 0.0, kStiffness * depth_mm});  // as if nothing were taken out
+        control.record_sent_force(
+            {0.0, 0.0, kStiffness * depth_mm});  // as if nothing were taken out
     }
     CHECK(taken_mj > 1.0);
     CHECK(-given_mj < 0.01 * taken_mj);
@@ -188,8 +189,8 @@ TEST_CASE("a cut of the video under a hand that hovers begins by the ramp, a slo
 TEST_CASE("ticks that take no time, or no number of it, leave numbers in the flow of energy",
           "[stability]") {
     PassivityControl control;
-    for (const double dt_s : {0.0, std::nan(""), -1.0}) control.pass(dt_s);
-    control.pass(kTick_s);
+    for (const double dt_s : {0.0, std::nan(""), -1.0}) control.skip_tick(dt_s);
+    control.skip_tick(kTick_s);
     CHECK(control.flow().from_video_mw == 0.0);
     CHECK(std::isfinite(control.most_rise_mm(1.0)));
 }

@@ -87,11 +87,11 @@ TEST_CASE("where a map is stiffer, a device that moves is damped as it needs it 
     Proxy proxy;
     proxy.contact = true;
     proxy.position = {5.0, 5.0, 100.0};
-    const Coupling stiff = felt_coupling(surface, proxy, soft, limits);
+    const Coupling stiff = local_coupling(surface, proxy, soft, limits);
     CHECK_THAT(stiff.stiffness_newton_per_mm, WithinAbs(0.9, 1e-4));
     CHECK(stability_margin(stiff, limits.watched) >= limits.watched.margin_newton_s_per_m - 1e-9);
     proxy.position.x = 30.0;
-    CHECK(felt_coupling(surface, proxy, soft, limits) == soft);
+    CHECK(local_coupling(surface, proxy, soft, limits) == soft);
 }
 
 TEST_CASE("over a friction map the proxy lags by the cone of the pixel it is on", "[maps]") {
@@ -125,7 +125,7 @@ TEST_CASE("a height map is elevation, and the walk over it is that over such gro
             higher.at(i, j) += static_cast<float>(maps.height.value_of(pixel));
         }
     }
-    lay(maps, kSide, kSide);
+    lay_heights(maps, kSide, kSide);
     const DepthImage image = test::flat(kSide, kSide, 100.0);
     const SurfaceShape shape{};
     const DepthSurface painted(image, image, 0.0, shape, nullptr, nullptr, &maps);
@@ -152,7 +152,7 @@ TEST_CASE("a height map is elevation, and the walk over it is that over such gro
 TEST_CASE("maps that cover nothing change no bit", "[maps]") {
     TouchMaps maps;
     for (const TouchMapKind kind : all_touch_map_kinds()) maps.of(kind) = bare_map(kind, 13, 7);
-    lay(maps, kSide, kSide);
+    lay_heights(maps, kSide, kSide);
     TouchParameters parameters;
     parameters.friction = {0.7, 0.3};
     for (const Vec3 goal : {Vec3(3.3, 4.4, 97.0), Vec3(39.0, 0.0, 20.0), Vec3(12.0, 30.0, 120.0)}) {
@@ -166,10 +166,10 @@ TEST_CASE("maps that cover nothing change no bit", "[maps]") {
 TEST_CASE("a map of its own resolution is stretched over the image", "[maps]") {
     TouchMap map = bare_map(TouchMapKind::friction, 4, 2);
     map.at(0, 0) = {map.level_of(2.0), 65535};
-    CHECK_THAT(felt_value(map, 0.0, 0.0, 40, 40, 0.5), WithinAbs(2.0, 1e-12));
-    CHECK_THAT(felt_value(map, 4.5, 9.5, 40, 40, 0.5), WithinAbs(2.0, 1e-12));
-    CHECK_THAT(felt_value(map, 9.5, 9.5, 40, 40, 0.5), WithinAbs(1.25, 1e-12));
-    CHECK(felt_value(map, 30.0, 30.0, 40, 40, 0.5) == 0.5);
+    CHECK_THAT(map_value(map, 0.0, 0.0, 40, 40, 0.5), WithinAbs(2.0, 1e-12));
+    CHECK_THAT(map_value(map, 4.5, 9.5, 40, 40, 0.5), WithinAbs(2.0, 1e-12));
+    CHECK_THAT(map_value(map, 9.5, 9.5, 40, 40, 0.5), WithinAbs(1.25, 1e-12));
+    CHECK(map_value(map, 30.0, 30.0, 40, 40, 0.5) == 0.5);
 }
 
 TEST_CASE("levels are linear between the limits and hold what is beyond them", "[maps]") {

@@ -48,7 +48,7 @@ class WanderingVideo final : public RecordedFrames {
     [[nodiscard]] Frame frame(const FrameSource&, double media_s) override {
         return frame_number(static_cast<int>(std::lround(media_s * kFramesPerSecond)), media_s);
     }
-    void connect(Frame& from, const Frame&, const MotionWanted& wanted) override {
+    void connect(Frame& from, const Frame&, const MotionRequest& wanted) override {
         if (!wanted.motion) from.motion.reset();
     }
     [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters&) override {
@@ -146,7 +146,7 @@ TEST_CASE("a session of a hand that was carried replays to the same bits", "[car
         hand.knows_motion = false;
         hand.run(150);
         hand.knows_motion = true;
-        hand.bench.hand.taken_over = true;
+        hand.bench.hand.hand_changed = true;
         hand.run(300);
         hand.bench.hand.lifted = true;
         hand.run(5);

@@ -292,7 +292,7 @@ TEST_CASE(
     press(bench, tick);
     REQUIRE(bench.hand.sent.z > 0.3);
     bench.hand.goal.z += 1.0;  // another hand, a little higher, under the surface too
-    bench.hand.taken_over = true;
+    bench.hand.hand_changed = true;
     run_ticks(tick, 1);
     CHECK_THAT(glm::length(bench.hand.sent), WithinAbs(0.0, 0.0));
     run_ticks(tick, 5);

@@ -22,7 +22,7 @@ class TestHand final : public Device {
         return {.goal_in_grid = goal,
                 .buttons = 1,
                 .lifted = lifted,
-                .taken_over = std::exchange(taken_over, false),
+                .hand_changed = std::exchange(hand_changed, false),
                 .force_off = force_off,
                 .limits = limits_now,
                 .own_force_newton = own_force_newton};
@@ -31,7 +31,7 @@ class TestHand final : public Device {
 
     Vec3 goal{20.0, 10.0, 90.0};
     bool lifted{false};
-    bool taken_over{false};  // by the next reading
+    bool hand_changed{false};  // by the next reading
     bool force_off{false};
     Vec3 own_force_newton{0.0};
     Vec3 sent{-1.0};

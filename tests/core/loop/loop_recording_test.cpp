@@ -187,7 +187,7 @@ TEST_CASE("what the loop records replays to the same bits, whenever the recordin
         bench.hand.lifted = true;
         run_ticks(tick, 5);
         bench.hand.lifted = false;
-        bench.hand.taken_over = true;
+        bench.hand.hand_changed = true;
         explore(bench, tick, 300);
         bench.hand.goal.x = NAN;
         run_ticks(tick, 5);

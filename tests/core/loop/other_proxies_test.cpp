@@ -74,7 +74,7 @@ class HostileDrag {
     HostileDrag(const HostileVideo& video, Algorithm algorithm) : video_(video) {
         bench.handed.parameters.algorithm = algorithm;
         bench.handed.parameters.carry = true;
-        bench.handed.followed = true;
+        bench.handed.compare_algorithms = true;
         HapticConnections connections = bench.connections();
         connections.walked = walked.get();
         tick_ = std::make_unique<HapticTick>(connections);
@@ -99,7 +99,7 @@ class HostileDrag {
         }
         bench.hand.goal = goal_at(k);
         bench.hand.lifted = k % 700 > 680;
-        bench.hand.taken_over = k % 550 == 549;
+        bench.hand.hand_changed = k % 550 == 549;
         const std::chrono::steady_clock::time_point begin{std::chrono::milliseconds(k)};
         tick_->run({begin, 0.001, {}, false}, 0);
         WalkedTick left;
@@ -291,7 +291,7 @@ TEST_CASE("a tick that is followed allocates nothing, and one that is not leaves
     CHECK(allocations_in([&] {
               for (int k = 0; k < 20; ++k) (void)drag.next();
           }) == 0);
-    drag.bench.handed.followed = false;
+    drag.bench.handed.compare_algorithms = false;
     drag.hand_over();
     const WalkedTick last = drag.next();
     CHECK(drag.next().tick == last.tick);

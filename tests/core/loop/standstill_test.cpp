@@ -34,7 +34,7 @@ struct ListeningBench : Bench {
     HapticConnections listening() {
         HapticConnections all = connections();
         all.hearts = {&window, &video, &recorder};
-        all.leaving = &leaving;
+        all.without_force = &without_force;
         return all;
     }
     /// Ticks of a millisecond, with the force that each sent.
@@ -47,12 +47,12 @@ struct ListeningBench : Bench {
         return sent;
     }
     /// All heartbeats are idle: none is expected.
-    void rest() {
-        for (Heartbeat* heart : {&window, &video, &recorder}) heart->rest();
+    void set_idle() {
+        for (Heartbeat* heart : {&window, &video, &recorder}) heart->set_idle();
     }
 
     Heartbeat window{}, video{}, recorder{};
-    std::atomic<bool> leaving{false};
+    std::atomic<bool> without_force{false};
     HapticTick tick{listening()};
 };
 
@@ -67,7 +67,7 @@ TEST_CASE(
     REQUIRE_THAT(bench.hand.sent.z, WithinAbs(3.8, 1e-6));
     Heartbeat* const hearts[]{&bench.window, &bench.video, &bench.recorder};
     for (int k = 0; k < 3; ++k) {
-        if (k != silent) hearts[k]->rest();
+        if (k != silent) hearts[k]->set_idle();
     }
     CHECK(allocations_in([&] { run_ticks(bench.tick, 1); }) == 0);
     const std::vector<double> sent = bench.run(299);
@@ -81,7 +81,7 @@ TEST_CASE(
     CHECK_THAT(sent[248], WithinAbs(0.0, 0.0));
     CHECK(bench.state.front().touch.cut == SafetyCut::standstill);
     CHECK(bench.state.front().standstill.count == 0);  // it is not over
-    bench.rest();
+    bench.set_idle();
     const std::vector<double> back = bench.run(700);
     CHECK(back.front() < 0.01);
     for (std::size_t k = 1; k < back.size(); ++k) CHECK(back[k] >= back[k - 1]);
@@ -89,7 +89,7 @@ TEST_CASE(
     CHECK_THAT(back.back(), WithinAbs(3.8, 1e-6));
     const Standstill& last = bench.state.front().standstill;
     CHECK(last.count == 1);
-    CHECK(static_cast<int>(last.of) == silent);
+    CHECK(static_cast<int>(last.thread) == silent);
     CHECK_THAT(last.seconds, WithinAbs(0.3, 0.05));
 }
 
@@ -99,7 +99,7 @@ TEST_CASE("a beat that comes back while the force goes down lets it rise again, 
     std::vector<double> sent = bench.run(220);
     REQUIRE(sent.back() > 0.5);
     REQUIRE(sent.back() < 3.7);
-    bench.rest();
+    bench.set_idle();
     for (const double force : bench.run(700)) sent.push_back(force);
     for (std::size_t k = 1; k < sent.size(); ++k) {
         CHECK(std::abs(sent[k] - sent[k - 1]) <= SafetyLimits{}.max_change_newton_per_ms + 1e-9);
@@ -111,16 +111,16 @@ TEST_CASE("a standstill in which nothing was touched is not told", "[loop]") {
     ListeningBench bench;
     bench.hand.goal.z += 50.0;
     bench.run(300);
-    bench.rest();
+    bench.set_idle();
     bench.run(10);
     CHECK(bench.state.front().standstill.count == 0);
 }
 
 TEST_CASE("once the program is to end no tick sends a force", "[loop]") {
     ListeningBench bench;
-    bench.rest();
+    bench.set_idle();
     REQUIRE(bench.run(10).back() > 3.7);
-    bench.leaving = true;
+    bench.without_force = true;
     for (const double force : bench.run(50)) CHECK_THAT(force, WithinAbs(0.0, 0.0));
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("a recording of standstills replays to the same bits", "[loop]") {
     const TemporaryFolder folder;
     const auto file = folder / "still.dibhr";
     ListeningBench bench;
-    bench.rest();
+    bench.set_idle();
     TickRecord before;
     while (bench.ticks->pop(before)) continue;
     bench.handed.recording = false;
@@ -157,7 +157,7 @@ TEST_CASE("a recording of standstills replays to the same bits", "[loop]") {
         for (const int length : {220, 300, 205, 450}) {
             bench.window.beat(bench_time());
             bench.run(length);
-            bench.rest();
+            bench.set_idle();
             bench.run(length == 205 ? 3 : 400);
         }
     }
@@ -181,7 +181,7 @@ TEST_CASE(
     "a live surface whose signal is lost takes the force off in 40 ms, and ramps when it is back",
     "[loop]") {
     ListeningBench bench;
-    bench.rest();
+    bench.set_idle();
     FrameWindow window = flat_window(64, 48, 0);
     window.silent = true;
     bench.frames.publish(window);

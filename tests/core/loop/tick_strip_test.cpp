@@ -24,14 +24,14 @@ TEST_CASE("a tick's strip has force, depth under the proxy, speed and lateness i
     CHECK(strip.force_newton == Approx(5.0));
     CHECK(strip.penetration_mm == Approx(12.0 * 0.2));
     CHECK(strip.speed_mm_per_s == Approx(5.0 * 0.2 / 0.002));
-    CHECK(strip.given_millijoule == Approx(1.0 * 0.6 - 2.0 * 0.8));
+    CHECK(strip.work_millijoule == Approx(1.0 * 0.6 - 2.0 * 0.8));
     CHECK(strip.lateness_us == Approx(7.5));
 
     now.proxy.contact = false;
     const TickStrip free = strip_of(before, now, 0.0, 0.0, 0.2);
     CHECK(free.penetration_mm == 0.0F);
     CHECK(free.speed_mm_per_s == 0.0F);  // it came from elsewhere
-    CHECK(free.given_millijoule == 0.0F);
+    CHECK(free.work_millijoule == 0.0F);
 }
 
 TEST_CASE("every tick leaves one strip, and a hand pressed down and lifted gets back what it gave",
@@ -50,7 +50,7 @@ TEST_CASE("every tick leaves one strip, and a hand pressed down and lifted gets 
     const auto drain = [&] {
         for (TickStrip strip; bench.strips->pop(strip);) {
             ++strips;
-            given += static_cast<double>(strip.given_millijoule);
+            given += static_cast<double>(strip.work_millijoule);
             most = std::min(most, given);
         }
     };

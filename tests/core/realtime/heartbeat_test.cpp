@@ -29,7 +29,7 @@ constexpr Clock::time_point kBeat{5h};
 
 TEST_CASE("a heart is silent for as long as its last beat is past", "[heartbeat]") {
     Heartbeat heart;
-    HeartbeatListener listener(&heart);
+    HeartbeatMonitor listener(&heart);
     heart.beat(kBeat);
     CHECK(listener.silence(kBeat) == 0s);
     CHECK(listener.silence(kBeat + 300ms) == 300ms);
@@ -44,12 +44,12 @@ TEST_CASE("a heart is silent for as long as its last beat is past", "[heartbeat]
 
 TEST_CASE("a heart that rests, has not begun or is none is never silent", "[heartbeat]") {
     Heartbeat heart;
-    HeartbeatListener listener(&heart);
+    HeartbeatMonitor listener(&heart);
     CHECK(listener.silence(kBeat + 1h) == 0s);
     heart.beat(kBeat);
-    heart.rest();
+    heart.set_idle();
     CHECK(listener.silence(kBeat + 1h) == 0s);
-    CHECK(HeartbeatListener(nullptr).silence(kBeat + 1h) == 0s);
+    CHECK(HeartbeatMonitor(nullptr).silence(kBeat + 1h) == 0s);
 }
 
 namespace {
@@ -84,7 +84,7 @@ class BeatingThread {
   public:
     BeatingThread(AlsoComputes also, std::function<void()> work)
         : thread_([this, also, work = std::move(work)] {
-              if (also == AlsoComputes::yes) heart_.also_computes();
+              if (also == AlsoComputes::yes) heart_.count_computing_as_beat();
               heart_.beat(kBeat);
               id_ = static_cast<pid_t>(::syscall(SYS_gettid));
               work();
@@ -98,7 +98,7 @@ class BeatingThread {
     [[nodiscard]] pid_t id() const { return id_; }
     /// The silence found by a check once a millisecond, for that time after the beat.
     [[nodiscard]] Clock::duration longest_silence(std::chrono::milliseconds until) const {
-        HeartbeatListener listener(&heart_);
+        HeartbeatMonitor listener(&heart_);
         Clock::duration longest{};
         for (auto at = 0ms; at <= until; at += 1ms)
             longest = std::max(longest, listener.silence(kBeat + at));

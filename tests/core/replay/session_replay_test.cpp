@@ -52,7 +52,7 @@ void record_exploration(const SessionFolder& folder, MovingSurface& surface) {
     go_on(500);
     change([](SessionParameters& p) { p.touch.coupling.stiffness_newton_per_mm = 5.0; });
     go_on(500);
-    hand.lets_go = true;
+    hand.releases_contact = true;
     go_on(300);
     hand.surface = false;
     go_on(50);

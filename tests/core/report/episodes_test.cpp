@@ -82,9 +82,9 @@ TEST_CASE("ticks missing in the file are a gap, a long tick is none", "[report]"
 
 TEST_CASE("an episode ends where the hand lets go or another video comes", "[report]") {
     auto ticks = ticks_touching(200, 0, 200);
-    const bool lets_go = GENERATE(true, false);
-    ticks[100].lets_go = lets_go;
-    for (std::size_t k = 100; k < 200; ++k) ticks[k].frames.source.media = lets_go ? 1 : 2;
+    const bool releases_contact = GENERATE(true, false);
+    ticks[100].releases_contact = releases_contact;
+    for (std::size_t k = 100; k < 200; ++k) ticks[k].frames.source.media = releases_contact ? 1 : 2;
     const auto episodes = episodes_of(ticks);
     REQUIRE(episodes.size() == 2);
     CHECK_THAT(episodes[0].end_s, WithinAbs(0.1, 1e-12));
@@ -175,7 +175,7 @@ TEST_CASE("a jump has no speed", "[report]") {
     double highest = 0.0;
     for (int k = 0; k < 200; ++k) {
         TickRecord tick = tick_in_contact(k, k < 100 ? 100.0 : 500.0, 100.0);
-        if (k == 100) tick.lets_go = true;
+        if (k == 100) tick.releases_contact = true;
         if (const auto speeds = window.add(tick, kPitch_mm)) {
             highest = std::max({highest, speeds->goal_mm_per_s, speeds->proxy_mm_per_s});
         }

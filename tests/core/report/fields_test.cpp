@@ -15,7 +15,7 @@ Fields described(double value) {
     row.plain("who", "a \"b\" <c>", "person");
     row.plain("count", 12, "trials");
     row.fixed({"/force/mean", "mean_newton"}, value, 3, "mean [N]");
-    row.brief({"/force/peak", "peak_newton"}, value, 2, "peak [N]");
+    row.significant({"/force/peak", "peak_newton"}, value, 2, "peak [N]");
     row.add("right", true);
     row.add("choice", nullptr);
     row.add({"/in_json", ""}, 1);

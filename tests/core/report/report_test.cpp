@@ -235,7 +235,7 @@ TEST_CASE("the page says for how much of the session the mouse stood in", "[repo
     const TemporaryFolder folder;
     MadeSession made = two_touches();
     made.facts["device"] = "Novint Falcon 1234";
-    for (std::size_t k = 0; k < 744; ++k) made.ticks[k].stand_in = true;
+    for (std::size_t k = 0; k < 744; ++k) made.ticks[k].mouse_fallback = true;
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
     CHECK(contains(read_text(folder / "out/report.html"),
@@ -251,7 +251,7 @@ TEST_CASE("of a session of the mouse alone the report speaks of no device and of
     made.facts["falcon-serial"] = "";
     made.facts["other-scale"] = "1.75";
     made.facts["device-max-stiffness"] = "1";
-    for (TickRecord& tick : made.ticks) tick.stand_in = true;
+    for (TickRecord& tick : made.ticks) tick.mouse_fallback = true;
     record(folder / "a.dibhr", made);
     report(folder / "a.dibhr", folder / "out");
     for (const char* const name : {"out/report.html", "out/report.json"}) {

@@ -71,7 +71,7 @@ class Exploration {
     double depth_px{30.0};  ///< how far the hand is below the waves' middle
     double tremor_px{0.0};  ///< up and down by so much
     Vec3 own_force_newton{0.0};
-    bool lets_go{false};  ///< in the next tick
+    bool releases_contact{false};  ///< in the next tick
     bool surface{true};
 
     explicit Exploration(MovingSurface& frames) : frames_(frames) {}
@@ -87,9 +87,9 @@ class Exploration {
         record.update_us = 0.3;
         record.settings = parameters.version;
         record.surface = surface;
-        record.lets_go = lets_go;
+        record.releases_contact = releases_contact;
         surface ? touch_surface(record) : pause();
-        lets_go = false;
+        releases_contact = false;
         const Touch& touch = touch_;
         record.goal = touch.goal;
         record.proxy = touch.proxy.position;
@@ -117,7 +117,7 @@ class Exploration {
                         100.0 - depth_px * std::min(1.0, t) + tremor_px * std::sin(31.0 * t)};
         record.from_zero = from_zero_;
         from_zero_ = false;
-        if (lets_go && touch_.proxy.contact) renderer_.let_go();
+        if (releases_contact && touch_.proxy.contact) renderer_.release_contact();
         touch_ = renderer_.update(ground, goal, parameters.touch,
                                   {.dt_s = record.dt_s,
                                    .force_enabled = parameters.force_enabled,

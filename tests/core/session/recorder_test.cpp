@@ -107,7 +107,7 @@ TEST_CASE("every field of a tick comes back under the output rows' names", "[ses
     record.primitive = 2;
     record.buttons = 5;
     record.cut = 5;
-    record.stand_in = true;
+    record.mouse_fallback = true;
     record.from_zero = true;
     push(*ring, record);
     { const Recorder recorder(folder.file(), *ring, {}); }

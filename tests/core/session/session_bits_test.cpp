@@ -68,9 +68,9 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     tick.buttons = static_cast<std::uint8_t>(number % 256);
     tick.cut = static_cast<std::uint8_t>(number % 6);
     tick.device_ready = bit(1);
-    tick.stand_in = bit(2);
+    tick.mouse_fallback = bit(2);
     tick.from_zero = bit(3);
-    tick.lets_go = bit(4);
+    tick.releases_contact = bit(4);
     tick.goal_refused = bit(5);
     tick.catching_up = bit(6);
     tick.gliding = bit(7);
@@ -87,8 +87,8 @@ bool same(const TickRecord& a, const TickRecord& b) {
            same_bits(a.own_newton, b.own_newton) && a.moves == b.moves && a.i == b.i &&
            a.j == b.j && a.contact == b.contact && a.primitive == b.primitive &&
            a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
-           a.device_ready == b.device_ready && a.stand_in == b.stand_in &&
-           a.from_zero == b.from_zero && a.lets_go == b.lets_go &&
+           a.device_ready == b.device_ready && a.mouse_fallback == b.mouse_fallback &&
+           a.from_zero == b.from_zero && a.releases_contact == b.releases_contact &&
            a.goal_refused == b.goal_refused && a.catching_up == b.catching_up &&
            a.gliding == b.gliding && a.standstill == b.standstill;
 }

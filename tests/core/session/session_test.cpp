@@ -154,7 +154,7 @@ TEST_CASE("of a video that grows the content is known from whoever wrote it, els
             push(*ring, tick);
             REQUIRE(eventually([&] { return recorder.status().rows == 1; }));
         }
-        recorder.media_is_whole({{depth, 13, sha256_of_file(depth, 4), 4}});
+        recorder.complete_media({{depth, 13, sha256_of_file(depth, 4), 4}});
         if (!touched_before) push(*ring, tick);
     }
     const Session session(folder.file());

@@ -76,7 +76,7 @@ TEST_CASE("what is answered is read back to the last bit, with its session", "[s
         .utc_s = 1.7e9};
     {
         StudyFile study(file, identity());
-        const auto session = study.fresh_session();
+        const auto session = study.new_session_file();
         std::ofstream(session).flush();
         Database(session).execute(
             "CREATE TABLE session(key TEXT PRIMARY KEY, value TEXT); "
@@ -132,7 +132,7 @@ TEST_CASE("labels that end in the same number are told of each other", "[study]"
         StudyIdentity who = identity();
         who.participant = label;
         who.number = number;
-        return others_of_number(folder.path(), who);
+        return labels_of_number(folder.path(), who);
     };
     CHECK(others("P21", 21).empty());
     begin("P21", 21, "abc");

@@ -8,7 +8,7 @@
 
 namespace dibhr::test {
 
-inline StudyNames study_names() {
+inline AllowedNames allowed_names() {
     return {.materials = std::vector<std::string>{"ice", "bark"}};
 }
 
@@ -21,7 +21,7 @@ inline std::string page_of_conditions(int count, const std::string& rest) {
 }
 
 inline Protocol protocol(const std::string& page) {
-    return protocol_of(page, "study.toml", study_names());
+    return protocol_of(page, "study.toml", allowed_names());
 }
 
 /// All trials, answered by `answer(trial)`.

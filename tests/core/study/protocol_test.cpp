@@ -161,7 +161,7 @@ TEST_CASE("a mistake in a protocol is told with its line and with what is allowe
 }
 
 TEST_CASE("what only other rooms know is told at the line in which it stands", "[study]") {
-    StudyNames names = test::study_names();
+    AllowedNames names = test::allowed_names();
     names.checks = {.values =
                         [](const TouchValues& values) {
                             const auto own = values.numbers.find("friction");
@@ -238,7 +238,7 @@ TEST_CASE("a folder is no page, and a page has a megabyte at most", "[study]") {
     std::ofstream(folder / "long.toml") << std::string(2 << 20, '#');
     const auto said_of = [](const std::filesystem::path& file) -> std::string {
         try {
-            static_cast<void>(read_protocol(file, test::study_names()));
+            static_cast<void>(read_protocol(file, test::allowed_names()));
         } catch (const InputError& error) {
             return error.what();
         }
@@ -269,8 +269,8 @@ TEST_CASE("crossed factors give every combination, the last one the fastest", "[
 
 TEST_CASE("friction of both kinds takes the place of one kind below it", "[study]") {
     const TouchValues under{.numbers = {{"static-friction", 0.5}, {"stiffness", 0.4}}};
-    CHECK(laid_over(under, {.numbers = {{"friction", 0.1}}}) ==
+    CHECK(with_overrides(under, {.numbers = {{"friction", 0.1}}}) ==
           TouchValues{.numbers = {{"friction", 0.1}, {"stiffness", 0.4}}});
-    CHECK(laid_over({.words = {{"media", "a"}}}, {.words = {{"media", "b"}}}).words.at("media") ==
-          "b");
+    CHECK(with_overrides({.words = {{"media", "a"}}}, {.words = {{"media", "b"}}})
+              .words.at("media") == "b");
 }

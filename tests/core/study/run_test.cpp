@@ -84,7 +84,7 @@ TEST_CASE("answers of another study or participant are not gone on from", "[stud
 
 TEST_CASE("every question takes the answers there are, and none only where time runs", "[study]") {
     StudyRun run(all_forms(), 1);
-    CHECK_FALSE(run.takes({.choice = 0}));  // nothing is asked yet
+    CHECK_FALSE(run.accepts({.choice = 0}));  // nothing is asked yet
     std::set<TrialForm> asked;
     while (run.step() != StudyStep::finished) {
         if (run.step() != StudyStep::question && run.step() != StudyStep::adjust) {
@@ -94,11 +94,11 @@ TEST_CASE("every question takes the answers there are, and none only where time 
         const Block& block = run.block();
         CAPTURE(name_of(block.form));
         asked.insert(block.form);
-        CHECK(run.takes({}) == (block.answer_s > 0.0));
+        CHECK(run.accepts({}) == (block.answer_s > 0.0));
         const auto check_choices = [&run](int count) {
-            for (int choice = 0; choice < count; ++choice) CHECK(run.takes({.choice = choice}));
-            CHECK_FALSE(run.takes({.choice = count}));
-            CHECK_FALSE(run.takes({.number = 1.0}));
+            for (int choice = 0; choice < count; ++choice) CHECK(run.accepts({.choice = choice}));
+            CHECK_FALSE(run.accepts({.choice = count}));
+            CHECK_FALSE(run.accepts({.number = 1.0}));
         };
         switch (block.form) {
             case TrialForm::explore:
@@ -111,16 +111,16 @@ TEST_CASE("every question takes the answers there are, and none only where time 
                 check_choices(3);
                 break;
             case TrialForm::adjust:
-                CHECK(run.takes({.number = 0.6}));
-                CHECK_FALSE(run.takes({.number = 0.601}));
-                CHECK_FALSE(run.takes({.number = 0.099}));
-                CHECK_FALSE(run.takes({.choice = 0}));
+                CHECK(run.accepts({.number = 0.6}));
+                CHECK_FALSE(run.accepts({.number = 0.601}));
+                CHECK_FALSE(run.accepts({.number = 0.099}));
+                CHECK_FALSE(run.accepts({.choice = 0}));
                 break;
             case TrialForm::rating:
-                CHECK(run.takes({.number = 7.0}));
-                CHECK_FALSE(run.takes({.number = 8.0}));
-                CHECK_FALSE(run.takes({.number = 2.5}));
-                CHECK_FALSE(run.takes({.choice = 0}));
+                CHECK(run.accepts({.number = 7.0}));
+                CHECK_FALSE(run.accepts({.number = 8.0}));
+                CHECK_FALSE(run.accepts({.number = 2.5}));
+                CHECK_FALSE(run.accepts({.choice = 0}));
         }
         run.accept(run.judged(answer_of({}, run), 0.0));
     }
@@ -135,7 +135,7 @@ TEST_CASE("an interval may be felt again where the page says so", "[study]") {
         else
             run.go_on();
     }
-    run.feel_again(0);
+    run.repeat_interval(0);
     CHECK(run.step() == StudyStep::interval);
     CHECK(run.interval() == 0);
     run.go_on();

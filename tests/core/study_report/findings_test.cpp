@@ -147,7 +147,8 @@ std::vector<KnownForm> known_forms() {
          0.65,
          0.65,
          [](const BlockFindings& block) {
-             return Found{block.shares.at(0).across.value, block.shares.at(0).across.interval};
+             return Found{block.shares.at(0).participants_mean.value,
+                          block.shares.at(0).participants_mean.interval};
          }},
     };
 }
@@ -362,7 +363,7 @@ TEST_CASE("a threshold that nobody has is not made up", "[study report]") {
     const BlockFindings block = findings_in(made, 99);
     REQUIRE(block.thresholds.size() == 1);
     CHECK(block.thresholds[0].unbounded >= 3);
-    CHECK(std::isnan(block.thresholds[0].across.value));
+    CHECK(std::isnan(block.thresholds[0].participants_mean.value));
 }
 
 namespace {
@@ -380,7 +381,7 @@ void require_all_in_the_median(int all) {
             static_cast<std::uint64_t>(study));
         const ThresholdFinding found = findings_in(made, 99).thresholds.at(0);
         unbounded += found.unbounded;
-        CHECK(std::isfinite(found.across.value) == (found.unbounded == 0));
+        CHECK(std::isfinite(found.participants_mean.value) == (found.unbounded == 0));
         CHECK(found.below + found.above <= found.unbounded);
         CHECK(found.median.count == 12);
         CHECK(found.lowest == 0.1);
@@ -450,11 +451,11 @@ TEST_CASE("intervals of shares lie in their range, and of equal shares are not o
                        {.guesses = false, .prefers = "a", .share = share}, 7, 3));
     };
     const ShareFinding some = findings(0.95, 4).shares.at(0);
-    CHECK(some.across.value < 1.0);
-    CHECK(some.across.interval.high <= 1.0);
+    CHECK(some.participants_mean.value < 1.0);
+    CHECK(some.participants_mean.interval.high <= 1.0);
     const ShareFinding always = findings(1.0, 4).shares.at(0);
-    CHECK(always.across.value == 1.0);
-    CHECK(always.across.interval.low == exact_interval({28, 28}).low);
+    CHECK(always.participants_mean.value == 1.0);
+    CHECK(always.participants_mean.interval.low == exact_interval({28, 28}).low);
 }
 
 TEST_CASE("adjustments that are all the same are not tested", "[study report]") {

@@ -23,7 +23,7 @@ const std::string kPairs =
 
 const PlanLine& on_the_page(const std::vector<PlanLine>& lines) {
     for (const PlanLine& line : lines)
-        if (line.as_on_the_page) return line;
+        if (line.as_in_protocol) return line;
     throw std::runtime_error("no line is as on the page");
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("a smaller effect, and people who differ more, need more participants"
         PlanSettings settings{
             .effect = {.guesses = false, .prefers = "a", .share = share, .spread = spread},
             .studies = 50};
-        return on_the_page(plan_of(page, settings)).enough;
+        return on_the_page(plan_of(page, settings)).needed_participants;
     };
     const int large = enough(0.85, 0.0);
     const int small = enough(0.65, 0.0);
@@ -101,20 +101,20 @@ TEST_CASE("the precision of a threshold is how far 95 % of all studies' estimate
             .studies = 20,
             .most_participants = 8};
         for (const PlanLine& one : plan_of(page, settings))
-            if (one.finding.starts_with("threshold") && one.as_on_the_page)
+            if (one.finding.starts_with("threshold") && one.as_in_protocol)
                 return std::pair(one, plan_text({one}, settings));
         throw std::runtime_error("no line of a threshold");
     };
     const std::string good = "levels = [0.02, 0.06, 0.1, 0.14, 0.2, 0.3]\nrepetitions = 40\n";
     const auto [found, found_text] = line(good, 0.12);
-    CHECK(found.enough > 0);
+    CHECK(found.needed_participants > 0);
     CHECK(found.studies.back().precision < 0.1);
     // Who only guesses goes to the top of a staircase, all alike and far from the truth.
     const auto [never, never_text] = line(
         "[block.staircase]\nstart = 0.4\nlowest = 0.01\nhighest = 1\nfactor = 1.2\n"
         "down-after = 3\ntrials = 20\n",
         50.0);
-    CHECK(never.enough == 0);
+    CHECK(never.needed_participants == 0);
     for (const PlannedStudies& one : never.studies) CHECK(one.precision > 0.9);
     CHECK(std::isinf(never.studies.back().precision));
     CHECK(never.studies.back().unbounded > 0.5);

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/report/report_words.hpp"
-#include "core/study_report/study_words.hpp"
+#include "core/report/report_sentences.hpp"
+#include "core/study_report/study_sentences.hpp"
 #include "tests/core/study_report/made_study.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
@@ -45,9 +45,9 @@ TEST_CASE("what chance would agree with is told with both ends, of people as the
     const StudyReport report = report_of(kTwo + "pairs = \"all\"\nrepetitions = 9\n", 2, {}, 8);
     const ShareFinding& share = report.blocks.at(0).shares.at(0);
     REQUIRE(share.adjusted_p >= kSignificance);
-    CHECK(contains(said_of(report), "any share from " + percent_text(share.across.interval.low) +
-                                        " to " + percent_text(share.across.interval.high) +
-                                        " would agree"));
+    CHECK(contains(said_of(report),
+                   "any share from " + percent_text(share.participants_mean.interval.low) + " to " +
+                       percent_text(share.participants_mean.interval.high) + " would agree"));
 }
 
 TEST_CASE("what a test of few people cannot show is not said to agree with chance",

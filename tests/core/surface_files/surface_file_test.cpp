@@ -44,10 +44,10 @@ DepthSurface surface_of(const DepthImage& image, double relief_px = 100.0,
     return {image, image, 0.0, {relief_px, roughness_px}, bump};
 }
 
-std::filesystem::path written(const TemporaryFolder& folder, const FeltSurface& felt,
+std::filesystem::path written(const TemporaryFolder& folder, const ExportedSurface& exported,
                               const std::string& name) {
     OutputFile file(folder / name);
-    write_surface(felt, *surface_format_of(name), file);
+    write_surface(exported, *surface_format_of(name), file);
     file.commit();
     return folder / name;
 }

@@ -49,7 +49,7 @@ inline int count_pits(const DepthImage& raw, const DepthImage& cleaned, Pits whi
 /// `frame_s` apart.
 inline double contact_share(const std::vector<DepthImage>& frames, std::size_t pixel,
                             double frame_s) {
-    PressingFinger finger(elevation_px(frames.front(), pixel), kRestFollows_s);
+    PressingFinger finger(elevation_px(frames.front(), pixel), kRestTimeConstant_s);
     int in_contact = 0;
     int steps = 0;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k)

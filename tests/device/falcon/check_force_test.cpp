@@ -17,7 +17,7 @@ using Catch::Matchers::WithinAbs;
 using dibhr::test::let_pass;
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
-using Wish = CheckGuide::Wish;
+using Request = CheckConsole::Request;
 
 }  // namespace
 
@@ -25,23 +25,23 @@ TEST_CASE("a force is gone at once, whatever ends it", "[check]") {
     struct Ending {
         const char* name;
         void (*happens)(Checked&);
-        Wish wish;
+        Request request;
         const char* told;
     };
     const auto ending = GENERATE(
-        Ending{"a key", [](Checked&) {}, Wish::let_go, "because a key was pressed"},
-        Ending{"q", [](Checked&) {}, Wish::quit, ""},
+        Ending{"a key", [](Checked&) {}, Request::release, "because a key was pressed"},
+        Ending{"q", [](Checked&) {}, Request::quit, ""},
         Ending{"the grip leaves its place",
                [](Checked& check) {
                    check.unit.with([](FalconModel& model) {
                        model.board().hand().place({0.0, 0.031, 0.150});
                    });
                },
-               Wish::none, "moved more than 30 mm"},
-        Ending{"homing is lost", [](Checked& check) { start_firmware(check.unit); }, Wish::none,
+               Request::none, "moved more than 30 mm"},
+        Ending{"homing is lost", [](Checked& check) { start_firmware(check.unit); }, Request::none,
                "not homed any more"},
         Ending{"no replies", [](Checked& check) { check.unit.set_faults({.dropped_replies = 8}); },
-               Wish::none, "a reply was late"});
+               Request::none, "a reply was late"});
     Checked check;
     CAPTURE(ending.name);
     check.only("Force on a kitchen scale");
@@ -51,12 +51,12 @@ TEST_CASE("a force is gone at once, whatever ends it", "[check]") {
     check.person.wish_under_force = [&] {
         // Well after the ramp.
         constexpr int kLate = 60;
-        if (++wishes < kLate) return Wish::none;
+        if (++wishes < kLate) return Request::none;
         if (wishes == kLate) {
             with_force = log_of(check.unit).with_force;
             ending.happens(check);
         }
-        return ending.wish;
+        return ending.request;
     };
     CommandLog after;
     check.person.after_force = [&] {
@@ -77,7 +77,7 @@ TEST_CASE("a cable that is pulled under force ends the check, and the record tel
     int wishes = 0;
     check.person.wish_under_force = [&] {
         if (++wishes == 10) UsbBench::pull_cable(check.unit);
-        return Wish::none;
+        return Request::none;
     };
     CHECK(holds(check.run().fault, "was unplugged"));
     CHECK(check.end_of(6) == "failed");
@@ -109,7 +109,7 @@ TEST_CASE(
         steepest_rise = std::max(steepest_rise, largest - last);
         steepest_fall = std::max(steepest_fall, last - largest);
         last = largest;
-        return Wish::none;
+        return Request::none;
     };
     check.person.after_force = [&] {
         end = Clock::now();

@@ -35,7 +35,7 @@ std::optional<std::string> CheckPerson::next_line() {
     return std::exchange(line_, std::nullopt);
 }
 
-CheckGuide::Wish CheckPerson::wish() {
+CheckConsole::Request CheckPerson::request() {
     unit_.with([this](FalconModel& model) {
         int commanded = 0;
         for (const int motor : model.board().motors()) {

@@ -12,10 +12,10 @@
 
 namespace dibhr::test::falcon {
 
-using dibhr::CheckGuide;
+using dibhr::CheckConsole;
 
 /// A user who does what the check asks for and answers truly, unless a test changes that.
-class CheckPerson final : public CheckGuide {
+class CheckPerson final : public CheckConsole {
   public:
     CheckPerson(UsbBench& bus, Unit& unit) : bus_(bus), unit_(unit) {}
 
@@ -25,7 +25,7 @@ class CheckPerson final : public CheckGuide {
     std::function<std::optional<std::string>(const std::string&)> instead{
         [](const std::string&) { return std::nullopt; }};
     /// While a force acts, about every millisecond.
-    std::function<Wish()> wish_under_force{[] { return Wish::none; }};
+    std::function<Request()> wish_under_force{[] { return Request::none; }};
     std::function<void()> after_force{[] {}};
     bool has_left{false};  ///< nobody types
     bool ctrl_c{false};
@@ -36,7 +36,7 @@ class CheckPerson final : public CheckGuide {
     std::vector<std::string> questions{};
     double pressed_newton{0.0};  ///< on the scale, at the end of the last force's hold
 
-    void say(const std::string& text) override { heard += text + "\n"; }
+    void print(const std::string& text) override { heard += text + "\n"; }
     void show(const std::string& state) override { heard += state + "\n"; }
     void ask(const std::string& question) override;
     std::optional<std::string> next_line() override;
@@ -44,7 +44,7 @@ class CheckPerson final : public CheckGuide {
     bool interrupted() override { return ctrl_c; }
     void force_begins() override { most_counts_ = 0; }
     void force_ended() noexcept override { after_force(); }
-    Wish wish() override;
+    Request request() override;
 
   private:
     /// Enter, a number, or nothing while the hands do what was asked.

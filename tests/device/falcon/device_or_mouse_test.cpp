@@ -52,12 +52,13 @@ bool press_of_the_mouse_moves_the_goal(TickingHand& loop) {
 TEST_CASE("without a Falcon the mouse touches from the first tick on", "[device_or_mouse]") {
     const UsbBench bus;
     TickingHand loop(ConnectionOptions{}, FirmwareImage{});
-    CHECK(loop.device.unread().stand_in);
-    CHECK(loop.device.unread().limits == loop.device.mouse().specification().limits);
+    CHECK(loop.device.reading_without_surface().mouse_fallback);
+    CHECK(loop.device.reading_without_surface().limits ==
+          loop.device.mouse().specification().limits);
     loop.tick();
     CHECK(loop.reading.ready);
-    CHECK(loop.reading.stand_in);
-    CHECK_FALSE(loop.reading.taken_over);
+    CHECK(loop.reading.mouse_fallback);
+    CHECK_FALSE(loop.reading.hand_changed);
     CHECK(press_of_the_mouse_moves_the_goal(loop));
 }
 
@@ -72,11 +73,11 @@ TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse onc
     bus.plug(unit);
     int takings = 0;
     REQUIRE(loop.tick_until([&] {
-        takings += loop.reading.taken_over ? 1 : 0;
-        return !loop.reading.stand_in;
+        takings += loop.reading.hand_changed ? 1 : 0;
+        return !loop.reading.mouse_fallback;
     }));
     CHECK(takings == 1);
-    CHECK(loop.reading.taken_over);
+    CHECK(loop.reading.hand_changed);
     REQUIRE(loop.tick_until_ready());
     loop.force_newton = {0.0, 0.0, 0.5};
     REQUIRE(loop.tick_until([&] { return !is_limp(unit); }));
@@ -85,8 +86,8 @@ TEST_CASE("a Falcon takes the hand over once when it is ready, and the mouse onc
     const auto forces = log_of(unit).with_force;
     CHECK(forces > 0);
     bus.unplug(unit);
-    REQUIRE(loop.tick_until([&] { return loop.reading.stand_in; }));
-    CHECK(loop.reading.taken_over);
+    REQUIRE(loop.tick_until([&] { return loop.reading.mouse_fallback; }));
+    CHECK(loop.reading.hand_changed);
     CHECK(press_of_the_mouse_moves_the_goal(loop));
 
     bus.plug(unit);
@@ -113,7 +114,7 @@ TEST_CASE("a reading says what its own hand can stand: the mouse's, or the Falco
     CHECK(loop.reading.limits == dibhr::at_scale(most, 4.0));
     CHECK(loop.reading.limits->max_stiffness_newton_per_mm < most.max_stiffness_newton_per_mm);
     bus.unplug(unit);
-    REQUIRE(loop.tick_until([&] { return loop.reading.stand_in; }));
+    REQUIRE(loop.tick_until([&] { return loop.reading.mouse_fallback; }));
     CHECK(loop.reading.limits == loop.device.mouse().specification().limits);
 }
 
@@ -127,8 +128,8 @@ TEST_CASE("a clutched Falcon stays the hand, without force", "[device_or_mouse]"
     unit.with(
         [](FalconModel& model) { model.board().press(static_cast<std::uint8_t>(Button::centre)); });
     REQUIRE(loop.tick_until([&] { return !loop.reading.ready; }));
-    CHECK_FALSE(loop.reading.stand_in);
-    CHECK_FALSE(loop.reading.taken_over);
+    CHECK_FALSE(loop.reading.mouse_fallback);
+    CHECK_FALSE(loop.reading.hand_changed);
 }
 
 TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the other rests",
@@ -145,14 +146,14 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
                    std::make_unique<dibhr::inverse3::Inverse3Device>(options)));
     constexpr int kFalcon = 1;
     constexpr int kInverse3 = 2;
-    const auto touching = [&] { return int{loop.reading.which}; };
+    const auto touching = [&] { return int{loop.reading.device_number}; };
     loop.force_newton = {0.0, 0.0, 1.0};
     REQUIRE(loop.tick_until_ready());
     CHECK(touching() == kInverse3);
     start_firmware(unit);
     home(unit);
     bus.plug(unit);
-    REQUIRE(loop.tick_until([&] { return loop.device.devices()[0]->in_hand(); }));
+    REQUIRE(loop.tick_until([&] { return loop.device.devices()[0]->can_touch(); }));
     loop.tick_for(milliseconds(100));
     CHECK(touching() == kInverse3);
     CHECK(log_of(unit).with_force == 0);
@@ -161,7 +162,7 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
     service.with([](simulated::Scene& scene) { scene.arms.clear(); });
     int takings = 0;
     REQUIRE(loop.tick_until([&] {
-        takings += loop.reading.taken_over ? 1 : 0;
+        takings += loop.reading.hand_changed ? 1 : 0;
         return touching() == kFalcon;
     }));
     CHECK(takings == 1);
@@ -170,11 +171,11 @@ TEST_CASE("of a Falcon and an Inverse3 the first that is ready touches, and the 
 
     // It comes again: the Falcon keeps the hand, and the Inverse3 rests at zero.
     service.with([](simulated::Scene& scene) { scene.arms = {simulated::Arm{}}; });
-    service.forget_heard();
-    REQUIRE(loop.tick_until([&] { return loop.device.devices()[1]->in_hand(); }));
+    service.clear_received();
+    REQUIRE(loop.tick_until([&] { return loop.device.devices()[1]->can_touch(); }));
     loop.tick_for(milliseconds(200));
     CHECK(touching() == kFalcon);
-    for (const simulated::Heard& one : service.heard()) {
+    for (const simulated::ReceivedMessage& one : service.received()) {
         CHECK(glm::length(one.force_newton) == 0.0);
     }
 }

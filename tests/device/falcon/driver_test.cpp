@@ -29,11 +29,11 @@ bool holds(const std::string& text, const std::string& part) {
 
 /// The driver alone, without a haptic thread.
 struct Alone {
-    Exchange exchange{};
+    ThreadBuffers buffers{};
     Driver driver;
 
     explicit Alone(ConnectionOptions options = {}, FirmwareImage firmware = {})
-        : driver(std::move(options), std::move(firmware), exchange) {}
+        : driver(std::move(options), std::move(firmware), buffers) {}
 
     [[nodiscard]] bool comes_to(Stage stage) {
         return eventually([&] { return driver.status().stage == stage; });
@@ -226,7 +226,7 @@ TEST_CASE("pulled out in mid-touch it is missed with a sentence, and taken back 
     const std::string later = loop.device.status().sentence;
     CAPTURE(later);
     CHECK(holds(later, "SIM00001 was unplugged"));
-    CHECK_FALSE(loop.device.in_hand());
+    CHECK_FALSE(loop.device.can_touch());
 
     if (!udev_knows) bus.unplug(unit);
     CHECK(loop.tick_until([&] { return loop.device.status().serial.empty(); }));

@@ -96,7 +96,7 @@ TEST_CASE("a Falcon that another program left homed is ready without asking its 
           "[falcon]") {
     Homed homed;
     CHECK(homed.loop->device.status().load_try == 0);
-    CHECK(homed.loop->device.in_hand());
+    CHECK(homed.loop->device.can_touch());
 }
 
 TEST_CASE("a resting hand is pushed with exactly the counts of the force", "[falcon]") {
@@ -161,7 +161,7 @@ TEST_CASE("while the clutch is held the goal stays and there is no force; then i
     };
     press(static_cast<std::uint8_t>(Button::centre));
     REQUIRE(loop.tick_until([&] { return !loop.reading.ready && loop.reading.buttons != 0; }));
-    CHECK(loop.device.in_hand());
+    CHECK(loop.device.can_touch());
     const Vec3 held = loop.reading.goal_in_grid;
     CHECK(homed.told(Counts{}));
     homed.unit.with([](FalconModel& model) { model.board().hand().place({0.02, 0.01, 0.13}); });
@@ -183,7 +183,7 @@ TEST_CASE(
         [](Tuning& tuning) { tuning.geometry.gear *= 1.01; },
         [](Tuning& tuning) { tuning.motors.counts_per_newton_metre = 6616.0; },
         [](Tuning& tuning) { tuning.workspace.scale = 2.0; },
-        [](Tuning& tuning) { tuning.centred = 1; },
+        [](Tuning& tuning) { tuning.centre_count = 1; },
     }));
     Tuning tuning;
     change(tuning);
@@ -192,12 +192,12 @@ TEST_CASE(
         return loop.reading;
     };
     (void)next_reading();
-    CHECK_FALSE(next_reading().taken_over);
+    CHECK_FALSE(next_reading().hand_changed);
     loop.device.tuning().publish(tuning);
-    CHECK(next_reading().taken_over);
-    CHECK_FALSE(next_reading().taken_over);
+    CHECK(next_reading().hand_changed);
+    CHECK_FALSE(next_reading().hand_changed);
     loop.device.tuning().publish(tuning);  // the same once more
-    CHECK_FALSE(next_reading().taken_over);
+    CHECK_FALSE(next_reading().hand_changed);
 }
 
 TEST_CASE("other buttons for clutch and force do not take the force off a hand", "[falcon]") {
@@ -209,7 +209,7 @@ TEST_CASE("other buttons for clutch and force do not take the force off a hand",
     REQUIRE(loop.tick_until_ready());
     loop.device.tuning().publish(tuning);
     REQUIRE(loop.tick_until_ready());
-    CHECK_FALSE(loop.reading.taken_over);
+    CHECK_FALSE(loop.reading.hand_changed);
 }
 
 TEST_CASE("a force has the tuning of the reading it was computed from", "[falcon]") {

@@ -81,21 +81,21 @@ void check_trips(std::uint64_t trips) {
     const auto commands_before = log_of(unit).commands;
     const auto first = loop.device.reply_number();
     std::uint64_t ticks_without_reply = 0;
-    bool in_hand = true;
+    bool can_touch = true;
     for (std::uint64_t tick = 0; tick < trips; ++tick) {
         const auto last = loop.device.reply_number();
         ++no_alloc_depth;
         loop.tick();
         --no_alloc_depth;
         let_pass(std::chrono::microseconds(50));  // until the USB thread waits again
-        in_hand = in_hand && loop.device.in_hand();
+        can_touch = can_touch && loop.device.can_touch();
         ticks_without_reply += tick > 0 && loop.device.reply_number() == last ? 1 : 0;
     }
     CHECK(ticks_without_reply == 0);
     CHECK(loop.device.reply_number() + 2 >= first + trips);
     CHECK(log_of(unit).commands - commands_before <= trips + 1);
     CHECK(loop.device.status().resent == 0);
-    CHECK(in_hand);
+    CHECK(can_touch);
     CHECK(alloc_in_tick == 0);
     CHECK(log_of(unit).force_before_homing == 0);
     alloc_in_tick = 0;

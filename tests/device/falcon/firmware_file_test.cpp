@@ -16,9 +16,9 @@
 #include "device/falcon/firmware_image.hpp"
 #include "tests/device/falcon/synthetic_firmware.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
-#include "tests/support/variable.hpp"
 
 namespace {
 
@@ -41,7 +41,7 @@ class Folder : public TemporaryFolder {
     }
 
   private:
-    Variable data_home_{"XDG_DATA_HOME", (*this / "data").c_str()};
+    EnvironmentVariable data_home_{"XDG_DATA_HOME", (*this / "data").c_str()};
 };
 
 /// The message when the file is refused; empty: it is accepted.

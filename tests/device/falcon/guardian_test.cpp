@@ -25,7 +25,7 @@ namespace {
 
 using namespace dibhr::test::falcon;
 using dibhr::Guardian;
-using dibhr::falcon::farewell;
+using dibhr::falcon::stop_packet;
 using dibhr::test::eventually;
 using dibhr::test::kWaysToDie;
 using dibhr::test::PressingProcess;
@@ -218,7 +218,7 @@ TEST_CASE("where no process may be made the program goes on and says that nobody
         const rlimit none{0, 0};
         ::setrlimit(RLIMIT_NPROC, &none);
         Guardian guardian("Falcon");
-        guardian.watch(0, farewell());
+        guardian.watch(0, stop_packet());
         guardian.beat();
         guardian.dismiss();
         ::_exit(guardian.fault().find("no guardian process (fork: ") == 0 ? 0 : 1);

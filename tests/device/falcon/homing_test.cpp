@@ -1,5 +1,5 @@
 // When poses may be trusted, and when a person needs a hint.
-#include "device/falcon/reply_watch.hpp"
+#include "device/falcon/homing_watch.hpp"
 
 #include <chrono>
 #include <cstdint>

@@ -44,8 +44,8 @@ struct Linked {
         const auto end = Clock::now() + span;
         while (Clock::now() < end && !link->loss()) {
             const auto now = Clock::now();
-            if (link->takes_command(now)) link->send(encode(Command{}), now);
-            link->wait(link->idle() ? end : link->patience_ends());
+            if (link->can_send(now)) link->send(encode(Command{}), now);
+            link->wait(link->idle() ? end : link->retry_at());
             replies += link->replies().size();
         }
     }
@@ -126,7 +126,7 @@ TEST_CASE("a stall, a pulled cable and a wire that takes nothing end the link wi
         UsbBench::pull_cable(linked.unit);
         linked.exchange(milliseconds(3000));
         CHECK(holds(linked.loss(), "unplugged"));
-        CHECK(linked.link->loss()->gone());
+        CHECK(linked.link->loss()->unplugged());
     }
     SECTION("wire") {
         linked.unit.set_faults({.frozen_out = 1});

@@ -37,7 +37,7 @@ struct Bench {
 
     bool load(const std::vector<std::uint8_t>& image = dibhr::test::synthetic_firmware(600)) {
         UploadOptions options;
-        options.tell = [this](double part, int number) {
+        options.on_progress = [this](double part, int number) {
             told.push_back(part);
             tries = number;
         };

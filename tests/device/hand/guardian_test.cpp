@@ -22,18 +22,19 @@
 
 namespace {
 
-using dibhr::Farewell;
 using dibhr::Guardian;
+using dibhr::StopPacket;
 using dibhr::test::let_pass;
 using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view kZero = "zero.";
 
-Farewell zero() {
-    Farewell farewell{.over = Farewell::Over::stream};
-    farewell.say(std::span(reinterpret_cast<const std::uint8_t*>(kZero.data()), kZero.size()));
-    return farewell;
+StopPacket zero() {
+    StopPacket stop_packet{.channel = StopPacket::Channel::stream};
+    stop_packet.set_message(
+        std::span(reinterpret_cast<const std::uint8_t*>(kZero.data()), kZero.size()));
+    return stop_packet;
 }
 
 /// A connection of the program, and the device at its other end.
@@ -108,7 +109,7 @@ TEST_CASE("a guardian says nothing while its program lives, and speaks when it h
     guardian.watch(device.of_program(), zero());
     beat_for(guardian, std::chrono::seconds(5));
     CHECK_FALSE(device.hears(milliseconds(0)));
-    CHECK_FALSE(guardian.spoken());
+    CHECK_FALSE(guardian.has_sent());
 
     guardian.beat();
     const auto last_beat = Clock::now();
@@ -116,7 +117,7 @@ TEST_CASE("a guardian says nothing while its program lives, and speaks when it h
     // 50 ms after it has seen a beat; it looks every 10 ms.
     CHECK(Clock::now() - last_beat >= milliseconds(50));
     CHECK(Clock::now() - last_beat <= milliseconds(61));
-    CHECK(guardian.spoken());
+    CHECK(guardian.has_sent());
     for (int times = 0; times < 5; ++times) {
         CHECK(device.heard() == kZero);
         if (times < 4) CHECK(device.hears(milliseconds(6)));  // every 5 ms
@@ -125,7 +126,7 @@ TEST_CASE("a guardian says nothing while its program lives, and speaks when it h
     CHECK_FALSE(device.hears(std::chrono::seconds(2)));
 
     guardian.dismiss();
-    CHECK_FALSE(guardian.spoken());
+    CHECK_FALSE(guardian.has_sent());
     CHECK_FALSE(device.hears(std::chrono::seconds(2)));
 }
 
@@ -147,7 +148,7 @@ TEST_CASE("a guardian that was parted from says zero five times, and another one
     Guardian guardian("device");
     CHECK_FALSE(guardian.died());
     guardian.watch(first.of_program(), zero());
-    guardian.part();
+    guardian.detach();
     first.forget();
     std::string all;
     while (first.hears(std::chrono::seconds(10))) {

@@ -9,7 +9,7 @@ using namespace dibhr;
 using namespace dibhr::inverse3;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
-using Hears = HearingWatch::Hears;
+using Obeys = ForceEchoWatch::Obeys;
 
 Arm usable_arm() {
     Arm arm;
@@ -30,12 +30,12 @@ struct States {
     }
 };
 
-Hears hears_after(Vec3 sent, const std::optional<Vec3>& told, milliseconds span) {
-    HearingWatch hearing;
+Obeys hears_after(Vec3 sent, const std::optional<Vec3>& told, milliseconds span) {
+    ForceEchoWatch hearing;
     for (milliseconds t{0}; t <= span; t += milliseconds(1)) {
-        hearing.add(sent, told, HearingWatch::Time(t));
+        hearing.add(sent, told, ForceEchoWatch::Time(t));
     }
-    return hearing.hears();
+    return hearing.obeys();
 }
 
 }  // namespace
@@ -81,7 +81,7 @@ TEST_CASE("whatever keeps an arm from touching has its stage, and a new epoch fo
         CHECK(states.watch.stage() == Stage::not_understood);
     }
     SECTION("a message without it") {
-        states.watch.miss();
+        states.watch.add_gap();
         CHECK(states.watch.stage() == Stage::ready);  // of the last one that came
     }
     SECTION("exchanged axes") {
@@ -144,7 +144,7 @@ TEST_CASE("a fast hand is no jump", "[inverse3]") {
 TEST_CASE("a use that begins as we begin to drive is ours, until it has ended once", "[inverse3]") {
     States states;
     states.come(5);
-    states.watch.drove(states.now, false);
+    states.watch.force_sent(states.now, false);
     states.arm.in_use = true;
     states.come(5);
     CHECK(states.watch.stage() == Stage::ready);
@@ -159,34 +159,34 @@ TEST_CASE("a service that was in use before we drive is another program's", "[in
     States states;
     states.arm.in_use = true;
     states.come(5);
-    states.watch.drove(states.now, true);
+    states.watch.force_sent(states.now, true);
     states.come(5);
     CHECK(states.watch.stage() == Stage::in_use);
 }
 
 TEST_CASE("a service that tells back no force is deaf after a quarter of a second", "[inverse3]") {
-    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(240)) == Hears::unknown);
-    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(260)) == Hears::no);
+    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(240)) == Obeys::unknown);
+    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0}, milliseconds(260)) == Obeys::no);
     // A force reduced by the service's filters counts as taken.
-    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0, 0.0, 0.3}, milliseconds(1)) == Hears::yes);
+    CHECK(hears_after({0.0, 0.0, 1.0}, Vec3{0.0, 0.0, 0.3}, milliseconds(1)) == Obeys::yes);
 }
 
 TEST_CASE("of weak forces, and where none is told back, nothing is concluded", "[inverse3]") {
-    CHECK(hears_after({0.0, 0.0, 0.1}, Vec3{0.0}, milliseconds(5000)) == Hears::unknown);
-    CHECK(hears_after({0.0, 0.0, 1.0}, std::nullopt, milliseconds(5000)) == Hears::unknown);
+    CHECK(hears_after({0.0, 0.0, 0.1}, Vec3{0.0}, milliseconds(5000)) == Obeys::unknown);
+    CHECK(hears_after({0.0, 0.0, 1.0}, std::nullopt, milliseconds(5000)) == Obeys::unknown);
 }
 
 TEST_CASE("a service that says in use whenever it is pushed means us, each time", "[inverse3]") {
     States states;
     states.come(5);
-    states.watch.drove(states.now, false);
+    states.watch.force_sent(states.now, false);
     states.come(3000);
     for (int push = 0; push < 3; ++push) {
-        states.watch.drove(states.now, true);
+        states.watch.force_sent(states.now, true);
         states.arm.in_use = true;
         states.come(500);
         CHECK(states.watch.stage() == Stage::ready);
-        states.watch.drove(states.now, false);
+        states.watch.force_sent(states.now, false);
         states.arm.in_use = false;
         states.come(500);
     }

@@ -22,11 +22,11 @@ using namespace dibhr::test::inverse3;
 using Catch::Matchers::WithinAbs;
 
 /// Moves the grip, feels the pull, and reads a scale.
-class Person final : public CheckGuide {
+class Person final : public CheckConsole {
   public:
     explicit Person(simulated::Service& service) : service_(service) {}
 
-    std::function<Wish()> wish_under_force{[] { return Wish::none; }};
+    std::function<Request()> wish_under_force{[] { return Request::none; }};
     /// Answers instead; nothing: as usual.
     std::function<std::optional<std::string>(const std::string&)> instead{
         [](const std::string&) { return std::nullopt; }};
@@ -36,15 +36,15 @@ class Person final : public CheckGuide {
     }};
     bool moves_after{true};     ///< the grip, once it is plugged in again
     bool entry_freezes{false};  ///< of a device whose cable is out
-    std::string heard{};
+    std::string received{};
     double most_newton{0.0};         ///< felt in the last push
     Vec3 last_newton{0.0};           ///< there, at its end
     double after_force_newton{0.0};  ///< felt when a push had ended, at most
 
-    void say(const std::string& text) override { heard += text + "\n"; }
-    void show(const std::string& state) override { heard += state + "\n"; }
+    void print(const std::string& text) override { received += text + "\n"; }
+    void show(const std::string& state) override { received += state + "\n"; }
     void ask(const std::string& question) override {
-        heard += question + "\n";
+        received += question + "\n";
         line_ = instead(question);
         if (line_) return;
         if (question.find("pull the USB cable") != std::string::npos) {
@@ -82,7 +82,7 @@ class Person final : public CheckGuide {
     void force_ended() noexcept override {
         after_force_newton = std::max(after_force_newton, glm::length(felt()));
     }
-    Wish wish() override {
+    Request request() override {
         last_newton = felt();
         most_newton = std::max(most_newton, glm::length(last_newton));
         return wish_under_force();
@@ -136,8 +136,8 @@ std::function<std::optional<std::string>(const std::string&)> only(const std::st
                                                                    Person& person) {
     return [&person, title](const std::string& question) -> std::optional<std::string> {
         if (!holds(question, "= go on") && !holds(question, "begin with force")) return {};
-        const std::size_t step = person.heard.rfind(" of 8: ");
-        const bool wanted = person.heard.find(" of 8: " + title + "\n", step) == step;
+        const std::size_t step = person.received.rfind(" of 8: ");
+        const bool wanted = person.received.find(" of 8: " + title + "\n", step) == step;
         if (!wanted) return "s";
         return {};
     };
@@ -199,13 +199,14 @@ TEST_CASE("the check measures what is not known of an Inverse3, and keeps it in 
           "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
-    scene.manners.takes = GENERATE(simulated::Takes::vector, simulated::Takes::values);
-    scene.manners.force_held = milliseconds(60);
-    const bool vector = scene.manners.takes == simulated::Takes::vector;
+    scene.behaviour.accepts =
+        GENERATE(simulated::AcceptedDialect::vector, simulated::AcceptedDialect::values);
+    scene.behaviour.force_held = milliseconds(60);
+    const bool vector = scene.behaviour.accepts == simulated::AcceptedDialect::vector;
     simulated::Service service(scene);
     Person person(service);
     const CheckResult result = run_check(quick(service, folder), person);
-    INFO(person.heard);
+    INFO(person.received);
     CHECK(result.fault == "");
     const Json record = record_in(folder);
     CHECK(record["format"] == "dibhr inverse3 check");
@@ -244,7 +245,7 @@ TEST_CASE("the check measures what is not known of an Inverse3, and keeps it in 
     CHECK(says(found["in-use"], "another program"));
     CHECK(says(found["unplugged"], "it goes"));
     CHECK(record["settings"]["dialect"] == (vector ? "\"vector\"" : "\"values\""));
-    CHECK(person.heard.find("[inverse3]") != std::string::npos);
+    CHECK(person.received.find("[inverse3]") != std::string::npos);
     CHECK_THAT(person.after_force_newton, WithinAbs(0.0, 1e-12));
     CHECK(service.too_many_in_flight() == 0);
 }
@@ -257,10 +258,10 @@ TEST_CASE("the check tells a frozen entry from one that goes, and whom in_use me
     person.entry_freezes = true;
     person.wish_under_force = [&] {  // a service that counts us as a user of the device
         service.with([](simulated::Scene& scene) { scene.arms[0].in_use = true; });
-        return CheckGuide::Wish::none;
+        return CheckConsole::Request::none;
     };
     const CheckResult result = run_check(quick(service, folder), person);
-    INFO(person.heard);
+    INFO(person.received);
     CHECK(result.fault == "");
     const Json record = record_in(folder);
     CHECK(says(record["findings"]["in-use"], "us, too"));
@@ -271,14 +272,14 @@ TEST_CASE("a person who lets go, or quits, is without force at once", "[inverse3
     const test::TemporaryFolder folder;
     simulated::Service service(usual_scene());
     Person person(service);
-    const auto wish = GENERATE(CheckGuide::Wish::let_go, CheckGuide::Wish::quit);
+    const auto request = GENERATE(CheckConsole::Request::release, CheckConsole::Request::quit);
     person.wish_under_force = [&] {
-        return person.most_newton > 0.3 ? wish : CheckGuide::Wish::none;
+        return person.most_newton > 0.3 ? request : CheckConsole::Request::none;
     };
     const CheckResult result = run_check(quick(service, folder), person);
     CHECK(result.fault == "");
     CHECK_THAT(person.after_force_newton, WithinAbs(0.0, 1e-12));
-    if (wish == CheckGuide::Wish::quit) {
+    if (request == CheckConsole::Request::quit) {
         CHECK(record_in(folder)["steps"].back()["end"] == "not begun");
     }
 }
@@ -293,15 +294,15 @@ TEST_CASE("no force begins by Enter alone", "[inverse3_check]") {
         if (question.find("F and Enter") == std::string::npos) return {};
         if (!at_step && question.find("begin with force") != std::string::npos) {
             const bool pulls_at_once =
-                person.heard.rfind("Force on a kitchen scale") == std::string::npos;
+                person.received.rfind("Force on a kitchen scale") == std::string::npos;
             return pulls_at_once ? "s" : "f";
         }
         return ++enters[question] % 3 == 0 ? "s" : "";
     };
     CHECK(run_check(quick(service, folder), person).fault == "");
     CHECK_FALSE(enters.empty());
-    CHECK(person.heard.find("There is no force until you type F") != std::string::npos);
-    for (const simulated::Heard& one : service.heard()) {
+    CHECK(person.received.find("There is no force until you type F") != std::string::npos);
+    for (const simulated::ReceivedMessage& one : service.received()) {
         REQUIRE(glm::length(one.force_newton) < 1e-12);
     }
 }
@@ -309,12 +310,12 @@ TEST_CASE("no force begins by Enter alone", "[inverse3_check]") {
 TEST_CASE("a key in a silence is answered by a zero force within 10 ms", "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
-    scene.manners.force_held = milliseconds(0);
+    scene.behaviour.force_held = milliseconds(0);
     simulated::Service service(scene);
     Person person(service);
     person.instead = [&](const std::string& question) -> std::optional<std::string> {
-        const bool is_silence = person.heard.rfind("The force after the last message") >
-                                person.heard.rfind("The format of a force") + 1;
+        const bool is_silence = person.received.rfind("The force after the last message") >
+                                person.received.rfind("The format of a force") + 1;
         if (question.find("begin with force") != std::string::npos && !is_silence) return "s";
         return {};
     };
@@ -322,17 +323,18 @@ TEST_CASE("a key in a silence is answered by a zero force within 10 ms", "[inver
     options.times.silences = {milliseconds(1000)};
     std::optional<simulated::Clock::time_point> key;
     person.wish_under_force = [&] {
-        const auto last = service.heard().back().at;
+        const auto last = service.received().back().at;
         const bool silent = simulated::Clock::now() - last > milliseconds(200);
         if (silent && !key) key = simulated::Clock::now();
-        return key ? CheckGuide::Wish::let_go : CheckGuide::Wish::none;
+        return key ? CheckConsole::Request::release : CheckConsole::Request::none;
     };
     CHECK(run_check(options, person).fault == "");
     REQUIRE(key);
-    const auto heard = service.heard();
-    const auto next = std::find_if(heard.begin(), heard.end(),
-                                   [&](const simulated::Heard& one) { return one.at > *key; });
-    REQUIRE(next != heard.end());
+    const auto received = service.received();
+    const auto next =
+        std::find_if(received.begin(), received.end(),
+                     [&](const simulated::ReceivedMessage& one) { return one.at > *key; });
+    REQUIRE(next != received.end());
     CHECK(next->drives);
     CHECK_THAT(glm::length(next->force_newton), WithinAbs(0.0, 1e-12));
     CHECK(next->at - *key < milliseconds(10));
@@ -344,12 +346,12 @@ TEST_CASE("the step of the workspace waits for its Enter, and tells when it wait
     const test::TemporaryFolder folder;
     simulated::Service service(usual_scene());
     Person person(service);
-    person.wish_under_force = [] { return CheckGuide::Wish::quit; };
+    person.wish_under_force = [] { return CheckConsole::Request::quit; };
     CheckOptions options = quick(service, folder);
     const bool waits = GENERATE(true, false);  // the person takes 1.5 s
     if (!waits) options.times.moving = milliseconds(300);
     CHECK(run_check(options, person).fault == "");
-    CHECK((person.heard.find("It went on by itself") == std::string::npos) == waits);
+    CHECK((person.received.find("It went on by itself") == std::string::npos) == waits);
     const Json measured = step_in(record_in(folder), "moving")["measured"];
     CHECK(measured["ended_by_enter"] == waits);
 }
@@ -358,7 +360,7 @@ TEST_CASE("only what is felt is proposed for the settings, and y or n is asked f
           "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
-    scene.manners.takes = simulated::Takes::both;
+    scene.behaviour.accepts = simulated::AcceptedDialect::both;
     simulated::Service service(scene);
     Person person(service);
     const auto usual = only("The format of a force", person);
@@ -402,15 +404,15 @@ TEST_CASE("a force that a person lets go of is not recorded as one that was held
     };
     person.wish_under_force = [&] {
         const bool strong = person.last_newton.x < -0.49 || person.last_newton.z < -1.99;
-        return strong ? CheckGuide::Wish::let_go : CheckGuide::Wish::none;
+        return strong ? CheckConsole::Request::release : CheckConsole::Request::none;
     };
     CHECK(run_check(quick(service, folder), person).fault == "");
     CHECK_THAT(person.after_force_newton, WithinAbs(0.0, 1e-12));
     const Json record = record_in(folder);
     if (title != "Force on a kitchen scale") {
-        int let_go = 0;
-        for (const Json& step : record["steps"]) let_go += step["end"] == "let go" ? 1 : 0;
-        CHECK(let_go == 1);
+        int release = 0;
+        for (const Json& step : record["steps"]) release += step["end"] == "let go" ? 1 : 0;
+        CHECK(release == 1);
         CHECK(record["findings"]["dialect"].is_null());
         return;
     }
@@ -429,13 +431,13 @@ TEST_CASE("the preset is set as the viewer sets it, and all that the service say
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
     scene.arms[0].preset = "led_front";
-    scene.manners.inventory_at_once = GENERATE(true, false);
+    scene.behaviour.inventory_at_once = GENERATE(true, false);
     simulated::Service service(scene);
     Person person(service);
     person.instead = only("What the service says", person);
     CHECK(run_check(quick(service, folder), person).fault == "");
     const Json measured = step_in(record_in(folder), "service")["measured"];
-    CHECK(measured["inventory_sent_at_once"] == scene.manners.inventory_at_once);
+    CHECK(measured["inventory_sent_at_once"] == scene.behaviour.inventory_at_once);
     CHECK(measured["inventory"]["inverse3"][0]["config"]["preset"] == "led_front");
     CHECK(measured["preset_before"] == "led_front");
     CHECK(measured["preset"] == "defaults");
@@ -480,7 +482,7 @@ TEST_CASE("a grip that nobody moved leaves its questions open", "[inverse3_check
 TEST_CASE("a silence is recorded as long as it was", "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
-    scene.manners.force_held = milliseconds(60);
+    scene.behaviour.force_held = milliseconds(60);
     simulated::Service service(scene);
     Person person(service);
     person.instead = only("The force after the last message", person);
@@ -498,17 +500,18 @@ TEST_CASE("a force whose connection ended without a zero is read, and taken off,
           "[inverse3_check]") {
     const test::TemporaryFolder folder;
     simulated::Scene scene = usual_scene();
-    scene.manners.force_held = milliseconds(0);  // for ever
-    scene.manners.inventory_at_once = GENERATE(true, false);
+    scene.behaviour.force_held = milliseconds(0);  // for ever
+    scene.behaviour.inventory_at_once = GENERATE(true, false);
     simulated::Service service(scene);
     Person person(service);
     person.instead = only("The force when its connection ends", person);
     const bool quits = GENERATE(false, true);
     const auto connections = service.connections();
     person.wish_under_force = [&] {  // while there is none, its force still acts
-        const bool closed = service.heard().size() > 20 &&
-                            simulated::Clock::now() - service.heard().back().at > milliseconds(50);
-        return quits && closed ? CheckGuide::Wish::quit : CheckGuide::Wish::none;
+        const bool closed =
+            service.received().size() > 20 &&
+            simulated::Clock::now() - service.received().back().at > milliseconds(50);
+        return quits && closed ? CheckConsole::Request::quit : CheckConsole::Request::none;
     };
     CHECK(run_check(quick(service, folder), person).fault == "");
     CHECK(service.connections() > connections + 2);
@@ -518,7 +521,7 @@ TEST_CASE("a force whose connection ended without a zero is read, and taken off,
     if (quits) return;
     for (const Json& line : step["measured"]["closings"]) {
         CHECK(line["gap_ms"].get<double>() >= line["closed_ms"].get<double>());
-        CHECK(line["told_unasked"] == scene.manners.inventory_at_once);
+        CHECK(line["told_unasked"] == scene.behaviour.inventory_at_once);
         CHECK_THAT(line["force_newton"].get<double>(), WithinAbs(0.5, 1e-9));
     }
 }
@@ -570,7 +573,7 @@ TEST_CASE("an Inverse3 that goes in the middle of the check ends it with a reaso
         if (person.most_newton > 0.3) {
             service.with([](simulated::Scene& scene) { scene.arms[0].powered = false; });
         }
-        return CheckGuide::Wish::none;
+        return CheckConsole::Request::none;
     };
     CheckOptions options = quick(service, folder);
     options.times.dialect = milliseconds(300);
@@ -588,5 +591,5 @@ TEST_CASE("without a usable Inverse3 the check does not begin", "[inverse3_check
     CHECK_THROWS_AS(run_check(quick(service, folder), person), DeviceError);
     service.with([](simulated::Scene& there) { there.arms.clear(); });
     CHECK_THROWS_AS(run_check(quick(service, folder), person), DeviceError);
-    CHECK(service.heard().empty());
+    CHECK(service.received().empty());
 }

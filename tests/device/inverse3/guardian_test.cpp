@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/inverse3/order.hpp"
 #include "device/inverse3/service_link.hpp"
+#include "device/inverse3/service_request.hpp"
 #include "device/inverse3/simulated/service.hpp"
 #include "tests/device/pressing_process.hpp"
 #include "tests/support/catch.hpp"
@@ -23,17 +23,17 @@ namespace {
 
 using namespace dibhr;
 using namespace dibhr::inverse3;
-using simulated::Heard;
+using simulated::ReceivedMessage;
 using std::chrono::milliseconds;
 using test::eventually;
 using test::kWaysToDie;
 using test::PressingProcess;
 
-bool is_zero(const Heard& one) {
+bool is_zero(const ReceivedMessage& one) {
     return one.force_newton == Vec3(0.0);
 }
 
-bool presses(const Heard& one) {
+bool presses(const ReceivedMessage& one) {
     return glm::length(one.force_newton) > 0.9;
 }
 
@@ -41,7 +41,7 @@ bool presses(const Heard& one) {
 class Pressing : public PressingProcess {
   public:
     explicit Pressing(const std::string& way) {
-        service.with([](simulated::Scene& scene) { scene.manners.force_held = milliseconds(0); });
+        service.with([](simulated::Scene& scene) { scene.behaviour.force_held = milliseconds(0); });
         begin({PRESSING_PROGRAM, way, file("moment").string(), std::to_string(service.port())});
     }
 
@@ -49,9 +49,10 @@ class Pressing : public PressingProcess {
         return PressingProcess::end_begins([this] { return forces_after(0.0) > 0; });
     }
     /// What drives, from then on.
-    [[nodiscard]] std::vector<Heard> after(double t_s) const {
-        std::vector<Heard> later = service.heard();
-        std::erase_if(later, [&](const Heard& one) { return !one.drives || at_s(one) <= t_s; });
+    [[nodiscard]] std::vector<ReceivedMessage> after(double t_s) const {
+        std::vector<ReceivedMessage> later = service.received();
+        std::erase_if(later,
+                      [&](const ReceivedMessage& one) { return !one.drives || at_s(one) <= t_s; });
         return later;
     }
     [[nodiscard]] std::ptrdiff_t forces_after(double t_s) const {
@@ -64,8 +65,9 @@ class Pressing : public PressingProcess {
     [[nodiscard]] bool is_let_go_by(std::ptrdiff_t zeros) const {
         return eventually(
             [&] {
-                const std::vector<Heard> heard = after(0.0);
-                return std::find_if(heard.rbegin(), heard.rend(), presses) - heard.rbegin() >=
+                const std::vector<ReceivedMessage> received = after(0.0);
+                return std::find_if(received.rbegin(), received.rend(), presses) -
+                           received.rbegin() >=
                        zeros;
             },
             kPatience);
@@ -74,7 +76,7 @@ class Pressing : public PressingProcess {
         return service.with(
             [](simulated::Scene& scene) { return glm::length(scene.arms[0].force_newton); });
     }
-    static double at_s(const Heard& one) {
+    static double at_s(const ReceivedMessage& one) {
         return std::chrono::duration<double>(one.at.time_since_epoch()).count();
     }
 
@@ -82,10 +84,10 @@ class Pressing : public PressingProcess {
 };
 
 /// Time of the first zero force, after which all forces are zero [s].
-double let_go(const std::vector<Heard>& heard) {
-    const auto first = std::ranges::find_if(heard, is_zero);
-    REQUIRE(first != heard.end());
-    CHECK(std::all_of(first, heard.end(), is_zero));
+double let_go(const std::vector<ReceivedMessage>& received) {
+    const auto first = std::ranges::find_if(received, is_zero);
+    REQUIRE(first != received.end());
+    CHECK(std::all_of(first, received.end(), is_zero));
     return Pressing::at_s(*first);
 }
 
@@ -125,7 +127,7 @@ TEST_CASE(
     CHECK(pressing.ended() == 0);
     CHECK(pressing.errors().empty());
     CHECK(pressing.its_guardian_ends());
-    const std::vector<Heard> later = pressing.after(goes_on_s);
+    const std::vector<ReceivedMessage> later = pressing.after(goes_on_s);
     CHECK(is_zero(later.back()));
     // The zero that ends the old connection comes first, or after the one force whose message was
     // being sent when the program was stopped.
@@ -142,7 +144,7 @@ TEST_CASE("a program whose guardian was killed lets go, and presses with another
     REQUIRE(::kill(first, SIGKILL) == 0);
     REQUIRE(
         eventually([&] { return pressing.zeros_after(killed_s) > 0; }, PressingProcess::kPatience));
-    const std::vector<Heard> later = pressing.after(killed_s);
+    const std::vector<ReceivedMessage> later = pressing.after(killed_s);
     const double let_go_s = Pressing::at_s(*std::ranges::find_if(later, is_zero));
     WARN("Inverse3, guardian killed: zero force after " << let_go_s - killed_s << " s");
     REQUIRE(eventually([&] { return pressing.forces_after(let_go_s) > 20; },
@@ -192,12 +194,12 @@ TEST_CASE("the guardian's farewell is a frame that a service understands, for an
     simulated::Service service;
     ServiceLink link(service.port(), ServiceLink::Time::clock::now() + PressingProcess::kPatience);
     for (const ForceDialect dialect : {ForceDialect::vector, ForceDialect::values}) {
-        OrderWriter writer;
+        RequestWriter writer;
         const std::string_view zero =
             writer.write({.arm = DeviceId(name), .force_newton = Vec3{0.0}, .dialect = dialect});
-        const Farewell last = link.set_last_words(zero);
+        const StopPacket last = link.set_stop_packet(zero);
         REQUIRE(last.size > 6);
-        CHECK(last.over == Farewell::Over::stream);
+        CHECK(last.channel == StopPacket::Channel::stream);
         CHECK(last.bytes[0] == 0x81);
         std::size_t head = 2;
         std::size_t length = last.bytes[1] & 0x7FU;

@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "device/inverse3/conversation.hpp"
+#include "device/inverse3/exchange_loop.hpp"
 #include "tests/device/inverse3/service_desk.hpp"
 #include "tests/device/time/simulated_time.hpp"
 #include "tests/support/allocations.hpp"
@@ -17,14 +17,14 @@ namespace {
 using namespace dibhr;
 using namespace dibhr::test::inverse3;
 using Catch::Matchers::WithinAbs;
-using simulated::Takes;
+using simulated::AcceptedDialect;
 using test::let_pass;
 
 }  // namespace
 
 TEST_CASE("a ready device touches, and its force arrives in the service's axes", "[inverse3]") {
     ServiceDesk desk;
-    CHECK_FALSE(desk.loop.device.in_hand());
+    CHECK_FALSE(desk.loop.device.can_touch());
     REQUIRE(desk.press());
     CHECK(desk.stage() == Stage::ready);
     CHECK(desk.loop.device.status().id == "049D");
@@ -56,17 +56,19 @@ TEST_CASE("the middle of the box is the middle of the image, and the image is up
 TEST_CASE("both dialects, in the shapes of 3.1 and 3.5, are found without being told",
           "[inverse3]") {
     simulated::Scene scene = usual_scene();
-    simulated::Manners& manners = scene.manners;
-    manners.newer_shape = GENERATE(true, false);
-    manners.takes = GENERATE(Takes::vector, Takes::values, Takes::both);
-    manners.on_wrong = GENERATE(simulated::OnWrong::ignores, simulated::OnWrong::refuses,
-                                simulated::OnWrong::closes);
-    manners.version = manners.newer_shape ? "3.5.0" : "3.1.4";
+    simulated::Behaviour& behaviour = scene.behaviour;
+    behaviour.newer_shape = GENERATE(true, false);
+    behaviour.accepts =
+        GENERATE(AcceptedDialect::vector, AcceptedDialect::values, AcceptedDialect::both);
+    behaviour.on_wrong_dialect =
+        GENERATE(simulated::OnWrongDialect::ignores, simulated::OnWrongDialect::refuses,
+                 simulated::OnWrongDialect::closes);
+    behaviour.version = behaviour.newer_shape ? "3.5.0" : "3.1.4";
     // 3.1 reports no force: a service that ignores the wrong dialect cannot be detected.
-    const bool mute = !manners.newer_shape && manners.takes == Takes::vector &&
-                      manners.on_wrong == simulated::OnWrong::ignores;
-    CAPTURE(manners.newer_shape, static_cast<int>(manners.takes),
-            static_cast<int>(manners.on_wrong));
+    const bool mute = !behaviour.newer_shape && behaviour.accepts == AcceptedDialect::vector &&
+                      behaviour.on_wrong_dialect == simulated::OnWrongDialect::ignores;
+    CAPTURE(behaviour.newer_shape, static_cast<int>(behaviour.accepts),
+            static_cast<int>(behaviour.on_wrong_dialect));
     ServiceDesk desk(scene);
     const auto patience = milliseconds(mute ? 1500 : 60'000);
     CHECK(desk.tick_until([&] { return glm::length(desk.felt_newton()) > 0.5; }, patience) != mute);
@@ -98,7 +100,7 @@ TEST_CASE("a device is chosen by its name or its hand, in whatever order the lis
     ServiceDesk desk(scene, wish);
     REQUIRE(desk.begins_to_press());
     CHECK(desk.loop.device.status().id == id);
-    for (const simulated::Heard& one : desk.service.heard()) {
+    for (const simulated::ReceivedMessage& one : desk.service.received()) {
         CHECK((one.arm.empty() || one.arm == id));
     }
 }
@@ -172,41 +174,41 @@ TEST_CASE("a tick allocates nothing", "[inverse3]") {
 TEST_CASE("on the network thread no exchange allocates, once there is a connection", "[inverse3]") {
     simulated::Service service;
     const ConnectionOptions options = options_for(service);
-    Exchange exchange;
+    ThreadBuffers buffers;
     Board board;
-    Memory memory;
+    DriverState driver_state;
     Guardian guardian("Inverse3");
     int allocations = 0;
     std::jthread network([&](const std::stop_token& stop) {
         ServiceLink link(options.port, ServiceLink::Time::clock::now() + milliseconds(1000));
-        Conversation conversation(link, options, true, exchange, board, memory, guardian);
-        allocations = test::allocations_in([&] { conversation.run(stop); });
+        ExchangeLoop exchange_loop(link, options, true, buffers, board, driver_state, guardian);
+        allocations = test::allocations_in([&] { exchange_loop.run(stop); });
     });
     constexpr std::uint64_t kExchanges = 1000;
     while (service.exchanges() <=
            kExchanges) {  // before it asks again it has taken the last answer
-        const TimedPose pose = exchange.poses.front();
-        exchange.forces.publish({{0.0, 0.0, 1.0}, simulated::Clock::now(), pose.epoch});
-        exchange.wake.signal();
+        const TimedPose pose = buffers.poses.front();
+        buffers.forces.publish({{0.0, 0.0, 1.0}, simulated::Clock::now(), pose.epoch});
+        buffers.wake.signal();
         let_pass(std::chrono::microseconds(200));
     }
     network.request_stop();
     network.join();
-    CHECK(memory.exchanges >= kExchanges);
-    CHECK(memory.dialect_confirmed);
+    CHECK(driver_state.exchanges >= kExchanges);
+    CHECK(driver_state.dialect_confirmed);
     CHECK(allocations < 50);  // what is said of each new stage
 }
 
 TEST_CASE("a program that presses is never disturbed by its guardian", "[inverse3]") {
     ServiceDesk desk;
     REQUIRE(desk.press());
-    desk.service.forget_heard();
+    desk.service.clear_received();
     desk.tick_for(std::chrono::seconds(2));
     CHECK(desk.service.connections() == 1);
     CHECK(desk.service.too_many_in_flight() == 0);
-    const auto heard = desk.service.heard();
-    CHECK(heard.size() > 1900);
-    for (const simulated::Heard& one : heard) {
+    const auto received = desk.service.received();
+    CHECK(received.size() > 1900);
+    for (const simulated::ReceivedMessage& one : received) {
         if (one.drives) CHECK(glm::length(one.force_newton) > 1.9);
     }
 }
@@ -219,9 +221,9 @@ TEST_CASE("its end is a zero force and a goodbye", "[inverse3]") {
         loop.force_newton = {0.0, 0.0, 2.0};
         loop.tick_for(milliseconds(100));
     }
-    const auto heard = service.heard();
-    REQUIRE(heard.size() > 10);
-    CHECK(heard.back().drives);
-    CHECK(heard.back().force_newton == Vec3{0.0});
+    const auto received = service.received();
+    REQUIRE(received.size() > 10);
+    CHECK(received.back().drives);
+    CHECK(received.back().force_newton == Vec3{0.0});
     CHECK(service.too_many_in_flight() == 0);
 }

@@ -50,14 +50,18 @@ const std::vector<Fault>& faults() {
          [](auto& s) { s.arms[0].position_m.x = 0.0; }, Stage::not_understood, "not understood"},
         {"NaN", [](auto& s) { s.arms[0].position_text = R"({"x":NaN,"y":0,"z":0})"; },
          [](auto& s) { s.arms[0].position_text.clear(); }, Stage::not_understood, "not understood"},
-        {"malformed", [](auto& s) { s.manners.garble = Garble::malformed; },
-         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
-        {"cut", [](auto& s) { s.manners.garble = Garble::cut; },
-         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
-        {"empty", [](auto& s) { s.manners.garble = Garble::empty; },
-         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
-        {"an array", [](auto& s) { s.manners.garble = Garble::array; },
-         [](auto& s) { s.manners.garble = Garble::none; }, Stage::not_understood, "not understood"},
+        {"malformed", [](auto& s) { s.behaviour.garble = Garble::malformed; },
+         [](auto& s) { s.behaviour.garble = Garble::none; }, Stage::not_understood,
+         "not understood"},
+        {"cut", [](auto& s) { s.behaviour.garble = Garble::cut; },
+         [](auto& s) { s.behaviour.garble = Garble::none; }, Stage::not_understood,
+         "not understood"},
+        {"empty", [](auto& s) { s.behaviour.garble = Garble::empty; },
+         [](auto& s) { s.behaviour.garble = Garble::none; }, Stage::not_understood,
+         "not understood"},
+        {"an array", [](auto& s) { s.behaviour.garble = Garble::array; },
+         [](auto& s) { s.behaviour.garble = Garble::none; }, Stage::not_understood,
+         "not understood"},
     };
     return all;
 }
@@ -68,9 +72,9 @@ void tell_time(const char* fault, Clock::time_point began) {
 }
 
 /// Forces rise again from zero: none of the first exceeds the ramp.
-bool rises(const std::vector<simulated::Heard>& heard, Clock::time_point since) {
-    const simulated::Heard* last = nullptr;
-    for (const simulated::Heard& one : heard) {
+bool rises(const std::vector<simulated::ReceivedMessage>& received, Clock::time_point since) {
+    const simulated::ReceivedMessage* last = nullptr;
+    for (const simulated::ReceivedMessage& one : received) {
         if (one.at < since || !one.drives) continue;
         const double length = glm::length(one.force_newton);
         if (last == nullptr && length > 0.2) return false;
@@ -102,7 +106,7 @@ TEST_CASE("whatever is said of the device that keeps it from touching takes the 
     CHECK(desk.press());
     desk.tick_for(milliseconds(20));
     CHECK(desk.stage() == Stage::ready);
-    CHECK(rises(desk.service.heard(), ended));
+    CHECK(rises(desk.service.received(), ended));
     CHECK(desk.service.too_many_in_flight() == 0);
 }
 
@@ -113,7 +117,7 @@ TEST_CASE("another program that uses the device from before on has it", "[invers
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::in_use; }));
     desk.tick_for(milliseconds(100));
     CHECK(desk.sentence().find("another program") != std::string::npos);
-    for (const simulated::Heard& one : desk.service.heard()) CHECK_FALSE(one.drives);
+    for (const simulated::ReceivedMessage& one : desk.service.received()) CHECK_FALSE(one.drives);
     desk.service.with([](simulated::Scene& there) { there.arms[0].in_use = false; });
     CHECK(desk.begins_to_press());
 }
@@ -123,14 +127,14 @@ TEST_CASE("a position that jumps takes the force off, and it rises again from wh
     ServiceDesk desk;
     REQUIRE(desk.begins_to_press());
     desk.service.with([](simulated::Scene& scene) { scene.arms[0].position_m.x += 0.1; });
-    int taken_over = 0;
+    int hand_changed = 0;
     (void)desk.tick_until(
         [&] {
-            taken_over += desk.loop.reading.taken_over ? 1 : 0;
+            hand_changed += desk.loop.reading.hand_changed ? 1 : 0;
             return false;
         },
         milliseconds(100));
-    CHECK(taken_over == 1);
+    CHECK(hand_changed == 1);
     CHECK(desk.begins_to_press());
 }
 
@@ -142,10 +146,10 @@ TEST_CASE("a preset that is changed under us is set again, and the force rises a
         return desk.service.with([](simulated::Scene& scene) { return scene.arms[0].preset; });
     };
     desk.service.with([](simulated::Scene& scene) { scene.arms[0].preset = "arm_front"; });
-    int taken_over = 0;
+    int hand_changed = 0;
     CHECK(desk.tick_until([&] {
-        taken_over += desk.loop.reading.taken_over ? 1 : 0;
-        return taken_over > 0 && preset() == "defaults";
+        hand_changed += desk.loop.reading.hand_changed ? 1 : 0;
+        return hand_changed > 0 && preset() == "defaults";
     }));
     CHECK(desk.begins_to_press());
 }
@@ -154,7 +158,7 @@ TEST_CASE("a service that does not take the preset is asked some times, then tol
           "[inverse3_faults]") {
     simulated::Scene scene = usual_scene();
     scene.arms[0].preset = "arm_front";
-    scene.manners.takes_preset = false;
+    scene.behaviour.takes_preset = false;
     const std::string asked = GENERATE("led_front", "defaults");
     simulated::Service service(scene);
     ConnectionOptions options = options_for(service);
@@ -163,9 +167,10 @@ TEST_CASE("a service that does not take the preset is asked some times, then tol
     loop.force_newton = {0.0, 0.0, 1.0};
     CHECK(loop.tick_until([&] { return loop.device.status().other_preset; }));
     loop.tick_for(milliseconds(300));
-    const auto heard = service.heard();
-    CHECK(std::count_if(heard.begin(), heard.end(),
-                        [](const simulated::Heard& one) { return one.asks_preset; }) <= 4);
+    const auto received = service.received();
+    CHECK(std::count_if(
+              received.begin(), received.end(),
+              [](const simulated::ReceivedMessage& one) { return one.requests_preset; }) <= 4);
     if (asked == "defaults") {  // which it may call something else
         CHECK(loop.reading.ready);
         return;
@@ -173,7 +178,7 @@ TEST_CASE("a service that does not take the preset is asked some times, then tol
     CHECK(loop.device.status().stage == Stage::other_preset);
     CHECK(loop.device.status().sentence.find("arm_front") != std::string::npos);
     CHECK_FALSE(loop.reading.ready);
-    CHECK(glm::length(heard.back().force_newton) == 0.0);
+    CHECK(glm::length(received.back().force_newton) == 0.0);
     service.with([&](simulated::Scene& there) { there.arms[0].preset = asked; });
     CHECK(loop.tick_until_ready());
 }
@@ -181,7 +186,7 @@ TEST_CASE("a service that does not take the preset is asked some times, then tol
 TEST_CASE("a service that answers slowly makes springs softer, and the loop knows how late it is",
           "[inverse3_faults]") {
     simulated::Scene scene;
-    scene.manners.delay = std::chrono::microseconds(3500);
+    scene.behaviour.delay = std::chrono::microseconds(3500);
     ServiceDesk desk(scene);
     REQUIRE(desk.begins_to_press());
     desk.tick_for(milliseconds(500));
@@ -194,7 +199,7 @@ TEST_CASE("a service that answers slowly makes springs softer, and the loop know
                         limits.max_stiffness_newton_per_mm, limits.dynamics);
     CHECK(stability_margin(felt, limits.dynamics) > 2.9);
     CHECK(desk.loop.device.status().softened);
-    desk.service.with([](simulated::Scene& there) { there.manners.delay = {}; });
+    desk.service.with([](simulated::Scene& there) { there.behaviour.delay = {}; });
     CHECK(desk.tick_until(
         [&] { return desk.loop.reading.limits->max_stiffness_newton_per_mm == 1.0; }));
 }
@@ -208,7 +213,7 @@ TEST_CASE("a device whose entry goes is still sent zeros, should it still be the
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::no_device; }));
     desk.tick_for(milliseconds(100));
     int zeros = 0;
-    for (const simulated::Heard& one : desk.service.heard())
+    for (const simulated::ReceivedMessage& one : desk.service.received())
         zeros += one.at > began && one.drives && one.arm == "049D" &&
                          glm::length(one.force_newton) == 0.0
                      ? 1
@@ -229,7 +234,7 @@ TEST_CASE("when ours is unplugged the one beside it is not pushed until it is pl
     CHECK(desk.stage() == Stage::no_device);
     CHECK(desk.sentence().find("A was unplugged") != std::string::npos);
     CHECK(desk.sentence().find("B instead") != std::string::npos);
-    for (const simulated::Heard& one : desk.service.heard()) CHECK(one.arm != "B");
+    for (const simulated::ReceivedMessage& one : desk.service.received()) CHECK(one.arm != "B");
     SECTION("ours comes back") {
         desk.service.with(
             [](simulated::Scene& there) { there.arms.push_back(simulated::Arm{.id = "A"}); });
@@ -250,13 +255,13 @@ TEST_CASE("a service that stands still for longer than it is waited for has a ze
           "[inverse3_faults]") {
     ServiceDesk desk;
     REQUIRE(desk.begins_to_press());
-    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = false; });
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.answers = false; });
     desk.tick_for(milliseconds(200));
-    desk.service.forget_heard();
+    desk.service.clear_received();
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::looking; }));
-    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = true; });
-    CHECK(desk.tick_until([&] { return !desk.service.heard().empty(); }));
-    const simulated::Heard first = desk.service.heard().front();
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.answers = true; });
+    CHECK(desk.tick_until([&] { return !desk.service.received().empty(); }));
+    const simulated::ReceivedMessage first = desk.service.received().front();
     CHECK(first.drives);
     CHECK(glm::length(first.force_newton) == 0.0);
 }
@@ -266,7 +271,7 @@ TEST_CASE("a service that keeps silent takes the force off, is missed, and comes
     ServiceDesk desk;
     REQUIRE(desk.begins_to_press());
     const auto began = Clock::now();
-    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = false; });
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.answers = false; });
     desk.tick_for(milliseconds(60));
     CHECK_FALSE(desk.loop.reading.ready);
     const bool comes_back_soon = GENERATE(true, false);
@@ -275,13 +280,13 @@ TEST_CASE("a service that keeps silent takes the force off, is missed, and comes
         CHECK(desk.sentence().find("silent for 2 s") != std::string::npos);
     }
     const auto ended = Clock::now();
-    desk.service.with([](simulated::Scene& scene) { scene.manners.answers = true; });
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.answers = true; });
     CHECK(desk.press());
     desk.tick_for(milliseconds(20));
-    CHECK(rises(desk.service.heard(), ended));
+    CHECK(rises(desk.service.received(), ended));
     const double in_between = [&] {
         double strongest = 0.0;
-        for (const simulated::Heard& one : desk.service.heard()) {
+        for (const simulated::ReceivedMessage& one : desk.service.received()) {
             if (one.at > began + kGrace && one.at < ended) {
                 strongest = std::max(strongest, glm::length(one.force_newton));
             }
@@ -309,16 +314,16 @@ TEST_CASE("a service that closes, breaks off, or cannot be reached for a while i
     desk.service.listen();
     CHECK(desk.press());
     desk.tick_for(milliseconds(20));
-    CHECK(rises(desk.service.heard(), ended));
+    CHECK(rises(desk.service.received(), ended));
 }
 
 TEST_CASE("a megabyte in the place of an answer ends the connection, and the next one is fine",
           "[inverse3_faults]") {
     ServiceDesk desk;
     REQUIRE(desk.begins_to_press());
-    desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::megabyte; });
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.garble = Garble::megabyte; });
     CHECK(desk.tick_until([&] { return desk.stage() == Stage::not_understood; }));
-    desk.service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::none; });
+    desk.service.with([](simulated::Scene& scene) { scene.behaviour.garble = Garble::none; });
     CHECK(desk.begins_to_press());
 }
 
@@ -342,19 +347,19 @@ TEST_CASE("a position that stands still while the service reports a velocity giv
     });
     CHECK(desk.press());
     desk.tick_for(milliseconds(20));
-    CHECK(rises(desk.service.heard(), ended));
+    CHECK(rises(desk.service.received(), ended));
 }
 
 TEST_CASE("whatever message ends the connection, the service is sent a zero before it ends",
           "[inverse3_faults]") {
     simulated::Scene scene = usual_scene();
-    scene.manners.force_held = milliseconds(0);  // for ever
+    scene.behaviour.force_held = milliseconds(0);  // for ever
     ServiceDesk desk(scene);
     REQUIRE(desk.begins_to_press());
     desk.service.refuse();  // no later connection takes the force off
     desk.service.with([](simulated::Scene& there) {
-        there.manners.garble = GENERATE(Garble::not_utf8, Garble::megabyte, Garble::masked,
-                                        Garble::reserved_bits, Garble::close_frame);
+        there.behaviour.garble = GENERATE(Garble::not_utf8, Garble::megabyte, Garble::masked,
+                                          Garble::reserved_bits, Garble::close_frame);
     });
     const auto began = Clock::now();
     CHECK(desk.tick_until([&] { return desk.felt_newton() == Vec3{0.0}; }, kGrace));
@@ -366,12 +371,12 @@ TEST_CASE("whatever message ends the connection, the service is sent a zero befo
 
 TEST_CASE("answers that nobody asked for make no pose older", "[inverse3_faults]") {
     simulated::Scene scene = usual_scene();
-    scene.manners.garble = Garble::two;
+    scene.behaviour.garble = Garble::two;
     ServiceDesk desk(scene);
     REQUIRE(desk.begins_to_press());
     desk.tick_for(milliseconds(300));
     CHECK(desk.stage() == Stage::ready);
-    CHECK(desk.loop.device.status().unasked > 50);
+    CHECK(desk.loop.device.status().unrequested > 50);
     CHECK(desk.loop.device.pose_age() < milliseconds(2));
 }
 
@@ -379,7 +384,7 @@ TEST_CASE("a service that takes no force is noticed after a quarter of a second,
           "[inverse3_faults]") {
     simulated::Scene scene = usual_scene();
     // Neither dialect is what it takes: it ignores the one, and the other is not allowed.
-    scene.manners.takes = simulated::Takes::values;
+    scene.behaviour.accepts = simulated::AcceptedDialect::values;
     simulated::Service service(scene);
     ConnectionOptions options = options_for(service);
     options.dialect = ForceDialect::vector;
@@ -387,7 +392,7 @@ TEST_CASE("a service that takes no force is noticed after a quarter of a second,
     REQUIRE(loop.tick_until_ready());
     loop.force_newton = {0.0, 0.0, 1.0};
     const auto began = Clock::now();
-    CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::deaf; }));
+    CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::force_refused; }));
     CHECK(Clock::now() - began < milliseconds(300));
     CHECK(loop.device.status().sentence.find("accepts a force in neither") != std::string::npos);
     loop.tick_for(milliseconds(50));
@@ -397,12 +402,12 @@ TEST_CASE("a service that takes no force is noticed after a quarter of a second,
 TEST_CASE("slow and shaky answers keep the hand safe, never two messages under way",
           "[inverse3_faults]") {
     simulated::Scene scene;
-    scene.manners.delay =
+    scene.behaviour.delay =
         GENERATE(std::chrono::microseconds(200), std::chrono::microseconds(2000),
                  std::chrono::microseconds(5000), std::chrono::microseconds(100000));
-    scene.manners.jitter = scene.manners.delay;
+    scene.behaviour.jitter = scene.behaviour.delay;
     ServiceDesk desk(scene);
-    const bool usable = scene.manners.delay < milliseconds(5);
+    const bool usable = scene.behaviour.delay < milliseconds(5);
     if (usable) {
         CHECK(desk.begins_to_press());
     } else {
@@ -420,7 +425,7 @@ TEST_CASE("whether the service is not installed, not running, or too old is told
     ConnectionOptions options = options_for(service);
     SECTION("not installed") {
         service.refuse();
-        service.with([](simulated::Scene& scene) { scene.manners.http_older = false; });
+        service.with([](simulated::Scene& scene) { scene.behaviour.http_older = false; });
         TickingDevice<Inverse3Device> loop(options);
         CHECK(loop.tick_until([&] {
             return loop.device.status().sentence.find("not installed") != std::string::npos;
@@ -428,7 +433,7 @@ TEST_CASE("whether the service is not installed, not running, or too old is told
     }
     SECTION("not running") {
         service.refuse();
-        service.with([](simulated::Scene& scene) { scene.manners.http_older = false; });
+        service.with([](simulated::Scene& scene) { scene.behaviour.http_older = false; });
         options.installed_as = {"/proc/self/exe"};
         TickingDevice<Inverse3Device> loop(options);
         CHECK(loop.tick_until([&] {
@@ -436,7 +441,7 @@ TEST_CASE("whether the service is not installed, not running, or too old is told
         }));
     }
     SECTION("too old") {
-        service.with([](simulated::Scene& scene) { scene.manners.version = "3.0.2"; });
+        service.with([](simulated::Scene& scene) { scene.behaviour.version = "3.0.2"; });
         TickingDevice<Inverse3Device> loop(options);
         CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::too_old; }));
         CHECK(loop.device.status().sentence.find("3.0.2") != std::string::npos);

@@ -31,7 +31,7 @@ void check_exchanges(std::uint64_t wanted) {
     CHECK(service.too_many_in_flight() == 0);
     CHECK(service.not_understood() == 0);
     CHECK(service.connections() == 1);
-    CHECK(loop.device.status().unasked == 0);
+    CHECK(loop.device.status().unrequested == 0);
     CHECK(loop.device.status().not_understood == 0);
     CHECK(loop.device.status().stage == Stage::ready);
 }
@@ -50,8 +50,8 @@ TEST_CASE("of very many messages never more than one is in flight, and each has 
 
 TEST_CASE("poses are young with a service of 1 and of 4 kHz", "[inverse3_tick]") {
     simulated::Scene scene;
-    scene.manners.tick = GENERATE(microseconds(1000), microseconds(250), microseconds(0));
-    CAPTURE(scene.manners.tick.count());
+    scene.behaviour.tick = GENERATE(microseconds(1000), microseconds(250), microseconds(0));
+    CAPTURE(scene.behaviour.tick.count());
     simulated::Service service(scene);
     TickingDevice<Inverse3Device> loop(options_for(service));
     REQUIRE(loop.tick_until_ready());

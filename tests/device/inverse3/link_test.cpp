@@ -170,7 +170,7 @@ TEST_CASE(
     "with a length of 64 bits",
     "[inverse3_link]") {
     simulated::Scene scene;
-    scene.manners.garble = GENERATE(Garble::fragments, Garble::binary, Garble::long_length);
+    scene.behaviour.garble = GENERATE(Garble::fragments, Garble::binary, Garble::long_length);
     simulated::Service service(scene);
     ServiceLink link(service.port(), in(milliseconds(1000)));
     for (int k = 0; k < 3; ++k) {
@@ -182,7 +182,7 @@ TEST_CASE(
 
 TEST_CASE("a message that nobody asked for is seen to wait", "[inverse3_link]") {
     simulated::Scene scene;
-    scene.manners.garble = Garble::two;
+    scene.behaviour.garble = Garble::two;
     simulated::Service service(scene);
     ServiceLink link(service.port(), in(milliseconds(1000)));
     CHECK(next(link).arm_count == 1);
@@ -220,7 +220,7 @@ TEST_CASE(
               Why::not_the_service);
     }
     SECTION("a megabyte") {
-        service.with([](simulated::Scene& scene) { scene.manners.garble = Garble::megabyte; });
+        service.with([](simulated::Scene& scene) { scene.behaviour.garble = Garble::megabyte; });
         ServiceLink link(service.port(), in(milliseconds(1000)));
         REQUIRE(link.wait(nullptr, in(milliseconds(1000))));
         CHECK(why([&] { (void)link.read(in(milliseconds(1000))); }) == Why::too_long);

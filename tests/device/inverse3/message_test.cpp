@@ -190,9 +190,9 @@ TEST_CASE("what the service keeps is told in words, whatever JSON it comes in", 
         {"{\"cut", "{\"cut"}};
     for (const auto& [told, words] : cases) {
         CAPTURE(told);
-        CHECK(words_of_setting(told) == words);
+        CHECK(setting_text(told) == words);
     }
-    CHECK(words_of_setting(std::string(5000, 'x')).size() < 130);
+    CHECK(setting_text(std::string(5000, 'x')).size() < 130);
     std::string deep(3000, '[');
-    CHECK(words_of_setting(deep + std::string(3000, ']')).size() < 130);
+    CHECK(setting_text(deep + std::string(3000, ']')).size() < 130);
 }

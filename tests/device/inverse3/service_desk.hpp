@@ -31,7 +31,7 @@ inline ConnectionOptions options_for(const simulated::Service& service) {
 /// Of a service of 1 kHz: half of the exchanges with one that answers at once.
 inline simulated::Scene usual_scene() {
     simulated::Scene scene;
-    scene.manners.tick = milliseconds(1);
+    scene.behaviour.tick = milliseconds(1);
     return scene;
 }
 
@@ -84,7 +84,7 @@ class ServiceDesk {
     [[nodiscard]] double strongest_after(simulated::Clock::time_point since,
                                          milliseconds grace) const {
         double strongest = 0.0;
-        for (const simulated::Heard& one : service.heard()) {
+        for (const simulated::ReceivedMessage& one : service.received()) {
             if (one.at > since + grace) {
                 strongest = std::max(strongest, glm::length(one.force_newton));
             }
@@ -96,7 +96,7 @@ class ServiceDesk {
     void choose_force() {
         SafetyInput input;
         input.device_ready = loop.reading.ready;
-        input.from_zero = loop.reading.taken_over;
+        input.from_zero = loop.reading.hand_changed;
         loop.force_newton = safety_.limit(pressed_newton, input, SafetyLimits{});
     }
     [[nodiscard]] bool reaches_full_force() const {

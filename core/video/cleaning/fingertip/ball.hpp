@@ -18,17 +18,17 @@ inline constexpr float kNothing = -std::numeric_limits<float>::infinity();
 inline constexpr float kSteepest = 1e18F;  ///< its square is far from a float's highest
 
 /// The nearest whole number not below, and not above; only for values that an int holds.
-inline int up(float x) {
+inline int round_up(float x) {
     const int cut = static_cast<int>(x);
     return cut + (static_cast<float>(cut) < x ? 1 : 0);
 }
-inline int down(float x) {
+inline int round_down(float x) {
     const int cut = static_cast<int>(x);
     return cut - (static_cast<float>(cut) > x ? 1 : 0);
 }
 
 /// Clamped to [-limit, limit]; NaN becomes -limit.
-inline float held(float x, float limit) {
+inline float clamped(float x, float limit) {
     const float low = x > -limit ? x : -limit;
     return low < limit ? low : limit;
 }
@@ -55,16 +55,17 @@ struct Ball {
 };
 
 /// An image with padding on all sides. Values written into the padding are not kept.
-class RoomyImage {
+class PaddedImage {
   public:
-    void fit(int columns, int rows, int room, float in_room) {
-        if (columns == columns_ && rows == rows_ && room == room_) return;
+    void fit(int columns, int rows, int padding, float in_padding) {
+        if (columns == columns_ && rows == rows_ && padding == padding_) return;
         columns_ = columns;
         rows_ = rows;
-        room_ = room;
-        pitch_ = columns + 2 * room;
-        levels_.assign(static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows + 2 * room),
-                       in_room);
+        padding_ = padding;
+        pitch_ = columns + 2 * padding;
+        levels_.assign(
+            static_cast<std::size_t>(pitch_) * static_cast<std::size_t>(rows + 2 * padding),
+            in_padding);
     }
     void copy(const DepthImage& image) {
         for (int j = 0; j < rows_; ++j)
@@ -77,10 +78,10 @@ class RoomyImage {
 
   private:
     [[nodiscard]] std::ptrdiff_t at(int i, int j) const {
-        return std::ptrdiff_t{j + room_} * pitch_ + i + room_;
+        return std::ptrdiff_t{j + padding_} * pitch_ + i + padding_;
     }
 
-    int columns_{0}, rows_{0}, room_{0}, pitch_{0};
+    int columns_{0}, rows_{0}, padding_{0}, pitch_{0};
     std::vector<float> levels_{};
 };
 

@@ -20,7 +20,7 @@ DIBHR_VECTOR_CLONES void flag_touched(const float* __restrict before, const floa
                                       int* __restrict flags) {
     for (std::size_t i = 0; i < count; ++i) {
         const int convex = after[i] > before[i] ? 1 : 0;
-        const auto last = static_cast<float>(down(after[i] + kOverlap_px));
+        const auto last = static_cast<float>(round_down(after[i] + kOverlap_px));
         const int any = last >= before[i] - kOverlap_px ? 1 : 0;
         const float higher = begins[i] > ends[i] ? begins[i] : ends[i];
         const int high = higher >= ground[i] ? 1 : 0;
@@ -51,8 +51,8 @@ DIBHR_VECTOR_CLONES void lean(const Leaning& all, const int* __restrict number, 
         const float c = 1.0F / std::sqrt(1.0F + slope * slope);
         cosine[k] = c;
         sine[k] = slope * c;
-        const int from = up(of.before[i] - kOverlap_px);
-        const int to = down(of.after[i] + kOverlap_px);
+        const int from = round_up(of.before[i] - kOverlap_px);
+        const int to = round_down(of.after[i] + kOverlap_px);
         first[k] = from > -of.last_line ? from : -of.last_line;
         last[k] = to < of.last_line ? to : of.last_line;
     }
@@ -75,7 +75,7 @@ struct Across {
     const float rise_end = of.other_ends[i] - of.ends[i];
     const float rise = rise_begin < rise_end ? rise_begin : rise_end;
     const float lean = of.neighbour.most_lean(rise * of.px_per_level, cosine);
-    return down(lean * of.lines_per_px + kOverlap_px);
+    return round_down(lean * of.lines_per_px + kOverlap_px);
 }
 
 /// Limits the last line on that side, counted away from each EDGE.
@@ -115,7 +115,7 @@ DIBHR_VECTOR_CLONES std::size_t touch(const LineTable& table, const TouchedEdges
             for (int l = 0; l < kAtOnce; ++l) {
                 const int line = first + l;
                 const float from = lines.shifts[line] - lines.reach[line] * sine;
-                const int along = up(from);
+                const int along = round_up(from);
                 const float share = static_cast<float>(along) - from;
                 levels[count + static_cast<std::size_t>(l)] =
                     begin + rise * share - (lines.radius_levels - lines.height[line] * cosine);

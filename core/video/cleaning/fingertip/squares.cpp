@@ -45,7 +45,7 @@ float fall_levels(const Ball& ball, double x_px, double y_px) {
 }  // namespace
 
 /// Computed for a narrower ball inside the ball: where the ball touches, the narrower one does.
-void Squares::find(const RoomyImage& image, int columns, int rows, const Ball& ball) {
+void Squares::find(const PaddedImage& image, int columns, int rows, const Ball& ball) {
     wide_enough_ = ball.radius_px >= kLeast_px;
     ground_.assign(static_cast<std::size_t>(columns), kNothing);
     if (!wide_enough_) return;
@@ -61,8 +61,8 @@ void Squares::find(const RoomyImage& image, int columns, int rows, const Ball& b
     resting_.assign(count, -kNothing);
     grounds_.assign(count, -kNothing);
     find_highest(image, columns, rows);
-    rest(narrow);
-    sink(narrow, kOverlap_px * ball.levels_per_px);
+    find_resting(narrow);
+    find_grounds(narrow, kOverlap_px * ball.levels_per_px);
 }
 
 const float* Squares::ground(int row) {
@@ -73,7 +73,7 @@ const float* Squares::ground(int row) {
     return ground_.data();
 }
 
-void Squares::find_highest(const RoomyImage& image, int columns, int rows) {
+void Squares::find_highest(const PaddedImage& image, int columns, int rows) {
     for (int y = 0; y < rows_; ++y) {
         const float* highest = image.pixel(0, y * kSquare_px);
         for (int j = y * kSquare_px + 1; j < std::min((y + 1) * kSquare_px, rows); ++j) {
@@ -88,7 +88,7 @@ void Squares::find_highest(const RoomyImage& image, int columns, int rows) {
 }
 
 /// The ball is no lower than on another square's highest pixel, wherever it is in the two squares.
-void Squares::rest(const Ball& narrow) {
+void Squares::find_resting(const Ball& narrow) {
     const auto count = static_cast<std::size_t>(columns_);
     for (int y = 0; y < rows_; ++y) std::fill_n(resting_.data() + at(0, y), columns_, kNothing);
     for (int dy = 1 - margin_; dy < margin_; ++dy) {
@@ -104,7 +104,7 @@ void Squares::rest(const Ball& narrow) {
 }
 
 /// The ball touches nothing below the resting levels of the squares that it reaches.
-void Squares::sink(const Ball& narrow, float slack) {
+void Squares::find_grounds(const Ball& narrow, float slack) {
     const auto count = static_cast<std::size_t>(columns_);
     for (int dy = 1 - margin_; dy < margin_; ++dy) {
         for (int dx = 1 - margin_; dx < margin_; ++dx) {

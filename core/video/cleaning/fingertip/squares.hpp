@@ -11,15 +11,15 @@ namespace dibhr::fingertip {
 /// From a lower bound of where the ball rests follows one of the levels that it touches.
 class Squares {
   public:
-    void find(const RoomyImage& image, int columns, int rows, const Ball& ball);
+    void find(const PaddedImage& image, int columns, int rows, const Ball& ball);
 
     /// For every pixel of a row: the ball touches nothing below this level.
     [[nodiscard]] const float* ground(int row);
 
   private:
-    void find_highest(const RoomyImage& image, int columns, int rows);
-    void rest(const Ball& narrow);
-    void sink(const Ball& narrow, float slack);
+    void find_highest(const PaddedImage& image, int columns, int rows);
+    void find_resting(const Ball& narrow);
+    void find_grounds(const Ball& narrow, float slack);
 
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(std::ptrdiff_t{y + margin_} * pitch_ + x + margin_);

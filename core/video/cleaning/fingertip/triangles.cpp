@@ -39,8 +39,8 @@ template <int kSign>
     const float upright = 1.0F / std::sqrt(1.0F + slope_x * slope_x + slope_y * slope_y);
     const float x = -slope_x * upright * move.radius;
     const float y = -slope_y * upright * move.radius;
-    const int to_x = up(x);
-    const int to_y = up(y);
+    const int to_x = round_up(x);
+    const int to_y = round_up(y);
     const float in_cell_x = static_cast<float>(to_x) - x;
     const float in_cell_y = static_cast<float>(to_y) - y;
     const float share_x = kSign > 0 ? in_cell_x : 1.0F - in_cell_x;

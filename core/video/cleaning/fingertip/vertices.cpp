@@ -34,7 +34,7 @@ struct Lean {
 };
 
 [[gnu::always_inline]] inline Lean lean_of(float rise, float px_per_level) {
-    const float slope = held(rise * px_per_level, kSteepest);
+    const float slope = clamped(rise * px_per_level, kSteepest);
     const float cosine = 1.0F / std::sqrt(1.0F + slope * slope);
     return {slope * cosine, cosine};
 }
@@ -73,10 +73,10 @@ DIBHR_VECTOR_CLONES void box_in(const float* __restrict row, int pitch, const Ba
         level[k] = z;
         left_sine[k] = l.sine;
         right_sine[k] = r.sine;
-        left[k] = up(held(least_of(l.sine, radius, low_x) - kOverlap_px, radius));
-        right[k] = down(held(most_of(r.sine, radius, low_x) + kOverlap_px, radius));
-        top[k] = up(held(least_of(a.sine, radius, low_y) - kOverlap_px, radius));
-        bottom[k] = down(held(most_of(b.sine, radius, low_y) + kOverlap_px, radius));
+        left[k] = round_up(clamped(least_of(l.sine, radius, low_x) - kOverlap_px, radius));
+        right[k] = round_down(clamped(most_of(r.sine, radius, low_x) + kOverlap_px, radius));
+        top[k] = round_up(clamped(least_of(a.sine, radius, low_y) - kOverlap_px, radius));
+        bottom[k] = round_down(clamped(most_of(b.sine, radius, low_y) + kOverlap_px, radius));
     }
 }
 
@@ -106,8 +106,8 @@ DIBHR_VECTOR_CLONES void narrow_sides(const Opposite& opposite, const int* __res
             of.neighbour.most_lean_of_less((of.before[i] - z) * of.px_per_level, least2);
         const float after =
             of.neighbour.most_lean_of_less((of.after[i] - z) * of.px_per_level, least2);
-        const int least = -down(before + kOverlap_px);
-        const int most = down(after + kOverlap_px);
+        const int least = -round_down(before + kOverlap_px);
+        const int most = round_down(after + kOverlap_px);
         first[k] = first[k] > least ? first[k] : least;
         last[k] = last[k] < most ? last[k] : most;
     }
@@ -138,8 +138,8 @@ DIBHR_VECTOR_CLONES std::size_t lay_rows(const CapTable& table, const TouchedVer
             for (int l = 0; l < kAtOnce; ++l) {
                 const int y = top + l;
                 const float width = cap.widths[y];
-                const int from_edge = up(held(-left_sine * width - kOverlap_px, width));
-                const int to_edge = down(held(-right_sine * width + kOverlap_px, width));
+                const int from_edge = round_up(clamped(-left_sine * width - kOverlap_px, width));
+                const int to_edge = round_down(clamped(-right_sine * width + kOverlap_px, width));
                 const int first = from_edge > left ? from_edge : left;
                 const int last = to_edge < right ? to_edge : right;
                 const std::size_t n = count + static_cast<std::size_t>(l);

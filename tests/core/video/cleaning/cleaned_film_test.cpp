@@ -9,7 +9,7 @@
 #include "core/video/playing/frame_reader.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/listed_media.hpp"
-#include "tests/support/shaken_scene.hpp"
+#include "tests/support/noisy_scene.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -37,13 +37,13 @@ double elevation_px(int frame, int i, int j) {
     return kWall_px + 0.1 * i + breath_px * std::exp(-x * x - y * y);
 }
 
-Shaken seen_by_a_sensor() {
+NoisyScene seen_by_a_sensor() {
     return {[](int frame, int i, int j) { return kLevelsOfPx * elevation_px(frame, i, j); },
             [](double) { return kLevelsOfPx * kNoise_px; }, 160, 120, 65535.0};
 }
 
 /// Rounded to whole levels, as from a sensor.
-std::vector<DepthImage> recorded(const Shaken& scene) {
+std::vector<DepthImage> recorded(const NoisyScene& scene) {
     std::vector<DepthImage> frames = scene.frames(kFrames);
     for (DepthImage& frame : frames)
         for (float& level : frame.levels) level = std::round(level);
@@ -88,7 +88,7 @@ double error_px(const DepthImage& image, const DepthImage& truth) {
 
 TEST_CASE("a noisy film is nearer to the truth when it is cleaned by default, sharp and in time",
           "[cleaning]") {
-    const Shaken scene = seen_by_a_sensor();
+    const NoisyScene scene = seen_by_a_sensor();
     const std::vector<DepthImage> seen = recorded(scene);
     const std::vector<DepthImage> cleaned = cleaned_by_default(seen);
     REQUIRE(cleaned.size() == seen.size());

@@ -37,7 +37,7 @@ DepthImage with_back_wall(DepthImage image) {
 }
 
 DepthImage cleaned(DepthImage image, const CleaningSteps& steps) {
-    return *CleaningChain().cleaned(std::move(image), {steps}).depth;
+    return *CleaningChain().clean_and_finish(std::move(image), {steps}).depth;
 }
 
 double largest_difference(const DepthImage& a, const DepthImage& b) {
@@ -90,9 +90,9 @@ TEST_CASE("the same image always gives the same bits", "[cleaning]") {
     const DepthImage image = hostile(2);
     const CleaningPlan plan{kSensorSteps, {}, {.constant = 0.01F}};
     CleaningChain used;
-    (void)used.cleaned(hostile(3), plan);
-    CHECK(used.cleaned(image, plan).depth->levels ==
-          CleaningChain().cleaned(image, plan).depth->levels);
+    (void)used.clean_and_finish(hostile(3), plan);
+    CHECK(used.clean_and_finish(image, plan).depth->levels ==
+          CleaningChain().clean_and_finish(image, plan).depth->levels);
 }
 
 TEST_CASE("smoothing keeps every pixel within half a level, in range, and the farthest farthest",
@@ -296,7 +296,7 @@ TEST_CASE("images of any small size are cleaned without reading beside them", "[
     });
     const CleaningPlan plan{
         GENERATE(kGentleSteps, kSensorSteps), {GENERATE(0.0, 3.0), 255.0}, {.constant = 0.01F}};
-    const DepthImage clean = *CleaningChain().cleaned(image, plan).depth;
+    const DepthImage clean = *CleaningChain().clean_and_finish(image, plan).depth;
     REQUIRE(clean.levels.size() == image.levels.size());
     CHECK(std::all_of(clean.levels.begin(), clean.levels.end(),
                       [](float level) { return level >= 0.0F && level <= 255.0F; }));

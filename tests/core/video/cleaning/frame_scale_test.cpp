@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/shaken_scene.hpp"
+#include "tests/support/noisy_scene.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -18,15 +18,15 @@ using Catch::Matchers::WithinAbs;
 
 namespace {
 
-std::vector<LoneDepth> lone(const std::vector<DepthImage>& frames) {
-    std::vector<LoneDepth> made;
+std::vector<SingleFrameDepth> single_frames(const std::vector<DepthImage>& frames) {
+    std::vector<SingleFrameDepth> made;
     for (const DepthImage& frame : frames) made.push_back({frame, {}, {}});
     return made;
 }
 
-std::vector<const LoneDepth*> span_of(const std::vector<LoneDepth>& frames) {
-    std::vector<const LoneDepth*> all;
-    for (const LoneDepth& frame : frames) all.push_back(&frame);
+std::vector<const SingleFrameDepth*> span_of(const std::vector<SingleFrameDepth>& frames) {
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
     return all;
 }
 
@@ -68,13 +68,13 @@ bool are_identities(const std::vector<LevelMap>& maps) {
                        [](const LevelMap& map) { return map == LevelMap{}; });
 }
 
-std::vector<LevelMap> maps_of(const std::vector<LoneDepth>& frames, std::size_t now) {
+std::vector<LevelMap> maps_of(const std::vector<SingleFrameDepth>& frames, std::size_t now) {
     return FrameScale().maps(span_of(frames), now);
 }
 
 /// Whether no frame of that clip is changed.
 bool stays(const std::vector<DepthImage>& frames) {
-    const std::vector<LoneDepth> all = lone(frames);
+    const std::vector<SingleFrameDepth> all = single_frames(frames);
     for (std::size_t now = 0; now < all.size(); ++now)
         if (!are_identities(maps_of(all, now))) return false;
     return true;
@@ -86,9 +86,9 @@ constexpr auto kQuiet = [](double) { return 0.0; };
 
 TEST_CASE("frames of a scale each come onto the mean of the scales around", "[scale]") {
     const double noise = GENERATE(0.0, 0.5);
-    const Shaken scene{room, [noise](double) { return noise; }};
+    const NoisyScene scene{room, [noise](double) { return noise; }};
     const std::vector<LevelMap> scales = scales_of(16);
-    const auto frames = lone(in_scales(scene.frames(16), scales));
+    const auto frames = single_frames(in_scales(scene.frames(16), scales));
     for (const std::size_t now : {5U, 8U, 10U}) {
         const std::vector<LevelMap> maps = maps_of(frames, now);
         for (std::size_t k = now - 5; k <= now + 5; ++k)
@@ -99,8 +99,8 @@ TEST_CASE("frames of a scale each come onto the mean of the scales around", "[sc
 }
 
 TEST_CASE("what flickers by its scale alone does so only slowly then", "[scale]") {
-    const Shaken scene{room, kQuiet};
-    const auto frames = lone(in_scales(scene.frames(40), scales_of(40)));
+    const NoisyScene scene{room, kQuiet};
+    const auto frames = single_frames(in_scales(scene.frames(40), scales_of(40)));
     double before = 0.0;
     double after = 0.0;
     for (std::size_t now = 6; now < 34; ++now) {
@@ -115,7 +115,7 @@ TEST_CASE("what flickers by its scale alone does so only slowly then", "[scale]"
 
 TEST_CASE("noise, however coarse, is no flicker of the scale", "[scale]") {
     const double noise = GENERATE(0.0, 0.5, 3.0);
-    CHECK(stays(Shaken{room, [noise](double) { return noise; }}.frames(12)));
+    CHECK(stays(NoisyScene{room, [noise](double) { return noise; }}.frames(12)));
 }
 
 TEST_CASE("what moves in a part of the picture is no flicker of the scale", "[scale]") {
@@ -123,8 +123,8 @@ TEST_CASE("what moves in a part of the picture is no flicker of the scale", "[sc
     const Scene hand = [](int frame, int i, int j) {
         return i < 80 ? 120.0 + 0.3 * j + 12.0 * (frame % 3) : 60.0 + 0.1 * j;
     };
-    CHECK(stays(Shaken{hand, kQuiet}.frames(12)));
-    CHECK(stays(Shaken{hand, [](double) { return 0.5; }}.frames(12)));
+    CHECK(stays(NoisyScene{hand, kQuiet}.frames(12)));
+    CHECK(stays(NoisyScene{hand, [](double) { return 0.5; }}.frames(12)));
 }
 
 TEST_CASE("a chest that breathes and a scene that comes nearer evenly stay", "[scale]") {
@@ -132,18 +132,18 @@ TEST_CASE("a chest that breathes and a scene that comes nearer evenly stay", "[s
         return 100.0 + 0.1 * i + 0.1 * j +
                2.5 * std::sin(2.0 * std::numbers::pi * 0.2 * frame / 30.0);
     };
-    CHECK(stays(Shaken{breathing, kQuiet}.frames(40)));
+    CHECK(stays(NoisyScene{breathing, kQuiet}.frames(40)));
     const Scene coming = [](int frame, int i, int j) {
         return room(0, i, j) * (1.0 + 0.01 * frame);
     };
-    CHECK(stays(Shaken{coming, kQuiet}.frames(20)));
+    CHECK(stays(NoisyScene{coming, kQuiet}.frames(20)));
 }
 
 TEST_CASE("a scene that comes nearer while it flickers does so without lag", "[scale]") {
     const Scene coming = [](int frame, int i, int j) { return room(0, i, j) + 1.5 * frame; };
-    const Shaken scene{coming, kQuiet};
+    const NoisyScene scene{coming, kQuiet};
     const std::vector<LevelMap> scales = scales_of(16);
-    const auto frames = lone(in_scales(scene.frames(16), scales));
+    const auto frames = single_frames(in_scales(scene.frames(16), scales));
     const std::vector<LevelMap> maps = maps_of(frames, 8);
     double late = 0.0;
     for (const double level : {80.0, 180.0})
@@ -156,24 +156,24 @@ TEST_CASE("a hand that moves before a scene that flickers does not move the scen
         const double x = i - 20.0 - 5.0 * frame;
         return x >= 0.0 && x < 50.0 && j > 40 ? 200.0 + 4.0 * frame : room(0, i, j);
     };
-    const Shaken scene{hand, kQuiet};
+    const NoisyScene scene{hand, kQuiet};
     const std::vector<LevelMap> scales = scales_of(14);
-    const auto frames = lone(in_scales(scene.frames(14), scales));
+    const auto frames = single_frames(in_scales(scene.frames(14), scales));
     const std::vector<LevelMap> maps = maps_of(frames, 6);
     for (const std::size_t k : {2U, 6U, 10U})
         CHECK_THAT(maps[k](scales[k](70.0)), WithinAbs(common(scales, 6, 70.0), 0.25));
 }
 
 TEST_CASE("holes and what was made up in them do not count", "[scale]") {
-    const Shaken scene{room, kQuiet};
+    const NoisyScene scene{room, kQuiet};
     const std::vector<LevelMap> scales = scales_of(12);
-    std::vector<LoneDepth> frames = lone(in_scales(scene.frames(12), scales));
+    std::vector<SingleFrameDepth> frames = single_frames(in_scales(scene.frames(12), scales));
     for (std::size_t k = 0; k < frames.size(); ++k) {
-        frames[k].made_up.assign(frames[k].depth.levels.size(), 0);
+        frames[k].filled.assign(frames[k].depth.levels.size(), 0);
         for (int j = 0; j < 120; ++j)
             for (int i = 0; i < 70; ++i) {
                 frames[k].depth.at(i, j) = k % 2 == 0 ? 0.0F : 200.0F;
-                frames[k].made_up[frames[k].depth.index(i, j)] = 1;
+                frames[k].filled[frames[k].depth.index(i, j)] = 1;
             }
         for (int j = 0; j < 30; ++j)
             for (int i = 70; i < 160; ++i)
@@ -181,37 +181,38 @@ TEST_CASE("holes and what was made up in them do not count", "[scale]") {
     }
     const std::vector<LevelMap> maps = maps_of(frames, 5);
     CHECK_THAT(maps[5](scales[5](150.0)), WithinAbs(common(scales, 5, 150.0), 0.05));
-    LoneDepth mapped;
+    SingleFrameDepth mapped;
     scale_levels(frames[5], maps[5], mapped);
     CHECK(std::isnan(mapped.depth.at(100, 10)));
 }
 
 TEST_CASE("behind a cut the scale is another one's, and nothing is made of it", "[scale]") {
-    const Shaken scene{room, kQuiet};
+    const NoisyScene scene{room, kQuiet};
     std::vector<DepthImage> images = in_scales(scene.frames(14), scales_of(14));
     for (std::size_t k = 8; k < 14; ++k)
         images[k] = image_of(160, 120, 255.0, [&](int i, int j) {
             return 20.0 + std::fmod(3.0 * i + 7.0 * j, 190.0) + static_cast<double>(k);
         });
-    const std::vector<LevelMap> maps = maps_of(lone(images), 6);
+    const std::vector<LevelMap> maps = maps_of(single_frames(images), 6);
     CHECK_FALSE(maps[7] == LevelMap{});
     for (std::size_t k = 8; k < 14; ++k) CHECK(maps[k] == LevelMap{});
 }
 
 TEST_CASE("frames of another size, and too few of them, say nothing", "[scale]") {
-    const Shaken scene{room, kQuiet};
-    std::vector<LoneDepth> frames = lone(in_scales(scene.frames(11), scales_of(11)));
-    const std::vector<LoneDepth> few(frames.begin(), frames.begin() + 3);
+    const NoisyScene scene{room, kQuiet};
+    std::vector<SingleFrameDepth> frames =
+        single_frames(in_scales(scene.frames(11), scales_of(11)));
+    const std::vector<SingleFrameDepth> few(frames.begin(), frames.begin() + 3);
     CHECK(are_identities(maps_of(few, 1)));
     frames[4] = frames[6] = {image_of(20, 20, 255.0, [](int, int) { return 9.0; }), {}, {}};
     CHECK(are_identities(maps_of(frames, 5)));
 }
 
 TEST_CASE("levels stay within those there are, and what was never seen stays", "[scale]") {
-    LoneDepth frame{image_of(4, 2, 255.0, [](int i, int) { return 85.0 * i; }), {}, {}};
+    SingleFrameDepth frame{image_of(4, 2, 255.0, [](int i, int) { return 85.0 * i; }), {}, {}};
     frame.unseen.assign(8, 0);
     frame.unseen[0] = 1;
-    LoneDepth scaled;
+    SingleFrameDepth scaled;
     scale_levels(frame, {1.1, 5.0}, scaled);
     CHECK(scaled.depth.at(0, 0) == 0.0F);
     CHECK_THAT(scaled.depth.at(1, 0), WithinAbs(98.5, 1e-4));
@@ -220,8 +221,8 @@ TEST_CASE("levels stay within those there are, and what was never seen stays", "
 }
 
 TEST_CASE("the same frames give the same maps, whatever was asked for before", "[scale]") {
-    const Shaken scene{room, [](double) { return 0.5; }};
-    const auto frames = lone(in_scales(scene.frames(14), scales_of(14)));
+    const NoisyScene scene{room, [](double) { return 0.5; }};
+    const auto frames = single_frames(in_scales(scene.frames(14), scales_of(14)));
     FrameScale scale;
     const std::vector<LevelMap> once = scale.maps(span_of(frames), 9);
     (void)scale.maps(span_of(frames), 3);

@@ -88,7 +88,7 @@ std::vector<DepthImage> cleaned(const std::vector<DepthImage>& frames) {
     std::vector<DepthImage> done;
     for (std::size_t k = 0; k < frames.size(); ++k) {
         const auto held = memory.take(frames[k], static_cast<double>(k) * kFrame_s);
-        done.push_back(*chain.cleaned(frames[k], {kGentleSteps}, held).depth);
+        done.push_back(*chain.clean_and_finish(frames[k], {kGentleSteps}, held).depth);
     }
     return done;
 }
@@ -99,7 +99,7 @@ DepthImage cleaned(const DepthImage& image) {
 
 std::vector<std::uint8_t> unseen_of(const DepthImage& image,
                                     const CleaningSteps& steps = kGentleSteps) {
-    const auto unseen = CleaningChain().cleaned(image, {steps}).unseen;
+    const auto unseen = CleaningChain().clean_and_finish(image, {steps}).unseen;
     return unseen ? *unseen : std::vector<std::uint8_t>{};
 }
 
@@ -230,7 +230,8 @@ TEST_CASE("without filling, no data is unseen and the farthest", "[holes]") {
     const auto lost = [](int i, int j) { return in_rectangle(i, j, 60, 40, 5, 5); };
     const std::vector<std::uint8_t> unseen = unseen_of(image_with(plane, lost), kRawSteps);
     CHECK(std::count(unseen.begin(), unseen.end(), 1) == 25);
-    const DepthImage raw = *CleaningChain().cleaned(image_with(plane, lost), {kRawSteps}).depth;
+    const DepthImage raw =
+        *CleaningChain().clean_and_finish(image_with(plane, lost), {kRawSteps}).depth;
     CHECK(raw.at(62, 42) == 0.0F);
     CHECK(raw.at(59, 42) == static_cast<float>(plane(59, 42)));
 }

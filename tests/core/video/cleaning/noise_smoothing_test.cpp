@@ -7,7 +7,7 @@
 
 #include "core/video/cleaning/temporal_filter.hpp"
 #include "tests/support/catch.hpp"
-#include "tests/support/shaken_scene.hpp"
+#include "tests/support/noisy_scene.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -25,11 +25,11 @@ DepthImage smoothed(DepthImage image, double noise) {
 }
 
 /// Filters in time and smooths, as the chain does.
-DepthImage steadied_and_smoothed(const Shaken& scene, double noise) {
-    std::vector<LoneDepth> frames;
+DepthImage steadied_and_smoothed(const NoisyScene& scene, double noise) {
+    std::vector<SingleFrameDepth> frames;
     for (DepthImage& frame : scene.frames(21)) frames.push_back({std::move(frame), {}, {}});
-    std::vector<const LoneDepth*> all;
-    for (const LoneDepth& frame : frames) all.push_back(&frame);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
     return smoothed(TemporalFilter().filtered(all, 10, noise_of(noise)), noise);
 }
 
@@ -44,13 +44,13 @@ double bump(int i, int j) {
 TEST_CASE("noise on slopes becomes a fifth of it, however steep they are", "[smoothing]") {
     const double slope = GENERATE(0.0, 0.3, 1.0, 2.0);
     const Scene plane = [slope](int, int i, int j) { return 10.0 + slope * (0.5 * i + 0.5 * j); };
-    const Shaken scene{plane, [](double) { return 0.5; }, 120, 120};
+    const NoisyScene scene{plane, [](double) { return 0.5; }, 120, 120};
     CHECK(rms_error(smoothed(scene.frames(1)[0], 0.5), scene.truth(0)) < 0.1);
 }
 
 TEST_CASE("a bump as high as twice the noise keeps seven tenths of itself", "[smoothing]") {
     const Scene bumps = [](int, int i, int j) { return 60.0 + 0.15 * i + 0.1 * j + bump(i, j); };
-    const Shaken scene{bumps, [](double) { return 0.5; }, 320, 240};
+    const NoisyScene scene{bumps, [](double) { return 0.5; }, 320, 240};
     const DepthImage done = steadied_and_smoothed(scene, 0.5);
     double kept = 0.0;
     int count = 0;
@@ -72,7 +72,7 @@ TEST_CASE("what stands out alone by some deviations of the noise goes, what does
         });
     };
     const auto off_at = [](const Scene& scene, int i, int j) {
-        const Shaken shaken{scene, [](double) { return 0.1; }, 120, 90};
+        const NoisyScene shaken{scene, [](double) { return 0.1; }, 120, 90};
         return static_cast<double>(smoothed(shaken.frames(1)[0], 0.5).at(i, j)) -
                (60.0 + 0.2 * i + 0.1 * j);
     };
@@ -84,7 +84,7 @@ TEST_CASE("what stands out alone by some deviations of the noise goes, what does
 
 TEST_CASE("an edge keeps its place and its height", "[smoothing]") {
     const Scene edge = [](int, int i, int j) { return i + 0.4 * j < 90.0 ? 60.0 : 100.0; };
-    const Shaken scene{edge, [](double) { return 0.5; }};
+    const NoisyScene scene{edge, [](double) { return 0.5; }};
     const DepthImage truth = scene.truth(0);
     const DepthImage done = smoothed(scene.frames(1)[0], 0.5);
     double most = 0.0;
@@ -98,7 +98,7 @@ TEST_CASE("a sphere stays a sphere", "[smoothing]") {
         const double square = 3600.0 - std::pow(i - 80.0, 2.0) - std::pow(j - 60.0, 2.0);
         return square > 0.0 ? 40.0 + std::sqrt(square) : 40.0;
     };
-    const Shaken scene{sphere, [](double) { return 0.5; }};
+    const NoisyScene scene{sphere, [](double) { return 0.5; }};
     const DepthImage truth = scene.truth(0);
     const DepthImage done = smoothed(scene.frames(1)[0], 0.5);
     double sum = 0.0;
@@ -114,8 +114,8 @@ TEST_CASE("a plane without noise stays as it is, and levels stay in their range"
         image_of(90, 70, 255.0, [](int i, int j) { return 0.5 * i + 2.0 * j; });
     const DepthImage done = smoothed(plane, 1.0);
     CHECK(rms_error(done, plane, 0) < 1e-3);
-    const Shaken rough{[](int, int i, int) { return i % 9 < 4 ? 1.0 : 254.0; },
-                       [](double) { return 5.0; }};
+    const NoisyScene rough{[](int, int i, int) { return i % 9 < 4 ? 1.0 : 254.0; },
+                           [](double) { return 5.0; }};
     const DepthImage given = rough.frames(1)[0];
     const auto [lowest, highest] = std::minmax_element(given.levels.begin(), given.levels.end());
     for (const float level : smoothed(given, 5.0).levels)
@@ -135,8 +135,8 @@ TEST_CASE("images of any small size are smoothed without reading beside them", "
 }
 
 TEST_CASE("the same image gives the same bits, whatever was smoothed before", "[smoothing]") {
-    const Shaken scene{[](int, int i, int j) { return 50.0 + 0.3 * i + 0.4 * j; },
-                       [](double) { return 1.0; }};
+    const NoisyScene scene{[](int, int i, int j) { return 50.0 + 0.3 * i + 0.4 * j; },
+                           [](double) { return 1.0; }};
     NoiseSmoother used;
     DepthImage other = scene.frames(1, 7)[0];
     used.smooth(other, noise_of(1.0));

@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "tests/support/catch.hpp"
-#include "tests/support/shaken_scene.hpp"
+#include "tests/support/noisy_scene.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -17,16 +17,16 @@ namespace {
 constexpr DepthNoise kQuiet{.constant = 0.2F / 255.0F};
 constexpr DepthNoise kNoisy{.constant = 1.0F / 255.0F};
 
-std::vector<LoneDepth> lone(const std::vector<DepthImage>& frames) {
-    std::vector<LoneDepth> made;
+std::vector<SingleFrameDepth> single_frames(const std::vector<DepthImage>& frames) {
+    std::vector<SingleFrameDepth> made;
     for (const DepthImage& frame : frames) made.push_back({frame, {}, {}});
     return made;
 }
 
-DepthImage filtered(const std::vector<LoneDepth>& frames, std::size_t now,
+DepthImage filtered(const std::vector<SingleFrameDepth>& frames, std::size_t now,
                     const DepthNoise& noise) {
-    std::vector<const LoneDepth*> all;
-    for (const LoneDepth& frame : frames) all.push_back(&frame);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
     return TemporalFilter().filtered(all, now, noise);
 }
 
@@ -48,25 +48,25 @@ Scene hand(double px_per_frame) {
 }  // namespace
 
 TEST_CASE("a still surface shimmers at most half as much", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 1.0; }};
-    const auto frames = lone(scene.frames(15));
+    const NoisyScene scene{wall, [](double) { return 1.0; }};
+    const auto frames = single_frames(scene.frames(15));
     CHECK(rms_error(filtered(frames, 7, kNoisy), scene.truth(7)) < 0.45);
     CHECK(rms_error(filtered(frames, 7, kNoisy), filtered(frames, 8, kNoisy)) < 0.25);
 }
 
 TEST_CASE("at the ends of a clip less is known, and nothing is made up", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 1.0; }};
-    const auto frames = lone(scene.frames(15));
+    const NoisyScene scene{wall, [](double) { return 1.0; }};
+    const auto frames = single_frames(scene.frames(15));
     for (const std::size_t k : {0U, 1U, 13U, 14U})
         CHECK(rms_error(filtered(frames, k, kNoisy), scene.truth(static_cast<int>(k))) < 0.65);
-    CHECK(filtered(lone(scene.frames(1)), 0, kNoisy).levels == scene.frames(1)[0].levels);
+    CHECK(filtered(single_frames(scene.frames(1)), 0, kNoisy).levels == scene.frames(1)[0].levels);
 }
 
 TEST_CASE("a surface that moves evenly, as a chest does, is not late", "[temporal]") {
     const double step = GENERATE(0.05, 0.3, 2.0, -4.0);  // levels a frame
     const Scene moving = [step](int frame, int i, int j) { return wall(0, i, j) + step * frame; };
-    const Shaken scene{moving, [](double) { return 0.0; }};
-    const auto frames = lone(scene.frames(15));
+    const NoisyScene scene{moving, [](double) { return 0.0; }};
+    const auto frames = single_frames(scene.frames(15));
     for (const int k : {2, 7, 12}) {
         const DepthImage done = filtered(frames, static_cast<std::size_t>(k), kNoisy);
         const double late =
@@ -79,9 +79,9 @@ TEST_CASE("a surface that moves evenly, as a chest does, is not late", "[tempora
 TEST_CASE("a hand in motion keeps its outline, fingers and all", "[temporal]") {
     const double px = GENERATE(1.0, 5.0, 9.0, 17.0);  // 17 are 1 m/s at 1 m and 30 frames/s
     CAPTURE(px);
-    const Shaken scene{hand(px), [](double) { return 0.2; }, 400, 120};
+    const NoisyScene scene{hand(px), [](double) { return 0.2; }, 400, 120};
     const DepthImage truth = scene.truth(9);
-    const DepthImage done = filtered(lone(scene.frames(20)), 9, kQuiet);
+    const DepthImage done = filtered(single_frames(scene.frames(20)), 9, kQuiet);
     const auto wrong =
         std::count_if(truth.levels.begin(), truth.levels.end(), [&](const float& level) {
             const auto k = static_cast<std::size_t>(&level - truth.levels.data());
@@ -96,57 +96,57 @@ TEST_CASE("a round finger that crosses a pixel within three frames keeps its sha
         const bool there = std::fabs(away) < 1.0 && j > 20;
         return there ? 100.0 + 11.0 * (1.0 - away * away) : 60.0;
     };
-    const Shaken scene{finger, [](double) { return 0.2; }, 400, 120};
-    const auto frames = lone(scene.frames(20));
+    const NoisyScene scene{finger, [](double) { return 0.2; }, 400, 120};
+    const auto frames = single_frames(scene.frames(20));
     for (const std::size_t k : {0U, 9U, 19U})
         CHECK(rms_error(filtered(frames, k, kQuiet), scene.truth(static_cast<int>(k))) < 1.0);
 }
 
 TEST_CASE("flickers of a frame or two on a few pixels are not followed", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 0.0; }};
+    const NoisyScene scene{wall, [](double) { return 0.0; }};
     std::vector<DepthImage> frames = scene.frames(15);
     for (int k = 0; k < 15; ++k)
         if (k % 5 < 2)
             for (int j = 50; j < 55; ++j)
                 for (int i = 40; i < 45; ++i) frames[static_cast<std::size_t>(k)].at(i, j) += 60.0F;
     for (const std::size_t k : {5U, 6U, 7U, 10U})
-        CHECK(rms_error(filtered(lone(frames), k, kQuiet), scene.truth(0)) < 0.02);
+        CHECK(rms_error(filtered(single_frames(frames), k, kQuiet), scene.truth(0)) < 0.02);
 }
 
 TEST_CASE("a frame that is off as a whole is not followed", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 0.0; }};
+    const NoisyScene scene{wall, [](double) { return 0.0; }};
     std::vector<DepthImage> frames = scene.frames(15);
     for (float& level : frames[7].levels) level += 60.0F;
-    CHECK(rms_error(filtered(lone(frames), 7, kQuiet), scene.truth(7)) < 0.02);
+    CHECK(rms_error(filtered(single_frames(frames), 7, kQuiet), scene.truth(7)) < 0.02);
 }
 
 TEST_CASE("what comes for good comes at once", "[temporal]") {
     const Scene coming = [](int frame, int i, int j) {
         return wall(0, i, j) + (frame >= 7 && i > 80 ? 50.0 : 0.0);
     };
-    const Shaken scene{coming, [](double) { return 0.0; }};
-    const auto frames = lone(scene.frames(15));
+    const NoisyScene scene{coming, [](double) { return 0.0; }};
+    const auto frames = single_frames(scene.frames(15));
     for (const std::size_t k : {6U, 7U})
         CHECK(rms_error(filtered(frames, k, kQuiet), scene.truth(static_cast<int>(k))) < 0.01);
 }
 
 TEST_CASE("levels that were made up count little", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 0.0; }};
-    std::vector<LoneDepth> frames = lone(scene.frames(11));
-    for (LoneDepth& frame : frames) frame.made_up.assign(frame.depth.levels.size(), 0);
+    const NoisyScene scene{wall, [](double) { return 0.0; }};
+    std::vector<SingleFrameDepth> frames = single_frames(scene.frames(11));
+    for (SingleFrameDepth& frame : frames) frame.filled.assign(frame.depth.levels.size(), 0);
     const std::size_t hole = frames[0].depth.index(80, 60);
     for (std::size_t k = 4; k < 7; ++k) {
-        frames[k].made_up[hole] = 1;
+        frames[k].filled[hole] = 1;
         frames[k].depth.levels[hole] += 0.4F;  // of what a finger rests on
     }
     CHECK_THAT(filtered(frames, 5, kQuiet).levels[hole], WithinAbs(wall(0, 80, 60), 0.06));
 }
 
 TEST_CASE("frames of another size are passed over", "[temporal]") {
-    const Shaken scene{wall, [](double) { return 0.3; }};
-    std::vector<LoneDepth> frames = lone(scene.frames(5));
+    const NoisyScene scene{wall, [](double) { return 0.3; }};
+    std::vector<SingleFrameDepth> frames = single_frames(scene.frames(5));
     const DepthImage alone = filtered({frames[2]}, 0, kNoisy);
-    const LoneDepth other{image_of(20, 20, 255.0, [](int, int) { return 9.0; }), {}, {}};
+    const SingleFrameDepth other{image_of(20, 20, 255.0, [](int, int) { return 9.0; }), {}, {}};
     frames[0] = frames[1] = frames[3] = frames[4] = other;
     CHECK(filtered(frames, 2, kNoisy).levels == alone.levels);
 }

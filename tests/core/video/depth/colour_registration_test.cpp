@@ -83,7 +83,7 @@ cv::Vec3d colour_camera_mm(const CameraPair& pair) {
 }
 
 cv::Mat made_colour(const CameraPair& pair, cv::Size size) {
-    const Camera camera = camera_for(size, pair.colour, pair.colour_size);
+    const CameraModel camera = camera_for(size, pair.colour, pair.colour_size);
     const cv::Vec3d there = colour_camera_mm(pair);
     cv::Mat picture(size, CV_8UC3);
     for (int j = 0; j < picture.rows; ++j) {
@@ -128,7 +128,7 @@ struct Fitness {
 };
 
 Fitness fitness_of(const cv::Mat& registered, const CameraPair& pair, cv::Size size = kColourSize) {
-    const Camera camera = camera_for(size, pair.colour, pair.colour_size);
+    const CameraModel camera = camera_for(size, pair.colour, pair.colour_size);
     const cv::Vec3d there = colour_camera_mm(pair);
     const int finer = registered.cols / kDepthSize.width;
     Fitness fitness;
@@ -178,29 +178,29 @@ TEST_CASE("a lens bends rays to pixels and back", "[registration]") {
             REQUIRE(cv::norm(pair.depth.pixel_of(pair.depth.ray_of(pixel)) - pixel) < 0.001);
         }
     }
-    const Camera wide = azure_kinect_depth_camera(calibration(), {1024, 1024}).value();
+    const CameraModel wide = azure_kinect_depth_camera(calibration(), {1024, 1024}).value();
     CHECK(cv::norm(wide.pixel_of(wide.ray_of({512.0, 100.0})) - cv::Point2d(512.0, 100.0)) < 0.001);
     CHECK(std::isnan(wide.ray_of({0.0, 0.0}).x));  // beyond its radius nothing is seen
     CHECK(std::isnan(wide.pixel_of({1.8, 0.0}).x));
-    const LensInFloats fast(wide.lens());
+    const FloatLens fast(wide.lens());
     for (const cv::Point2d ray : {cv::Point2d(0.3, -0.2), cv::Point2d(-1.2, 1.1)}) {
-        const auto seen = fast.bent(static_cast<float>(ray.x), static_cast<float>(ray.y));
+        const auto seen = fast.distorted(static_cast<float>(ray.x), static_cast<float>(ray.y));
         const Intrinsics& i = wide.intrinsics();
         const cv::Point2d pixel(i.cx + i.fx * double{seen.x}, i.cy + i.fy * double{seen.y});
         CHECK(cv::norm(pixel - wide.pixel_of(ray)) < 0.001);
     }
-    CHECK_FALSE(fast.bent(1.8F, 0.0F).known);
+    CHECK_FALSE(fast.distorted(1.8F, 0.0F).known);
     CHECK(wide.pixel_of({0.0, 0.0}).x == wide.intrinsics().cx);
 }
 
 TEST_CASE("a lens that no glass has sees nothing, and that is found out soon", "[registration]") {
     const Lens mad{{1e5, -1e5, 1e5, -1e4, 0.0, 0.0}, 9.0, -9.0};
-    const Camera camera(Intrinsics{500.0, 500.0, 320.0, 240.0}, mad);
+    const CameraModel camera(Intrinsics{500.0, 500.0, 320.0, 240.0}, mad);
     CHECK(std::isnan(camera.ray_of({600.0, 400.0}).x));
 }
 
 TEST_CASE("a camera's other pictures are cut out of the same sensor", "[registration]") {
-    const Camera whole(Intrinsics{2000.0, 2010.0, 2047.5, 1535.5});
+    const CameraModel whole(Intrinsics{2000.0, 2010.0, 2047.5, 1535.5});
     const auto as = [&](cv::Size size) {
         return camera_for(size, whole, {4096, 3072}).intrinsics();
     };
@@ -288,15 +288,15 @@ TEST_CASE("colour is moved by depth pixels and stretched about its middle", "[re
     cv::Mat colour(48, 64, CV_8UC3, cv::Scalar::all(0));
     colour.at<cv::Vec3b>(20, 30) = {255, 255, 255};
     const cv::Size depth(32, 24);  // half as many pixels
-    CHECK(moved(colour, {}, depth).data == colour.data);
-    const cv::Mat right = moved(colour, {3.0, -2.0, 1.0}, depth);
+    CHECK(apply_registration(colour, {}, depth).data == colour.data);
+    const cv::Mat right = apply_registration(colour, {3.0, -2.0, 1.0}, depth);
     CHECK(right.at<cv::Vec3b>(16, 36)[0] == 255);
     CHECK(right.at<cv::Vec3b>(40, 2)[0] == kNoColour);  // six columns and four rows came in
     CHECK(cv::countNonZero(right.reshape(1) != 0) == 3 * (1 + 6 * 48 + 4 * (64 - 6)));
-    const cv::Mat large = moved(colour, {0.0, 0.0, 3.0}, depth);
+    const cv::Mat large = apply_registration(colour, {0.0, 0.0, 3.0}, depth);
     CHECK(large.size() == colour.size());
     CHECK(large.at<cv::Vec3b>(13, 27)[0] == 255);  // 23.5 + 3 * (20 - 23.5), 31.5 + 3 * (30 - 31.5)
-    CHECK(moved(cv::Mat(), {3.0, -2.0, 1.0}, depth).empty());
+    CHECK(apply_registration(cv::Mat(), {3.0, -2.0, 1.0}, depth).empty());
 }
 
 TEST_CASE("a registration that a person gives moves the colour of a pair", "[registration]") {

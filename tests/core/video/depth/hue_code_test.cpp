@@ -131,7 +131,7 @@ TEST_CASE("near red that noise has put beyond the seam is near again", "[hue]") 
         }
     }
     REQUIRE(whole_range_jumps(noisy) > 100);
-    settle_red(noisy);
+    assign_red_side(noisy);
     CHECK(whole_range_jumps(noisy) == 0);
     CHECK(loss_of(noisy, truth).worst < 0.06);
 }
@@ -147,7 +147,7 @@ TEST_CASE("far red stays far, and comes back from the near side", "[hue]") {
         }
     }
     REQUIRE(whole_range_jumps(hues) > 20);
-    settle_red(hues);
+    assign_red_side(hues);
     CHECK(whole_range_jumps(hues) == 0);
     CHECK(cv::countNonZero(hues < 0.5) == 0);
     CHECK(cv::countNonZero(hues >= 1.0) == 0);
@@ -156,7 +156,7 @@ TEST_CASE("far red stays far, and comes back from the near side", "[hue]") {
 TEST_CASE("red with nothing beside it that tells its side stays as it is", "[hue]") {
     const auto hue = static_cast<float>(GENERATE(0.0, 0.01, 0.99));
     cv::Mat hues(20, 30, CV_32F, cv::Scalar(hue));
-    settle_red(hues);
+    assign_red_side(hues);
     CHECK(cv::countNonZero(hues == hue) == 600);
 }
 

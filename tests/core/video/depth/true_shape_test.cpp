@@ -33,11 +33,11 @@ cv::Mat picture_of(const std::vector<float>& distances_mm) {
 
 TrueShape true_shape() {
     const cv::Size size(kSeenColumns, kSeenRows);
-    return {size, kSeenBy, kRange_mm, straight_grid(size, kSeenBy, kRange_mm)};
+    return {size, kCamera, kRange_mm, orthographic_grid(size, kCamera, kRange_mm)};
 }
 
 DepthImage straight(const std::vector<float>& distances_mm) {
-    return true_shape().seen_straight_on(picture_of(distances_mm), {}).depth;
+    return true_shape().orthographic_view(picture_of(distances_mm), {}).depth;
 }
 
 /// As cleaning leaves it: pixels that are not seen are on the ground.
@@ -48,7 +48,7 @@ DepthImage touchable(DepthImage image) {
 
 /// The point of the grid nearest to a place right of and below the camera's axis [mm].
 std::size_t index_at(const TrueShape& shape, const DepthImage& image, double x_mm, double y_mm) {
-    const StraightGrid& grid = shape.grid();
+    const OrthographicGrid& grid = shape.grid();
     return image.index(static_cast<int>(std::lround((x_mm - grid.left_mm) / grid.pitch_mm)),
                        static_cast<int>(std::lround((y_mm - grid.top_mm) / grid.pitch_mm)));
 }
@@ -57,7 +57,7 @@ std::size_t index_at(const TrueShape& shape, const DepthImage& image, double x_m
 /// where x and y are within `reach_mm` of `middle_mm`.
 std::vector<glm::dvec3> touched_points(const DepthImage& image, const TrueShape& shape,
                                        glm::dvec3 middle_mm, double reach_mm) {
-    const StraightGrid& grid = shape.grid();
+    const OrthographicGrid& grid = shape.grid();
     TouchParameters parameters;
     parameters.shape.relief_px = shape.relief_px();
     const DepthSurface surface(image, image, 0.0, parameters.shape);
@@ -123,12 +123,12 @@ TEST_CASE("a wall across the axis is flat to the last bit, wherever it is", "[tr
     const float distance_mm = GENERATE(300.0F, 777.0F, 2500.0F);
     const TrueShape shape = true_shape();
     const DepthImage image = straight(seen([&](glm::dvec3) { return distance_mm; }));
-    const double half_mm = distance_mm * 319.0 / kSeenBy.fx;
+    const double half_mm = distance_mm * 319.0 / kCamera.fx;
     const auto seen_points = std::count_if(image.levels.begin(), image.levels.end(),
                                            [](float level) { return !std::isnan(level); });
     CHECK(std::count(image.levels.begin(), image.levels.end(),
                      static_cast<float>(kRange_mm.far) - distance_mm) == seen_points);
-    const double expected = 2.0 * half_mm * (2.0 * distance_mm * 239.0 / kSeenBy.fy) /
+    const double expected = 2.0 * half_mm * (2.0 * distance_mm * 239.0 / kCamera.fy) /
                             (shape.grid().pitch_mm * shape.grid().pitch_mm);
     CHECK_THAT(static_cast<double>(seen_points), WithinRel(expected, 0.02));
     if (distance_mm == 2500.0F) CHECK(seen_points == image.columns * image.rows);
@@ -203,11 +203,11 @@ TEST_CASE("each point has the colour of the pixel in which it was seen", "[true_
                                           static_cast<std::uint8_t>(256 * j / size.height)};
     }
     TrueShape shape = true_shape();
-    const StraightPicture picture =
-        shape.seen_straight_on(picture_of(seen_sphere({50.0, 20.0, 700.0})), colour);
+    const OrthographicPicture picture =
+        shape.orthographic_view(picture_of(seen_sphere({50.0, 20.0, 700.0})), colour);
     REQUIRE(picture.colour.columns == picture.depth.columns);
     REQUIRE(picture.colour.rows == picture.depth.rows);
-    const StraightGrid& grid = shape.grid();
+    const OrthographicGrid& grid = shape.grid();
     int coloured_without_point = 0;
     double most_off = 0.0;
     for (int j = 0; j < picture.depth.rows; ++j) {
@@ -221,9 +221,9 @@ TEST_CASE("each point has the colour of the pixel in which it was seen", "[true_
             }
             const double distance_mm = kRange_mm.far - level;
             const double u =
-                kSeenBy.cx + kSeenBy.fx * (grid.left_mm + i * grid.pitch_mm) / distance_mm;
+                kCamera.cx + kCamera.fx * (grid.left_mm + i * grid.pitch_mm) / distance_mm;
             const double v =
-                kSeenBy.cy + kSeenBy.fy * (grid.top_mm + j * grid.pitch_mm) / distance_mm;
+                kCamera.cy + kCamera.fy * (grid.top_mm + j * grid.pitch_mm) / distance_mm;
             most_off = std::fmax(most_off, std::fabs(rgb[2] - 256.0 * (u + 0.5) / 640.0));
             most_off = std::fmax(most_off, std::fabs(rgb[0] - 256.0 * (v + 0.5) / 480.0));
         }
@@ -235,12 +235,12 @@ TEST_CASE("each point has the colour of the pixel in which it was seen", "[true_
 TEST_CASE("the grid is as fine as the nearest pixels, unless it were too large", "[true_shape]") {
     const Intrinsics camera{500.0, 500.0, 319.5, 239.5};
     const cv::Size size(640, 480);
-    const StraightGrid shallow = straight_grid(size, camera, {400.0, 500.0});
+    const OrthographicGrid shallow = orthographic_grid(size, camera, {400.0, 500.0});
     CHECK_THAT(shallow.pitch_mm, WithinAbs(0.8, 1e-12));
     CHECK(shallow.columns == 639 * 5 / 4 + 1);
-    const StraightGrid deep = straight_grid(size, camera, {400.0, 4000.0});
+    const OrthographicGrid deep = orthographic_grid(size, camera, {400.0, 4000.0});
     CHECK_THAT(1.0 * deep.columns * deep.rows, WithinRel(524288.0, 0.005));
-    const StraightGrid large = straight_grid(
+    const OrthographicGrid large = orthographic_grid(
         cv::Size(3840, 2160), Intrinsics{3000, 3000, 1919.5, 1079.5}, {400.0, 4000.0});
     CHECK_THAT(1.0 * large.columns * large.rows, WithinRel(3840.0 * 2160.0, 0.005));
     CHECK_THAT(deep.left_mm + deep.pitch_mm * (deep.columns - 1), WithinAbs(-deep.left_mm, 1e-9));
@@ -250,9 +250,9 @@ TEST_CASE("a camera whose axis is beside the picture is seen straight on, too", 
     const cv::Size size(64, 48);
     const Intrinsics camera{60.0, 60.0, -100.0, 24.0};
     const DepthRange range_mm{500.0, 1000.0};
-    TrueShape shape(size, camera, range_mm, straight_grid(size, camera, range_mm));
+    TrueShape shape(size, camera, range_mm, orthographic_grid(size, camera, range_mm));
     const cv::Mat depth(48, 64, CV_32FC1, cv::Scalar(750.0));
-    const DepthImage image = shape.seen_straight_on(depth, {}).depth;
+    const DepthImage image = shape.orthographic_view(depth, {}).depth;
     CHECK(shape.grid().left_mm > 800.0);
     CHECK(image.levels[index_at(shape, image, 750.0 * 130.0 / 60.0, 0.0)] == 250.0F);
 }
@@ -261,11 +261,11 @@ TEST_CASE("the same pictures give the same bits", "[true_shape]") {
     const cv::Mat depth = picture_of(seen_sphere({50.0, 20.0, 700.0}));
     const cv::Mat colour(100, 200, CV_8UC3, cv::Scalar(10, 20, 30));
     TrueShape shape = true_shape();
-    const StraightPicture first = shape.seen_straight_on(depth, colour);
-    const StraightPicture other =
-        shape.seen_straight_on(picture_of(seen_table(900.0, 0.0, 1.0)), {});
+    const OrthographicPicture first = shape.orthographic_view(depth, colour);
+    const OrthographicPicture other =
+        shape.orthographic_view(picture_of(seen_table(900.0, 0.0, 1.0)), {});
     CHECK(other.colour.rgb.empty());
-    const StraightPicture again = shape.seen_straight_on(depth, colour);
+    const OrthographicPicture again = shape.orthographic_view(depth, colour);
     CHECK(std::memcmp(first.depth.levels.data(), again.depth.levels.data(),
                       first.depth.levels.size() * sizeof(float)) == 0);
     CHECK(first.colour.rgb == again.colour.rgb);
@@ -274,7 +274,7 @@ TEST_CASE("the same pictures give the same bits", "[true_shape]") {
 TEST_CASE("intrinsics of no camera and ranges that are none are refused in a plain line",
           "[true_shape]") {
     const auto refused = [](cv::Size size, const Intrinsics& camera, const DepthRange& range_mm) {
-        return refusal([&] { (void)straight_grid(size, camera, range_mm); });
+        return refusal([&] { (void)orthographic_grid(size, camera, range_mm); });
     };
     const cv::Size size(640, 480);
     const double inf = std::numeric_limits<double>::infinity();
@@ -292,7 +292,7 @@ TEST_CASE("intrinsics of no camera and ranges that are none are refused in a pla
           DepthRange{100.0, 100.0}, DepthRange{nan, 100.0}, DepthRange{100.0, nan},
           DepthRange{100.0, inf}}) {
         CAPTURE(range_mm.near, range_mm.far);
-        CHECK(contains(refused(size, kSeenBy, range_mm), "range"));
+        CHECK(contains(refused(size, kCamera, range_mm), "range"));
     }
 }
 
@@ -300,11 +300,11 @@ TEST_CASE("a view of one grid pitch still is a surface", "[true_shape]") {
     const cv::Size size(640, 2);
     const Intrinsics camera{50, 190, 319, 0.5};
     const DepthRange range_mm{400, 401};
-    const StraightGrid grid = straight_grid(size, camera, range_mm);
+    const OrthographicGrid grid = orthographic_grid(size, camera, range_mm);
     CHECK(grid.rows == 2);
     TrueShape shape(size, camera, range_mm, grid);
     const cv::Mat depth(size, CV_32FC1, cv::Scalar(400.0));
-    CHECK(shape.seen_straight_on(depth, {}).depth.rows == 2);
+    CHECK(shape.orthographic_view(depth, {}).depth.rows == 2);
 }
 
 TEST_CASE("with samples of the clip the grid spans what they show", "[true_shape]") {
@@ -319,7 +319,7 @@ TEST_CASE("with samples of the clip the grid spans what they show", "[true_shape
     std::vector<cv::Mat> samples{sphere_alone({-150.0, 0.0, 900.0}),
                                  sphere_alone({250.0, -50.0, 1000.0})};
     samples.front().at<float>(0, 0) = 400.0F;  // a stray pixel
-    const StraightGrid grid = straight_grid(size, kSeenBy, range_mm, samples);
+    const OrthographicGrid grid = orthographic_grid(size, kCamera, range_mm, samples);
     const double right_mm = grid.left_mm + (grid.columns - 1) * grid.pitch_mm;
     const double lowest_mm = grid.top_mm + (grid.rows - 1) * grid.pitch_mm;
     // Left to right 600 mm, top to bottom 250 mm, and a tenth more on each side.
@@ -327,16 +327,16 @@ TEST_CASE("with samples of the clip the grid spans what they show", "[true_shape
     CHECK_THAT(right_mm, WithinAbs(410.0, 20.0));
     CHECK_THAT(grid.top_mm, WithinAbs(-175.0, 15.0));
     CHECK_THAT(lowest_mm, WithinAbs(125.0, 15.0));
-    CHECK_THAT(grid.pitch_mm, WithinAbs(500.0 / kSeenBy.fx, 1e-9));
+    CHECK_THAT(grid.pitch_mm, WithinAbs(500.0 / kCamera.fx, 1e-9));
     // Points beside it are left out, and those in it do not change.
     TrueShape all = true_shape();
-    TrueShape shape(size, kSeenBy, range_mm, grid);
+    TrueShape shape(size, kCamera, range_mm, grid);
     const cv::Mat depth = picture_of(seen_sphere({250.0, -50.0, 1000.0}));
-    const DepthImage image = shape.seen_straight_on(depth, {}).depth;
-    const DepthImage whole = all.seen_straight_on(depth, {}).depth;
+    const DepthImage image = shape.orthographic_view(depth, {}).depth;
+    const DepthImage whole = all.orthographic_view(depth, {}).depth;
     CHECK_THAT(image.levels[index_at(shape, image, 250.0, -50.0)],
                WithinAbs(whole.levels[index_at(all, whole, 250.0, -50.0)], 0.5));
     const std::vector<cv::Mat> empty{cv::Mat(size, CV_32FC1, cv::Scalar(kNone))};
-    CHECK(straight_grid(size, kSeenBy, range_mm, empty).columns ==
-          straight_grid(size, kSeenBy, range_mm).columns);
+    CHECK(orthographic_grid(size, kCamera, range_mm, empty).columns ==
+          orthographic_grid(size, kCamera, range_mm).columns);
 }

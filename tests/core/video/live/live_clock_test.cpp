@@ -213,49 +213,49 @@ TEST_CASE("a depth picture waits for its colour half an interval, and goes witho
 }
 
 TEST_CASE("stamps are compared by when pictures come that come quickly", "[live]") {
-    StampLine line;
-    CHECK(line.later_s() == 0.0);
+    ClockOffset line;
+    CHECK(line.offset_s() == 0.0);
     for (int k = 0; k < 90; ++k)
         line.add(k * kLiveInterval_s, 500.0 + k * kLiveInterval_s + 0.001 * (k % 7));
-    CHECK_THAT(line.later_s(), WithinAbs(500.0, 1e-9));
+    CHECK_THAT(line.offset_s(), WithinAbs(500.0, 1e-9));
     line.add(3.0, 503.4);  // one that was held up on its way counts for nothing
-    CHECK_THAT(line.later_s(), WithinAbs(500.0, 1e-9));
+    CHECK_THAT(line.offset_s(), WithinAbs(500.0, 1e-9));
     line.add(3.1, 903.1);  // its clock was set
-    CHECK_THAT(line.later_s(), WithinAbs(900.0, 1e-9));
+    CHECK_THAT(line.offset_s(), WithinAbs(900.0, 1e-9));
     CHECK(line.count() == 1);
 }
 
 TEST_CASE("stamps of a clock that goes otherwise are compared by the last three seconds",
           "[live]") {
-    StampLine line;
+    ClockOffset line;
     for (int k = 0; k < 3000; ++k) line.add(k * kLiveInterval_s, 1.001 * k * kLiveInterval_s);
-    CHECK_THAT(line.later_s(), WithinAbs(0.001 * 2900 * kLiveInterval_s, 1e-9));
+    CHECK_THAT(line.offset_s(), WithinAbs(0.001 * 2900 * kLiveInterval_s, 1e-9));
     CHECK(line.count() == 100);
 }
 
 TEST_CASE("where there is no time for motion in-betweens rest first, then all of it, and longer",
           "[live]") {
-    constexpr MotionWanted kAll{true, true};
+    constexpr MotionRequest kAll{true, true};
     MotionThrottle throttle(1920);
-    const auto frames_until = [&](const MotionWanted& wanted, double busy_s, auto changed) {
+    const auto frames_until = [&](const MotionRequest& wanted, double busy_s, auto changed) {
         for (int k = 0; k < 10'000; ++k) {
-            const MotionWanted done = throttle.affordable(wanted);
+            const MotionRequest done = throttle.affordable(wanted);
             if (changed(done)) return k;
-            throttle.took(done, busy_s, kLiveInterval_s);
+            throttle.add_cost(done, busy_s, kLiveInterval_s);
         }
         return -1;
     };
-    const auto less = [&](const MotionWanted& done) { return !(done == kAll); };
-    const auto none = [](const MotionWanted& done) { return !done.any(); };
-    const auto all = [&](const MotionWanted& done) { return done == kAll; };
+    const auto less = [&](const MotionRequest& done) { return !(done == kAll); };
+    const auto none = [](const MotionRequest& done) { return !done.any(); };
+    const auto all = [&](const MotionRequest& done) { return done == kAll; };
     CHECK(frames_until(kAll, 0.5 * kLiveInterval_s, less) == -1);  // there is time
     const int begin = frames_until(kAll, 2.0 * kLiveInterval_s, less);
     CHECK(begin > 0);
     CHECK(begin < 10);
-    CHECK(throttle.in_betweens_rest());
-    CHECK_FALSE(throttle.motion_rests());  // it may fit alone
+    CHECK(throttle.in_betweens_paused());
+    CHECK_FALSE(throttle.motion_paused());  // it may fit alone
     CHECK(frames_until(kAll, 2.0 * kLiveInterval_s, none) < 10);
-    CHECK(throttle.motion_rests());
+    CHECK(throttle.motion_paused());
     const int first = frames_until(kAll, 0.5 * kLiveInterval_s, all);
     REQUIRE(first > 30);
     CHECK(frames_until(kAll, 2.0 * kLiveInterval_s, none) < 20);

@@ -175,8 +175,8 @@ TEST_CASE("how live frames move is known as they come, where it is wanted", "[li
         for (int i = 20; i < 140; i += 4) rights.push_back(moving.motion->at(i, j).right);
     std::sort(rights.begin(), rights.end());
     CHECK_THAT(static_cast<double>(rights[rights.size() / 2]), WithinAbs(3.0, 0.1));
-    CHECK(moving.between == nullptr);
+    CHECK(moving.in_betweens == nullptr);
     playback.set_motion({.in_betweens = true});
-    CHECK(after_three().between != nullptr);
-    CHECK_FALSE(playback.status(bench.now()).motion_rests);
+    CHECK(after_three().in_betweens != nullptr);
+    CHECK_FALSE(playback.status(bench.now()).motion_paused);
 }

@@ -133,7 +133,7 @@ TEST_CASE("what no waiting would mend is refused at once, in words that say what
         LiveFeed feed("", name);
         // Whose patience is endless, and has no end for anything else.
         CHECK(feed.after(0, LiveFeed::Clock::now() + std::chrono::hours(1)) == nullptr);
-        CHECK(feed.signal().refused);
+        CHECK(feed.signal().permanent_error);
         CHECK(contains(feed.signal().trouble, words));
         CHECK(contains(feed.signal().trouble, name));
     }
@@ -215,12 +215,12 @@ TEST_CASE("a sender that is started again is met again by itself; of another siz
     REQUIRE(eventually([&] { return !player.status().live->signal; }));
     sender = std::make_unique<PictureSender>(port, blinking());
     REQUIRE(eventually([&] { return player.status().live->signal; }));
-    CHECK_FALSE(player.status().live->other_form);
+    CHECK_FALSE(player.status().live->format_changed);
     sender.reset();
     PictureSender::Asked other = blinking();
     other.columns = 200;
     sender = std::make_unique<PictureSender>(port, other);
-    REQUIRE(eventually([&] { return player.status().live->other_form; }));
+    REQUIRE(eventually([&] { return player.status().live->format_changed; }));
     CHECK(player.haptics().front().frames[0].depth->columns == 160);  // held
     Player again;
     play(again, PictureSender::url(port));

@@ -16,7 +16,7 @@
 #include "core/video/motion/frame_motion.hpp"
 #include "core/video/motion/in_betweens.hpp"
 #include "core/video/motion/motion_track.hpp"
-#include "core/video/playing/depth_in_time.hpp"
+#include "core/video/playing/depth_timeline.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/playing/playback.hpp"
 #include "tests/core/haptics/surfaces.hpp"
@@ -31,7 +31,7 @@ using Goes = MovingScene::Goes;
 
 namespace {
 
-constexpr MotionWanted kInBetweens{.motion = true, .in_betweens = true};
+constexpr MotionRequest kInBetweens{.motion = true, .in_betweens = true};
 constexpr CleaningOptions kRaw{.preset = CleaningPreset::raw};
 
 /// Two frames of a scene, connected.
@@ -48,7 +48,7 @@ struct Pair {
     [[nodiscard]] Pair faded() const {
         Pair pair = *this;
         pair.from.motion = nullptr;
-        pair.from.between = nullptr;
+        pair.from.in_betweens = nullptr;
         return pair;
     }
 };
@@ -113,9 +113,9 @@ OutlineError outline_error(const DepthBlend& shown, const MovingScene& scene, do
     double count = 0.0;
     const DepthSurface surface = shown.surface({.relief_px = 255.0});
     const Frame truth = scene.frame(t_s);
-    const std::vector<std::uint8_t>& before = shown.shown().from->colour->rgb;
-    const std::vector<std::uint8_t>& after = shown.shown().to->colour->rgb;
-    const double blend = shown.shown().blend;
+    const std::vector<std::uint8_t>& before = shown.with_in_betweens().from->colour->rgb;
+    const std::vector<std::uint8_t>& after = shown.with_in_betweens().to->colour->rgb;
+    const double blend = shown.with_in_betweens().blend;
     for (int j = 0; j < surface.rows(); ++j)
         for (int i = 0; i < surface.columns(); ++i) {
             const int object = scene.at(t_s, {1.0 * i, 1.0 * j}).object;
@@ -149,7 +149,7 @@ TEST_CASE("half way outlines and colours are far nearer the truth than faded", "
     const MovingScene scene({shape, goes, speed, 320, 240});
     const Pair moved(scene, 30.0);
     const Pair faded = moved.faded();
-    REQUIRE(moved.from.between);
+    REQUIRE(moved.from.in_betweens);
     const double way_px = speed / 30.0;
     const OutlineError with = outline_error(moved.at(0.5), scene, 0.5 / 30.0, way_px);
     const OutlineError without = outline_error(faded.at(0.5), scene, 0.5 / 30.0, way_px);
@@ -162,7 +162,7 @@ TEST_CASE("an outline that goes less than two pixels is nearer the truth, too", 
     const MovingScene scene = hand_at(50.0);
     const Pair moved(scene, 30.0);
     const Pair faded = moved.faded();
-    REQUIRE(moved.from.between);
+    REQUIRE(moved.from.in_betweens);
     const OutlineError with = outline_error(moved.at(0.5), scene, 0.5 / 30.0, 2.0);
     const OutlineError without = outline_error(faded.at(0.5), scene, 0.5 / 30.0, 2.0);
     CAPTURE(with.elevation_px, without.elevation_px);
@@ -172,14 +172,14 @@ TEST_CASE("an outline that goes less than two pixels is nearer the truth, too", 
 TEST_CASE("so many frames lie between that nothing moves far from one to the next",
           "[in-betweens]") {
     const Pair pair(hand_at(150.0), 30.0);
-    REQUIRE(pair.from.between);
-    CHECK(pair.from.between->size() + 1 >= 3);
-    CHECK(pair.from.between->size() + 1 <= static_cast<std::size_t>(kMostParts));
+    REQUIRE(pair.from.in_betweens);
+    CHECK(pair.from.in_betweens->size() + 1 >= 3);
+    CHECK(pair.from.in_betweens->size() + 1 <= static_cast<std::size_t>(kMostParts));
 }
 
 TEST_CASE("what does not move blends as it always did", "[in-betweens]") {
     const Pair& pair = pair_of_a_hand();
-    REQUIRE(pair.from.between);
+    REQUIRE(pair.from.in_betweens);
     const double blend = GENERATE(0.1, 0.5, 0.8);
     const DepthSurface moved = pair.at(blend).surface({.relief_px = 255.0});
     const DepthSurface faded{*pair.from.depth, *pair.to.depth, blend, {.relief_px = 255.0}};
@@ -190,8 +190,8 @@ TEST_CASE("what does not move blends as it always did", "[in-betweens]") {
 TEST_CASE("without motion two frames are as they are, bit by bit", "[in-betweens]") {
     const Pair pair(hand_at(0.0), 30.0);
     CHECK(pair.from.motion == nullptr);
-    CHECK(pair.from.between == nullptr);
-    const DepthBlend shown = pair.at(0.3).shown();
+    CHECK(pair.from.in_betweens == nullptr);
+    const DepthBlend shown = pair.at(0.3).with_in_betweens();
     CHECK(shown.from == &pair.from);
     CHECK(shown.to == &pair.to);
     CHECK(shown.blend == 0.3);
@@ -200,8 +200,8 @@ TEST_CASE("without motion two frames are as they are, bit by bit", "[in-betweens
 TEST_CASE("the surface is continuous in time, from a frame over all between to the next",
           "[in-betweens]") {
     const Pair& pair = pair_of_a_hand();
-    REQUIRE(pair.from.between);
-    const auto parts = static_cast<double>(pair.from.between->size() + 1);
+    REQUIRE(pair.from.in_betweens);
+    const auto parts = static_cast<double>(pair.from.in_betweens->size() + 1);
     for (double k = 1.0; k < parts; k += 1.0) {
         const DepthSurface before = pair.at(k / parts - 1e-9).surface({.relief_px = 255.0});
         const DepthSurface after = pair.at(k / parts + 1e-9).surface({.relief_px = 255.0});
@@ -223,7 +223,7 @@ TEST_CASE("what was never seen is on its way, too", "[in-betweens]") {
     const std::size_t count = pair.from.depth->levels.size();
     pair.from.unseen = std::make_shared<const std::vector<std::uint8_t>>(count, 1);
     pair.to.unseen = pair.from.unseen;
-    const auto between = InBetweenMaker().between(pair.from, pair.to);
+    const auto between = InBetweenMaker().make(pair.from, pair.to);
     REQUIRE(between);
     for (const Frame& frame : *between) {
         REQUIRE(frame.unseen);
@@ -235,15 +235,15 @@ TEST_CASE("what was never seen is on its way, too", "[in-betweens]") {
 TEST_CASE("a fingertip is felt over what is on its way", "[in-betweens]") {
     Pair pair = pair_of_a_hand();
     for (Frame* frame : {&pair.from, &pair.to}) {
-        frame->beneath = frame->depth;
+        frame->undilated = frame->depth;
         frame->cleaning.finger = {.radius_px = 6.0, .relief_px = 255.0};
     }
-    const auto between = InBetweenMaker().between(pair.from, pair.to);
+    const auto between = InBetweenMaker().make(pair.from, pair.to);
     REQUIRE(between);
     const Frame& frame = between->front();
-    REQUIRE(frame.beneath);
+    REQUIRE(frame.undilated);
     for (std::size_t k = 0; k < frame.depth->levels.size(); ++k)
-        REQUIRE(frame.depth->levels[k] >= frame.beneath->levels[k] - 1e-3F);
+        REQUIRE(frame.depth->levels[k] >= frame.undilated->levels[k] - 1e-3F);
 }
 
 TEST_CASE("frames of a video are connected to those that follow them", "[in-betweens]") {
@@ -257,12 +257,12 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
     SECTION("with all between them, where there is colour") {
         reader.connect(*first, *second);
         CHECK(first->motion);
-        CHECK(first->between);
+        CHECK(first->in_betweens);
     }
     SECTION("not with those before them, as at the seam of a loop") {
         reader.connect(*second, *first);
         CHECK(second->motion == nullptr);
-        CHECK(second->between == nullptr);
+        CHECK(second->in_betweens == nullptr);
     }
     SECTION("only if that is asked for") {
         reader.set_motion({});
@@ -271,16 +271,16 @@ TEST_CASE("frames of a video are connected to those that follow them", "[in-betw
         reader.set_motion({.motion = true});
         reader.connect(*first, *second);
         CHECK(first->motion);
-        CHECK(first->between == nullptr);
+        CHECK(first->in_betweens == nullptr);
     }
     SECTION("anew to the same bits, as a replay does") {
         reader.connect(*first, *second);
         Frame again = *first;
         FrameMotion().connect(again, *second, kInBetweens);
-        REQUIRE(again.between->size() == first->between->size());
-        for (std::size_t k = 0; k < again.between->size(); ++k) {
-            CHECK((*again.between)[k].depth->levels == (*first->between)[k].depth->levels);
-            CHECK((*again.between)[k].colour->rgb == (*first->between)[k].colour->rgb);
+        REQUIRE(again.in_betweens->size() == first->in_betweens->size());
+        for (std::size_t k = 0; k < again.in_betweens->size(); ++k) {
+            CHECK((*again.in_betweens)[k].depth->levels == (*first->in_betweens)[k].depth->levels);
+            CHECK((*again.in_betweens)[k].colour->rgb == (*first->in_betweens)[k].colour->rgb);
         }
     }
 }
@@ -292,15 +292,15 @@ TEST_CASE("what plays is felt and seen on its way", "[in-betweens]") {
     playback.set_motion(kInBetweens);
     playback.open(std::make_unique<FrameReader>(waving_hand()), now);
     while (playback.needs_frame())
-        if (playback.read_ahead(now)) playback.arrived(now);
+        if (playback.read_ahead(now)) playback.on_frame_read(now);
     const FrameWindow window = playback.window();
     REQUIRE(window.count == FrameWindow::kFrames);
-    for (std::size_t k = 0; k + 1 < window.count; ++k) CHECK(window.frames[k].between);
-    CHECK(window.frames[window.count - 1].between == nullptr);
+    for (std::size_t k = 0; k + 1 < window.count; ++k) CHECK(window.frames[k].in_betweens);
+    CHECK(window.frames[window.count - 1].in_betweens == nullptr);
     const double half_s = 0.5 * (window.frames[0].time_s + window.frames[1].time_s);
-    const DepthBlend shown = window.at(half_s).shown();
+    const DepthBlend shown = window.at(half_s).with_in_betweens();
     CHECK(shown.from != &window.frames[0]);
-    CHECK(window.at(half_s).coloured().colour != window.frames[0].colour);
+    CHECK(window.at(half_s).colour_frame().colour != window.frames[0].colour);
 }
 
 TEST_CASE("in-betweens come and go with the frames that are there, as another surface",
@@ -310,15 +310,15 @@ TEST_CASE("in-betweens come and go with the frames that are there, as another su
     playback.set_cleaning(kRaw);
     playback.open(std::make_unique<FrameReader>(waving_hand()), now);
     while (playback.needs_frame())
-        if (playback.read_ahead(now)) playback.arrived(now);
+        if (playback.read_ahead(now)) playback.on_frame_read(now);
     const FrameWindow faded = playback.window();
-    CHECK(faded.frames[0].between == nullptr);
+    CHECK(faded.frames[0].in_betweens == nullptr);
     playback.set_motion(kInBetweens);
     const FrameWindow moved = playback.window();
-    CHECK(moved.frames[0].between);
+    CHECK(moved.frames[0].in_betweens);
     CHECK(moved.discontinuity != faded.discontinuity);
     playback.set_motion({.motion = true});
-    CHECK(playback.window().frames[0].between == nullptr);
+    CHECK(playback.window().frames[0].in_betweens == nullptr);
     CHECK(playback.window().frames[0].motion);
     CHECK(playback.window().discontinuity != moved.discontinuity);
 }
@@ -365,7 +365,7 @@ class WildFinger {
         const DepthBlend pair = depth_at(frames, tick * 0.001);
         const DepthSurface surface = pair.surface(parameters_.shape);
         for (int k = 0; k < 3; ++k) goal_[k] += speed_[k] + dice_.uniform(-0.2, 0.2);
-        const SurfaceMotion motion = track_.go_on_to(pair, pair.from->motion.get(), 0.001);
+        const SurfaceMotion motion = track_.follow_to(pair, pair.from->motion.get(), 0.001);
         const Touch& touch = renderer_.update(surface, goal_, parameters_, {}, limits_, motion);
         const Vec3 before = std::exchange(last_, touch.sent_force_newton);
         const Vec3 place = touch.proxy.position;
@@ -397,7 +397,7 @@ namespace {
 
 void require_touched_without_a_jump(long updates) {
     const std::vector<Frame>& frames = moved_film();
-    REQUIRE(frames.front().between);
+    REQUIRE(frames.front().in_betweens);
     const int ticks = static_cast<int>(1e3 * frames.back().time_s);
     test::Dice dice(11);
     long touched = 0;
@@ -496,7 +496,7 @@ double astray_px(const std::vector<Frame>& frames, bool carry) {
     const int ticks = static_cast<int>(1e3 * frames.back().time_s);
     for (int tick = 0; tick < ticks; ++tick) {
         const DepthBlend pair = depth_at(frames, tick * 0.001);
-        const SurfaceMotion motion = track.go_on_to(pair, pair.from->motion.get(), 0.001);
+        const SurfaceMotion motion = track.follow_to(pair, pair.from->motion.get(), 0.001);
         const Vec3 goal = over_palm(tick * 0.001, tick == 0 ? 2.0 : -kPressed_px);
         place = Vec2(renderer
                          .update(pair.surface(parameters.shape), goal, parameters, {},
@@ -516,8 +516,8 @@ TEST_CASE("a finger that presses on what moves in a film goes along with it", "[
 }
 
 TEST_CASE("runs without a clock have them, too", "[in-betweens]") {
-    DepthInTime depth(waving_hand(), DepthInTime::Wanted::all, kRaw, kInBetweens);
+    DepthTimeline depth(waving_hand(), DepthTimeline::Wanted::all, kRaw, kInBetweens);
     depth.advance_to(0.05);
-    CHECK(depth.now().from->between);
-    CHECK(depth.now().shown().from != depth.now().from);
+    CHECK(depth.now().from->in_betweens);
+    CHECK(depth.now().with_in_betweens().from != depth.now().from);
 }

@@ -7,7 +7,7 @@
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_estimator.hpp"
 #include "core/video/motion/motion_spread.hpp"
-#include "core/video/motion/reused.hpp"
+#include "core/video/motion/object_pool.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
@@ -66,7 +66,7 @@ Errors errors_of(const MovingScene& scene, const MotionField& field, double from
 
 MotionField motion_of(const Frame& from, const Frame& to) {
     MotionEstimator estimator;
-    const auto field = estimator.between(from, to);
+    const auto field = estimator.estimate(from, to);
     if (field) return *field;
     return {from.depth->columns, from.depth->rows,
             std::vector<MotionField::Way>(from.depth->levels.size())};
@@ -80,7 +80,7 @@ TEST_CASE("nothing moves in a still scene, whatever the camera's noise", "[motio
     const std::vector<Frame> frames =
         test::film(scene_of(shape, Goes::along, 0.0), 2, 30.0, {.brightness = noise}, false);
     CAPTURE(noise);
-    CHECK(MotionEstimator().between(frames[0], frames[1]) == nullptr);
+    CHECK(MotionEstimator().estimate(frames[0], frames[1]) == nullptr);
 }
 
 TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motion]") {
@@ -89,7 +89,7 @@ TEST_CASE("nothing moves in a still scene that a video codec has coded", "[motio
         test::film(scene_of(shape, Goes::along, 0.0), 7, 30.0, {.brightness = 3.0}, true);
     MotionEstimator estimator;
     for (std::size_t k = 1; k < frames.size(); ++k)
-        CHECK(estimator.between(frames[k - 1], frames[k]) == nullptr);
+        CHECK(estimator.estimate(frames[k - 1], frames[k]) == nullptr);
 }
 
 TEST_CASE("depth alone that does not move gives no motion", "[motion]") {
@@ -97,7 +97,7 @@ TEST_CASE("depth alone that does not move gives no motion", "[motion]") {
     Frame from = scene.frame(0.0, {.elevation_px = 0.5, .seed = 1});
     Frame to = scene.frame(0.0, {.elevation_px = 0.5, .seed = 2});
     from.colour_of_view = to.colour_of_view = false;
-    CHECK(MotionEstimator().between(from, to) == nullptr);
+    CHECK(MotionEstimator().estimate(from, to) == nullptr);
 }
 
 TEST_CASE("a textured plane's pixels are found where they have gone", "[motion]") {
@@ -151,9 +151,9 @@ TEST_CASE("the same two frames give the same bits, whatever was asked before", "
     const MovingScene scene = scene_of(Shape::hand, Goes::along, 150.0);
     const std::vector<Frame> frames = test::film(scene, 3, 30.0, {.brightness = 2.0}, false);
     MotionEstimator busy;
-    static_cast<void>(busy.between(frames[0], frames[1]));
-    const auto again = busy.between(frames[1], frames[2]);
-    const auto afresh = MotionEstimator().between(frames[1], frames[2]);
+    static_cast<void>(busy.estimate(frames[0], frames[1]));
+    const auto again = busy.estimate(frames[1], frames[2]);
+    const auto afresh = MotionEstimator().estimate(frames[1], frames[2]);
     REQUIRE(again);
     REQUIRE(afresh);
     CHECK(again->ways == afresh->ways);
@@ -166,7 +166,7 @@ TEST_CASE(
     MotionCells cells;
     cells.columns = 21;
     cells.rows = 13;
-    cells.between.resize(cells.columns, cells.rows);
+    cells.threshold.resize(cells.columns, cells.rows);
     cells.lowest.resize(cells.columns, cells.rows);
     cells.highest.resize(cells.columns, cells.rows);
     MotionLayers wanted;
@@ -180,7 +180,8 @@ TEST_CASE(
             cells.lowest.of[0].row(j)[i] = cells.highest.of[0].row(j)[i] = depth;
             cells.lowest.of[1].row(j)[i] = both ? 20.0F : -MotionCells::kNoPart;
             cells.highest.of[1].row(j)[i] = both ? 20.0F : MotionCells::kNoPart;
-            if (both) cells.split.push_back(static_cast<std::uint32_t>(cells.between.index(i, j)));
+            if (both)
+                cells.split.push_back(static_cast<std::uint32_t>(cells.threshold.index(i, j)));
             // Some parts have no known way.
             if (dice.uniform(0.0, 1.0) < 0.15) wanted.of[0].row(j)[i] = 0.0F;
         }
@@ -204,9 +205,9 @@ TEST_CASE(
         ways.right.of[part].row(j)[i] = way.right;
         ways.down.of[part].row(j)[i] = way.down;
     });
-    MotionKin kin;
-    kin.find(cells);
-    kin.smooth(wanted, ways, smooth);
+    SimilarParts similar;
+    similar.find(cells);
+    similar.smooth(wanted, ways, smooth);
     std::vector<float> off;  // what changes by 0.9 from cell to cell
     each([&](std::size_t part, int i, int j, MotionField::Way way) {
         off.push_back(std::fabs(smooth.right.of[part].row(j)[i] - way.right));
@@ -235,7 +236,7 @@ TEST_CASE("between the middles of cells ways change evenly, to the middle of eac
         }
     }
     const DepthImage depth{kSide, kSide, 255.0, std::vector<float>(kSide * kSide, 100.0F)};
-    Reused<MotionField> fields;
+    ObjectPool<MotionField> fields;
     const auto field = spread_motion(depth, cells, 1, ways, fields);
     REQUIRE(field);
     for (int j = kMotionCell_px / 2; j < kSide - kMotionCell_px / 2; ++j) {

@@ -93,7 +93,7 @@ struct Decoding {
     Decoding& operator=(const Decoding&) = delete;
     [[nodiscard]] static bool rests(const Heartbeat& heart) {
         const auto later = Heartbeat::Clock::now() + std::chrono::hours(1);
-        return HeartbeatListener(&heart).silence(later) == std::chrono::hours(0);
+        return HeartbeatMonitor(&heart).silence(later) == std::chrono::hours(0);
     }
     /// It comes to rest when so many frames have been decoded in all, and no more are.
     [[nodiscard]] bool rests_after(int frames) const {
@@ -355,7 +355,7 @@ TEST_CASE("the decoder's heart is heard only while it decodes", "[decoding]") {
     REQUIRE(comes_to_wait_in(SYS_read, disk.thread()));
     // It waits for a disk: that is silence, and the reader is not to blame.
     const auto waiting = std::chrono::steady_clock::now();
-    CHECK(HeartbeatListener(&decoder).silence(waiting + std::chrono::milliseconds(150)) >=
+    CHECK(HeartbeatMonitor(&decoder).silence(waiting + std::chrono::milliseconds(150)) >=
           std::chrono::milliseconds(150));
     CHECK(Decoding::rests(reader));
     disk.let_go();

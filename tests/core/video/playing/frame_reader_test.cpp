@@ -21,7 +21,7 @@
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
-#include "tests/support/shaken_scene.hpp"
+#include "tests/support/noisy_scene.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 using namespace dibhr;
@@ -42,7 +42,7 @@ struct Disk {
     std::atomic<int> jumps{0};          ///< that arrived
     std::atomic<int> made{0};           ///< frames that were given out
     std::chrono::milliseconds jump{0};  ///< takes so long
-    double passing_s{1e-6};             ///< as it says of a frame
+    double skipping_s{1e-6};            ///< as it says of a frame
     std::atomic<std::chrono::milliseconds> worked{std::chrono::milliseconds{0}};
 
     [[nodiscard]] std::chrono::steady_clock::time_point now() const {
@@ -68,8 +68,8 @@ class KeyedMedia : public Media {
         frame.depth = frames_[position_];
         frame.media_s = frame_s(static_cast<int>(position_));
         frame.index = static_cast<std::int64_t>(position_++);
-        frame.always_whole = true;
-        frame.passing_s = disk_->passing_s;
+        frame.never_has_holes = true;
+        frame.skipping_s = disk_->skipping_s;
         ++disk_->made;
         return frame;
     }
@@ -98,8 +98,8 @@ class KeyedMedia : public Media {
 };
 
 std::vector<DepthImage> shaken_frames(int count) {
-    const Shaken shaken{[](int k, int i, int j) { return 80.0 + 0.3 * i + 0.1 * j + 0.05 * k; },
-                        [](double) { return 0.8; }, 64, 48};
+    const NoisyScene shaken{[](int k, int i, int j) { return 80.0 + 0.3 * i + 0.1 * j + 0.05 * k; },
+                            [](double) { return 0.8; }, 64, 48};
     return shaken.frames(count);
 }
 
@@ -128,7 +128,7 @@ constexpr std::chrono::milliseconds kSlowJump{150};
 /// Of 60 frames on that disk, by whose clock everything is timed.
 std::unique_ptr<FrameReader> timed_reader(const std::shared_ptr<Disk>& disk) {
     return std::make_unique<FrameReader>(std::make_unique<KeyedMedia>(shaken_frames(60), disk), 0,
-                                         ReadingHearts{}, [disk] { return disk->now(); });
+                                         ReaderHeartbeats{}, [disk] { return disk->now(); });
 }
 
 std::unique_ptr<FrameReader> sensor_reader(const std::vector<DepthImage>& frames) {
@@ -147,7 +147,7 @@ TEST_CASE("frames that would come too late are passed over and counted, the last
     const auto in_time = reader->after(0.0, {.earliest_s = frame_s(7)});
     REQUIRE(in_time);
     CHECK(in_time->index == 7);
-    CHECK(reader->passed_over() == 6);
+    CHECK(reader->skipped_frames() == 6);
     const auto next = reader->after(frame_s(7), {.earliest_s = frame_s(3)});
     REQUIRE(next);
     CHECK(next->index == 8);
@@ -155,7 +155,7 @@ TEST_CASE("frames that would come too late are passed over and counted, the last
     REQUIRE(last);
     CHECK(last->index == 29);
     CHECK_FALSE(reader->after(frame_s(29), {.earliest_s = 100.0}));
-    CHECK(reader->passed_over() == 6 + 20);
+    CHECK(reader->skipped_frames() == 6 + 20);
 }
 
 TEST_CASE("frames that are passed over share the wait, and what is waited for is summed up",
@@ -170,8 +170,8 @@ TEST_CASE("frames that are passed over share the wait, and what is waited for is
                std::chrono::milliseconds(later ? std::lround(1000.0 * kWait_s) : 0);
     };
     const auto disk = std::make_shared<Disk>();
-    disk->passing_s = 0.0;  // it does not say how long that takes
-    FrameReader reader(std::make_unique<KeyedMedia>(shaken_frames(30), disk), 0, ReadingHearts{},
+    disk->skipping_s = 0.0;  // it does not say how long that takes
+    FrameReader reader(std::make_unique<KeyedMedia>(shaken_frames(30), disk), 0, ReaderHeartbeats{},
                        reader_looks);
     reader.set_cleaning({.preset = CleaningPreset::raw});
     REQUIRE(reader.at(0.0));
@@ -199,17 +199,17 @@ TEST_CASE("where frames are passed over in-betweens rest first, then motion, and
     const Frame second = gone_by(6, 1);
     const auto connected = [&] {
         reader->connect(first, second);
-        return MotionWanted{.motion = first.motion != nullptr,
-                            .in_betweens = first.between != nullptr};
+        return MotionRequest{.motion = first.motion != nullptr,
+                             .in_betweens = first.in_betweens != nullptr};
     };
     REQUIRE(reader->at(0.0));
-    CHECK(connected() == MotionWanted{true, true});
+    CHECK(connected() == MotionRequest{true, true});
     REQUIRE(reader->after(0.0, {.earliest_s = frame_s(7)}));
-    CHECK(connected() == MotionWanted{true, false});  // it may fit alone
+    CHECK(connected() == MotionRequest{true, false});  // it may fit alone
     REQUIRE(reader->after(frame_s(7), {.earliest_s = frame_s(14)}));
-    CHECK(connected() == MotionWanted{});
+    CHECK(connected() == MotionRequest{});
     int frames = 0;
-    while (!(connected() == MotionWanted{true, true}) && frames < 1000) ++frames;
+    while (!(connected() == MotionRequest{true, true}) && frames < 1000) ++frames;
     CHECK(frames > 20);
     CHECK(frames < 200);
 }
@@ -242,19 +242,19 @@ TEST_CASE("what is passed over while it plays is not made, and a step is one fra
     for (auto frame = every.at(0.0); frame; frame = every.after(frame->media_s))
         in_order.push_back(frame->depth->levels);
 
-    const double apart_s = 6.0 * kFrame_s;
+    const double spacing_s = 6.0 * kFrame_s;
     auto frame = reader.at(0.0);
-    std::int64_t passed_over = 0;
+    std::int64_t skipped_frames = 0;
     for (int shown = 0; shown < 40; ++shown) {
-        auto next = reader.after(frame->media_s, {frame->media_s + apart_s, apart_s});
+        auto next = reader.after(frame->media_s, {frame->media_s + spacing_s, spacing_s});
         REQUIRE(next);
-        REQUIRE(next->media_s >= frame->media_s + apart_s);
+        REQUIRE(next->media_s >= frame->media_s + spacing_s);
         REQUIRE((next->depth->levels == in_order[static_cast<std::size_t>(next->index)]));
-        passed_over += next->index - frame->index - 1;
+        skipped_frames += next->index - frame->index - 1;
         frame = std::move(next);
     }
-    CHECK(reader.passed_over() == passed_over);
-    CHECK(passed_over >= 5 * 40);
+    CHECK(reader.skipped_frames() == skipped_frames);
+    CHECK(skipped_frames >= 5 * 40);
     CHECK(disk->made < 5 * 41);
 
     // Also while the decoder has passed over the next one, or kept frames end.
@@ -264,7 +264,7 @@ TEST_CASE("what is passed over while it plays is not made, and a step is one fra
     const auto before = reader.before(frame->media_s);
     REQUIRE(before);
     CHECK(before->index == frame->index - 1);
-    const auto again = reader.after(before->media_s, {before->media_s, apart_s});
+    const auto again = reader.after(before->media_s, {before->media_s, spacing_s});
     REQUIRE(again);
     CHECK(again->index == frame->index);
 }
@@ -339,15 +339,15 @@ TEST_CASE("a preview is seen and not touched, and the frame that was sought take
     playback.seek(frame_s(25), now);  // the first jump tells how long one takes
     const auto discontinuity = playback.window().discontinuity;
     playback.seek(frame_s(48), now);
-    CHECK(playback.sought_s() == frame_s(48));
+    CHECK(playback.seek_target_s() == frame_s(48));
     CHECK(playback.window().frames[0].index == 40);
     CHECK(playback.window().discontinuity == discontinuity + 1);
     CHECK(playback.touchable().count == 0);
     CHECK(playback.touchable().discontinuity == discontinuity + 1);
     REQUIRE(playback.needs_frame());
     REQUIRE(playback.read_ahead(now));
-    playback.arrived(now);
-    CHECK_FALSE(playback.sought_s());
+    playback.on_frame_read(now);
+    CHECK_FALSE(playback.seek_target_s());
     CHECK(playback.window().frames[0].index == 48);
     CHECK(playback.touchable().count == playback.window().count);
     CHECK(playback.touchable().discontinuity == discontinuity + 2);
@@ -362,9 +362,9 @@ TEST_CASE("a step from a preview is one from the frame that was sought", "[playb
     playback.open(timed_reader(disk), now);
     playback.seek(frame_s(25), now);
     playback.seek(frame_s(48), now);
-    REQUIRE(playback.sought_s());
+    REQUIRE(playback.seek_target_s());
     playback.step(-1, now);
-    CHECK_FALSE(playback.sought_s());
+    CHECK_FALSE(playback.seek_target_s());
     CHECK(playback.window().frames[0].index == 47);
 }
 
@@ -374,19 +374,19 @@ TEST_CASE("while nothing else is to be done the step back is made ready", "[play
     const auto disk = std::make_shared<Disk>();
     disk->jump = kSlowJump;
     playback.open(timed_reader(disk), now);
-    CHECK_FALSE(playback.has_time());  // it plays
+    CHECK_FALSE(playback.can_prepare_step_back());  // it plays
     playback.seek(frame_s(48), now);
     playback.pause(now);
     while (playback.needs_frame())
-        if (playback.read_ahead(now)) playback.arrived(now);
-    CHECK_FALSE(playback.has_time());  // nobody steps back
+        if (playback.read_ahead(now)) playback.on_frame_read(now);
+    CHECK_FALSE(playback.can_prepare_step_back());  // nobody steps back
     playback.step(-1, now);
     for (int frame = 46; frame > 40; --frame) {
         while (playback.needs_frame())
-            if (playback.read_ahead(now)) playback.arrived(now);
-        REQUIRE(playback.has_time());
-        playback.make_ready_to_step_back();
-        CHECK_FALSE(playback.has_time());
+            if (playback.read_ahead(now)) playback.on_frame_read(now);
+        REQUIRE(playback.can_prepare_step_back());
+        playback.prepare_step_back();
+        CHECK_FALSE(playback.can_prepare_step_back());
         const int jumps = disk->jumps;
         playback.step(-1, now);
         CHECK(disk->jumps == jumps);
@@ -409,8 +409,8 @@ std::size_t resident_bytes() {
 
 TEST_CASE("a reader of large frames keeps within its memory", "[reader]") {
     const CleaningPreset preset = GENERATE(CleaningPreset::gentle, CleaningPreset::sensor);
-    const Shaken shaken{[](int, int i, int j) { return 80.0 + 0.05 * i + 0.01 * j; },
-                        [](double) { return 0.8; }, 1280, 720};
+    const NoisyScene shaken{[](int, int i, int j) { return 80.0 + 0.05 * i + 0.01 * j; },
+                            [](double) { return 0.8; }, 1280, 720};
     const std::size_t before = resident_bytes();
     FrameReader reader(std::make_unique<KeyedMedia>(std::vector<DepthImage>(60, shaken.truth(0))));
     const std::size_t given = resident_bytes();  // 220 MB of frames

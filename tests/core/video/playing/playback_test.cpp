@@ -41,7 +41,7 @@ class FlatMedia : public Media {
         frame.depth = {4, 4, 255.0, std::vector<float>(16, static_cast<float>(position_ + 1))};
         frame.media_s = times_[position_];
         frame.index = static_cast<std::int64_t>(position_++);
-        frame.always_whole = true;
+        frame.never_has_holes = true;
         return frame;
     }
     void seek(double media_s) override {
@@ -75,7 +75,7 @@ struct Scene {
     void settle() {
         playback.advance(now);
         while (playback.needs_frame())
-            if (playback.read_ahead(now)) playback.arrived(now);
+            if (playback.read_ahead(now)) playback.on_frame_read(now);
         playback.advance(now);
     }
     /// In small steps: the thread is never late.
@@ -383,7 +383,7 @@ TEST_CASE("when decoding falls behind the surface is held, and meets the clock w
     CHECK(scene.playback.window().frames[0].index == 7);
     CHECK_THAT(scene.playback.window().frames[0].time_s, WithinAbs(0.7, 1e-9));
     CHECK(scene.playback.shown_per_s() < 9.0);
-    CHECK_FALSE(scene.playback.waits());
+    CHECK_FALSE(scene.playback.falls_behind());
 }
 
 TEST_CASE("a machine too slow for all frames shows as many as it can, in their time",
@@ -396,7 +396,7 @@ TEST_CASE("a machine too slow for all frames shows as many as it can, in their t
         const bool reads = scene.playback.needs_frame();
         if (reads) REQUIRE(scene.playback.read_ahead(scene.now));
         scene.now += std::chrono::milliseconds(250);  // 2.5 intervals
-        if (reads) scene.playback.arrived(scene.now);
+        if (reads) scene.playback.on_frame_read(scene.now);
         scene.playback.advance(scene.now);
         const double passed_s = std::chrono::duration<double>(scene.now - begin).count();
         if (k < 10) continue;
@@ -407,7 +407,7 @@ TEST_CASE("a machine too slow for all frames shows as many as it can, in their t
         REQUIRE_THAT(media_s, WithinAbs(passed_s, 0.15));
     }
     CHECK_THAT(scene.playback.shown_per_s(), WithinAbs(4.0, 1.0));
-    CHECK_FALSE(scene.playback.waits());
+    CHECK_FALSE(scene.playback.falls_behind());
 }
 
 namespace {
@@ -416,10 +416,10 @@ using Seconds = std::chrono::duration<double>;
 
 /// What a frame takes of a machine.
 struct Work {
-    double decoding_s{0.0};  ///< also where it is passed over
-    double making_s{0.0};    ///< beyond that, on the thread that decodes
-    double waiting_s{0.0};   ///< of the one that reads, for that
-    double cleaning_s{0.0};  ///< and after it
+    double decoding_s{0.0};    ///< also where it is passed over
+    double conversion_s{0.0};  ///< beyond that, on the thread that decodes
+    double waiting_s{0.0};     ///< of the one that reads, for that
+    double cleaning_s{0.0};    ///< and after it
 };
 
 /// A thousand frames, a hundred a second, of a machine that takes as long as it is told to.
@@ -435,9 +435,9 @@ class WorkingMedia : public FlatMedia {
     std::optional<RawFrame> next() override { return next_from(0.0); }
     std::optional<RawFrame> next_from(double earliest_s) override {
         while (pass(earliest_s)) take(work_.decoding_s);
-        take(work_.decoding_s + work_.making_s);
+        take(work_.decoding_s + work_.conversion_s);
         std::optional<RawFrame> frame = FlatMedia::next();
-        if (frame) frame->passing_s = work_.decoding_s;
+        if (frame) frame->skipping_s = work_.decoding_s;
         ++done_.made;
         return frame;
     }
@@ -464,7 +464,7 @@ class WorkingScene {
   public:
     explicit WorkingScene(const Work& work) : work_(work) {
         playback.open(std::make_unique<FrameReader>(std::make_unique<WorkingMedia>(work, done), 0,
-                                                    ReadingHearts{}, [this] { return time(); }),
+                                                    ReaderHeartbeats{}, [this] { return time(); }),
                       now);
     }
     /// Reads a frame, if one is wanted; else a millisecond passes.
@@ -474,7 +474,7 @@ class WorkingScene {
         looks_ = 0;
         REQUIRE(playback.read_ahead(now));
         pass(work_.waiting_s + work_.cleaning_s);
-        playback.arrived(now);
+        playback.on_frame_read(now);
         ++shown;
     }
     void go_on_until(double played_s) {
@@ -527,7 +527,7 @@ TEST_CASE("frames that were passed over make those after them come no later", "[
     scene.go_on_until(scene.played_s() + 0.2);
     CHECK(std::abs(shown_in_two_seconds() - shown) <= 2);
     CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));
-    CHECK_FALSE(scene.playback.waits());
+    CHECK_FALSE(scene.playback.falls_behind());
 }
 
 TEST_CASE("what is waited for is not taken for what cleaning takes", "[playback]") {
@@ -540,15 +540,15 @@ TEST_CASE("what is waited for is not taken for what cleaning takes", "[playback]
 TEST_CASE("where decoding is too slow every frame is shown, and the clock waits", "[playback]") {
     WorkingScene scene({.decoding_s = 0.020, .waiting_s = 0.020});
     scene.go_on_until(6.0);
-    CHECK(scene.playback.waits());
+    CHECK(scene.playback.falls_behind());
     CHECK(scene.newest() == scene.shown);
     CHECK(scene.media_s() < 0.6 * scene.played_s());
 }
 
 TEST_CASE("where frames are slow to make and not to decode the time is kept", "[playback]") {
-    WorkingScene scene({.decoding_s = 0.002, .making_s = 0.018, .cleaning_s = 0.001});
+    WorkingScene scene({.decoding_s = 0.002, .conversion_s = 0.018, .cleaning_s = 0.001});
     scene.go_on_until(6.0);
-    CHECK_FALSE(scene.playback.waits());
+    CHECK_FALSE(scene.playback.falls_behind());
     CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));
     CHECK(scene.shown > 6 * 32);                  // one of three, since each takes 22 ms
     CHECK(scene.shown > 0.65 * scene.done.made);  // few of them come too late

@@ -205,7 +205,7 @@ TEST_CASE("a folder of packed pictures is a packed video", "[packed]") {
 }
 
 TEST_CASE("names say how halves lie, and some that one of them is depth", "[packed]") {
-    const auto [name, packing, half_size, says_depth] =
+    const auto [name, packing, half_size, names_depth] =
         GENERATE(table<const char*, DepthPacking, bool, bool>(
             {{"clip_RGBD.mp4", DepthPacking::left_right, false, true},
              {"clip_HRGBD.mp4", DepthPacking::left_right, true, true},
@@ -223,7 +223,7 @@ TEST_CASE("names say how halves lie, and some that one of them is depth", "[pack
     CAPTURE(name);
     const auto said = packing_by_name(name);
     REQUIRE(said);
-    CHECK(*said == NamedPacking{packing, half_size, says_depth});
+    CHECK(*said == NamedPacking{packing, half_size, names_depth});
 }
 
 TEST_CASE("names without such a word at their end say nothing of halves", "[packed]") {

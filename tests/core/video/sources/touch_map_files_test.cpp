@@ -71,13 +71,13 @@ TEST_CASE("a grey picture of anybody's is a map that covers all, linear between 
     write_grey(folder / "depth_friction.png", 4, 3, 13107, CV_16UC1);
     const auto maps = read_touch_maps(depth, 8, 6);
     REQUIRE(maps);
-    CHECK_THAT(felt_value(maps->stiffness, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
-    CHECK_THAT(felt_value(maps->friction, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
+    CHECK_THAT(map_value(maps->stiffness, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
+    CHECK_THAT(map_value(maps->friction, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
 
     write_text(folder / "depth_maps.toml", "[stiffness]\nlowest = 1\nhighest = 6.0\n");
     const auto other = read_touch_maps(depth, 8, 6);
-    CHECK_THAT(felt_value(other->stiffness, 3.0, 3.0, 8, 6, 0.7), WithinAbs(2.0, 1e-9));
-    CHECK_THAT(felt_value(other->friction, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
+    CHECK_THAT(map_value(other->stiffness, 3.0, 3.0, 8, 6, 0.7), WithinAbs(2.0, 1e-9));
+    CHECK_THAT(map_value(other->friction, 3.0, 3.0, 8, 6, 0.7), WithinAbs(0.4, 1e-9));
 }
 
 TEST_CASE("touch maps are called after what a recording is of, or by its whole name", "[maps]") {

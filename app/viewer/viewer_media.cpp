@@ -1,0 +1,410 @@
+// The viewer's media: opening and showing a video or session, the files saved beside it, and the
+// scene.
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+#include "app/settings/assets_path.hpp"
+#include "app/settings/recent_files.hpp"
+#include "app/touching/scene.hpp"
+#include "app/viewer/viewer.hpp"
+#include "core/error.hpp"
+#include "core/haptics/surface.hpp"
+#include "core/video/live/live_name.hpp"
+#include "core/video/playing/live_status.hpp"
+#include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/sidecar.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr const char* kDesktopAsks = "Choose in the desktop's dialog";
+
+std::string desktop_words(const ViewerState& state) {
+    return kDesktopAsks +
+           state.keys.key_hint(Action::open_file_in_window, " opens one in this window");
+}
+
+/// Pushes a command to open the files; false: too many, or none.
+bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& state) {
+    const bool one = files.size() == 1;
+    if (one && named_firmware(files.front())) {
+        state.commands.push(UseFirmware{files.front()});
+    } else if (one && files.front().extension() == ".toml") {
+        state.commands.push(UseMaterial{files.front().string()});
+    } else {
+        const auto request = dropped_request(files);
+        if (request) state.commands.push(*request);
+        return request.has_value();
+    }
+    return true;
+}
+
+/// The file whose levels are depth.
+const std::filesystem::path& depth_file(const MediaDescription& media) {
+    return media.depth_path.empty() ? media.colour_path : media.depth_path;
+}
+
+/// The pixel at a place in grid space; nothing beside the picture.
+std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const DepthBlend& shown) {
+    if (!shown.makes_surface()) return {};
+    const DepthImage& depth = *shown.with_in_betweens().from->drawn();
+    const int i = static_cast<int>(std::lround(place.x));
+    const int j = static_cast<int>(std::lround(place.y));
+    if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
+    const DepthSurface surface = shown.drawn_surface(state.shape(), state.touch.bump.get());
+    const auto& unseen = shown.with_in_betweens().nearest().unseen;
+    return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
+                      unseen && (*unseen)[depth.index(i, j)] != 0};
+}
+
+}  // namespace
+
+void Viewer::take_opened() {
+    if (auto opened = opening_.take()) {
+        if (opened->media || opened->session) estimating_.withdraw_offer(state_);
+        if (opened->media)
+            show_media(std::move(opened->media), opened->request, opened->memory,
+                       std::move(opened->maps));
+        if (opened->session) replay_session(std::move(opened->session));
+        if (opened->is_folder) {
+            browsing_.show(opened->request.colour, state_);
+        } else if (opened->lacks_depth && estimating_.offer(opened->request.colour, state_)) {
+            fill_depth_fields(state_);
+        } else if (!opened->failure.empty() && !opened->request.reconnect) {
+            state_.ui.message = opened->failure;
+            fill_depth_fields(state_);  // the ones in use
+        }
+    }
+    state_.media.opening = opening_.running();
+}
+
+void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
+    if (files.empty()) return;
+    // A picture dropped on the relief is a recording; dropped on the panels, a bump map.
+    const bool over_panels = window_.pointer().position_px.x >= relief_viewport().x;
+    if (over_panels && files.size() == 1 && named_picture(files.front())) {
+        state_.commands.push(LoadBump{files.front()});
+    } else if (!take_files(files, state_)) {
+        state_.ui.message =
+            "Drop one colour file, a colour and a depth file together, a folder, a session or a "
+            "material. A picture that is dropped on the panels becomes a bump map.";
+    }
+}
+
+Answer Viewer::open_by_dialog() {
+    const OpenWith with = state_.settings.open_with;
+    const bool of_desktop =
+        with == OpenWith::desktop || (with == OpenWith::automatic && has_desktop());
+    if (!desktop_.open() && (!of_desktop || state_.ui.dialog.shown)) {
+        browsing_.toggle(state_);
+        return {};
+    }
+    if (!desktop_.open()) desktop_.ask(browsing_.first_folder(state_), window_.x11_window());
+    return {desktop_words(state_)};
+}
+
+/// While the desktop's dialog is open, a notice says so.
+void Viewer::take_desktop_answer() {
+    const auto answer = desktop_.take();
+    UiState& ui = state_.ui;
+    const bool shown_still = ui.notice.starts_with(kDesktopAsks) && now_s() < ui.notice_until_s;
+    if (desktop_.open() && (shown_still || now_s() >= ui.notice_until_s))
+        show_notice(desktop_words(state_));
+    if (!desktop_.open() && shown_still) ui.notice_until_s = now_s();
+    if (!answer) return;
+    if (answer->outcome == FileAnswer::Outcome::unavailable) {
+        if (state_.settings.open_with == OpenWith::desktop)
+            show_notice("The desktop shows no dialog: this is the window's own");
+        if (!state_.ui.dialog.shown) browsing_.toggle(state_);
+    } else if (answer->outcome == FileAnswer::Outcome::chosen &&
+               !take_files(answer->files, state_)) {
+        state_.ui.message = "Choose one file, or a colour and a depth file together.";
+    }
+}
+
+void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
+                        const FileMemory& memory, FoundMaps maps) {
+    explaining_.end(state_, camera_);
+    // A recording's video would lack these frames: end it. A waiting one goes on below.
+    const bool live = media->description().live;
+    const std::filesystem::path waits =
+        live && request.reconnect ? touch_.recording().waiting_file() : std::filesystem::path{};
+    if (live && touch_.recording().active_or_waiting()) {
+        const std::string ended =
+            touch_.recording().stop(request.reconnect ? "the live source changed its form" : "");
+        if (waits.empty()) show_notice(ended);  // a waiting recording starts again below
+    }
+    if (!request.chosen) keep_memory();
+    replay_.end(state_);
+    if (!request.chosen) forget_relief();
+    const MediaDescription before = state_.media;
+    state_.media.describe(media->description());
+    const MediaDescription& now = state_.media;
+    state_.media.opened = request;
+    state_.media.opened.request.panel = now.panel;
+    state_.media.opened.request.live = media->live();
+    state_.media.opened.reconnect = false;
+    fill_depth_fields(state_);
+    trace_.clear();
+    if (request.chosen) keep_panel(depth_file(before));
+    fit_to_media();
+    // After a change of the depth options the view stays.
+    const bool same_size =
+        now.depth_columns == before.depth_columns && now.depth_rows == before.depth_rows;
+    if (!request.chosen || !same_size) frame_relief();
+    show_title(now.colour_path.empty() ? now.depth_path : now.colour_path);
+    // As named; dropped files in the order found: colour, depth.
+    keep_recent(request.in_any_order && !request.depth.empty()
+                    ? RecentFile{now.colour_path, now.depth_path}
+                    : RecentFile{request.colour, request.depth});
+    if (!options_.touch.uses_maps())
+        maps = {nullptr, "Nothing is painted with --maps off: start dibhr without it"};
+    if (options_.touch.uses_maps() && !maps.refusal.empty())
+        state_.ui.message = maps.refusal + "\n\nThe recording is touched without touch maps.";
+    if (now.live)
+        maps = {nullptr,
+                "A live source cannot be painted on: there is no file to keep the paint beside"};
+    touch_.play(std::move(media),
+                painting_.begin(std::move(maps), now, remembered_file(now).empty()));
+    if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
+    if (request.at_s > 0.0) touch_.player().seek(request.at_s);
+    if (request.paused) touch_.player().pause();
+    if (!request.chosen) apply_memory(memory, request);
+    if (touch_.runs()) return;
+    fit_to_media();
+    heart_.beat();
+    touch_.start();
+}
+
+/// Saves view, relief and position of the shown file, before another one or the program's end.
+/// Errors are ignored: nothing important is lost.
+void Viewer::keep_memory() try {
+    if (remembered_.empty()) return;
+    FileMemory memory;
+    const Settings& settings = state_.settings;
+    const OwnRelief relief{settings.fit_relief, settings.touch.shape.relief_px};
+    if (relief == relief_shown_) {  // unchanged, also a value of the command line
+        memory.relief_px = read_memory(file_memories_path(), remembered_).relief_px;
+    } else if (!relief.fits) {
+        memory.relief_px = relief.relief_px;
+    }
+    Camera whole = camera_;
+    whole.reset();
+    if (!(camera_.view() == whole.view())) memory.view = text_of(camera_.view());
+    constexpr double kNearEnd_s = 2.0;  // a video watched to its end begins anew
+    const PlaybackStatus playback = touch_.player().status();
+    const double at_s = playback.media_s;
+    const bool goes_on = at_s > 0.0 && at_s < playback.duration_s - kNearEnd_s;
+    if (goes_on) memory.at_s = at_s;
+    save_queue_.add([folder = file_memories_path(), file = remembered_, memory] {
+        try {
+            dibhr::keep_memory(folder, file, memory);
+        } catch (const InputError&) {
+        }
+    });
+} catch (const std::exception&) {
+}
+
+void Viewer::apply_memory(const FileMemory& memory, const OpenRequest& request) {
+    remembered_ = remembered_file(state_.media);
+    Settings& settings = state_.settings;
+    if (!remembered_.empty())
+        relief_before_ = {settings.fit_relief, settings.touch.shape.relief_px};
+    if (memory.relief_px) {
+        settings.fit_relief = false;
+        settings.touch.shape.relief_px = *memory.relief_px;
+        frame_relief();
+    }
+    relief_shown_ = {settings.fit_relief, settings.touch.shape.relief_px};
+    if (const auto view = view_in(memory.view)) camera_.set_view(*view);
+    if (settings.resume && memory.at_s > 0.0 && !(request.at_s > 0.0)) {
+        touch_.player().seek(memory.at_s);
+        show_notice("Goes on where it was left (Home: from the start)");
+    }
+}
+
+/// Restores the relief settings of before the file that has its own.
+void Viewer::forget_relief() {
+    if (!relief_before_) return;
+    state_.settings.fit_relief = relief_before_->fits;
+    state_.settings.touch.shape.relief_px = relief_before_->relief_px;
+    relief_before_.reset();
+}
+
+void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
+    painting_.flush_maps(touch_.recording());
+    if (touch_.recording().active_or_waiting()) show_notice(touch_.recording().stop());
+    if (!session->frames.warning().empty()) show_notice(capitalised(session->frames.warning()));
+    explaining_.end(state_, camera_);
+    painting_.end(state_);
+    keep_memory();
+    remembered_.clear();
+    touch_.stop();  // the force goes to zero; no device is read
+    trace_.clear();
+    touch_.player().pause();
+    show_title(session->session.file());
+    keep_recent({session->session.file()});
+    replay_.begin(std::move(session), std::exchange(options_.touch.given, {}), state_);
+    frame_relief();
+}
+
+/// Errors are ignored: in such a home folder, saving the settings reports the error.
+void Viewer::keep_recent(const RecentFile& opened) {
+    const SampleFiles sample = sample_files();
+    const std::filesystem::path history = recent_files_path();
+    state_.media.recent = read_recent_files(history);
+    if (opened == RecentFile{sample.colour, sample.depth}) return;
+    state_.media.recent = with_first(opened, state_.media.recent);
+    save_queue_.add([opened, history] {
+        try {
+            add_recent_file(opened, history);
+        } catch (const InputError&) {
+        }
+    });
+}
+
+void Viewer::show_title(const std::filesystem::path& file) {
+    const std::string name = is_live(file) ? public_name(file) : file.filename().string();
+    window_.set_title(name + " - dibhr");
+}
+
+/// Saves the panel's depth choices for the file that they made the depth.
+void Viewer::keep_panel(const std::filesystem::path& depth_before) {
+    save_queue_.add([folder = depth_choices_path(), depth_before, depth = depth_file(state_.media),
+                     panel = state_.media.opened.request.panel] {
+        if (depth != depth_before) keep_choice(folder, depth_before, {});
+        keep_choice(folder, depth, panel);
+    });
+}
+
+/// Opens the same files at the same moment, with the panel's new depth choices in place of the old.
+void Viewer::open_again(const DepthStatement& panel) {
+    OpenRequest request = state_.media.opened;
+    request.request.find_out = true;
+    request.request.panel = panel;
+    request.request.kept_in.clear();
+    request.chosen = true;
+    request.at_s = state_.media.playback.media_s;
+    request.paused = !state_.media.playback.playing;
+    open(request);
+}
+
+/// Reopens a live source that now sends another size or kind of picture.
+void Viewer::follow_live() {
+    const auto& live = state_.media.playback.live;
+    if (!live || state_.touch.replay) return;
+    log_.append_if_changed("live", signal_in_words(*live));
+    if (!live->format_changed || live->opened != touch_.media_number() || opening_.running())
+        return;
+    OpenRequest request = state_.media.opened;
+    request.request.live = nullptr;
+    request.reconnect = true;
+    open(request);
+}
+
+/// Opens after the writes so far, so that the file's memory is read as saved.
+void Viewer::open(const OpenRequest& request) {
+    const bool begun = opening_.start([request, remembered = save_queue_.done_so_far()] {
+        if (remembered.valid()) remembered.wait();
+        return try_open(request);
+    });
+    if (!begun) show_notice("Still opening the last files");
+}
+
+std::string Viewer::save_sidecar() {
+    if (state_.media.live)
+        throw InputError("a live source has no sidecar: what you choose is kept for its name");
+    if (!state_.media.meaning) throw InputError("nothing is known of this depth: it is shown raw");
+    const std::filesystem::path& file = depth_file(state_.media);
+    DepthStatement all = state_.media.meaning->statement();
+    const CleaningOptions& cleaning = state_.settings.cleaning;
+    if (cleaning.preset != CleaningPreset::automatic)
+        all.cleaning = CleaningChoice{cleaning.preset, cleaning.own};
+    all.finger_mm = finger_mm_on(state_.media, state_.settings.finger_mm);
+    DepthRequest& request = state_.media.opened.request;
+    write_sidecar(file, all);
+    request.panel = {};  // these are in the sidecar now
+    merge_by_priority({{Origin::command_line, request.command_line}, {Origin::sidecar, all}},
+                      *state_.media.meaning);
+    fill_depth_fields(state_);
+    keep_choice(depth_choices_path(), file, {});
+    return "Saved " + sidecar_of(file).string();
+}
+
+Settings Viewer::settings_to_save() const {
+    Settings settings = replay_.settings_to_save(state_);
+    const TouchParameters& before = options_.settings.touch;
+    if (relief_before_) {
+        settings.fit_relief = relief_before_->fits;
+        settings.touch.shape.relief_px = relief_before_->relief_px;
+    }
+    if (settings.fit_relief) settings.touch.shape.relief_px = before.shape.relief_px;
+    const Material& material = state_.touch.material;
+    if (material.bumps && has_texture(material, settings.touch)) {  // its file has them
+        settings.touch.shape.roughness_px = before.shape.roughness_px;
+        settings.touch.shape.bump_size_px = before.shape.bump_size_px;
+    }
+    if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = before.coupling.pixel_pitch_mm;
+    return settings;
+}
+
+void Viewer::fit_to_media() {
+    Settings& settings = state_.settings;
+    const bool keeps_texture = has_texture(state_.touch.material, settings.touch);
+    const Fit fit = fit_of(state_.media);
+    if (settings.fit_relief) settings.touch.shape.relief_px = fit.relief_px;
+    if (settings.fit_pitch) settings.touch.coupling.pixel_pitch_mm = fit.pixel_pitch_mm;
+    // The pixel pitch may have changed.
+    if (keeps_texture) lay_texture(state_.touch.material, settings.touch);
+    keep_in_range(settings.touch);
+}
+
+void Viewer::frame_relief() {
+    explaining_.keep_camera();
+    camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
+                         state_.settings.touch.shape.relief_px);
+}
+
+void Viewer::draw_scene(glm::ivec2 viewport) {
+    camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
+                                                         : Camera::Projection::perspective);
+    state_.ui.under_hand = pixel_at(state_.touch.haptic.touch.goal, state_, shown_);
+    state_.ui.under_pointer.reset();
+    if (pointed_at_) state_.ui.under_pointer = pixel_at(*pointed_at_, state_, shown_);
+    if (state_.ui.ruler) {
+        state_.ui.ruler->ends.clear();
+        for (const Vec3& place : state_.ui.ruler->places)
+            if (const auto end = pixel_at(place, state_, shown_))
+                state_.ui.ruler->ends.push_back(*end);
+    }
+    SceneContent content = scene_content(state_.settings, state_.touch, shown_);
+    if (state_.ui.explained) {  // hide the markers of the touch
+        content.markers.visible = false;
+        content.dent = {};
+    }
+    if (!state_.touch.replay) content.maps = painting_.drawn();
+    if (state_.ui.brush.on) {
+        content.relief_style.paint = ReliefPaint::video;
+        content.colour = painting_.tinted(content.colour, state_);
+        content.markers.visible = false;  // the mouse paints and does not touch
+    }
+    leave_trace(content.markers);
+    scene_.draw(content, camera_, viewport);
+}
+
+void Viewer::leave_trace(TouchMarkers& markers) {
+    if (!state_.settings.relief_style.trace || !shown_.makes_surface()) return;
+    if (markers.visible && markers.contact) trace_.add(markers.proxy, now_s());
+    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
+    markers.trace = trace_.points(surface, now_s());
+}
+
+}  // namespace dibhr

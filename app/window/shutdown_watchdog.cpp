@@ -1,0 +1,85 @@
+// The thread waits for a signal or the loss of the display, then for the end of the program.
+#include "app/window/shutdown_watchdog.hpp"
+
+#include <poll.h>
+#include <pthread.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "core/error.hpp"
+
+namespace dibhr {
+
+bool ShutdownRequests::is_repeated(Time now) noexcept {
+    if (first_) return now - *first_ >= kRepeatWindow;
+    first_ = now;
+    return false;
+}
+
+std::optional<std::chrono::milliseconds> ShutdownRequests::time_left(Time now) const noexcept {
+    using std::chrono::milliseconds;
+    if (!first_) return std::nullopt;
+    return std::max(std::chrono::ceil<milliseconds>(*first_ + kShutdownTimeout - now),
+                    milliseconds(0));
+}
+
+ShutdownWatchdog::ShutdownWatchdog(CrashNote& crash_note)
+    : crash_note_(crash_note), wake_descriptor_(eventfd(0, EFD_CLOEXEC)) {
+    if (wake_descriptor_ < 0)
+        throw DeviceError(std::string("the thread for signals cannot be made (") +
+                          std::strerror(errno) + "): close other programs");
+    thread_ = std::thread([this] { run(); });
+}
+
+ShutdownWatchdog::~ShutdownWatchdog() {
+    stopping_ = true;
+    eventfd_write(wake_descriptor_, 1);
+    thread_.join();
+    close(wake_descriptor_);
+}
+
+void ShutdownWatchdog::watch_display(int connection) {
+    display_ = connection;
+    eventfd_write(wake_descriptor_, 1);
+}
+
+void ShutdownWatchdog::run() {
+    using Clock = std::chrono::steady_clock;
+    pthread_setname_np(pthread_self(), "dibhr-signals");
+    ShutdownRequests requests;
+    bool again = false;
+    while (!again) {
+        int timeout_ms = -1;
+        if (const auto left = requests.time_left(Clock::now())) {
+            if (left->count() == 0) break;
+            timeout_ms = static_cast<int>(left->count());
+        }
+        int display = display_;
+        std::array<pollfd, 3> ready{{{wake_descriptor_, POLLIN, 0},
+                                     {signals_.descriptor(), POLLIN, 0},
+                                     {display, POLLRDHUP, 0}}};
+        poll(ready.data(), ready.size(), timeout_ms);
+        if (stopping_) return;
+        if (eventfd_t times = 0; ready[0].revents != 0) eventfd_read(wake_descriptor_, &times);
+        // Unless watch_display() has replaced the display meanwhile.
+        if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
+            without_force_ = true;
+        if (!signals_.arrived()) continue;
+        again = requests.is_repeated(Clock::now());
+        without_force_ = true;
+        requested_ = true;
+    }
+    crash_note_.keep_clip();
+    crash_note_.print({again ? "asked twice to end" : "asked to end", ", but hung while ",
+                       crash_note_.activity(), "; the force is off, ended at once"});
+    _exit(EXIT_FAILURE);
+}
+
+}  // namespace dibhr

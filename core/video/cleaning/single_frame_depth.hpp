@@ -1,0 +1,27 @@
+// The depth of a frame after the steps of cleaning that need one frame only.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+
+namespace dibhr {
+
+/// A cleaned frame depends on this many frames before it, and as many after it.
+inline constexpr std::size_t kReachInTime = 5;
+
+/// Whether the levels of both can be compared pixel by pixel.
+[[nodiscard]] inline bool are_alike(const DepthImage& a, const DepthImage& b) noexcept {
+    return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
+}
+
+/// Depth cleaned by CleaningChain::clean_frame.
+struct SingleFrameDepth {
+    DepthImage depth{};                  ///< no NaN
+    std::vector<std::uint8_t> filled{};  ///< 1 for pixels that had no data; empty: all had data
+    std::vector<std::uint8_t> unseen{};  ///< 1 for pixels never seen; empty: all were seen
+};
+
+}  // namespace dibhr

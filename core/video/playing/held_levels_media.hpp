@@ -1,0 +1,40 @@
+// Media whose frames carry the last level of each pixel that now has no data.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/sources/media.hpp"
+
+namespace dibhr {
+
+/// The held levels depend on the file alone, not on earlier seeks: for a seek to a frame with holes
+/// the frames of the second before are read first. For other frames nothing more is read.
+class HeldLevelsMedia : public Media {
+  public:
+    explicit HeldLevelsMedia(std::unique_ptr<Media> media) : media_(std::move(media)) {}
+
+    [[nodiscard]] const MediaDescription& description() const override {
+        return media_->description();
+    }
+    /// The next frame, with its held levels.
+    std::optional<RawFrame> next() override;
+    /// Reads the frames before it, too, where frames may have holes.
+    std::optional<RawFrame> next_from(double earliest_s) override;
+    /// Reads nothing until the next frame is requested.
+    void seek(double media_s) override { wanted_s_ = media_s; }
+    /// That frame has no held levels.
+    void seek_near(double media_s) override;
+
+  private:
+    std::optional<RawFrame> read();
+    std::optional<RawFrame> read_at(double media_s);
+
+    std::unique_ptr<Media> media_;
+    DepthMemory memory_{};
+    bool never_has_holes_{false};       ///< as of the last frame
+    std::optional<double> wanted_s_{};  ///< target of a seek; nothing: the following frame
+};
+
+}  // namespace dibhr
