@@ -13,8 +13,7 @@ void draw_unsafe_settings(ViewerState& state) {
         return;
     begin_card(state, "These settings protect the hand less", 32.0F);
     ImGui::TextWrapped(
-        "Nobody on this machine has agreed to these values. Until you agree, dibhr uses the "
-        "defaults. It asks only once.");
+        "Nobody on this machine has agreed to these values. The defaults hold until you do.");
     if (ImGui::BeginTable("doubts", 3, ImGuiTableFlags_RowBg)) {
         ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthStretch);
         ImGui::TableSetupColumn("usual", ImGuiTableColumnFlags_WidthFixed);

@@ -275,8 +275,8 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     text += time_table(paths);
     text +=
         "  Reading the clock, " + number_text(clock_us, 3) +
-        " us, is part of each time except \"whole\": there a whole run is timed, and divided by "
-        "its updates.\n"
+        " us, is part of each time except \"whole\": the time of a whole run,\n"
+        "  divided by its updates.\n"
         "  Moves: primitives visited; bound: updates that ended before the proxy had caught up. "
         "Paper: a Pentium\n  D, 3.4 GHz.\n";
     text += variation_table(paths);

@@ -121,8 +121,9 @@ TEST_CASE("an estimator of somebody's settings is not run until it is given here
                "second = \"" +
                    kWith + "\"\n");
     check_refused(home.depth({"clip.mp4"}), 1,
-                  "it is ./estimator \\x20{frames}\\x1b[8m {output}\n");
-    check_refused(home.depth({"clip.mp4", "--with", "second"}), 1, "it is " + kWith + "\n");
+                  "the command is ./estimator \\x20{frames}\\x1b[8m {output}\n");
+    check_refused(home.depth({"clip.mp4", "--with", "second"}), 1,
+                  "the command is " + kWith + "\n");
     CHECK(home.starts() == 0);
     CHECK(home.depth({"clip.mp4", "--with", kWith}).exit_code == 0);
     CHECK(home.depth({"clip.mp4", "--with", "second", "--again"}).exit_code == 0);

@@ -122,7 +122,7 @@ TEST_CASE("without a device or a service the mouse can be used, and what to do i
         table<std::string, std::string>({{"no device", "has no Inverse3: plug in"},
                                          {"too old", "too old (3.0.9): install version 3.1"},
                                          {"no service", "not installed: get it from Haply"},
-                                         {"nonsense", "not understood"}}));
+                                         {"nonsense", "does not understand"}}));
     Service service;
     service.with([&which = what](Scene& scene) {
         if (which == "no device") scene.arms.clear();
