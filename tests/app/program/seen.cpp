@@ -27,6 +27,8 @@ std::ostream& operator<<(std::ostream& out, const Seen& seen) {
         << seen.sent_newton << " N, cut " << seen.cut << (seen.ready ? ", ready" : "")
         << (seen.mouse_fallback ? ", by mouse" : "") << (seen.opening ? ", opening" : "")
         << (seen.dialog ? ", dialog" : "") << (seen.in_front ? "" : ", not in front");
+    if (seen.replays)
+        out << ", replays tick " << seen.tick << (seen.surface ? "" : " without a surface");
     if (seen.records) out << ", records " << seen.recorded_rows;
     if (seen.clip) out << ", clip " << seen.clip_s << " s";
     if (seen.study)
