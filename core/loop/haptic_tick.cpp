@@ -24,8 +24,10 @@ HapticTick::HapticTick(const HapticConnections& connections) : connections_(conn
 
 void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcept {
     if (state_.ticks == 0) start_ = second_begin_ = timing.begin;
-    const FrameWindow& frames = connections_.frames.front();
     const HapticSettings& settings = connections_.settings.front();
+    // After the settings: a recording begins once the window has the first frame, so its first tick
+    // has that frame, too.
+    const FrameWindow& frames = connections_.frames.front();
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
     const bool touched = state_.touchable && state_.touch.proxy.contact;
