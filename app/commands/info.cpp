@@ -1,5 +1,6 @@
 // `dibhr info`: describes media and session files.
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <filesystem>
 #include <initializer_list>
 #include <iomanip>
@@ -30,6 +31,14 @@ namespace dibhr {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The request of `dibhr info`.
+struct InfoOptions {
+    DepthRequest request{usual_depth_request()};
+    bool json{false};
+    bool why{false};           ///< prints all findings
+    bool must_be_sure{false};  ///< --sure
+};
 
 void print_fact(std::string_view name, std::string_view value) {
     constexpr int kFactWidth = 17;
@@ -139,48 +148,6 @@ std::string cleaning_text(const CleaningChoice& choice) {
                                                 : std::string(name_of(choice.preset));
 }
 
-void print_depth(const MediaDescription& media) {
-    print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
-                            media.depth_codec + ", " + levels_text(media));
-    if (!media.meaning) return;
-    const DepthMeaning& meaning = *media.meaning;
-    print_fact("meaning", in_words(meaning));
-    if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
-    print_fact("assumed", list_text(assumed_facts(meaning)));
-    print_fact("packing", name_of(meaning.packing.value));
-    print_fact("code", name_of(meaning.code.value));
-    if (const std::string colour = registration_text(media); !colour.empty())
-        print_fact("registered", colour);
-    if (meaning.cleaning.value != CleaningChoice{})
-        print_fact("cleaning", cleaning_text(meaning.cleaning.value));
-    if (meaning.finger_mm.value > 0.0)
-        print_fact("finger", short_text(meaning.finger_mm.value) + " mm");
-    print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
-}
-
-void describe_pictures(const fs::path& file, const DepthRequest& request) {
-    const MediaDescription media = describe_media(file, request);
-    const bool is_colour = media.colour_columns > 0;
-    const bool has_depth = media.depth_columns > 0;
-
-    std::cout << one_line(file.string()) << '\n';
-    print_fact("kind", media.still ? "image" : media.live ? "live video" : "video");
-    print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
-                                 : size_text(media.depth_columns, media.depth_rows));
-    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
-    if (!codec.empty()) print_fact("codec", codec);
-    if (has_depth) print_depth(media);
-    if (media.live) {
-        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
-    } else if (!media.still) {
-        print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
-        print_fact("duration", number_text(media.duration_s, 3) + " s");
-        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
-    }
-    if (!media.notice.empty()) print_fact("notice", media.notice);
-    if (is_colour && !has_depth) describe_partner(file);
-}
-
 /// A name, a number or numbers.
 template <typename Fact>
 Json json_of(const Fact& fact) {
@@ -204,6 +171,98 @@ Json json_of(const CleaningChoice& choice) {
     return step_names(choice.own);
 }
 
+/// The facts that it states.
+Json json_of(const DepthStatement& statement) {
+    Json facts = Json::object();
+    visit_facts(statement, statement, [&facts](const char* name, const auto& value, const auto&) {
+        if (value) facts[name] = json_of(*value);
+    });
+    return facts;
+}
+
+/// "near bright, unit levels"; "nothing" for an empty statement.
+std::string statement_text(const DepthStatement& statement) {
+    const Json stated = json_of(statement);
+    std::vector<std::string> facts;
+    for (const auto& [name, value] : stated.items())
+        facts.push_back(name + ' ' +
+                        (value.is_string() ? value.get<std::string>() : json_line(value)));
+    return list_text(facts);
+}
+
+std::string percent_text(double probability) {
+    return number_text(100.0 * probability, 0) + " %";
+}
+
+/// How sure the meaning is, and what else it may be.
+void print_sureness(const DepthConclusion& conclusion) {
+    print_fact("sure", percent_text(conclusion.sure));
+    for (std::size_t k = 1; k < conclusion.alternatives.size(); ++k) {
+        const DepthAlternative& other = conclusion.alternatives[k];
+        print_fact("or",
+                   statement_text(other.statement) + ", " + percent_text(other.probability));
+    }
+}
+
+/// The table: a line for each finding, then the conclusion.
+void print_why(const MediaDescription& media) {
+    for (const Finding& finding : media.conclusion.findings)
+        print_fact("why", statement_text(finding.statement) + ": " +
+                              percent_text(finding.sureness) + " by " +
+                              std::string(name_of(finding.evidence)) + ", " + finding.reason);
+    const DepthMeaning& meaning = *media.meaning;
+    print_fact("so", statement_text({.near = meaning.near.value,
+                                     .unit = meaning.unit.value,
+                                     .scale = meaning.scale.value,
+                                     .no_data = meaning.no_data.value}) +
+                         ": " + percent_text(media.conclusion.sure));
+}
+
+void print_depth(const MediaDescription& media, bool why) {
+    print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
+                            media.depth_codec + ", " + levels_text(media));
+    if (!media.meaning) return;
+    const DepthMeaning& meaning = *media.meaning;
+    print_fact("meaning", in_words(meaning));
+    if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
+    print_fact("assumed", list_text(assumed_facts(meaning)));
+    print_sureness(media.conclusion);
+    if (why) print_why(media);
+    print_fact("packing", name_of(meaning.packing.value));
+    print_fact("code", name_of(meaning.code.value));
+    if (const std::string colour = registration_text(media); !colour.empty())
+        print_fact("registered", colour);
+    if (meaning.cleaning.value != CleaningChoice{})
+        print_fact("cleaning", cleaning_text(meaning.cleaning.value));
+    if (meaning.finger_mm.value > 0.0)
+        print_fact("finger", short_text(meaning.finger_mm.value) + " mm");
+    print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
+}
+
+void describe_pictures(const fs::path& file, const InfoOptions& options) {
+    const MediaDescription media = describe_media(file, options.request);
+    report_doubt(media, options.must_be_sure);
+    const bool is_colour = media.colour_columns > 0;
+    const bool has_depth = media.depth_columns > 0;
+
+    std::cout << one_line(file.string()) << '\n';
+    print_fact("kind", media.still ? "image" : media.live ? "live video" : "video");
+    print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
+                                 : size_text(media.depth_columns, media.depth_rows));
+    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
+    if (!codec.empty()) print_fact("codec", codec);
+    if (has_depth) print_depth(media, options.why);
+    if (media.live) {
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
+    } else if (!media.still) {
+        print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
+        print_fact("duration", number_text(media.duration_s, 3) + " s");
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
+    }
+    if (!media.notice.empty()) print_fact("notice", media.notice);
+    if (is_colour && !has_depth) describe_partner(file);
+}
+
 /// Each fact and its origin; an unknown fact is null.
 void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     const DepthStatement known = meaning ? meaning->statement() : DepthStatement{};
@@ -218,8 +277,27 @@ void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     json["origin"] = origins;
 }
 
+/// How sure the meaning is, what else it may be, and all findings where they are asked for.
+void add_conclusion(Json& json, const MediaDescription& media, bool why) {
+    const DepthConclusion& conclusion = media.conclusion;
+    json["sure"] = media.meaning ? Json(conclusion.sure) : Json();
+    json["alternatives"] =
+        json_list(conclusion.alternatives, [](const DepthAlternative& alternative) {
+            Json facts = json_of(alternative.statement);
+            facts["probability"] = alternative.probability;
+            return facts;
+        });
+    if (!why) return;
+    json["findings"] = json_list(conclusion.findings, [](const Finding& finding) {
+        return Json{{"states", json_of(finding.statement)},
+                    {"sureness", finding.sureness},
+                    {"evidence", name_of(finding.evidence)},
+                    {"reason", finding.reason}};
+    });
+}
+
 /// Unknown values are null.
-Json json_of(const fs::path& file, const MediaDescription& media) {
+Json json_of(const fs::path& file, const MediaDescription& media, bool why) {
     const bool has_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
     const auto known = [](bool is_known, auto value) { return is_known ? Json(value) : Json(); };
@@ -235,6 +313,7 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
               {"frames", known(!media.live, media.frames)},
               {"duration_s", known(!media.live, media.duration_s)}};
     add_meaning(json, media.meaning);
+    add_conclusion(json, media, why);
     json["registered_by"] = media.registered_by;
     json["notice"] = media.notice;
     return json;
@@ -256,17 +335,21 @@ Json json_of_session(const fs::path& file) {
 }
 
 /// One object a line, so that a file that cannot be read does not spoil the next one's.
-void print_json(const fs::path& file, const DepthRequest& request) {
-    const Json json = is_session_file(file) ? json_of_session(file)
-                                            : json_of(file, describe_media(file, request));
-    std::cout << json_line(json) << '\n';
+void print_json(const fs::path& file, const InfoOptions& options) {
+    if (is_session_file(file)) {
+        std::cout << json_line(json_of_session(file)) << '\n';
+        return;
+    }
+    const MediaDescription media = describe_media(file, options.request);
+    report_doubt(media, options.must_be_sure);
+    std::cout << json_line(json_of(file, media, options.why)) << '\n';
 }
 
-void describe(const fs::path& file, const DepthRequest& request) {
+void describe(const fs::path& file, const InfoOptions& options) {
     if (is_session_file(file))
         describe_session(file);
     else
-        describe_pictures(file, request);
+        describe_pictures(file, options);
 }
 
 }  // namespace
@@ -276,20 +359,24 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     app.add_option("FILE", files, "Videos, images, session files, cameras and streams")
         ->type_name("")
         ->required();
-    bool json = false;
-    DepthRequest request = usual_depth_request();
-    app.add_flag("--json", json,
+    InfoOptions options;
+    app.add_flag("--json", options.json,
                  "One JSON object for each file, on a line of its own; null: not known");
-    add_depth_options(app, request.command_line);
+    app.add_flag("--why", options.why,
+                 "Also all that was found out about the depth: what each finding states, how sure "
+                 "it is, and where it comes from");
+    add_depth_options(app, options.request.command_line);
+    add_sure_option(app, options.must_be_sure);
     app.footer(
         "Examples:\n"
         "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
+        "  dibhr info depth.png --why\n"
         "  dibhr info scan/ --json");
     if (!parse(app, arguments)) return 0;
     int exit_code = 0;
     for (const fs::path file : files) {
         try {
-            json ? print_json(file, request) : describe(file, request);
+            options.json ? print_json(file, options) : describe(file, options);
         } catch (const Error& error) {
             std::cout.flush();
             print_error_line(error.what());

@@ -52,6 +52,13 @@ std::string size_text(int columns, int rows) {
     return std::to_string(columns) + "x" + std::to_string(rows);
 }
 
+void report_doubt(const MediaDescription& media, bool must_be_sure) {
+    const std::string doubt = doubt_about(media);
+    if (doubt.empty()) return;
+    if (must_be_sure) throw InputError(doubt);
+    print_error_line(doubt);
+}
+
 void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     for (const std::filesystem::path& input : inputs) {

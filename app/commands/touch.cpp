@@ -32,6 +32,7 @@ struct TouchOptions {
     std::filesystem::path goals{};
     std::filesystem::path out{"-"};  ///< "-": standard output
     bool video{false};               ///< frames blended in time; false: the first image
+    bool must_be_sure{false};        ///< --sure
     TouchRequest touch{};
     TouchParameters parameters{};
 };
@@ -67,6 +68,7 @@ class TouchRun {
         auto media = options.colour.empty() ? open_depth(options.depth, request)
                                             : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
+        report_doubt(media->description(), options.must_be_sure);
         const MotionRequest motion = motion_request(
             parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
         if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
@@ -140,6 +142,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
              "Colour of the same view: touch finds in it what moves, and where silhouettes are",
              "FILE");
     add_touch_options(app, options.touch);
+    add_sure_option(app, options.must_be_sure);
     add_in_betweens_option(app, options.touch);
     app.footer(
         "Examples:\n"

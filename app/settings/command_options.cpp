@@ -445,6 +445,12 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "SCALE times as large");
 }
 
+void add_sure_option(CLI::App& app, bool& sure) {
+    app.add_flag("--sure", sure,
+                 "Fails where the meaning of the depth is likely but not sure; else one line on "
+                 "stderr says so");
+}
+
 void add_shape_options(CLI::App& app, TouchRequest& request) {
     add_entries_of_touch(app, request.given, nullptr, &shapes_surface);
     add_surface_options(app, request);

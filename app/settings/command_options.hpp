@@ -140,6 +140,10 @@ void add_level_options(CLI::App& app, DepthStatement& depth);
 /// outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
+/// --sure: whether a meaning of depth that is likely but not sure is a failure. `sure` must outlive
+/// the parsing of `app`.
+void add_sure_option(CLI::App& app, bool& sure);
+
 /// --material, --bump, --maps, --raw-depth, --cleaning, --finger, those of add_depth_options and
 /// the entries of the parameter table that shape a surface. `request` must outlive the parsing of
 /// `app`.

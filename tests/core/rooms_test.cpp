@@ -166,6 +166,7 @@ const std::vector<Ownership> kOwnerships{
     {"Imf", {"core/video/formats/"}},
     {"libheif/", {"core/video/formats/"}},
     {"zip.h", {"core/video/formats/"}},
+    {"tiffio.h", {"core/video/modules/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

@@ -217,7 +217,7 @@ void look_at_packed(const fs::path& video) {
         picture.with({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     (void)test::is_taken([&form] {
         Sources sources = open_packed(packed, *form);
-        DepthScale scale = find_scale(sources, kAsFound);
+        DepthScale scale = find_scale(sources, kAsFound).scale;
         test::require_frames(std::make_unique<PairedMedia>(
             std::move(sources.depth), std::move(sources.colour), std::move(scale)));
     });

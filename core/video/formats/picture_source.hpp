@@ -14,7 +14,7 @@
 
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/camera.hpp"
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 
 namespace dibhr {
 
@@ -49,6 +49,7 @@ struct SourceFacts {
     std::string notice{};               ///< what the opening ignored or chose; mostly empty
     DepthStatement known{};             ///< stated by the file's metadata or its format
     std::string known_from{};           ///< the source of `known`: "EXR channel Z"; empty: none
+    Findings findings{};                ///< what else its reader found out, row by row
     std::optional<DepthNoise> noise{};  ///< used for cleaning when it was recorded live
     Lens lens{};                        ///< of the camera of `known.intrinsics`
     bool other_camera{false};           ///< its colour is from another camera at another place

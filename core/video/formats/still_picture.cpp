@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
@@ -57,6 +60,21 @@ cv::Mat decoded(const fs::path& file, int flags) {
     return picture;
 }
 
+/// Adds what the tags of a TIFF file of one channel tell: GeoTIFF holds heights seen from above.
+void add_tags(const fs::path& file, StillPicture& still) {
+    const TiffTags tags = picture_codecs().tiff_tags(file.string());
+    if (tags.is_geographic) {
+        still.known.near = NearLevels::bright;
+        still.known.unit = DepthUnit::levels;
+        still.known_from = "GeoTIFF tags: heights";
+    }
+    const auto mark = number_of_text(tags.gdal_no_data);
+    if (!mark || std::abs(*mark) > std::numeric_limits<float>::max()) return;
+    const bool is_real = still.bits == kRealBits;
+    still.known.no_data = {is_real ? static_cast<double>(static_cast<float>(*mark)) : *mark};
+    still.known_from += (still.known_from.empty() ? "" : ", ") + std::string("tag GDAL_NODATA");
+}
+
 }  // namespace
 
 bool is_opencv_picture(const fs::path& file, std::string_view head) {
@@ -74,7 +92,9 @@ StillPicture read_by_opencv(const fs::path& file, PictureRole role) {
     cv::Mat picture = decoded(file, is_depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR);
     if (picture.depth() != CV_8U && picture.depth() != CV_16U) picture.convertTo(picture, CV_32F);
     const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : kRealBits;
-    return {picture, bits, codec_by_name(file), {}, {}};
+    StillPicture still{picture, bits, codec_by_name(file), {}, {}};
+    if (is_depth && picture.channels() == 1 && is_tiff(head_of(file))) add_tags(file, still);
+    return still;
 }
 
 }  // namespace dibhr

@@ -1,11 +1,14 @@
-// Collects all statements on a source's depth, the strongest first, and guesses open facts.
+// Collects all findings on a source's depth, and concludes from them once.
 #include "core/video/sources/depth_finding.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -45,11 +48,88 @@ bool has_word(const std::string& name, std::string_view word) {
     return false;
 }
 
-DepthStatement statement_by_name(const fs::path& file) {
-    DepthStatement said;
+/// A whole word of a name, and the unit of its values, which are near where bright.
+struct UnitWord {
+    std::string_view word;
+    DepthUnit unit;
+    double sureness;
+};
+
+constexpr std::array<UnitWord, 11> kUnitWords{{
+    {"disp", DepthUnit::disparity, 0.97},
+    {"disparity", DepthUnit::disparity, 0.97},
+    // Heights seen from above: high is near, and linear.
+    {"height", DepthUnit::levels, 0.97},
+    {"heightmap", DepthUnit::levels, 0.97},
+    {"displacement", DepthUnit::levels, 0.97},
+    {"elevation", DepthUnit::levels, 0.97},
+    {"bump", DepthUnit::levels, 0.97},
+    {"dem", DepthUnit::levels, 0.92},  // also a German article
+    {"dsm", DepthUnit::levels, 0.92},
+    {"dtm", DepthUnit::levels, 0.92},
+    {"terrain", DepthUnit::levels, 0.92},
+}};
+
+Findings findings_by_name(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
-    if (has_word(name, "disp") || has_word(name, "disparity")) said.unit = DepthUnit::disparity;
-    return said;
+    for (const UnitWord& known : kUnitWords)
+        if (has_word(name, known.word))
+            return {{{.near = NearLevels::bright, .unit = known.unit},
+                     Evidence::name,
+                     known.sureness,
+                     "the name holds " + in_quotes(known.word)}};
+    return {};
+}
+
+/// The rows of the table but those of the numbers: of the source and its reader, of how the files
+/// lie, and of the name.
+Findings findings_on(const Sources& sources) {
+    const SourceFacts& facts = sources.depth->facts();
+    Findings rows = facts.findings;
+    rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
+    const auto add = [&rows](const DepthStatement& statement, Evidence evidence, double sureness,
+                             const std::string& reason) {
+        if (!(statement == DepthStatement{}))
+            rows.push_back({statement, evidence, sureness, reason});
+    };
+    add(sources.assumed, Evidence::appearance, kSurenessOfAppearance, "its pictures look so");
+    add(facts.known, sources.by_appearance ? Evidence::appearance : Evidence::metadata,
+        sources.by_appearance ? kSurenessOfAppearance : kSurenessOfMetadata,
+        facts.known_from.empty() ? "its metadata" : facts.known_from);
+    for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
+    add(sources.found, Evidence::layout, kSurenessOfMetadata, "how its files lie");
+    if (facts.codec == "PFM")
+        add({.unit = DepthUnit::disparity}, Evidence::magic, kSurenessOfAppearance,
+            "portable float maps mostly hold disparities");
+    return rows;
+}
+
+/// Whether a person or a sure finding states all that the numbers could tell.
+bool is_complete(const DepthStatement& known) {
+    return known.no_data && known.unit && known.scale && known.near && known.range;
+}
+
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely. Returns the levels
+/// without those that are no data.
+SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
+                          const RankedStatements& persons, Findings& rows) {
+    SampledLevels levels(pictures, bits);
+    const DepthStatement known = sure_facts(persons, rows);
+    const auto add = [&rows](const Findings& more) {
+        rows.insert(rows.end(), more.begin(), more.end());
+    };
+    const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
+        return row.statement.no_data.has_value();
+    });
+    if (!known.no_data && !names_no_data) add(levels.no_data());
+    DepthMeaning meaning;
+    static_cast<void>(conclude(persons, rows, meaning));
+    levels.leave_out(meaning.no_data.value);
+    if (!known.unit) add(levels.units());
+    // Where distances or disparities are sure, near is too.
+    if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
+        add(levels.near());
+    return levels;
 }
 
 /// Levels unchanged, as far as the request does not state otherwise.
@@ -119,37 +199,40 @@ DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
     return said;
 }
 
-DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
+FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
         request.command_line != DepthStatement{} || request.recorded != DepthStatement{};
-    if (!request.find_out && !said) return DepthScale::as_recorded(facts.bits);
-    RankedStatements statements{{Origin::recorded, request.recorded},
-                                {Origin::command_line, request.command_line}};
+    if (!request.find_out && !said) return {DepthScale::as_recorded(facts.bits)};
+    RankedStatements persons{{Origin::recorded, request.recorded},
+                             {Origin::command_line, request.command_line}};
+    Findings rows;
+    DepthMeaning meaning;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        statements.insert(statements.end(),
-                          {{Origin::panel, request.panel},
-                           {Origin::sidecar, sidecars_of(places)},
-                           {Origin::assumed, sources.assumed},
-                           {sources.by_appearance ? Origin::assumed : Origin::found, facts.known},
-                           {Origin::found, statement_by_name(facts.file)},
-                           {Origin::found, sources.found},
-                           {Origin::found, default_statement()}});
+        persons.insert(persons.end(), {{Origin::panel, request.panel},
+                                       {Origin::sidecar, sidecars_of(places)}});
+        rows = findings_on(sources);
+        meaning.found_in = facts.known_from;
+        merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
-        statements.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
+        persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
-    DepthMeaning meaning;
-    meaning.found_in = facts.known_from;
-    merge_by_priority(statements, meaning);
+    // Sampling a video takes long: only where something is left to find out.
+    std::optional<SampledLevels> levels;
+    if (!is_complete(sure_facts(persons, rows)))
+        levels = add_numbers(sample_pictures(depth), facts.bits, persons, rows);
+    DepthConclusion conclusion = conclude(persons, rows, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    // Sampling a video takes long: only where something is left to guess.
-    if (!is_all_stated(statements)) guess(sample_pictures(depth), facts.bits, meaning, statements);
+    const bool states_range = std::any_of(
+        conclusion.findings.begin(), conclusion.findings.end(),
+        [](const Finding& finding) { return finding.statement.range.has_value(); });
+    if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
     require_range(meaning, facts.bits, facts.file);
-    return {meaning, facts.bits};
+    return {DepthScale(meaning, facts.bits), std::move(conclusion)};
 }
 
 }  // namespace dibhr

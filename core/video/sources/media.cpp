@@ -2,6 +2,7 @@
 #include "core/video/sources/media.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
@@ -50,10 +51,11 @@ auto opened(const DepthRequest& request, const Open& open) {
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
-    DepthScale scale = find_scale(sources, request);
+    FoundScale found = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
-                                               std::move(scale), painted);
+                                               std::move(found.scale), painted);
+    media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
@@ -99,7 +101,11 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
     description.levels_used = levels_used(pictures);
-    if (description.meaning) description.holes_share = holes_share(pictures, *description.meaning);
+    if (description.meaning) {
+        SampledLevels levels(pictures, description.depth_bits);
+        levels.leave_out(description.meaning->no_data.value);
+        description.holes_share = levels.holes_share();
+    }
     return description;
 }
 
@@ -107,6 +113,38 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
 
 std::optional<RawFrame> Media::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &RawFrame::media_s);
+}
+
+std::string doubt_about(const MediaDescription& media) {
+    const std::vector<DepthAlternative>& all = media.conclusion.alternatives;
+    if (all.empty()) return {};
+    const DepthStatement& best = all.front().statement;
+    double sum = 0.0;
+    for (const DepthAlternative& other : all) sum += other.probability;
+    const auto share = [&](auto fact) {
+        double same = 0.0;
+        for (const DepthAlternative& other : all)
+            if (other.statement.*fact == best.*fact) same += other.probability;
+        return same / sum;
+    };
+    struct Fact {
+        double share;
+        std::string text;
+        const char* option;
+    };
+    const std::array facts{
+        Fact{share(&DepthStatement::near), "near is " + std::string(name_of(*best.near)),
+             "--near bright or --near dark"},
+        Fact{share(&DepthStatement::unit), "unit " + std::string(name_of(*best.unit)),
+             "--depth-unit"},
+        Fact{share(&DepthStatement::scale), "scale " + short_text(*best.scale),
+             "--depth-unit and --depth-scale"}};
+    const auto& least = *std::min_element(
+        facts.begin(), facts.end(), [](const Fact& a, const Fact& b) { return a.share < b.share; });
+    constexpr double kPercent = 100.0;
+    return shown(media.depth_path) + ": " + least.text + " is likely (" +
+           number_text(kPercent * least.share, 0) + " %), not certain: look at it, or say " +
+           least.option;
 }
 
 std::string motion_trouble(const MediaDescription& media) {

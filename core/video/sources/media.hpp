@@ -13,7 +13,7 @@
 #include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
@@ -78,6 +78,8 @@ struct MediaDescription {
     std::optional<DepthNoise> noise{};      ///< used for cleaning when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file
+    /// What the meaning was concluded from, how sure it is, and what else it may be: a window asks.
+    DepthConclusion conclusion{};
     DepthStatement panel{};                 ///< chosen on the panel, now or kept
     std::string registered_by{};  ///< the calibration that puts colour over depth; empty: none
     double duration_s{0.0};
@@ -100,6 +102,10 @@ struct MediaDescription {
     }
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
+
+/// A sentence for people where the meaning is likely but not sure, with the option that settles it;
+/// empty: it is sure, or a person stated it.
+[[nodiscard]] std::string doubt_about(const MediaDescription& media);
 
 /// The paper's proportions at any picture size: the height from farthest to nearest is 255/720 of
 /// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres.

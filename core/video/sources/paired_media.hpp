@@ -65,7 +65,10 @@ class PairedMedia : public Media {
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
     void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
-    /// Stored in the description.
+    /// Both are stored in the description.
+    void set_conclusion(DepthConclusion conclusion) {
+        description_.conclusion = std::move(conclusion);
+    }
     void set_panel_statement(const DepthStatement& panel) { description_.panel = panel; }
 
   private:

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
@@ -19,6 +19,7 @@ struct Sources {
     DepthStatement found{};                   ///< from files, names and metadata
     DepthStatement assumed{};                 ///< guessed from the pictures
     bool by_appearance{false};                ///< the depth's own facts are guessed, too
+    Findings findings{};                      ///< what else was found out on the way
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files

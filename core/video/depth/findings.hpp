@@ -1,0 +1,75 @@
+// What is found out about a depth source: one table of findings, and the conclusion from all.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/video/depth/depth_meaning.hpp"
+
+namespace dibhr {
+
+/// Where a finding comes from, the most reliable first. A person's statement is always right.
+enum class Evidence { person, magic, metadata, layout, name, appearance, numbers };
+
+/// "person", "magic", "metadata", "layout", "name", "appearance", "numbers".
+[[nodiscard]] std::string_view name_of(Evidence value) noexcept;
+
+// The sureness of common kinds of evidence.
+inline constexpr double kSurenessOfMetadata = 0.995;  ///< also of a data set's layout
+inline constexpr double kSurenessOfAppearance = 0.85;
+/// From here on a fact counts as found; below, it is assumed, and a person is asked.
+inline constexpr double kSureEnough = 0.9;
+
+/// One row of the table: facts that one piece of evidence states.
+struct Finding {
+    DepthStatement statement{};
+    Evidence evidence{Evidence::numbers};
+    double sureness{1.0};  ///< probability in (0, 1) that the statement is right, from this alone
+    std::string reason{};  ///< one line for people: "the name holds \"height\""
+};
+
+using Findings = std::vector<Finding>;
+
+/// A kind of values, with its probability from all findings; near and unit belong together (a
+/// distance is near where dark, a disparity where bright).
+struct DepthHypothesis {
+    NearLevels near{NearLevels::bright};
+    DepthUnit unit{DepthUnit::levels};
+    double scale{1.0};
+    double probability{0.0};  ///< in [0, 1]; over all hypotheses the sum is 1
+};
+
+/// The hypotheses by falling probability. Independent findings are combined (naive Bayes): a single
+/// one gives its statement the probability `sureness`; with several, a hypothesis gains
+/// log(sureness / p) of each finding that it agrees with, and log((1 - sureness) / (1 - p)) of each
+/// that it contradicts, where p is the share of all such hypotheses before any finding. A sureness
+/// below p is evidence against the statement. A distance of no stated scale has scale 1.
+[[nodiscard]] std::vector<DepthHypothesis> weigh(const Findings& findings);
+
+/// One of the answers that are possible: near, unit and scale, all stated.
+struct DepthAlternative {
+    DepthStatement statement{};
+    double probability{0.0};
+};
+
+/// The table, and how sure the meaning concluded from it is.
+struct DepthConclusion {
+    Findings findings{};  ///< those of persons first
+    double sure{1.0};     ///< probability that near, unit and scale are all right
+    /// The likeliest two to four answers, by falling probability; the first one is the meaning's.
+    /// Empty where it is sure enough, or a person stated near, unit or range.
+    std::vector<DepthAlternative> alternatives{};
+};
+
+/// The facts that a person states, or a finding that is sure enough.
+[[nodiscard]] DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings);
+
+/// Concludes all facts but the range, which it only takes where it is stated. Persons' statements
+/// beat all findings. Near, unit and scale are weighed; of the other facts the surest finding
+/// counts. A fact of probability kSureEnough or more gets the origin `found`, others `assumed`;
+/// facts without any statement stay as they are in `meaning`.
+[[nodiscard]] DepthConclusion conclude(const RankedStatements& persons, const Findings& findings,
+                                       DepthMeaning& meaning);
+
+}  // namespace dibhr
