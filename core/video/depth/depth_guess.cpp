@@ -150,7 +150,7 @@ struct Sizes {
     }
 };
 
-constexpr Sizes kRoom{0.1, 10.0, 0.3, 12.0, 20.0, "a room"};
+constexpr Sizes kRoom{0.02, 10.0, 0.15, 12.0, 20.0, "a room"};
 constexpr Sizes kStreet{2.0, 20.0, 20.0, 90.0, 90.0, "a street"};
 constexpr Sizes kLand{0.5, 50.0, 10.0, 400.0, 400.0, "open land"};
 
@@ -453,7 +453,7 @@ Findings SampledLevels::units_of_numbers() const {
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
     rows.push_back({{.unit = DepthUnit::mm, .scale = 1.0},
                     kNumbers,
-                    in_millimetres ? 0.9 : 0.02,
+                    in_millimetres ? 0.85 : 0.02,
                     ends + (in_millimetres ? " is a scene in millimetres"
                                            : " is no scene in millimetres")});
     return rows;
