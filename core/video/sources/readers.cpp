@@ -123,7 +123,9 @@ const Reader& reader_of(const fs::path& place) {
     auto found = std::find_if(kReaders.begin(), of_one_file, takes);
     if (found == of_one_file) {
         require_readable(place);
-        found = std::find_if(of_one_file, kReaders.end(), takes);
+        const auto last = kReaders.end() - 1;  // accepts everything
+        found = std::find_if(of_one_file, last, takes);
+        if (found == last) require_no_other_form(place);
     }
     return *found;
 }
@@ -145,6 +147,7 @@ StillPicture read_still(const fs::path& file, PictureRole role) {
             return reader.read != nullptr &&
                    (reader.read == read_by_opencv || reader.is_own(file, head));
         });
+    if (found->read == read_by_opencv && !found->is_own(file, head)) require_no_other_form(file);
     return found->read(file, role);
 }
 
