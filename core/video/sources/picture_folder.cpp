@@ -188,12 +188,15 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
 }
 
 void PictureSequence::apply_layout(const LayoutFacts& layout) {
-    facts_.notice = layout.notice;
+    add_clause(facts_.notice, layout.notice);
     if (role_ != PictureRole::depth || facts_.bits != 16) return;
     DepthStatement known = layout.known;
-    const bool is_size =
-        layout.columns == 0 || (layout.columns == facts_.columns && layout.rows == facts_.rows);
-    if (!is_size) known.intrinsics.reset();
+    if (known.intrinsics && (layout.columns > 0 || !is_camera(*known.intrinsics))) {
+        const FittedCamera fitted = fit_camera(*known.intrinsics, {layout.columns, layout.rows},
+                                               {facts_.columns, facts_.rows});
+        known.intrinsics = fitted.camera;
+        add_clause(facts_.notice, fitted.notice);
+    }
     if (facts_.known_from.empty() && known != DepthStatement{})
         facts_.known_from = layout.known_from;
     facts_.known.fill_in(known);

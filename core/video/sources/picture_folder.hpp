@@ -31,7 +31,7 @@ using PictureRow = std::vector<NumberedPicture>;
 struct LayoutFacts {
     DepthStatement known{};
     std::string known_from{};
-    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: any
+    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: not stated
     std::string notice{};      ///< a sentence on ignored entries
     bool other_camera{false};  ///< colour is from another camera at an unknown place
 };
