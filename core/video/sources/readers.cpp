@@ -106,6 +106,8 @@ constexpr std::array kReaders{
         read_exr, nullptr, both_if<exr_has_colour_and_depth>},
     Reader{"portable float map", PictureForm::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
+    Reader{"16-bit levels beside their picture", PictureForm::still, is_raw_levels, read_raw_levels,
+           nullptr, nullptr},
     Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
            nullptr, nullptr},
     Reader{"video by libav", PictureForm::video,
