@@ -59,7 +59,7 @@ std::string text_of(cv::Size size) {
     return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
-Intrinsics scaled(const Intrinsics& camera, cv::Size2d from, cv::Size2d to) {
+Intrinsics scaled_camera(const Intrinsics& camera, cv::Size2d from, cv::Size2d to) {
     return {camera.fx * to.width / from.width, camera.fy * to.height / from.height,
             (camera.cx + 0.5) * to.width / from.width - 0.5,
             (camera.cy + 0.5) * to.height / from.height - 0.5};
@@ -150,7 +150,7 @@ FittedCamera fit_camera(const Intrinsics& stated, cv::Size calibrated, cv::Size 
                     short_text(stated.fy) + " pixels" + left_out};
     if (calibrated.empty()) {
         if (const auto factor = factor_by_centre(stated, picture))
-            return {scaled(stated, {*factor, *factor}, {1.0, 1.0}),
+            return {scaled_camera(stated, {*factor, *factor}, {1.0, 1.0}),
                     "the camera is by its centre that of a picture " + short_text(*factor, 3) +
                         " times as large, so it is scaled to " + text_of(picture)};
         if (sees_centre(stated, picture)) return {stated, {}};
@@ -169,7 +169,7 @@ FittedCamera fit_camera(const Intrinsics& stated, cv::Size calibrated, cv::Size 
                 "the camera's centre, " + short_text(stated.cx) + ", " + short_text(stated.cy) +
                     ", is outside its picture of " + text_of(calibrated) + left_out};
     if (calibrated == picture) return {stated, {}};
-    return {scaled(stated, calibrated, picture),
+    return {scaled_camera(stated, calibrated, picture),
             its_picture + ", so it is scaled to " + text_of(picture)};
 }
 

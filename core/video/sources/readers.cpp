@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
@@ -62,6 +63,19 @@ Sources both_if(const fs::path& place) {
             open_picture_source(place, PictureRole::colour)};
 }
 
+/// The depth of a file of arrays alone where its colours are in no form that is read.
+Sources both_arrays(const fs::path& file) {
+    if (!arrays_have_colour_and_depth(file)) return {};
+    Sources both;
+    both.depth = open_picture_source(file, PictureRole::depth);
+    try {
+        both.colour = open_picture_source(file, PictureRole::colour);
+    } catch (const InputError& error) {
+        both.notice = std::string("only the depth is opened: ") + error.what();
+    }
+    return both;
+}
+
 /// The colour and depth track of a video. Depth is a track with "depth" in its title, else a grey
 /// track beside one in colour; of several the one with the most bits.
 Sources both_tracks(const fs::path& file) {
@@ -99,7 +113,7 @@ constexpr std::array kReaders{
     Reader{"video in a usual container", PictureForm::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", PictureForm::arrays, is_array_file, read_array, open_file<ArrayFile>,
-           both_if<arrays_have_colour_and_depth>},
+           both_arrays},
     Reader{
         "OpenEXR picture", PictureForm::still,
         [](const fs::path&, std::string_view head) { return head.starts_with("\x76\x2f\x31\x01"); },
