@@ -106,10 +106,8 @@ void lay_out(const test::TemporaryFolder& folder, const char* name, const std::s
     write(folder / name, text);
 }
 
-/// A camera's file as ScanNet or Open3D has it; its pictures seen straight on, too.
-void look_at_camera(const char* name, const std::string& text) {
-    const test::TemporaryFolder folder;
-    lay_out(folder, name, text);
+/// A folder with a camera's file; its pictures seen straight on, too.
+void look_at_camera(const test::TemporaryFolder& folder) {
     for (const Geometry geometry : {Geometry::relief, Geometry::true_shape}) {
         DepthRequest request = kAsFound;
         request.command_line.geometry = geometry;
@@ -118,11 +116,24 @@ void look_at_camera(const char* name, const std::string& text) {
 }
 
 void look_at_matrix(const std::string& text) {
-    look_at_camera("intrinsic/intrinsic_depth.txt", text);
+    const test::TemporaryFolder folder;
+    lay_out(folder, "intrinsic/intrinsic_depth.txt", text);
+    look_at_camera(folder);
 }
 
 void look_at_open3d(const std::string& text) {
-    look_at_camera("camera_intrinsic.json", text);
+    const test::TemporaryFolder folder;
+    lay_out(folder, "camera_intrinsic.json", text);
+    look_at_camera(folder);
+}
+
+/// As ARKitScenes has it.
+void look_at_pincam(const std::string& text) {
+    const test::TemporaryFolder folder;
+    write(folder / "lowres_depth/1.pgm", depth_picture());
+    write(folder / "lowres_wide/1.ppm", colour_picture());
+    write(folder / "lowres_wide_intrinsics/1.pincam", text);
+    look_at_camera(folder);
 }
 
 /// TUM's list of depth, or of both.
@@ -243,10 +254,11 @@ void look_at_record3d(const std::string& text) {
 }
 
 using Look = void (*)(const std::string&);
-constexpr std::array<std::pair<std::string_view, Look>, 10> kKinds{
+constexpr std::array<std::pair<std::string_view, Look>, 11> kKinds{
     {{"sidecar", look_at_sidecar},
      {"matrix", look_at_matrix},
      {"open3d", look_at_open3d},
+     {"pincam", look_at_pincam},
      {"list", look_at_list},
      {"pattern", look_at_pattern},
      {"kinect", look_at_kinect},

@@ -86,14 +86,16 @@ bool rises(const std::vector<double>& times) {
            std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
-/// The first nine numbers as a matrix, row by row; nothing when that is no camera in pixels.
-std::optional<Intrinsics> intrinsics_of(const std::vector<double>& rows) {
-    if (rows.size() < 9) return std::nullopt;
+/// The first nine numbers as a matrix, row by row. Estimators also state it in parts of the picture
+/// (MoGe): then the centre is below 1.
+Intrinsics intrinsics_of(const std::vector<double>& rows, const PictureShape& shape) {
     const Intrinsics camera{rows[0], rows[4], rows[2], rows[5]};
-    const bool finite = std::isfinite(camera.fx) && std::isfinite(camera.fy) &&
-                        std::isfinite(camera.cx) && std::isfinite(camera.cy);
-    if (!finite || camera.fx <= 1.0 || camera.fy <= 1.0) return std::nullopt;
-    return camera;
+    const auto is_part = [](double value) { return value > 0.0 && value < 1.0; };
+    if (!is_part(camera.cx) || !is_part(camera.cy) || !(camera.fx < 10.0)) return camera;
+    const auto columns = static_cast<double>(shape.columns);
+    const auto height = static_cast<double>(shape.rows);
+    return {camera.fx * columns, camera.fy * height, camera.cx * columns - 0.5,
+            camera.cy * height - 0.5};
 }
 
 void add_origin(SourceFacts& facts, const std::string& array) {
@@ -142,8 +144,16 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
         add_origin(facts_, name);
     }
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
-    facts_.known.intrinsics = intrinsics_of(numbers_of(arrays, kCameraNames, kMostOfCamera));
-    if (facts_.known.intrinsics) add_origin(facts_, *named(arrays, kCameraNames));
+    const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
+    if (rows.size() < 9) return;
+    const Intrinsics camera = intrinsics_of(rows, shape_);
+    if (is_camera(camera)) {
+        facts_.known.intrinsics = camera;
+        add_origin(facts_, *named(arrays, kCameraNames));
+    } else {
+        facts_.notice =
+            fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice;  // why it is none
+    }
 }
 
 void ArrayFile::read_times(const NamedArrays& arrays) {

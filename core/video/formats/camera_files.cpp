@@ -114,28 +114,53 @@ std::optional<Placement> placement_of(const Json& camera) {
 }  // namespace
 
 std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
-    std::istringstream text(small_text_in(file).value_or(""));
+    std::string numbers = small_text_in(file).value_or("");
+    std::replace(numbers.begin(), numbers.end(), ',', ' ');
+    std::istringstream text(numbers);
     std::vector<double> m;
     for (double number = 0.0; m.size() < 17 && text >> number;) m.push_back(number);
     if (m.size() != 9 && m.size() != 16) return std::nullopt;
     const std::size_t row = m.size() == 9 ? 3 : 4;
     CameraFile camera;
     camera.intrinsics = {m[0], m[row + 1], m[2], m[row + 2]};
-    return is_camera(camera.intrinsics) ? std::optional(camera) : std::nullopt;
+    return camera;
 }
 
 std::optional<CameraFile> read_camera_json(const fs::path& file) {
     const Json json = json_of(small_text_in(file).value_or(""));
     if (!json.is_object()) return std::nullopt;
-    const std::vector<double> m = numbers_in(json, "intrinsic_matrix");
-    if (m.size() != 9) return std::nullopt;
+    const std::vector<double> columns = numbers_in(json, "intrinsic_matrix");
+    const std::vector<double> rows = numbers_in(json, "intrinsics");
     CameraFile camera;
-    camera.intrinsics = {m[0], m[4], m[6], m[7]};
+    if (columns.size() == 9)
+        camera.intrinsics = {columns[0], columns[4], columns[6], columns[7]};
+    else if (rows.size() == 9)
+        camera.intrinsics = {rows[0], rows[4], rows[2], rows[5]};
+    else if (json.contains("fx") && json.contains("cx"))
+        camera.intrinsics = {
+            number_in(json, "fx").value_or(0.0), number_in(json, "fy").value_or(0.0),
+            number_in(json, "cx").value_or(0.0), number_in(json, "cy").value_or(0.0)};
+    else
+        return std::nullopt;
     camera.columns = whole_in(json, "width");
     camera.rows = whole_in(json, "height");
     const double scale = number_in(json, "depth_scale").value_or(0.0);
     if (scale > 0.0 && std::isfinite(scale)) camera.levels_per_m = scale;
-    return is_camera(camera.intrinsics) ? std::optional(camera) : std::nullopt;
+    return camera;
+}
+
+std::optional<CameraFile> read_camera_pincam(const fs::path& file) {
+    std::istringstream text(small_text_in(file).value_or(""));
+    CameraFile camera;
+    Intrinsics& k = camera.intrinsics;
+    double columns = 0.0;
+    double rows = 0.0;
+    if (!(text >> columns >> rows >> k.fx >> k.fy >> k.cx >> k.cy)) return std::nullopt;
+    constexpr double kMost = 1e6;
+    if (!(columns >= 1.0 && rows >= 1.0 && columns < kMost && rows < kMost)) return std::nullopt;
+    camera.columns = static_cast<int>(columns);
+    camera.rows = static_cast<int>(rows);
+    return camera;
 }
 
 std::optional<CameraModel> azure_kinect_depth_camera(const std::string& json, cv::Size depth) {

@@ -12,18 +12,22 @@ namespace dibhr {
 
 /// The content of a camera file.
 struct CameraFile {
-    Intrinsics intrinsics{};
+    Intrinsics intrinsics{};  ///< as stated; maybe of no camera: see fit_camera()
     int columns{0}, rows{0};  ///< picture size of the intrinsics; 0: not stated
     std::optional<double> levels_per_m{};
 };
 
-/// Reads a matrix of 3 x 3 or 4 x 4 numbers, row by row, as in ScanNet. Nothing when the file is
-/// missing or holds no camera.
+/// Reads a matrix of 3 x 3 or 4 x 4 numbers, row by row, with spaces as in ScanNet or commas as in
+/// Stray Scanner. Nothing when the file is missing or holds no matrix.
 [[nodiscard]] std::optional<CameraFile> read_camera_matrix(const std::filesystem::path& file);
 
-/// Open3D's JSON: `intrinsic_matrix`, column by column, `width`, `height` and `depth_scale`.
-/// Nothing as above.
+/// A camera in JSON: Open3D's `intrinsic_matrix`, column by column, with `depth_scale`;
+/// `intrinsics` row by row, as of 3D Scanner App; or `fx`, `fy`, `cx`, `cy`, as of Polycam. With
+/// `width` and `height`. Nothing as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_json(const std::filesystem::path& file);
+
+/// ARKitScenes' line of six numbers: columns, rows, fx, fy, cx, cy. Nothing as above.
+[[nodiscard]] std::optional<CameraFile> read_camera_pincam(const std::filesystem::path& file);
 
 /// The depth camera by an Azure Kinect calibration, as attached to its recordings. The size of the
 /// depth pictures selects the camera mode. Nothing when the text is invalid or no mode fits.

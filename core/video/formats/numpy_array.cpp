@@ -166,6 +166,8 @@ PictureShape NumpyArray::pictures() const {
     std::vector<std::int64_t> sides = header_.shape;
     const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
     PictureShape shape;
+    // Estimators' batches: [1, frames, ...]
+    while (sides.size() > 4 && sides.front() == 1) sides.erase(sides.begin());
     if (sides.size() > 2) {
         const std::int64_t last = sides.back();
         if (last == 1 || (of_colours && (last == 3 || last == 4))) {
@@ -178,7 +180,8 @@ PictureShape NumpyArray::pictures() const {
     if (sides.size() == 2) sides.insert(sides.begin(), 1);
     if (sides.size() != 3 || count_ == 0)
         throw InputError(shown(file_) + " holds numbers in the shape " + text_of(header_.shape) +
-                         ": save depth as [rows, columns] or [frames, rows, columns]");
+                         ": save depth as [rows, columns] or [frames, rows, columns], and colours "
+                         "as the same with 3 at the end");
     shape.frames = sides[0];
     shape.rows = sides[1];
     shape.columns = sides[2];

@@ -9,6 +9,11 @@
 
 namespace dibhr {
 
+void add_clause(std::string& notice, const std::string& clause) {
+    if (clause.empty() || notice.find(clause) != std::string::npos) return;
+    notice += (notice.empty() ? "" : "; ") + clause;
+}
+
 std::optional<TimedPicture> PictureSource::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &TimedPicture::time_s);
 }

@@ -56,6 +56,9 @@ struct SourceFacts {
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 };
 
+/// Adds a clause to a notice, unless that has it or it is empty.
+void add_clause(std::string& notice, const std::string& clause);
+
 class PictureSource {
   public:
     virtual ~PictureSource() = default;

@@ -236,21 +236,26 @@ class RosTopic : public IndexedPictures {
         describe_cameras();
     }
 
-    /// The camera of that topic's pictures; nothing when the bag has none.
-    [[nodiscard]] std::optional<RosCamera> camera_of(const std::string& topic) {
-        const auto info =
-            first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
-        return info ? ros_camera(*info) : std::nullopt;
+    /// The message on the camera of that topic's pictures; nothing when the bag has none.
+    [[nodiscard]] std::optional<std::vector<std::uint8_t>> camera_info_message(
+        const std::string& topic) {
+        return first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
     }
 
     void describe_cameras() {
-        const auto depth = camera_of(topic_.name);
-        if (!depth || depth->size != cv::Size(facts_.columns, facts_.rows)) return;
-        facts_.known.intrinsics = depth->camera.intrinsics();
-        facts_.lens = depth->camera.lens();
+        const auto info = camera_info_message(topic_.name);
+        if (!info) return;
+        const RosCamera depth = ros_camera(*info).value_or(RosCamera{});
+        const FittedCamera fitted =
+            fit_camera(depth.camera.intrinsics(), depth.size, {facts_.columns, facts_.rows});
+        facts_.notice = fitted.notice;
+        if (!fitted.camera) return;
+        facts_.known.intrinsics = fitted.camera;
+        facts_.lens = depth.camera.lens();
         const std::string colour_topic = chosen(files_, PictureRole::colour).topic.name;
-        const auto colour = camera_of(colour_topic);
-        if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
+        const auto colour_info = camera_info_message(colour_topic);
+        const auto colour = colour_info ? ros_camera(*colour_info) : std::nullopt;
+        if (!colour || colour->frame == depth.frame || colour->size.empty()) return;
         facts_.other_camera = true;
         // The topic in which RealSense's node publishes the placement.
         const std::string extrinsics_topic =
@@ -259,8 +264,8 @@ class RosTopic : public IndexedPictures {
             first_message(files_, {0, extrinsics_topic, "realsense2_camera_msgs/msg/Extrinsics"});
         if (const auto placement = message ? ros_placement(*message) : std::nullopt)
             facts_.cameras = std::make_shared<const CameraPair>(
-                CameraPair{depth->camera, colour->camera, colour->size, *placement,
-                           "ROS topic " + one_line(extrinsics_topic, 100)});
+                CameraPair{CameraModel(*fitted.camera, facts_.lens), colour->camera, colour->size,
+                           *placement, "ROS topic " + one_line(extrinsics_topic, 100)});
     }
 
     BagFiles files_;

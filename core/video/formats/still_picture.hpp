@@ -46,6 +46,13 @@ struct StillPicture {
 /// (OpenCV divides by the scale). Throws InputError.
 [[nodiscard]] StillPicture read_pfm(const std::filesystem::path& file, PictureRole role);
 
+/// Whether a file named .raw holds 16-bit levels: as many as the pixels of the picture beside it
+/// that has its name, as RealSense Viewer writes both.
+[[nodiscard]] bool is_raw_levels(const std::filesystem::path& file, std::string_view head);
+
+/// Reads these levels, in little-endian order. Throws InputError.
+[[nodiscard]] StillPicture read_raw_levels(const std::filesystem::path& file, PictureRole role);
+
 /// HEIC photos: the primary picture, or the depth picture of a portrait, each turned as the file
 /// states. Throws InputError, also when depth is requested and there is none.
 [[nodiscard]] StillPicture read_heif(const std::filesystem::path& file, PictureRole role);

@@ -1,4 +1,5 @@
-// Decides by names only; reads no files but lists and camera intrinsics.
+// Decides by names; reads no files but lists, camera intrinsics, and pictures that may be
+// paintings.
 #include "core/video/sources/layouts.hpp"
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_lists.hpp"
 #include "core/video/sources/picture_pattern.hpp"
+#include "core/video/sources/scanner_layouts.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {
@@ -98,7 +100,7 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
 LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
     if (auto facts = facts_of_folders(folder, set)) return *facts;
-    return {};
+    return scanner_facts(folder);
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.
@@ -174,11 +176,27 @@ std::string others_of(const std::vector<MediaPlaces>& pairs) {
     return said + (unnamed > 0 ? " and " + std::to_string(unnamed) + " more pairs" : "");
 }
 
-/// Whether the folder holds these videos and no pictures.
+/// Whether the folder holds these videos and no pictures but previews and a single cover.
 bool is_of_videos(const fs::path& folder, const std::vector<fs::path>& videos) {
     if (videos.empty()) return false;
-    const std::vector<fs::path> entries = entries_of(folder);
-    return std::none_of(entries.begin(), entries.end(), is_picture);
+    int covers = 0;
+    for (const fs::path& entry : entries_of(folder)) {
+        if (!is_picture(entry) || !named_other(entry).empty()) continue;
+        if (named_depth(entry) || named_colour(entry) || ++covers > 1) return false;
+    }
+    return true;
+}
+
+/// The numbers beside a picture of depth that only paints them; empty: it is to be opened itself.
+fs::path numbers_painted_by(const fs::path& file) {
+    const bool may_paint = named_depth(file) && named_picture(file) && !named_numbers(file);
+    const auto numbers = may_paint ? numbers_beside(file) : std::nullopt;
+    return numbers && is_painting(file) ? *numbers : fs::path();
+}
+
+std::string painting_text(const fs::path& numbers, const fs::path& painting) {
+    return "opened " + shown(numbers.filename()) + ", the numbers that " +
+           shown(painting.filename()) + " paints";
 }
 
 /// Pictures of one role, and the place where they were found.
@@ -226,9 +244,12 @@ PictureSet pictures_at(const fs::path& place) {
     if (is_picture_pattern(place)) return pictures_of_pattern(place);
     if (!is_folder(place)) return read_picture_list(place);
     if (auto listed = read_lists_in(place)) return std::move(*listed);
+    if (auto scanned = scanner_folder(place)) return std::move(scanned->pictures);
     PictureSet found = find_pictures_in(place);
     const fs::path folder = place.has_filename() ? place : place.parent_path();
-    found.facts = facts_of(folder, found);
+    LayoutFacts facts = facts_of(folder, found);
+    add_clause(facts.notice, found.facts.notice);
+    found.facts = std::move(facts);
     return found;
 }
 
@@ -252,7 +273,14 @@ MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
         return {depth, colour,
                 "taken by their names: " + shown(depth.filename()) + " as colour, " +
                     shown(colour.filename()) + " as depth"};
+    const fs::path& painting = depth.empty() ? colour : depth;
+    if (const fs::path numbers = numbers_painted_by(painting); !numbers.empty())
+        return {depth.empty() ? numbers : colour, depth.empty() ? fs::path() : numbers,
+                painting_text(numbers, painting)};
     if (!is_folder(colour) || (!depth.empty() && depth != colour)) return {colour, depth, {}};
+    if (const auto scanned = scanner_folder(colour))
+        return scanned->film.empty() ? MediaPlaces{colour, depth, {}}
+                                     : MediaPlaces{scanned->film, scanned->depth_place, {}};
     const std::vector<fs::path> videos = videos_in(colour);
     const std::vector<MediaPlaces> pairs = pairs_of(videos);
     if (!pairs.empty()) return {pairs.front().colour, pairs.front().depth, others_of(pairs)};
@@ -261,7 +289,12 @@ MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
 }
 
 fs::path depth_place_for(const fs::path& place) {
-    if (!is_folder(place)) return place;
+    if (!is_folder(place)) {
+        const fs::path numbers = numbers_painted_by(place);
+        return numbers.empty() ? place : numbers;
+    }
+    if (const auto scanned = scanner_folder(place))
+        return scanned->film.empty() ? place : scanned->depth_place;
     const std::vector<fs::path> videos = videos_in(place);
     const std::vector<MediaPlaces> pairs = pairs_of(videos);
     if (!pairs.empty()) return pairs.front().depth;

@@ -13,6 +13,7 @@
 
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
@@ -31,10 +32,31 @@ constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "dis
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
 constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
-constexpr std::array<std::string_view, 4> kMayBeColour{"image", "images", "img", "left"};
+constexpr std::array<std::string_view, 6> kMayBeColour{"image", "images", "img",
+                                                       "left",  "frame",  "frames"};
 constexpr std::array<std::string_view, 2> kNeutralWords{"map",
                                                         "mono"};  // "mono_depth", "depth map"
 
+/// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
+struct OtherContent {
+    std::string_view what;   ///< for people
+    std::string_view words;  ///< each between blanks
+};
+constexpr std::array kOtherContents{
+    OtherContent{"a mask", " mask masks valid validity "},
+    OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
+    OtherContent{"normals", " normal normals nor nrm "},
+    OtherContent{"infrared", " ir infra infrared "},
+    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster "},
+    OtherContent{"a painting of depth",
+                 " vis viz visualization visualisation visualized visualised colored coloured "
+                 "colorized colourised colormap colourmap "},
+    OtherContent{"labels", " semantic semantics seg segmentation label labels "},
+    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
+// After the word that decides: "normal_gl_2k", "confidence_map".
+constexpr std::array<std::string_view, 6> kPassedWords{"map", "maps", "gl", "dx", "k", "px"};
+
+constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
     ".bmp", ".exr", ".heic", ".heif", ".hif", ".jpeg", ".jpg", ".npy",  ".npz",
     ".pfm", ".pgm", ".png",  ".pnm",  ".ppm", ".tga",  ".tif", ".tiff", ".webp"};
@@ -48,6 +70,10 @@ bool ends_as(const fs::path& file, Words endings) {
 
 bool is_one_of(std::string_view word, Words words) {
     return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+bool is_of_digits(const std::string& word) {
+    return std::all_of(word.begin(), word.end(), is_decimal_digit);
 }
 
 /// Whether a new word begins between the two characters.
@@ -123,19 +149,22 @@ std::optional<fs::path> with_any_extension(const fs::path& folder, const std::st
     return *found.begin();
 }
 
-/// The file beside `given` of that stem: of the same extension, else of another; the folder beside
-/// a folder.
-std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem) {
+/// The file beside `given` of that stem: of numbers where they are searched, else of the same
+/// extension, else of another; the folder beside a folder.
+std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem, bool numbers) {
     const auto folder = given.parent_path();
     const auto same = folder / (stem + given.extension().string());
     if (is_folder(given)) return is_folder(same) ? std::optional(same) : std::nullopt;
+    if (numbers && named_picture(given)) {
+        if (auto found = numbers_beside(same)) return found;
+    }
     return is_file(same) ? same : with_any_extension(folder, stem);
 }
 
 /// The first file beside `given`, or folder beside a folder, that is of the same subject and that
-/// `fits`.
+/// `fits`; the first of numbers where they are preferred.
 template <typename Fits>
-std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
+std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits, bool prefers_numbers) {
     std::optional<fs::path> found;
     const std::string subject = subject_of(given);
     const fs::path folder = given.parent_path();
@@ -148,7 +177,11 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
         if (!of_kind || name == given.filename() || name.string().starts_with('.') || !fits(name) ||
             names_touch_map(folder / name) || subject_of(name) != subject)
             continue;
-        if (!found || in_natural_order(name.string(), found->filename().string()))
+        const auto has_numbers = [&](const fs::path& file) {
+            return prefers_numbers && named_numbers(file);
+        };
+        const bool is_first = !found || in_natural_order(name.string(), found->filename().string());
+        if (found && has_numbers(name) != has_numbers(*found) ? has_numbers(name) : is_first)
             found = folder / name;
     }
     return found;
@@ -172,12 +205,41 @@ bool named_video(const fs::path& file) {
     return ends_as(file, kVideoEndings);
 }
 
+bool named_numbers(const fs::path& file) {
+    return ends_as(file, kNumberEndings);
+}
+
+std::string_view named_other(const fs::path& file) {
+    // Of a folder the whole name, of a file what is before the ending.
+    const bool has_ending = named_media(file) || named_numbers(file);
+    const auto words = words_of((has_ending ? file.stem() : file.filename()).string());
+    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
+        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    });
+    if (last == words.rend()) return {};
+    const auto* const found = std::find_if(
+        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
+            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
+        });
+    return found == kOtherContents.end() ? std::string_view() : found->what;
+}
+
+std::optional<fs::path> numbers_beside(const fs::path& file) {
+    for (const std::string_view ending : kNumberEndings) {
+        fs::path numbers = file;
+        numbers.replace_extension(ending);
+        if (numbers == file || !is_file(numbers)) continue;
+        if (ending != ".raw" || is_raw_levels(numbers, {})) return numbers;
+    }
+    return std::nullopt;
+}
+
 bool named_colour(const fs::path& file) {
-    return holds(file, kColourWords, kShortColourWords);
+    return holds(file, kColourWords, kShortColourWords) && named_other(file).empty();
 }
 
 bool named_depth(const fs::path& file) {
-    return holds(file, kDepthWords, kShortDepthWords);
+    return holds(file, kDepthWords, kShortDepthWords) && named_other(file).empty();
 }
 
 bool may_name_colour(const fs::path& file) {
@@ -211,22 +273,29 @@ std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& l
         const auto same = colour.parent_path() / (*stem + colour.extension().string());
         if (!looked_for.empty()) looked_for += ", ";
         looked_for += shown(same) + " (or another extension)";
-        if (auto found = with_stem(colour, *stem)) return found;
+        if (auto found = with_stem(colour, *stem, true)) return found;
     }
     if (looked_for.empty())
         looked_for = "nothing, because the name holds neither color, colour nor rgb";
     if (named_depth(colour)) return std::nullopt;
-    return of_same_subject(colour, named_depth);
+    if (auto found = of_same_subject(colour, named_depth, true)) return found;
+    if (named_numbers(colour) || is_folder(colour)) return std::nullopt;
+    const auto numbers = numbers_beside(colour);
+    // An EXR picture beside a photograph is the same photograph.
+    return numbers && numbers->extension() != ".exr" ? numbers : std::nullopt;
 }
 
 std::optional<fs::path> find_colour_beside(const fs::path& depth) {
     for (const auto word : kColourWords) {
         const auto stem = renamed(depth.stem().string(), "depth", word);
         if (!stem) continue;
-        if (auto found = with_stem(depth, *stem)) return found;
+        if (auto found = with_stem(depth, *stem, false)) return found;
     }
     if (!named_depth(depth)) return std::nullopt;
-    return of_same_subject(depth, [](const fs::path& name) { return !named_depth(name); });
+    const auto may_be_colour = [](const fs::path& name) {
+        return !named_depth(name) && named_other(name).empty();
+    };
+    return of_same_subject(depth, may_be_colour, false);
 }
 
 }  // namespace dibhr

@@ -42,10 +42,10 @@ std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole rol
     return is_folder(place) ? open_longest_row(place, role) : open_picture_source(place, role);
 }
 
-std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, DepthPacking packing,
+std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, const PackedForm& form,
                                        PictureRole role) {
-    const auto crop = [packing, role](const cv::Mat& picture) {
-        return picture(half_of(picture.size(), packing, role)).clone();
+    const auto crop = [packing = form.packing, gap_px = form.gap_px, role](const cv::Mat& picture) {
+        return picture(half_of(picture.size(), packing, role, gap_px)).clone();
     };
     return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
 }
@@ -182,21 +182,22 @@ bool is_of_halves(DepthPacking packing) noexcept {
     return packing != DepthPacking::separate && packing != DepthPacking::tracks;
 }
 
-cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role) {
+cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role, int gap_px) {
     const bool beside = is_side_by_side(packing);
     const bool colour_first =
         packing == DepthPacking::left_right || packing == DepthPacking::top_bottom;
     const bool first = colour_first == (role == PictureRole::colour);
-    const cv::Size half(beside ? picture.width / 2 : picture.width,
-                        beside ? picture.height : picture.height / 2);
+    const auto part = [gap_px](int side) { return std::max(0, side - gap_px) / 2; };
+    const cv::Size half(beside ? part(picture.width) : picture.width,
+                        beside ? picture.height : part(picture.height));
     const cv::Point last(picture.width - half.width, picture.height - half.height);
     return {first ? cv::Point() : last, half};
 }
 
 Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<PictureSource> for_depth,
                const PackedForm& form) {
-    auto colour = cropped(std::move(for_colour), form.packing, PictureRole::colour);
-    auto depth = cropped(std::move(for_depth), form.packing, PictureRole::depth);
+    auto colour = cropped(std::move(for_colour), form, PictureRole::colour);
+    auto depth = cropped(std::move(for_depth), form, PictureRole::depth);
     if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
     Sources sources;
     sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);

@@ -19,6 +19,7 @@ namespace dibhr {
 /// How one picture holds colour and depth.
 struct PackedForm {
     DepthPacking packing{DepthPacking::left_right};  ///< one of the four with halves
+    int gap_px{0};                                   ///< between the halves
     bool half_size{false};  ///< halves are squeezed to half of their width, or of their height
     std::optional<HueCode> hue{};  ///< how depth is coded by hue; nothing: by brightness
     DepthStatement known{};        ///< other facts of the file's metadata about its depth
@@ -38,8 +39,10 @@ struct PackedForm {
 /// Whether colour and depth are the halves of one picture.
 [[nodiscard]] bool is_of_halves(DepthPacking packing) noexcept;
 
-/// The half of a picture that is colour, or depth; of an odd size the middle line is in neither.
-[[nodiscard]] cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role);
+/// The half of a picture that is colour, or depth; of an odd size the middle line is in neither, as
+/// the gap between them.
+[[nodiscard]] cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role,
+                               int gap_px = 0);
 
 /// Splits the same pictures, read by two sources, into colour and depth. `for_depth` gives colours
 /// where depth is coded by hue. Stores packing and code in Sources::found. Throws InputError when

@@ -13,6 +13,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_join.hpp"
 #include "core/video/sources/depth_finding.hpp"
+#include "core/video/sources/packed.hpp"
 
 namespace dibhr {
 
@@ -114,6 +115,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     description_.meaning = scale_.meaning();
     if (colour != nullptr) describe_colour(colour->facts(), description_);
     take_range();
+    take_camera();
     take_true_shape();
     if (painted_ || (shape_ && colour != nullptr)) {
         description_.colour_columns = description_.depth_columns;
@@ -197,6 +199,18 @@ void PairedMedia::take_registration(const SourceFacts& colour) {
     }
 }
 
+/// A packed picture's camera is of the whole picture or of a crop: its metadata say of which.
+void PairedMedia::take_camera() {
+    auto& meaning = description_.meaning;
+    if (!meaning || !meaning->intrinsics.value) return;
+    is_own_camera_ = meaning->intrinsics.value == depth_->facts().known.intrinsics;
+    if (is_of_halves(meaning->packing.value)) return;
+    FittedCamera fitted = fit_camera(*meaning->intrinsics.value, {}, size_);
+    meaning->intrinsics.value = fitted.camera;
+    camera_trouble_ = fitted.camera ? std::string() : fitted.notice;
+    add_notice(fitted.notice);
+}
+
 void PairedMedia::take_true_shape() {
     const auto& meaning = description_.meaning;
     if (!meaning || meaning->geometry.value != Geometry::true_shape) return;
@@ -205,6 +219,7 @@ void PairedMedia::take_true_shape() {
         throw InputError(file +
                          " has no distances, so its true shape is not known: give its unit, mm or "
                          "m, with the scale (--depth-unit), or the relief (--geometry relief)");
+    if (!camera_trouble_.empty()) throw InputError(file + ": " + camera_trouble_);
     if (!meaning->intrinsics.value)
         throw InputError(file +
                          " does not say through which camera it was seen: give the intrinsics "
@@ -214,9 +229,8 @@ void PairedMedia::take_true_shape() {
     const std::vector<cv::Mat> pictures = sample_pictures(*depth_);
     samples_mm.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
-    const SourceFacts& facts = depth_->facts();
-    const bool is_its_own = meaning->intrinsics.value == facts.known.intrinsics;
-    const CameraModel camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
+    const CameraModel camera(*meaning->intrinsics.value,
+                             is_own_camera_ ? depth_->facts().lens : Lens{});
     shape_.emplace(size_, camera, range_mm_,
                    orthographic_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
@@ -254,9 +268,7 @@ void PairedMedia::count_frames(std::int64_t most) {
 }
 
 void PairedMedia::add_notice(const std::string& sentence) {
-    std::string& notice = description_.notice;
-    if (sentence.empty() || notice.find(sentence) != std::string::npos) return;
-    notice += (notice.empty() ? "" : "; ") + sentence;
+    add_clause(description_.notice, sentence);
 }
 
 void PairedMedia::report_trouble(const SourceFacts& facts) {

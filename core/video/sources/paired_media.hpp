@@ -74,6 +74,7 @@ class PairedMedia : public Media {
   private:
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
     void take_range();
+    void take_camera();
     void take_true_shape();
     void take_registration(const SourceFacts& colour);
     [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
@@ -90,6 +91,8 @@ class PairedMedia : public Media {
     std::optional<ColourRegistration> cameras_{};  ///< where the two cameras are calibrated
     Registration registration_{};                  ///< applied after that
     std::optional<TrueShape> shape_{};             ///< for `--geometry true`
+    bool is_own_camera_{false};     ///< the camera is the recording's, which knows its lens
+    std::string camera_trouble_{};  ///< why the stated camera is left out; empty: it is not
     bool painted_;
     bool colour_of_view_{false};  ///< as far as known
     MediaDescription description_{};

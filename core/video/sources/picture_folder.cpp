@@ -13,6 +13,8 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/colour_maps.hpp"
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/readers.hpp"
 
@@ -21,7 +23,17 @@ namespace dibhr {
 namespace fs = std::filesystem;
 
 bool is_picture(const fs::path& file) {
-    return named_picture(file) && !file.filename().string().starts_with('.') && is_file(file);
+    return !file.filename().string().starts_with('.') &&
+           (named_picture(file) ? is_file(file) : is_raw_levels(file, {}));
+}
+
+bool is_painting(const fs::path& file) {
+    try {
+        const cv::Mat picture = read_still(file, PictureRole::colour).picture;
+        return is_colour_mapped(picture) || has_two_levels(picture);
+    } catch (const InputError&) {
+        return false;
+    }
 }
 
 NumberedPicture numbered(const fs::path& file) {
@@ -47,6 +59,7 @@ constexpr double kLongestRow_s = 1e6;
 
 /// The row for a picture, by the words in `name`, the name of the picture or of its folder.
 PictureRow& row_for(PictureSet& set, const fs::path& name) {
+    if (!named_other(name).empty()) return set.others;
     if (named_depth(name)) return set.depth;
     return named_colour(name) ? set.colour : set.unnamed;
 }
@@ -89,12 +102,79 @@ void accept_as_colour(PictureSet& set) {
     std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), belongs);
 }
 
-/// Adds the pictures of subfolders named depth or colour; of several the first.
+std::string stem_of(const NumberedPicture& picture) {
+    return picture.file.stem().string();
+}
+
+/// Of depth pictures of one name, numbers and a painting of them, only the numbers stay.
+void drop_paintings_of_numbers(PictureRow& depth) {
+    std::set<std::string> numbers;
+    for (const NumberedPicture& picture : depth)
+        if (named_numbers(picture.file)) numbers.insert(stem_of(picture));
+    std::erase_if(depth, [&numbers](const NumberedPicture& picture) {
+        return !named_numbers(picture.file) && numbers.contains(stem_of(picture));
+    });
+}
+
+/// Arrays and pictures whose names say nothing are no single row: the arrays are depth, and the
+/// pictures their colour where they have the same names or are as many, and do not paint it.
+void part_numbers_from_pictures(PictureSet& set) {
+    if (!set.depth.empty() || !set.colour.empty()) return;
+    // An EXR picture may be a photograph.
+    const auto begin_of_pictures = std::stable_partition(
+        set.unnamed.begin(), set.unnamed.end(), [](const NumberedPicture& picture) {
+            return named_numbers(picture.file) && picture.file.extension() != ".exr";
+        });
+    if (begin_of_pictures == set.unnamed.begin() || begin_of_pictures == set.unnamed.end()) return;
+    const PictureRow pictures(begin_of_pictures, set.unnamed.end());
+    set.depth.assign(set.unnamed.begin(), begin_of_pictures);
+    set.unnamed.clear();
+    const bool belong = pictures.size() == set.depth.size() ||
+                        stem_of(pictures.front()) == stem_of(set.depth.front());
+    const fs::path& first = pictures.front().file;
+    if (belong && !is_painting(first))
+        set.colour = pictures;
+    else
+        set.facts.notice = shown(first.filename()) +
+                           (pictures.size() > 1 ? " and the pictures like it are" : " is") +
+                           " left out: the arrays beside are the depth, and it is no photograph of "
+                           "them";
+}
+
+/// Moves to the unnamed pictures what a last word alone called a mask, confidence, ...: where a
+/// depth picture has the same subject ("mask.png" of "mask_depth.png"), or where nothing else is
+/// there.
+void restore_others(PictureSet& set) {
+    const bool is_alone = set.colour.empty() && set.depth.empty() && set.unnamed.empty();
+    std::set<std::string> subjects;
+    for (const NumberedPicture& picture : set.depth) subjects.insert(subject_of(picture.file));
+    const auto stay = std::stable_partition(
+        set.others.begin(), set.others.end(), [&](const NumberedPicture& picture) {
+            return is_alone || subjects.contains(subject_of(picture.file));
+        });
+    std::move(set.others.begin(), stay, std::back_inserter(set.unnamed));
+    set.others.erase(set.others.begin(), stay);
+}
+
+bool begins_with_numbers(const PictureRow& row) {
+    return !row.empty() && named_numbers(row.front().file);
+}
+
+/// Adds the pictures of subfolders named depth or colour; of several the first, of depth preferably
+/// one of arrays ("depth_bw" beside "depth_npy").
 void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& set) {
     for (const fs::path& entry : entries) {
         if (!is_folder(entry)) continue;
         PictureRow& row = row_for(set, entry.filename());
-        if (&row != &set.unnamed && row.empty()) append_pictures_of(entry, row);
+        if (&row == &set.unnamed || &row == &set.others) continue;
+        PictureRow found;
+        append_pictures_of(entry, found);
+        const bool is_plain =
+            !row.empty() &&
+            lower_case(row.front().file.parent_path().filename().string()) == "depth";
+        const bool is_finer = &row == &set.depth && !is_plain && begins_with_numbers(found) &&
+                              !begins_with_numbers(row);
+        if (row.empty() || is_finer) row = std::move(found);
     }
     for (const fs::path& entry : entries) {
         if (set.depth.empty() || !set.colour.empty()) return;
@@ -117,11 +197,17 @@ PictureSet find_pictures_in(const fs::path& folder) {
     for (const fs::path& entry : entries) {
         if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
     }
-    const bool has_own = !found.colour.empty() || !found.depth.empty() || !found.unnamed.empty();
-    if (has_own)
+    const bool has_named = !found.colour.empty() || !found.depth.empty();
+    PictureSet inside;
+    if (!has_named && found.unnamed.size() <= 1) find_pictures_in_folders(entries, inside);
+    if (!inside.depth.empty() || (!inside.colour.empty() && found.unnamed.empty())) {
+        found = std::move(inside);
+    } else {
+        restore_others(found);
+        part_numbers_from_pictures(found);
         accept_as_colour(found);
-    else
-        find_pictures_in_folders(entries, found);
+    }
+    drop_paintings_of_numbers(found.depth);
     sort_by_number(found.colour);
     sort_by_number(found.depth);
     sort_by_number(found.unnamed);
@@ -188,12 +274,15 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
 }
 
 void PictureSequence::apply_layout(const LayoutFacts& layout) {
-    facts_.notice = layout.notice;
+    add_clause(facts_.notice, layout.notice);
     if (role_ != PictureRole::depth || facts_.bits != 16) return;
     DepthStatement known = layout.known;
-    const bool is_size =
-        layout.columns == 0 || (layout.columns == facts_.columns && layout.rows == facts_.rows);
-    if (!is_size) known.intrinsics.reset();
+    if (known.intrinsics && (layout.columns > 0 || !is_camera(*known.intrinsics))) {
+        const FittedCamera fitted = fit_camera(*known.intrinsics, {layout.columns, layout.rows},
+                                               {facts_.columns, facts_.rows});
+        known.intrinsics = fitted.camera;
+        add_clause(facts_.notice, fitted.notice);
+    }
     if (facts_.known_from.empty() && known != DepthStatement{})
         facts_.known_from = layout.known_from;
     facts_.known.fill_in(known);

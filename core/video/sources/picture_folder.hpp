@@ -31,7 +31,7 @@ using PictureRow = std::vector<NumberedPicture>;
 struct LayoutFacts {
     DepthStatement known{};
     std::string known_from{};
-    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: any
+    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: not stated
     std::string notice{};      ///< a sentence on ignored entries
     bool other_camera{false};  ///< colour is from another camera at an unknown place
 };
@@ -41,19 +41,26 @@ struct PictureSet {
     PictureRow colour{};
     PictureRow depth{};
     PictureRow unnamed{};
+    PictureRow others{};  ///< masks, confidence, normals, previews
     LayoutFacts facts{};
 };
 
-/// Whether the file exists and is named as a picture; false for hidden files.
+/// Whether the file exists and is named as a picture, or holds raw levels; false for hidden files.
 [[nodiscard]] bool is_picture(const std::filesystem::path& file);
+
+/// Whether a picture file paints numbers, in the colours of a colour map or as a mask; false where
+/// it cannot be read. Reads it.
+[[nodiscard]] bool is_painting(const std::filesystem::path& file);
 
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
 
 /// Sorts by number, where every picture has a different one.
 void sort_by_number(PictureRow& row);
 
-/// The pictures of a folder; where it has none, those of its subfolders named colour or depth.
-/// Throws InputError when it cannot be read.
+/// The pictures of a folder; where it has none, or a cover alone, those of its subfolders named
+/// colour or depth. Masks, confidence, normals and previews count only where nothing else is there;
+/// arrays beside pictures of the same names are their depth, and beat paintings of it. Throws
+/// InputError when it cannot be read.
 [[nodiscard]] PictureSet find_pictures_in(const std::filesystem::path& folder);
 
 /// The colour row joined with a depth row by time: for each depth picture the nearest colour within

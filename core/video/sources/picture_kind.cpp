@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/sources/packed.hpp"
 
@@ -225,12 +226,12 @@ double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
 
 /// Mean statistics of each picture's depth half; without a packing, of whole pictures.
 PictureStatistics mean_statistics(std::span<const cv::Mat> pictures,
-                                  std::optional<DepthPacking> packing = {}) {
+                                  std::optional<DepthPacking> packing = {}, int gap_px = 0) {
     PictureStatistics mean;
     for (const cv::Mat& picture : pictures) {
         const cv::Rect whole({}, picture.size());
         const cv::Rect part =
-            packing ? half_of(picture.size(), *packing, PictureRole::depth) : whole;
+            packing ? half_of(picture.size(), *packing, PictureRole::depth, gap_px) : whole;
         add(mean, picture_statistics(picture(part)), 1.0 / static_cast<double>(pictures.size()));
     }
     return mean;
@@ -241,8 +242,10 @@ void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
     const double weight = 1.0 / static_cast<double>(pictures.size());
     for (const cv::Mat& picture : pictures) {
         const cv::Size size = picture.size();
-        const cv::Mat colour = picture(half_of(size, halves.packing, PictureRole::colour));
-        const cv::Mat depth = picture(half_of(size, halves.packing, PictureRole::depth));
+        const cv::Mat colour =
+            picture(half_of(size, halves.packing, PictureRole::colour, halves.gap_px));
+        const cv::Mat depth =
+            picture(half_of(size, halves.packing, PictureRole::depth, halves.gap_px));
         const cv::Mat colour_edges = edges_of(colour);
         const cv::Mat depth_edges = edges_of(depth);
         halves.brightness_alike += weight * std::abs(correlation(soft(colour), soft(depth)));
@@ -273,18 +276,40 @@ bool belong_together(const PictureGuess& halves) {
            (halves.code == DepthCode::hue || halves.brightness_alike <= kMostAlike);
 }
 
+/// Whether all pixels of a line are white, but for what compression changes.
+bool is_white(const cv::Mat& line) {
+    constexpr int kWhite = 200;
+    double darkest = 0.0;
+    cv::minMaxLoc(line.reshape(1), &darkest, nullptr);
+    return darkest >= kWhite;
+}
+
+/// The gap of pictures of one size that all have it.
+int gap_in_all(std::span<const cv::Mat> pictures, DepthPacking packing) {
+    const int gap_px = gap_between_halves(pictures.front(), packing);
+    const bool all = std::all_of(pictures.begin(), pictures.end(), [&](const cv::Mat& picture) {
+        return picture.size() == pictures.front().size() &&
+               gap_between_halves(picture, packing) >= gap_px;
+    });
+    return all ? gap_px : 0;
+}
+
 /// The packing whose halves agree most; photographs where no packing is possible.
 PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
     // Each packing stands beside the one with exchanged halves: index ^ 1.
     static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
                                           DepthPacking::top_bottom, DepthPacking::bottom_top};
     std::array<PictureStatistics, kPackings.size()> depth_statistics;
-    std::transform(kPackings.begin(), kPackings.end(), depth_statistics.begin(),
-                   [pictures](DepthPacking packing) { return mean_statistics(pictures, packing); });
+    std::array<int, kPackings.size()> gaps_px{};
+    for (std::size_t k = 0; k < kPackings.size(); ++k) {
+        gaps_px[k] = gap_in_all(pictures, kPackings[k]);
+        depth_statistics[k] = mean_statistics(pictures, kPackings[k], gaps_px[k]);
+    }
     PictureGuess best;
     for (std::size_t k = 0; k < kPackings.size(); ++k) {
         PictureGuess halves;
         halves.packing = kPackings[k];
+        halves.gap_px = gaps_px[k];
         halves.depth_half = depth_statistics[k];
         halves.colour_half = depth_statistics[k ^ 1U];
         if (!could_be_packed(halves)) continue;
@@ -302,6 +327,34 @@ bool is_large_enough(const cv::Mat& picture) {
 }
 
 }  // namespace
+
+int gap_between_halves(const cv::Mat& picture, DepthPacking packing) {
+    constexpr int kLeast_px = 4;
+    const bool beside = packing == DepthPacking::left_right || packing == DepthPacking::right_left;
+    const int side = beside ? picture.cols : picture.rows;
+    const auto line = [&](int at) { return (beside ? picture.col(at) : picture.row(at)).clone(); };
+    // Lines at both sides of the middle; a middle line of its own counts once.
+    int pairs = 0;
+    while (pairs < side / 8 && is_white(line((side - 1) / 2 - pairs)) &&
+           is_white(line(side / 2 + pairs)))
+        ++pairs;
+    const int gap_px = 2 * pairs - (pairs > 0 ? side % 2 : 0);
+    const bool has_margins = gap_px > 0 && (is_white(line(0)) || is_white(line(side - 1)));
+    return gap_px >= kLeast_px && pairs < side / 8 && !has_margins ? gap_px : 0;
+}
+
+bool has_painted_half(const cv::Mat& picture) {
+    if (!is_large_enough(picture)) return false;
+    for (const DepthPacking packing : {DepthPacking::left_right, DepthPacking::top_bottom}) {
+        const int gap_px = gap_between_halves(picture, packing);
+        if (gap_px == 0) continue;
+        for (const PictureRole role : {PictureRole::colour, PictureRole::depth}) {
+            if (is_colour_mapped(picture(half_of(picture.size(), packing, role, gap_px))))
+                return true;
+        }
+    }
+    return false;
+}
 
 PictureStatistics picture_statistics(const cv::Mat& picture) {
     const cv::Mat small = reduced(picture, kLongSide, cv::INTER_AREA);

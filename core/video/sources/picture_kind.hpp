@@ -43,6 +43,7 @@ struct PictureGuess {
     PictureKind kind{PictureKind::photo};
     DepthPacking packing{DepthPacking::separate};
     DepthCode code{DepthCode::grey};
+    int gap_px{0};  ///< between the halves
     PictureStatistics whole{};
     PictureStatistics colour_half{};
     PictureStatistics depth_half{};
@@ -52,6 +53,13 @@ struct PictureGuess {
 };
 
 [[nodiscard]] PictureStatistics picture_statistics(const cv::Mat& picture);
+
+/// How wide a white band is that parts a picture (8-bit BGR) in the middle, as estimators and
+/// papers put it between a picture and its depth; 0: none.
+[[nodiscard]] int gap_between_halves(const cv::Mat& picture, DepthPacking packing);
+
+/// Whether such a band parts the picture, and one half is painted in the colours of a colour map.
+[[nodiscard]] bool has_painted_half(const cv::Mat& picture);
 
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.

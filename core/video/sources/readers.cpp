@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
@@ -62,6 +63,19 @@ Sources both_if(const fs::path& place) {
             open_picture_source(place, PictureRole::colour)};
 }
 
+/// The depth of a file of arrays alone where its colours are in no form that is read.
+Sources both_arrays(const fs::path& file) {
+    if (!arrays_have_colour_and_depth(file)) return {};
+    Sources both;
+    both.depth = open_picture_source(file, PictureRole::depth);
+    try {
+        both.colour = open_picture_source(file, PictureRole::colour);
+    } catch (const InputError& error) {
+        both.notice = std::string("only the depth is opened: ") + error.what();
+    }
+    return both;
+}
+
 /// The colour and depth track of a video. Depth is a track with "depth" in its title, else a grey
 /// track beside one in colour; of several the one with the most bits.
 Sources both_tracks(const fs::path& file) {
@@ -99,13 +113,15 @@ constexpr std::array kReaders{
     Reader{"video in a usual container", PictureForm::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", PictureForm::arrays, is_array_file, read_array, open_file<ArrayFile>,
-           both_if<arrays_have_colour_and_depth>},
+           both_arrays},
     Reader{
         "OpenEXR picture", PictureForm::still,
         [](const fs::path&, std::string_view head) { return head.starts_with("\x76\x2f\x31\x01"); },
         read_exr, nullptr, both_if<exr_has_colour_and_depth>},
     Reader{"portable float map", PictureForm::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
+    Reader{"16-bit levels beside their picture", PictureForm::still, is_raw_levels, read_raw_levels,
+           nullptr, nullptr},
     Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
            nullptr, nullptr},
     Reader{"video by libav", PictureForm::video,
@@ -123,7 +139,9 @@ const Reader& reader_of(const fs::path& place) {
     auto found = std::find_if(kReaders.begin(), of_one_file, takes);
     if (found == of_one_file) {
         require_readable(place);
-        found = std::find_if(of_one_file, kReaders.end(), takes);
+        const auto last = kReaders.end() - 1;  // accepts everything
+        found = std::find_if(of_one_file, last, takes);
+        if (found == last) require_no_other_form(place);
     }
     return *found;
 }
@@ -145,6 +163,7 @@ StillPicture read_still(const fs::path& file, PictureRole role) {
             return reader.read != nullptr &&
                    (reader.read == read_by_opencv || reader.is_own(file, head));
         });
+    if (found->read == read_by_opencv && !found->is_own(file, head)) require_no_other_form(file);
     return found->read(file, role);
 }
 

@@ -71,7 +71,11 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
         form = PackedForm{
             .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
     if (!statement.packing) return form;
-    if (!form) form.emplace();
+    if (!form) {
+        form.emplace();
+        const std::vector<cv::Mat> first = colour_samples(place.path, 1);
+        if (!first.empty()) form->gap_px = gap_between_halves(first.front(), *statement.packing);
+    }
     form->packing = *statement.packing;
     if (statement.code == DepthCode::hue && !form->hue) form->hue.emplace();
     if (statement.code == DepthCode::grey) form->hue.reset();
@@ -81,7 +85,7 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
 /// The halves, where the pictures look packed; else nothing.
 std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
-    PackedForm form{.packing = guess.packing, .known_from = "its pictures"};
+    PackedForm form{.packing = guess.packing, .gap_px = guess.gap_px, .known_from = "its pictures"};
     if (guess.code == DepthCode::hue) form.hue.emplace();
     Sources sources = open_packed(place, form);
     sources.assumed = std::exchange(sources.found, {});
@@ -147,6 +151,12 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
+    const std::vector<cv::Mat> first = colour_samples(colour, 1);
+    if (!first.empty() && has_painted_half(first.front()))
+        throw InputError(shown(colour) +
+                         " is a picture beside a painting of its depth, whose colours are no "
+                         "numbers: save the depth itself, in grey or as an array (.npy), and give "
+                         "it as the second file");
     throw DepthMissing(shown(colour) +
                        " needs a depth file beside it: give one as the second file (looked for " +
                        looked_for +
@@ -224,7 +234,7 @@ Sources find_sources(const fs::path& colour, const fs::path& depth,
         sources = of_the_same_place(places.colour, statement);
     else
         sources = of_two_places(places.colour, places.depth, statement);
-    sources.notice = places.notice;
+    add_clause(sources.notice, places.notice);
     return sources;
 }
 
@@ -245,11 +255,11 @@ Sources find_content(const fs::path& place, const DepthStatement& statement) {
     if (!places.depth.empty()) {
         sources = of_two_places(places.colour, places.depth, statement);
     } else {
-        const Place only(place);
+        const Place only(places.colour);
         sources = both_as_stated(only, statement);
         if (!sources.depth) sources = guessed_content(only, statement);
     }
-    sources.notice = places.notice;
+    add_clause(sources.notice, places.notice);
     return sources;
 }
 

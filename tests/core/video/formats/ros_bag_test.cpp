@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -106,7 +107,11 @@ std::string encoded(const std::string& ending, const cv::Mat& picture) {
     return {bytes.begin(), bytes.end()};
 }
 
-std::string camera_info(int columns, int rows, const std::string& frame = "camera_optical_frame") {
+/// A camera whose axis goes through the middle of pictures of that size; zeros: not calibrated.
+std::string camera_info(int columns, int rows, const std::string& frame = "camera_optical_frame",
+                        double focal = 600.0) {
+    const double cx = focal > 0.0 ? 0.5 * (columns - 1) : 0.0;
+    const double cy = focal > 0.0 ? 0.5 * (rows - 1) : 0.0;
     CdrWriter info;
     info.header(1.0, frame)
         .number(static_cast<std::uint32_t>(rows))
@@ -114,7 +119,7 @@ std::string camera_info(int columns, int rows, const std::string& frame = "camer
         .text("plumb_bob")
         .number(std::uint32_t{5});
     for (int k = 0; k < 5; ++k) info.number(0.1 * k);
-    for (const double value : {600.0, 0.0, 320.5, 0.0, 601.0, 240.5, 0.0, 0.0, 1.0})
+    for (const double value : {focal, 0.0, cx, 0.0, 1.5 * focal, cy, 0.0, 0.0, 1.0})
         info.number(value);
     for (int k = 0; k < 21; ++k) info.number(1.0);
     return info.bytes();
@@ -212,7 +217,7 @@ TEST_CASE("a bag plays its depth and colour topics by the stamps of their messag
     const auto source = open_picture_source(folder / "walk.db3", PictureRole::depth);
     CHECK(source->facts().known.unit == DepthUnit::mm);
     CHECK(source->facts().known.no_data == std::vector<double>{0.0});
-    CHECK(source->facts().known.intrinsics == Intrinsics{600.0, 601.0, 320.5, 240.5});
+    CHECK(source->facts().known.intrinsics == Intrinsics{600.0, 900.0, 3.5, 2.5});
     CHECK(source->facts().known_from == "ROS topic /camera/depth/image_rect_raw");
     CHECK(describe_media(folder / "walk.db3").depth_bits == 16);
 }
@@ -289,6 +294,31 @@ TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does
     CHECK(lens.p1 == 0.1 * 2);
     CHECK(open_media(folder / "two.db3", {}, {.find_out = true})->description().registered_by ==
           "ROS topic /cam/extrinsics/depth_to_color");
+}
+
+TEST_CASE(
+    "a bag's camera of other pictures is scaled where they were made smaller, else it is said",
+    "[bag]") {
+    const TemporaryFolder folder;
+    const auto [info, camera, said] =
+        GENERATE(table<std::string, std::optional<Intrinsics>, std::string>(
+            {{camera_info(16, 12), Intrinsics{300.0, 450.0, 3.5, 2.5}, "of a picture of 16 x 12"},
+             {camera_info(10, 10), std::nullopt, "of a picture of 10 x 10, not of 8 x 6"},
+             {camera_info(8, 6, "depth", 0.0), std::nullopt, "focal lengths of 0"}}));
+    CAPTURE(said);
+    {
+        Bag bag(folder / "a.db3");
+        bag.add(bag.topic("/depth/image", "Image"), depth_image(1.0, 1000));
+        bag.add(bag.topic("/depth/camera_info", "CameraInfo"), info);
+    }
+    const auto media = open_depth(folder / "a.db3", {.find_out = true});
+    CHECK(media->description().meaning->intrinsics.value == camera);
+    CHECK(contains(media->description().notice, said));
+    if (camera) return;
+    const DepthRequest true_shape{.find_out = true,
+                                  .command_line = {.geometry = Geometry::true_shape}};
+    CHECK(contains(refusal([&, file = folder / "a.db3"] { (void)open_depth(file, true_shape); }),
+                   "--intrinsics"));
 }
 
 TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both kinds", "[bag]") {

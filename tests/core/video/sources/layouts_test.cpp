@@ -121,8 +121,22 @@ TEST_CASE("a camera file that is broken or of other pictures says nothing", "[la
                      "intrinsic_matrix": [525, 0, 0, 0, 526, 0, 319, 239, 1]})");
     CAPTURE(json);
     write_text(folder / "camera_intrinsic.json", json);
-    CHECK(depth_facts(folder.path()).known.unit == DepthUnit::mm);
-    CHECK_FALSE(depth_facts(folder.path()).known.intrinsics);
+    const SourceFacts facts = depth_facts(folder.path());
+    CHECK(facts.known.unit == DepthUnit::mm);
+    CHECK_FALSE(facts.known.intrinsics);
+    const bool is_read = contains(json, "-5") || contains(json, "width");
+    CHECK(contains(facts.notice, "--intrinsics") == is_read);
+}
+
+TEST_CASE("a camera of the full pictures is scaled for depth that was made smaller", "[layouts]") {
+    const TemporaryFolder folder;
+    write_depth(folder / "depth/000001.png", 1, 424, 240);
+    write_colour(folder / "color/000001.png", 1);
+    write_text(folder / "camera_intrinsic.json", R"({"width": 848, "height": 480,
+        "intrinsic_matrix": [424.5, 0, 0, 0, 425.5, 0, 423.5, 239.5, 1]})");
+    const SourceFacts facts = depth_facts(folder.path());
+    CHECK(facts.known.intrinsics == Intrinsics{212.25, 212.75, 211.5, 119.5});
+    CHECK(contains(facts.notice, "scaled to 424 x 240"));
 }
 
 TEST_CASE("a plain folder of 16-bit pictures says nothing, nor do 8 bits in a dataset's layout",

@@ -35,6 +35,20 @@ TEST_CASE("a file belongs to the reader of its form by how it begins, whatever i
     CHECK(reader_of(folder / "take.npy").name == form);
 }
 
+TEST_CASE("magic bytes decide before the content: a picture of letters alone is a picture",
+          "[readers]") {
+    const TemporaryFolder folder;
+    // The numbers' bytes are letters: 12.07.
+    write_text(folder / "flat.pfm", "Pf\n4 3\n-1\n" + std::string(48, 'A'));
+    CHECK(reader_of(folder / "flat.pfm").name == "portable float map");
+    CHECK(read_still(folder / "flat.pfm", PictureRole::depth).picture.cols == 4);
+    write_text(folder / "flat.y4m",
+               "YUV4MPEG2 W16 H16 F10:1 Ip A1:1 C420\nFRAME\n" + std::string(384, 'A'));
+    CHECK(open_picture_source(folder / "flat.y4m", PictureRole::depth)->facts().columns == 16);
+    write_text(folder / "list.y4m", "#EXTM3U\nother.mp4\n");
+    CHECK(contains(refusal([&] { (void)reader_of(folder / "list.y4m"); }), "holds text"));
+}
+
 TEST_CASE("folders, lists and patterns are rows of pictures, but for a bag's folder", "[readers]") {
     const TemporaryFolder folder;
     CHECK(reader_of(folder.path()).name == "row of pictures");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -119,6 +120,33 @@ TEST_CASE("numbers may be a list, or a text as the command line has it", "[sidec
     CHECK(said_by("no-data = \"\"").no_data == std::vector<double>{});
     CHECK(said_by("intrinsics = \"525,524,320,240\"").intrinsics ==
           Intrinsics{525.0, 524.0, 320.0, 240.0});
+}
+
+TEST_CASE(
+    "a stated camera of larger pictures is scaled, one beside the picture is left out and said",
+    "[sidecar]") {
+    const TemporaryFolder folder;
+    write_depth(folder / "depth.png", 1, 424, 240);
+    DepthRequest request{.find_out = true};
+    request.command_line.unit = DepthUnit::mm;
+    const auto [stated, camera, said] =
+        GENERATE(table<Intrinsics, std::optional<Intrinsics>, std::string>(
+            {{Intrinsics{420.0, 422.0, 423.5, 239.5}, Intrinsics{210.0, 211.0, 211.5, 119.5},
+              "2 times as large"},
+             {Intrinsics{210.0, 211.0, 205.0, 125.0}, Intrinsics{210.0, 211.0, 205.0, 125.0}, ""},
+             {Intrinsics{210.0, 211.0, 60.0, 119.5}, Intrinsics{210.0, 211.0, 60.0, 119.5}, ""},
+             {Intrinsics{210.0, 211.0, 600.0, 119.5}, std::nullopt,
+              "is outside the picture of 424 x 240"}}));
+    CAPTURE(said);
+    request.command_line.intrinsics = stated;
+    const auto media = open_depth(folder / "depth.png", request);
+    CHECK(media->description().meaning->intrinsics.value == camera);
+    CHECK(contains(media->description().notice, said));
+    CHECK(media->description().notice.empty() == said.empty());
+    request.command_line.geometry = Geometry::true_shape;
+    const std::string refused =
+        refusal([&, file = folder / "depth.png"] { (void)open_depth(file, request); });
+    CHECK(contains(refused, "is outside") == !camera.has_value());
 }
 
 TEST_CASE("intrinsics may be said as a horizontal field of view, in degrees", "[sidecar]") {
