@@ -17,6 +17,8 @@ using Name = std::string_view;
 constexpr std::array<Name, kDepthUnits.size()> kUnitNames{"levels", "disparity", "mm", "m"};
 constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
     "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
+constexpr std::array<Name, kDepthCodes.size()> kCodeNames{"grey",  "hue",     "rg16",
+                                                          "rgb24", "float32", "terrain"};
 constexpr std::array<Name, 6> kOriginNames{"assumed", "found",        "sidecar",
                                            "panel",   "command line", "recorded"};
 
@@ -35,7 +37,7 @@ std::string_view name_of(DepthPacking value) noexcept {
 }
 
 std::string_view name_of(DepthCode value) noexcept {
-    return value == DepthCode::grey ? "grey" : "hue";
+    return kCodeNames[static_cast<std::size_t>(value)];
 }
 
 std::string_view name_of(Geometry value) noexcept {

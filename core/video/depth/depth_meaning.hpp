@@ -24,8 +24,9 @@ enum class DepthUnit { levels, disparity, mm, m };
 /// in tracks of one file.
 enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_top, tracks };
 
-/// How a picture holds depth: by its brightness, or by its hue.
-enum class DepthCode { grey, hue };
+/// How a picture holds depth: by its brightness, by its hue, or as a number in the bytes of its
+/// channels (byte_code.hpp).
+enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain };
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
 /// millimetres, in orthographic view.
@@ -43,7 +44,8 @@ inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity,
 inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPacking::left_right,
                                            DepthPacking::right_left, DepthPacking::top_bottom,
                                            DepthPacking::bottom_top, DepthPacking::tracks};
-inline constexpr std::array kDepthCodes{DepthCode::grey, DepthCode::hue};
+inline constexpr std::array kDepthCodes{DepthCode::grey,  DepthCode::hue,     DepthCode::rg16,
+                                        DepthCode::rgb24, DepthCode::float32, DepthCode::terrain};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 
 /// The nearest and the farthest value that are not clamped, in the unit (level times scale).

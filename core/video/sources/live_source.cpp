@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
@@ -131,19 +132,28 @@ std::unique_ptr<PictureSource> pictures_of(const std::shared_ptr<LiveCursor>& cu
     return std::make_unique<LivePictures>(cursor, which);
 }
 
+/// The code that a statement or the pictures tell; grey: none, or stated.
+DepthCode code_of(const PictureGuess& guess, const DepthStatement& statement) {
+    if (statement.code) return *statement.code;
+    if (guess.kind == PictureKind::hue_depth) return DepthCode::hue;
+    return guess.kind == PictureKind::byte_depth ? guess.code : DepthCode::grey;
+}
+
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
-Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
+Sources decoded(const std::shared_ptr<LiveCursor>& cursor, const PictureGuess& guess,
                 const DepthStatement& statement) {
     Sources sources;
-    const bool says_grey = statement.code == DepthCode::grey;
-    const bool hue =
-        statement.code == DepthCode::hue || (!says_grey && kind == PictureKind::hue_depth);
-    if (hue) {
+    const DepthCode code = code_of(guess, statement);
+    if (code == DepthCode::hue) {
         sources.depth =
             hue_decoded(pictures_of(cursor, Which::depth_as_seen), HueCode{}, "its hues");
         sources.assumed.code = DepthCode::hue;
         sources.by_appearance = true;
-    } else if (!says_grey && kind == PictureKind::ramp_depth) {
+    } else if (is_of_bytes(code)) {
+        sources.depth = byte_decoded(pictures_of(cursor, Which::depth_as_seen), code,
+                                     "the bytes of its colours");
+        sources.by_appearance = !statement.code;
+    } else if (!statement.code && guess.kind == PictureKind::ramp_depth) {
         sources.depth = ramp_decoded(pictures_of(cursor, Which::depth_as_seen), "its colours");
         sources.by_appearance = true;
     } else {
@@ -154,8 +164,9 @@ Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
 
 Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form) {
     auto colour = pictures_of(cursor, Which::colour);
+    const bool is_coded = form.hue || form.bytes;
     return unpack(std::move(colour),
-                  pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth), form);
+                  pictures_of(cursor, is_coded ? Which::depth_as_seen : Which::depth), form);
 }
 
 PictureGuess guess_kind_of(const std::shared_ptr<LiveCursor>& cursor) {
@@ -168,9 +179,11 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     const PictureGuess guess = guess_kind_of(cursor);
     if (says_halves || (!statement.packing && guess.kind == PictureKind::packed)) {
         PackedForm form{.packing = says_halves ? *statement.packing : guess.packing,
+                        .gap_px = says_halves ? 0 : guess.gap_px,
                         .known_from = says_halves ? "" : "its pictures"};
         const bool looks_hue = guess.kind == PictureKind::packed && guess.code == DepthCode::hue;
         if (statement.code ? *statement.code == DepthCode::hue : looks_hue) form.hue.emplace();
+        if (statement.code && is_of_bytes(*statement.code)) form.bytes = *statement.code;
         Sources sources = halves(cursor, form);
         if (!says_halves) {
             sources.assumed = std::exchange(sources.found, {});
@@ -180,14 +193,26 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     }
     const LivePicture& first = cursor->pair->depth;
     const bool is_depth = guess.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
-                          statement.code == DepthCode::hue ||
+                          statement.code.value_or(DepthCode::grey) != DepthCode::grey ||
                           statement.packing == DepthPacking::separate;
     if (!is_depth) {
         throw InputError(shown(cursor->feed->depth()) +
                          " shows colour: give the source of its depth as the second name, or say "
                          "how the depth is in it with --packing (separate: it is all depth)");
     }
-    return decoded(cursor, guess.kind, statement);
+    return decoded(cursor, guess, statement);
+}
+
+/// The depth of two connections, told by the statement alone: looking at its pictures would take
+/// time.
+Sources of_two(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& statement) {
+    Sources sources = decoded(cursor, {.kind = PictureKind::grey_depth}, statement);
+    sources.colour = pictures_of(cursor, Which::colour);
+    const LivePicture& first = cursor->pair->depth;
+    const bool is_told = statement.code || statement.packing == DepthPacking::separate;
+    if (!is_told && !first.grey && !first.colour.empty() && is_coloured(first.colour))
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
+    return sources;
 }
 
 }  // namespace
@@ -208,14 +233,14 @@ Sources find_live_sources(const fs::path& colour, const fs::path& depth,
     feed->set_outputs(true, true);
     const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
     cursor->advance();
+    const bool is_coded = statement.code.value_or(DepthCode::grey) != DepthCode::grey;
     Sources sources;
     if (two) {
-        sources = decoded(cursor, PictureKind::grey_depth, statement);
-        sources.colour = pictures_of(cursor, Which::colour);
-        feed->set_outputs(statement.code == DepthCode::hue, statement.code != DepthCode::hue);
+        sources = of_two(cursor, statement);
+        feed->set_outputs(is_coded, !is_coded);
     } else {
         sources = of_one(cursor, statement);
-        const bool as_seen = sources.colour != nullptr ||
+        const bool as_seen = sources.colour != nullptr || is_coded ||
                              sources.depth->facts().bits == kRealBits || sources.by_appearance;
         feed->set_outputs(as_seen, true);
     }

@@ -50,6 +50,7 @@ auto opened(const DepthRequest& request, const Open& open) {
 
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
+    if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;

@@ -11,6 +11,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/sources/picture_folder.hpp"
 #include "core/video/sources/readers.hpp"
 
@@ -88,6 +89,48 @@ DepthStatement meaning_of(const HueCode& code) {
     meaning.range = code.metres;
     meaning.no_data.emplace();  // 0 is a level
     return meaning;
+}
+
+/// Whether a codec is known to keep every byte of red, green and blue. Others may: it is measured.
+bool is_lossless(const std::string& codec) {
+    static constexpr std::array<std::string_view, 9> kLossless{"png", "tiff", "tif",  "bmp", "ppm",
+                                                               "pnm", "pam",  "ffv1", "mpng"};
+    return std::find(kLossless.begin(), kLossless.end(), lower_case(codec)) != kLossless.end();
+}
+
+constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for float32)";
+
+/// Throws InputError where the pictures of a source are not of red, green and blue as the code
+/// needs them, or where their low bytes are lost.
+void require_bytes(PictureSource& pictures, DepthCode code) {
+    constexpr int kSamples = 6;
+    pictures.seek(0.0);  // samples of a video begin where it stands
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty()) return;
+    const SourceFacts& facts = pictures.facts();
+    const cv::Mat& picture = first.front();
+    const std::string name(name_of(code));
+    const bool is_luma = picture.channels() == 1 && facts.channels != 1;
+    const bool has_bytes = picture.depth() == CV_8U && picture.channels() >= least_channels(code);
+    if (!is_luma && !has_bytes)
+        throw InputError(shown(facts.file) + " does not hold depth as " + name +
+                         ", which is in bytes of red, green, " +
+                         (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
+                         ": give the picture as it was first written, or another --depth-code");
+    if (!is_luma && (is_lossless(facts.codec) ||
+                     is_continuous(pictures.samples(kSamples), code).value_or(true)))
+        return;
+    throw InputError(shown(facts.file) + " does not keep the bytes of red, green and blue (" +
+                     one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
+                     ") are lost: write it without loss, " + kWithoutLoss);
+}
+
+/// Whether CARLA is in the file's name or its folder's.
+bool names_carla(const fs::path& file) {
+    const auto holds = [](const fs::path& name) {
+        return lower_case(name.filename().string()).find("carla") != std::string::npos;
+    };
+    return holds(file) || holds(file.parent_path());
 }
 
 /// The runs of letters and digits, in small letters.
@@ -178,6 +221,36 @@ std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colou
     return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, change_facts);
 }
 
+std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures, DepthCode code,
+                                            std::string known_from) {
+    require_bytes(*pictures, code);
+    const auto decode = [code](const cv::Mat& picture) { return numbers_in_bytes(picture, code); };
+    const auto change_facts = [code, from = std::move(known_from)](SourceFacts& facts) {
+        constexpr double kCarlaFarthest_m = 1000.0;  // carla.readthedocs.io, "Depth camera"
+        constexpr double kCarlaHighest = 16777215.0;
+        facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
+        facts.channels = 1;
+        facts.known_from = from;
+        if (code == DepthCode::rgb24 && names_carla(facts.file))
+            facts.known.fill_in({.unit = DepthUnit::m, .scale = kCarlaFarthest_m / kCarlaHighest});
+        facts.known.fill_in(byte_code_meaning(code));
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+std::string refusal_of_colours(const SourceFacts& facts) {
+    const std::string what =
+        shown(facts.file) + " is in colours that are neither grey nor a known code of depth: ";
+    const std::string as_bytes =
+        is_lossless(facts.codec) ? ""
+                                 : "if depth is in their bytes, write them without the losses of " +
+                                       one_line(facts.codec) + ", " + kWithoutLoss + "; else ";
+    return what + as_bytes +
+           "name the code (--depth-code; grey takes the brightness) or the halves (--packing), "
+           "give "
+           "the depth that they were painted from, or let an estimator make it (dibhr help depth)";
+}
+
 bool is_of_halves(DepthPacking packing) noexcept {
     return packing != DepthPacking::separate && packing != DepthPacking::tracks;
 }
@@ -199,11 +272,12 @@ Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<Pictur
     auto colour = cropped(std::move(for_colour), form, PictureRole::colour);
     auto depth = cropped(std::move(for_depth), form, PictureRole::depth);
     if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
+    if (form.bytes) depth = byte_decoded(std::move(depth), *form.bytes, form.known_from);
     Sources sources;
     sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);
     sources.depth = unsqueezed(std::move(depth), form, PictureRole::depth);
     sources.found.packing = form.packing;
-    sources.found.code = form.hue ? DepthCode::hue : DepthCode::grey;
+    sources.found.code = form.hue ? DepthCode::hue : form.bytes.value_or(DepthCode::grey);
     return sources;
 }
 

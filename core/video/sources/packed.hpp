@@ -21,10 +21,12 @@ struct PackedForm {
     DepthPacking packing{DepthPacking::left_right};  ///< one of the four with halves
     int gap_px{0};                                   ///< between the halves
     bool half_size{false};  ///< halves are squeezed to half of their width, or of their height
-    std::optional<HueCode> hue{};  ///< how depth is coded by hue; nothing: by brightness
-    DepthStatement known{};        ///< other facts of the file's metadata about its depth
-    std::string known_from{};      ///< the source of these facts; empty: none
-    cv::Size intrinsics_size{};    ///< size of the picture of known.intrinsics; 0: the depth's own
+    std::optional<HueCode> hue{};  ///< how depth is coded by hue; nothing: see `bytes`
+    /// The code of depth in bytes; nothing: by brightness.
+    std::optional<DepthCode> bytes{};
+    DepthStatement known{};      ///< other facts of the file's metadata about its depth
+    std::string known_from{};    ///< the source of these facts; empty: none
+    cv::Size intrinsics_size{};  ///< size of the picture of known.intrinsics; 0: the depth's own
 };
 
 /// Decodes the colours of a source to depth in real numbers: metres where the code has a range,
@@ -36,6 +38,15 @@ struct PackedForm {
 [[nodiscard]] std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
                                                           std::string known_from);
 
+/// Decodes numbers in the bytes of a source's channels (byte_code.hpp): to levels of 16 bits, or to
+/// real numbers. `pictures`: read as depth, so that every byte and alpha is kept. Throws InputError
+/// where they hold no such numbers, as after compression with losses.
+[[nodiscard]] std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures,
+                                                          DepthCode code, std::string known_from);
+
+/// One line that refuses depth whose colours are no known code: what it is, and what to do.
+[[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts);
+
 /// Whether colour and depth are the halves of one picture.
 [[nodiscard]] bool is_of_halves(DepthPacking packing) noexcept;
 
@@ -46,7 +57,7 @@ struct PackedForm {
 
 /// Splits the same pictures, read by two sources, into colour and depth. `for_depth` gives colours
 /// where depth is coded by hue. Stores packing and code in Sources::found. Throws InputError when
-/// the halves are too small.
+/// the halves are too small, or do not hold depth of that code.
 [[nodiscard]] Sources unpack(std::unique_ptr<PictureSource> for_colour,
                              std::unique_ptr<PictureSource> for_depth, const PackedForm& form);
 

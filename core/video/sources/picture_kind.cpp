@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/sources/packed.hpp"
@@ -382,6 +383,11 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
     return statistics;
 }
 
+bool is_coloured(const cv::Mat& picture) {
+    constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
+    return picture_statistics(picture).coloured > kMostColoured;
+}
+
 PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     pictures = pictures.first(std::min(pictures.size(), kMostKindSamples));
     if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))
@@ -393,6 +399,10 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
     // Last, because blue hues are on the ramp, too.
     if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
+    if (const auto code = byte_code_in(pictures)) {
+        guess.kind = PictureKind::byte_depth;
+        guess.code = *code;
+    }
     return guess;
 }
 

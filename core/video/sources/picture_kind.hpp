@@ -14,6 +14,7 @@ enum class PictureKind {
     grey_depth,  ///< grey, smooth, with silhouettes; may still be a soft grey photograph
     hue_depth,   ///< smooth in hue, of pure colours, the rest black
     ramp_depth,  ///< white - cyan - blue - black
+    byte_depth,  ///< a number in the bytes of the channels, continuous
     packed       ///< colour and depth in halves
 };
 
@@ -37,8 +38,8 @@ struct PictureStatistics {
     SurfaceStatistics hue{};  ///< only where at least half is pure
 };
 
-/// The kind of pictures, and the statistics that decided it: means over the pictures. `packing`,
-/// `code` and the halves' statistics are for `packed` only.
+/// The kind of pictures, and the statistics that decided it: means over the pictures. `packing` and
+/// the halves' statistics are for `packed` only, `code` for `packed` and `byte_depth`.
 struct PictureGuess {
     PictureKind kind{PictureKind::photo};
     DepthPacking packing{DepthPacking::separate};
@@ -60,6 +61,9 @@ struct PictureGuess {
 
 /// Whether such a band parts the picture, and one half is painted in the colours of a colour map.
 [[nodiscard]] bool has_painted_half(const cv::Mat& picture);
+
+/// Whether a picture, 8-bit BGR, has more coloured pixels than compression gives to a grey one.
+[[nodiscard]] bool is_coloured(const cv::Mat& picture);
 
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.

@@ -1,8 +1,12 @@
 // Chooses tracks, halves, pictures or arrays to read, and which files belong together.
 #include "core/video/sources/sources.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <memory>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -10,7 +14,9 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/ros_bag.hpp"
@@ -70,15 +76,19 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
             .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
-    if (!statement.packing) return form;
-    if (!form) {
+    if (!form && statement.packing) {
         form.emplace();
         const std::vector<cv::Mat> first = colour_samples(place.path, 1);
         if (!first.empty()) form->gap_px = gap_between_halves(first.front(), *statement.packing);
     }
-    form->packing = *statement.packing;
-    if (statement.code == DepthCode::hue && !form->hue) form->hue.emplace();
-    if (statement.code == DepthCode::grey) form->hue.reset();
+    if (!form) return form;
+    form->packing = statement.packing.value_or(form->packing);
+    if (!statement.code) return form;
+    if (*statement.code != DepthCode::hue)
+        form->hue.reset();
+    else if (!form->hue)
+        form->hue.emplace();
+    if (is_of_bytes(*statement.code)) form->bytes = *statement.code;
     return form;
 }
 
@@ -93,31 +103,100 @@ std::optional<Sources> halves_by_appearance(const fs::path& place, const Picture
     return sources;
 }
 
-/// Whether the first picture has colours, so that more pictures are worth sampling.
-bool begins_in_colours(const fs::path& place, int track) {
-    constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
-    const std::vector<cv::Mat> first = colour_samples(place, 1, track);
-    return !first.empty() && picture_statistics(first.front()).coloured > kMostColoured;
+/// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
+cv::Mat seen_colours(const cv::Mat& picture) {
+    if (picture.channels() < 3) return {};
+    cv::Mat colours = picture;
+    if (picture.channels() == 4) cv::cvtColor(picture, colours, cv::COLOR_BGRA2BGR);
+    if (colours.depth() == CV_8U) return colours;
+    double highest = highest_level(16);
+    if (colours.depth() != CV_16U) {
+        const cv::Mat numbers = colours.reshape(1);
+        const cv::Mat finite = cv::abs(numbers) <= std::numeric_limits<float>::max();
+        cv::minMaxIdx(numbers, nullptr, &highest, nullptr, nullptr, finite);
+    }
+    cv::Mat seen;
+    colours.convertTo(seen, CV_8U, highest > 0.0 ? highest_level(8) / highest : 0.0);
+    return seen;
+}
+
+/// Samples of the depth with its colours; `halves`: it is a half of the place's pictures, null: it
+/// is all. The depth of a video that is not coded in red, green and blue is its luma: then the
+/// video is read again.
+std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int most,
+                                   const PackedForm* halves) {
+    const bool is_video = place.is(PictureForm::video);
+    if (!is_video || halves == nullptr) {
+        const std::vector<cv::Mat> first = sources.depth->samples(1);
+        const bool is_luma = is_video && !first.empty() && first.front().channels() < 3;
+        if (!is_luma) return most == 1 ? first : sources.depth->samples(most);
+    }
+    std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
+    for (cv::Mat& picture : pictures) {
+        if (halves != nullptr)
+            picture = picture(half_of(picture.size(), halves->packing, PictureRole::depth,
+                                      halves->gap_px));
+    }
+    return pictures;
+}
+
+/// What the colours of a depth hold; grey where it has none.
+struct ColoursOfDepth {
+    PictureKind kind{PictureKind::grey_depth};
+    DepthCode bytes{DepthCode::grey};  ///< for byte_depth
+};
+
+ColoursOfDepth colours_of_depth(const Place& place, Sources& sources,
+                                const PackedForm* halves = nullptr) {
+    if (sources.depth->facts().channels == 1) return {};
+    // The first picture first, as sampling more takes time.
+    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
+    if (first.empty() || first.front().channels() < 3 || !is_coloured(seen_colours(first.front())))
+        return {};
+    const std::vector<cv::Mat> pictures = depth_samples(place, sources, kKindSamples, halves);
+    if (const auto code = byte_code_in(pictures)) return {PictureKind::byte_depth, *code};
+    if (first.front().depth() == CV_32F) return {PictureKind::photo};
+    std::vector<cv::Mat> seen;
+    std::transform(pictures.begin(), pictures.end(), std::back_inserter(seen), seen_colours);
+    return {guess_kind(seen).kind};
+}
+
+/// The pictures of the depth with their colours.
+std::unique_ptr<PictureSource> in_colours(const Place& place, Sources& sources) {
+    if (!place.is(PictureForm::video) && !place.is(PictureForm::still))
+        return std::move(sources.depth);
+    return open_as_colour(place.path, sources.depth_track);
+}
+
+void decode_hue(const Place& place, Sources& sources) {
+    sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, "its hues");
+    sources.assumed.code = DepthCode::hue;
 }
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
-    const int track = sources.depth_track;
-    const bool may_be_coded = statement.code != DepthCode::hue &&
-                              sources.depth->facts().channels != 1 &&
-                              (place.is(PictureForm::video) || place.is(PictureForm::still)) &&
-                              begins_in_colours(place.path, track);
-    PictureKind kind = PictureKind::grey_depth;
-    if (may_be_coded) kind = guess_kind(colour_samples(place.path, kKindSamples, track)).kind;
-    if (statement.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
-    sources.by_appearance = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
-    const bool is_hue = statement.code == DepthCode::hue || kind == PictureKind::hue_depth;
-    if (is_hue) {
-        sources.depth = hue_decoded(open_as_colour(place.path, track), HueCode{}, "its hues");
-        sources.assumed.code = DepthCode::hue;
-    } else if (kind == PictureKind::ramp_depth) {
-        sources.depth = ramp_decoded(open_as_colour(place.path, track), "its colours");
+    static constexpr const char* kBytes = "the bytes of its colours";
+    const auto told = statement.code;
+    if (told && is_of_bytes(*told)) {
+        sources.depth = byte_decoded(std::move(sources.depth), *told, kBytes);
+        return sources;
     }
+    if (told == DepthCode::hue) {
+        decode_hue(place, sources);
+        return sources;
+    }
+    const ColoursOfDepth colours = colours_of_depth(place, sources);
+    sources.by_appearance = colours.kind == PictureKind::ramp_depth;
+    if (sources.by_appearance)
+        sources.depth = ramp_decoded(in_colours(place, sources), "its colours");
+    if (told || sources.by_appearance || colours.kind == PictureKind::grey_depth) return sources;
+    if (colours.kind == PictureKind::hue_depth)
+        decode_hue(place, sources);
+    else if (colours.kind == PictureKind::byte_depth)
+        sources.depth = byte_decoded(std::move(sources.depth), colours.bytes, kBytes);
+    else
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
+    sources.by_appearance = sources.not_depth.empty();
     return sources;
 }
 
@@ -125,7 +204,9 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& state
 Sources both_in(const Place& place, const DepthStatement& statement) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
-    if (both.depth == nullptr || !place.is(PictureForm::video)) return both;
+    const bool may_be_coded = both.depth != nullptr &&
+                              (place.is(PictureForm::video) || both.depth->facts().channels != 1);
+    if (!may_be_coded) return both;
     return decoded(place, std::move(both), statement);
 }
 
@@ -143,9 +224,7 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
         if (!found.depth.empty()) return true;
         if (found.unnamed.empty()) return false;
     }
-    if (guess.kind == PictureKind::grey_depth || guess.kind == PictureKind::hue_depth ||
-        guess.kind == PictureKind::ramp_depth)
-        return true;
+    if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
     return source->facts().bits > 8 && source->facts().channels == 1;
 }
@@ -171,11 +250,33 @@ bool is_row(const fs::path& place) {
 /// Opens colour and depth of two places, each a file, a folder, a list or a pattern.
 Sources of_two_places(const fs::path& colour, const fs::path& depth,
                       const DepthStatement& statement) {
-    if (is_row(colour) && is_row(depth)) return rows_of_two(colour, depth);
+    if (is_row(colour) && is_row(depth))
+        return decoded(Place(depth), rows_of_two(colour, depth), statement);
     // First, so that an error of the colour file is not reported as one of the depth.
     auto colour_source = open_picture_source(colour, PictureRole::colour);
     Sources sources = depth_in(Place(depth), statement);
     sources.colour = std::move(colour_source);
+    return sources;
+}
+
+/// The halves as the form states. Where nothing states how depth is coded, a half in colours is
+/// looked at.
+Sources open_halves(const Place& place, PackedForm form, const DepthStatement& statement) {
+    Sources sources = open_packed(place.path, form);
+    if (form.hue || statement.code) return sources;
+    const ColoursOfDepth colours = colours_of_depth(place, sources, &form);
+    if (colours.kind == PictureKind::grey_depth) return sources;
+    if (colours.kind == PictureKind::hue_depth) {
+        form.hue.emplace();
+    } else if (colours.kind == PictureKind::byte_depth) {
+        form.bytes = colours.bytes;
+    } else {
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        return sources;
+    }
+    sources = open_packed(place.path, form);
+    sources.assumed.code = std::exchange(sources.found.code, {});
+    sources.by_appearance = true;
     return sources;
 }
 
@@ -187,7 +288,7 @@ Sources both_as_stated(const Place& place, const DepthStatement& statement) {
     }
     if (place.is(PictureForm::bag)) return {};
     const auto form = packed_form(place, statement);
-    return form ? open_packed(place.path, *form) : Sources{};
+    return form ? open_halves(place, *form, statement) : Sources{};
 }
 
 /// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
@@ -197,8 +298,8 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
     if (!statement.packing) {
         if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
     }
-    if (is_depth(place, guess) || statement.code == DepthCode::hue)
-        return depth_in(place, statement);
+    const bool is_coded = statement.code.value_or(DepthCode::grey) != DepthCode::grey;
+    if (is_depth(place, guess) || is_coded) return depth_in(place, statement);
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 

@@ -23,6 +23,9 @@ struct Sources {
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files
+    /// Why the colours of its depth are no depth, in one line; empty: they are. Levels as in the
+    /// file (DepthRequest::find_out false) are their brightness all the same.
+    std::string not_depth{};
 };
 
 /// Finds colour and depth for the given places. Empty `depth`, or the colour's place again: both in

@@ -134,6 +134,16 @@ cv::Mat hues() {
     return painted(far, as_hue);
 }
 
+/// Metres in the bytes of the channels; for the others millimetres, what simulators write, heights.
+cv::Mat in_bytes_of(DepthCode code) {
+    const auto number = [code](double far) {
+        if (code == DepthCode::rg16) return distance_mm(far);
+        if (code == DepthCode::rgb24) return std::round(distance_mm(far) * 16.777215);
+        return code == DepthCode::terrain ? 100.0 + 0.1 * (kLast - far) : 0.001 * distance_mm(far);
+    };
+    return in_bytes(each(CV_32F, number), code);
+}
+
 /// Three equal channels of its own bits.
 cv::Mat grey(const cv::Mat& picture) {
     cv::Mat three;
@@ -256,6 +266,28 @@ std::vector<Form> forms() {
          1.0,
          true},
         {"PNG, hue", "a.png", picture(hues()), kHue, 1529, kAll + " code"},
+        {"PNG, rg16, mm", "a.png", picture(in_bytes_of(DepthCode::rg16)), kExact, 4096,
+         kAll + " code"},
+        {"PNG, rgb24",
+         "a_depth.png",
+         picture(in_bytes_of(DepthCode::rgb24)),
+         kExact,
+         4096,
+         kAll + " code",
+         {},
+         1.0,
+         true},
+        {"PNG, rgb24, told",
+         "a.png",
+         picture(in_bytes_of(DepthCode::rgb24)),
+         kExact,
+         4096,
+         "",
+         {.code = DepthCode::rgb24}},
+        {"PNG, float32, m", "a.png", picture(in_bytes_of(DepthCode::float32)), kExact, 4096,
+         kAll + " code"},
+        {"PNG, terrain", "a.png", picture(in_bytes_of(DepthCode::terrain)), kExact, 4096,
+         kAll + " code"},
         {"TIFF 16 bit, mm", "a.tiff", picture(mm), kExact, 4096, kAll},
         {"TIFF float, m", "a.tif", text(tiff(kSceneColumns, kSceneRows, 32, 3, true, bytes_of(m))),
          kExact, 4096, kAll},
@@ -327,6 +359,22 @@ std::vector<Form> forms() {
         {"H.264 4:4:4 lossless, hue", "a.mkv",
          video(hues(), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"), kHue, 1529,
          kAll + " code"},
+        {"H.264 RGB lossless, rg16, mm", "a.mkv",
+         video(in_bytes_of(DepthCode::rg16), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"),
+         kExact, 4096, kAll + " code"},
+        {"FFV1, rgb24", "a.mkv",
+         video(in_bytes_of(DepthCode::rgb24), "bgr24", "-c:v ffv1 -pix_fmt bgr0"), kExact, 4096,
+         kAll + " code"},
+        {"FFV1, float32, m", "a.mkv",
+         video(in_bytes_of(DepthCode::float32), "bgra", "-c:v ffv1 -pix_fmt bgra"), kExact, 4096,
+         kAll + " code"},
+        {"FFV1, terrain, told",
+         "a.mkv",
+         video(in_bytes_of(DepthCode::terrain), "bgr24", "-c:v ffv1 -pix_fmt bgr0"),
+         kExact,
+         4096,
+         "",
+         {.code = DepthCode::terrain}},
         {"tracks, FFV1 16 bit, mm",
          "a.mkv",
          tracks(mm, "gray16le", ""),
@@ -397,6 +445,15 @@ std::vector<Form> forms() {
          1529,
          kAll + kHalves,
          {},
+         1.0,
+         true},
+        {"left-right, PNG, rg16, mm",
+         "a.png",
+         picture(beside(photo(), in_bytes_of(DepthCode::rg16))),
+         kExact,
+         4096,
+         kAll + " code",
+         {.packing = DepthPacking::left_right},
          1.0,
          true},
         {"top-bottom, TIFF 16 bit, disparity", "a.tiff",

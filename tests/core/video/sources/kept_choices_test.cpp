@@ -125,7 +125,7 @@ TEST_CASE("so is how a depth is coded that is found beside its colour", "[kept]"
     const fs::path colour = home.folder / "a_color.png";
     const fs::path depth = home.folder / "a_depth.png";
     write_picture(colour, 64, 48, 8, 3, [](int i, int, int) { return 3 * i; });
-    write_picture(depth, 64, 48, 8, 3, [](int i, int j, int k) { return (i * j * (k + 1)) % 256; });
+    write_picture(depth, 64, 48, 8, 3, [](int i, int j, int) { return (i * j) % 256; });
     const auto bits = [&] {
         return open_media(colour, {}, home.request())->description().depth_bits;
     };

@@ -177,6 +177,13 @@ std::vector<Named> no_depth() {
         {"rough surface", grey_of(blurred(white_noise(false), 1.0))},
         {"black", sheet(0)},
         {"white", sheet(255)},
+        {"painted depth",
+         [] {
+             cv::Mat levels;
+             scene_depth().convertTo(levels, CV_8U, 255.0);
+             cv::applyColorMap(levels, levels, cv::COLORMAP_VIRIDIS);
+             return levels;
+         }()},
         {"one hue", cv::Mat(kSceneRows, kSceneColumns, CV_8UC3, cv::Scalar(0, 255, 0))},
         {"photograph beside black", beside(left, sheet(0))},
         {"photograph beside the depth of another one", [&] {
@@ -259,6 +266,29 @@ TEST_CASE("depth alone in a picture is told, with its code", "[kind]") {
     cv::Mat inverse;
     cv::bitwise_not(painted(depth, as_grey), inverse);
     CHECK(guess(inverse).kind == PictureKind::grey_depth);
+}
+
+TEST_CASE("depth in the bytes of channels is told, and the same channels in disorder are not",
+          "[kind]") {
+    const cv::Mat depth = scene_depth();
+    const auto [code, nearest, farthest] =
+        GENERATE(table<DepthCode, double, double>({{DepthCode::rg16, 400.0, 6000.0},
+                                                   {DepthCode::rg16, 0.0, 65535.0},
+                                                   {DepthCode::rgb24, 8000.0, 900000.0},
+                                                   {DepthCode::terrain, -40.0, 2500.0}}));
+    CAPTURE(name_of(code), farthest);
+    cv::Mat numbers;
+    depth.convertTo(numbers, CV_32F, farthest - nearest, nearest);
+    const cv::Mat picture = in_bytes(numbers, code);
+    const PictureGuess guessed = guess(picture);
+    CHECK(guessed.kind == PictureKind::byte_depth);
+    CHECK(guessed.code == code);
+    std::vector<cv::Mat> channels;
+    cv::split(picture, channels);
+    cv::flip(channels[1], channels[1], 1);
+    cv::Mat mixed_up;
+    cv::merge(channels, mixed_up);
+    CHECK(guess(mixed_up).kind == PictureKind::photo);
 }
 
 TEST_CASE("colour and depth in halves are told, with packing and code", "[kind]") {
