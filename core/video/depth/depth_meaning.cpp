@@ -17,6 +17,7 @@ using Name = std::string_view;
 constexpr std::array<Name, kDepthUnits.size()> kUnitNames{"levels", "disparity", "mm", "m"};
 constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
     "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
+constexpr std::array<Name, kDepthTimes.size()> kTimesNames{"counted", "own", "paired"};
 constexpr std::array<Name, 6> kOriginNames{"assumed", "found",        "sidecar",
                                            "panel",   "command line", "recorded"};
 
@@ -40,6 +41,10 @@ std::string_view name_of(DepthCode value) noexcept {
 
 std::string_view name_of(Geometry value) noexcept {
     return value == Geometry::relief ? "relief" : "true";
+}
+
+std::string_view name_of(DepthTimes value) noexcept {
+    return kTimesNames[static_cast<std::size_t>(value)];
 }
 
 bool is_camera(const Intrinsics& intrinsics) {
