@@ -19,6 +19,7 @@
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/live_source.hpp"
 #include "core/video/sources/media_names.hpp"
+#include "core/video/sources/pair_times.hpp"
 #include "core/video/sources/paired_media.hpp"
 #include "core/video/sources/sources.hpp"
 
@@ -52,8 +53,10 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     DepthScale scale = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;
+    const PairTimes times =
+        pair_times(sources, scale.meaning().value_or(DepthMeaning{}), request.find_out);
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
-                                               std::move(scale), painted);
+                                               std::move(scale), painted, times);
     media->add_notice(sources.notice);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
@@ -91,6 +94,7 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         MediaDescription description;
         describe_colour(sources.colour->facts(), description);
         describe_time(sources.colour->facts(), description);
+        describe_timing(sources.colour->facts(), description);
         description.notice = sources.colour->facts().notice;
         return description;
     }

@@ -12,6 +12,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -35,7 +36,9 @@ std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureR
             shown(folder) +
             " is a folder without pictures: give the folder or the file that holds them");
     std::vector<double> times = times_s(*longest, {}, kPicturesPerSecond);
-    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role);
+    Timing timing = timing_of(*longest, {}, {});
+    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role,
+                                             LayoutFacts{}, std::move(timing));
 }
 
 std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole role) {
