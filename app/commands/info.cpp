@@ -176,6 +176,7 @@ void describe_pictures(const fs::path& file, const DepthRequest& request) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
+        print_fact("times", media.timing);
     }
     if (!media.notice.empty()) print_fact("notice", media.notice);
     if (is_colour && !has_depth) describe_partner(file);
@@ -236,6 +237,8 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
               {"duration_s", known(!media.live, media.duration_s)}};
     add_meaning(json, media.meaning);
     json["registered_by"] = media.registered_by;
+    json["timing"] =
+        media.timing.empty() ? Json() : Json{{"from", media.times_from}, {"text", media.timing}};
     json["notice"] = media.notice;
     return json;
 }
