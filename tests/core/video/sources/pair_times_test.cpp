@@ -133,6 +133,25 @@ PictureRow row_of_names(const std::vector<std::string>& names) {
 
 }  // namespace
 
+TEST_CASE("the times of a video's pictures are known by its packets", "[pair_times]") {
+    const TemporaryFolder folder;
+    const auto [name, encoding] = GENERATE(table<std::string, std::string>(
+        {{"a.mkv", kLossless},
+         {"a.mp4", kH264},
+         {"a.mp4", kH264 + " -use_editlist 0"},
+         {"a.mp4", kH264 + " -movflags frag_keyframe+empty_moov"},
+         {"a.nut", kH264},
+         {"a.flv", kH264},
+         {"a.ts", kH264},
+         {"a.avi", "-c:v mjpeg -pix_fmt yuvj420p"},
+         {"a.webm", kVp9},
+         {"a.webm", "-c:v libvpx -auto-alt-ref 1 -lag-in-frames 16 -b:v 200k -pix_fmt yuv420p"}}));
+    CAPTURE(name, encoding);
+    make_numbered_clip(folder / name, 40, "25", encoding);
+    VideoFile video(folder / name, PictureRole::colour);
+    CHECK(video.picture_times_s() == decoded_times_s(folder / name));
+}
+
 TEST_CASE("as many pictures as a video has frames are shown with them, at any rate, even or not",
           "[pair_times]") {
     const auto [name, rate, encoding, filter] =
