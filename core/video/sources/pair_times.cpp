@@ -186,8 +186,8 @@ std::vector<double> equal_steps(std::size_t count, double step) {
     return at;
 }
 
-/// Positions by frame numbers. The first frame is 0 where the numbers have a 0, or else end before
-/// the last frame without beginning at 1. Nothing where they go beyond the frames.
+/// Positions by frame numbers. The first frame is 1 where the numbers begin at 1, or have no 0 and
+/// end at the number of frames; else 0. Nothing where they go beyond the frames.
 std::optional<Positions> by_numbers(const std::vector<double>& numbers, double frames,
                                     double slack) {
     const bool from_1 = numbers.front() == 1.0 || numbers.back() == frames;

@@ -1,6 +1,7 @@
 // `dibhr info` and `dibhr devices`: what files hold and what is attached.
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
