@@ -258,6 +258,7 @@ void describe_pictures(const fs::path& file, const InfoOptions& options) {
         print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
         print_fact("duration", number_text(media.duration_s, 3) + " s");
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
+        print_fact("times", media.timing);
     }
     if (!media.notice.empty()) print_fact("notice", media.notice);
     if (is_colour && !has_depth) describe_partner(file);
@@ -315,6 +316,8 @@ Json json_of(const fs::path& file, const MediaDescription& media, bool why) {
     add_meaning(json, media.meaning);
     add_conclusion(json, media, why);
     json["registered_by"] = media.registered_by;
+    json["timing"] =
+        media.timing.empty() ? Json() : Json{{"from", media.times_from}, {"text", media.timing}};
     json["notice"] = media.notice;
     return json;
 }

@@ -41,6 +41,8 @@ struct TextFields {
     TextField depth_range{};                  ///< "480:4210"
     TextField no_data{};                      ///< "0,65535"
     TextField intrinsics{};                   ///< "525,525,319.5,239.5" or "60deg"
+    TextField depth_offset{};                 ///< "-0.05" [s]
+    TextField depth_rate{};                   ///< "29.97" [1/s]
     std::array<double, 2> colour_shift_px{};  ///< right and down, in depth pixels
     std::array<double, 1> colour_size{1.0};   ///< a factor
 };

@@ -443,6 +443,15 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "is not RIGHT,DOWN,SCALE in depth pixels, the scale 0.01 to 100",
                     "How the colour lies over the depth: moved by RIGHT and DOWN depth pixels, and "
                     "SCALE times as large");
+    add_word_option(app, "--depth-times", kDepthTimes, depth.times,
+                    "When pictures without times are shown: 30 a second, by stamps in their names "
+                    "or beside them, or with the frames of the other source");
+    add_fact_option(app, "--depth-offset", depth.time_offset_s, offset_in, "SECONDS",
+                    "is not a number of seconds, at most a day",
+                    "How much later the depth is than its times say");
+    add_fact_option(app, "--depth-fps", depth.frames_per_s, rate_in, "RATE",
+                    "is not a rate of 0.001 to 10000 frames a second",
+                    "Frames of depth a second, instead of what its source says");
 }
 
 void add_sure_option(CLI::App& app, bool& sure) {

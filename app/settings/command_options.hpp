@@ -136,8 +136,8 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// `depth` must outlive the parsing of `app`.
 void add_level_options(CLI::App& app, DepthStatement& depth);
 
-/// The same, --packing, --depth-code, --geometry, --intrinsics and --registration. `depth` must
-/// outlive the parsing of `app`.
+/// The same, --packing, --depth-code, --geometry, --intrinsics, --registration, --depth-times,
+/// --depth-offset and --depth-fps. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
 
 /// --sure: whether a meaning of depth that is likely but not sure is a failure. `sure` must outlive

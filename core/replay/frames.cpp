@@ -129,14 +129,16 @@ void SessionFrames::find_videos(const Session& session) {
         const bool edges =
             source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
         const bool moves = source.source.motion || source.source.in_betweens || options_.motion;
-        const bool by_colour = edges || moves;
+        DepthStatement recorded;
+        if (!source.depth_meaning.empty())
+            recorded = statement_in(source.depth_meaning, session.file().string());
+        const bool by_colour = edges || moves || recorded.times == DepthTimes::paired;
         video.in_colour = video.in_colour || options_.colour || by_colour;
         if (video.in_colour && video.colour.empty() && !source.colour.file.empty())
             video.colour = finder_.find(source.colour, "colour video");
         if (!video.depth.empty()) continue;
         video.depth = finder_.find(source.depth, "depth video");
-        if (!source.depth_meaning.empty())
-            video.request.recorded = statement_in(source.depth_meaning, session.file().string());
+        video.request.recorded = std::move(recorded);
     }
 }
 

@@ -147,6 +147,17 @@ void look_at_list(const std::string& text) {
     }
 }
 
+/// Stamps of pictures, as text and as JSON.
+void look_at_stamps(const std::string& text) {
+    for (const char* const name : {"depth/timestamps.txt", "frames.json"}) {
+        const test::TemporaryFolder folder;
+        for (const char* const picture : {"depth/1.pgm", "depth/2.pgm", "depth/3.pgm"})
+            write(folder / picture, depth_picture());
+        write(folder / name, text);
+        (void)test::is_taken([&] { test::require_frames(open_depth(folder / "depth", kAsFound)); });
+    }
+}
+
 void look_at_pattern(const std::string& text) {
     const fs::path place = pictures() / text;
     if (!names_pictures(place) || is_folder(place)) return;
@@ -260,6 +271,7 @@ constexpr std::array<std::pair<std::string_view, Look>, 11> kKinds{
      {"open3d", look_at_open3d},
      {"pincam", look_at_pincam},
      {"list", look_at_list},
+     {"stamps", look_at_stamps},
      {"pattern", look_at_pattern},
      {"kinect", look_at_kinect},
      {"message", look_at_message},

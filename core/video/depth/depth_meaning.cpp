@@ -19,6 +19,7 @@ constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
     "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
 constexpr std::array<Name, kDepthCodes.size()> kCodeNames{"grey",  "hue",     "rg16",
                                                           "rgb24", "float32", "terrain"};
+constexpr std::array<Name, kDepthTimes.size()> kTimesNames{"counted", "own", "paired"};
 constexpr std::array<Name, 6> kOriginNames{"assumed", "found",        "sidecar",
                                            "panel",   "command line", "recorded"};
 
@@ -42,6 +43,10 @@ std::string_view name_of(DepthCode value) noexcept {
 
 std::string_view name_of(Geometry value) noexcept {
     return value == Geometry::relief ? "relief" : "true";
+}
+
+std::string_view name_of(DepthTimes value) noexcept {
+    return kTimesNames[static_cast<std::size_t>(value)];
 }
 
 bool is_camera(const Intrinsics& intrinsics) {

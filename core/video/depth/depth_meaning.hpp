@@ -32,11 +32,17 @@ enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain };
 /// millimetres, in orthographic view.
 enum class Geometry { relief, true_shape };
 
+/// When pictures without presentation times are shown. `counted`: 1/30 s apart, in the order of
+/// their numbers. `own`: by the stamps in their names or in a file beside them, else counted.
+/// `paired`: colour or depth takes the times of the other's frames.
+enum class DepthTimes { counted, own, paired };
+
 [[nodiscard]] std::string_view name_of(NearLevels value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthUnit value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthPacking value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthCode value) noexcept;
 [[nodiscard]] std::string_view name_of(Geometry value) noexcept;
+[[nodiscard]] std::string_view name_of(DepthTimes value) noexcept;
 
 inline constexpr std::array kNearLevels{NearLevels::bright, NearLevels::dark};
 inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm,
@@ -47,6 +53,7 @@ inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPackin
 inline constexpr std::array kDepthCodes{DepthCode::grey,  DepthCode::hue,     DepthCode::rg16,
                                         DepthCode::rgb24, DepthCode::float32, DepthCode::terrain};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
+inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 
 /// The nearest and the farthest value that are not clamped, in the unit (level times scale).
 struct DepthRange {
@@ -99,6 +106,9 @@ struct DepthStatement {
     std::optional<Registration> registration{};
     std::optional<CleaningChoice> cleaning{};
     std::optional<double> finger_mm{};  ///< radius of the fingertip
+    std::optional<DepthTimes> times{};
+    std::optional<double> time_offset_s{};  ///< how much later the depth is than its times say
+    std::optional<double> frames_per_s{};   ///< of the depth; 0: as its source has it
 
     bool operator==(const DepthStatement&) const = default;
     /// Takes from `other` the facts that this does not state.
@@ -134,7 +144,10 @@ struct DepthMeaning {
     Known<Registration> registration{};             ///< in addition to the file's calibration
     Known<CleaningChoice> cleaning{};               ///< automatic: not stated
     Known<double> finger_mm{0.0};                   ///< 0: a point
-    std::string found_in{};  ///< where `found` facts are from: "TUM lists"; empty: none
+    Known<DepthTimes> times{DepthTimes::counted};
+    Known<double> time_offset_s{0.0};
+    Known<double> frames_per_s{0.0};  ///< 0: not stated
+    std::string found_in{};           ///< where `found` facts are from: "TUM lists"; empty: none
 
     [[nodiscard]] bool is_metric() const {
         return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
@@ -159,6 +172,9 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("registration", one.registration, other.registration);
     visit("cleaning", one.cleaning, other.cleaning);
     visit("finger_mm", one.finger_mm, other.finger_mm);
+    visit("times", one.times, other.times);
+    visit("time_offset_s", one.time_offset_s, other.time_offset_s);
+    visit("stated_frames_per_s", one.frames_per_s, other.frames_per_s);
 }
 
 /// Statements with their origins, the one of highest priority first.

@@ -224,6 +224,7 @@ class RosTopic : public IndexedPictures {
         for (const Stamped& message : messages_)
             times_s.push_back(static_cast<double>(message.time_ns - messages_.front().time_ns) *
                               1e-9);
+        facts_.timing.text = "stamps of the messages";
         take_times(std::move(times_s));
         facts_.start_s = static_cast<double>(messages_.front().time_ns) * 1e-9;
     }

@@ -96,6 +96,8 @@ void VideoFile::read_facts() {
     const VideoPackets& packets = decoder_.packets();
     if (const double rate = packets.frames_per_s(); rate > 0.0) interval_s_ = 1.0 / rate;
     facts_.frames_per_s = 1.0 / interval_s_;
+    facts_.timing.nominal_per_s = facts_.frames_per_s;
+    facts_.timing.text = "presentation times of the file";
     facts_.frames = packets.frames();
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
     facts_.codec = decoder_.codec();
@@ -359,6 +361,25 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
         sample_by_jumps(most, static_cast<int>(frames / most), pictures);
     seek(0.0);
     return pictures;
+}
+
+/// A file without any times has the times that grab() gives: one interval after the other.
+std::vector<double> VideoFile::picture_times_s() const {
+    std::vector<double> times_s = packet_times_s(facts_.file, track_);
+    const auto unknown = std::count_if(times_s.begin(), times_s.end(),
+                                       [](double time_s) { return std::isnan(time_s); });
+    if (std::cmp_equal(unknown, times_s.size())) {
+        for (std::size_t k = 0; k < times_s.size(); ++k)
+            times_s[k] = static_cast<double>(k) * interval_s_;
+    } else if (unknown > 0) {
+        return {};
+    }
+    std::sort(times_s.begin(), times_s.end());
+    if (!times_s.empty()) times_s.front() = std::max(times_s.front(), 0.0);
+    const bool repeats = std::adjacent_find(times_s.begin(), times_s.end(), [](double a, double b) {
+                             return !(a < b);
+                         }) != times_s.end();
+    return repeats ? std::vector<double>{} : times_s;
 }
 
 void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {

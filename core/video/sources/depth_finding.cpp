@@ -148,14 +148,17 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
-/// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point.
+/// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point, at the
+/// times of its source.
 DepthStatement default_statement() {
     return {.packing = DepthPacking::separate,
             .code = DepthCode::grey,
             .geometry = Geometry::relief,
             .registration = Registration{},
             .cleaning = CleaningChoice{},
-            .finger_mm = 0.0};
+            .finger_mm = 0.0,
+            .time_offset_s = 0.0,
+            .frames_per_s = 0.0};
 }
 
 /// Throws InputError for a range that is impossible in its unit, or for 32-bit floats.

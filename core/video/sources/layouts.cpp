@@ -18,6 +18,7 @@
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_lists.hpp"
 #include "core/video/sources/picture_pattern.hpp"
+#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/scanner_layouts.hpp"
 #include "core/video/sources/sources.hpp"
 
@@ -209,7 +210,8 @@ struct PlacedRow {
 std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& other,
                                         PictureRole role) {
     return std::make_unique<PictureSequence>(
-        row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said);
+        row.place, row.pictures, times_s(row.pictures, other, kPicturesPerSecond), role, row.said,
+        timing_of(row.pictures, other, row.said.list));
 }
 
 /// The pictures of that role, or those whose names state no role. Throws InputError when there are
@@ -260,7 +262,8 @@ std::unique_ptr<PictureSource> open_row(const fs::path& place, PictureRole role)
 Sources both_rows(const fs::path& place) {
     PictureSet found = pictures_at(place);
     if (found.colour.empty() || found.depth.empty()) return {};
-    return pair_of({place, std::move(found.colour), {}},
+    const LayoutFacts of_colour{.list = found.facts.list};
+    return pair_of({place, std::move(found.colour), of_colour},
                    {place, std::move(found.depth), std::move(found.facts)});
 }
 

@@ -20,6 +20,7 @@
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/live_source.hpp"
 #include "core/video/sources/media_names.hpp"
+#include "core/video/sources/pair_times.hpp"
 #include "core/video/sources/paired_media.hpp"
 #include "core/video/sources/sources.hpp"
 
@@ -54,8 +55,10 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
     const bool painted = seen && request.paints && sources.colour == nullptr;
+    const PairTimes times =
+        pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
-                                               std::move(found.scale), painted);
+                                               std::move(found.scale), painted, times);
     media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
     media->add_notice(notice);
@@ -94,6 +97,7 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         MediaDescription description;
         describe_colour(sources.colour->facts(), description);
         describe_time(sources.colour->facts(), description);
+        describe_timing(sources.colour->facts(), description);
         description.notice = sources.colour->facts().notice;
         return description;
     }

@@ -13,6 +13,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -36,7 +37,9 @@ std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureR
             shown(folder) +
             " is a folder without pictures: give the folder or the file that holds them");
     std::vector<double> times = times_s(*longest, {}, kPicturesPerSecond);
-    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role);
+    Timing timing = timing_of(*longest, {}, {});
+    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role,
+                                             LayoutFacts{}, std::move(timing));
 }
 
 std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole role) {

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_join.hpp"
@@ -23,6 +24,8 @@ namespace {
 /// streams recorded together may be slightly apart. Below one half, so that of two colour frames
 /// at the same distance the earlier one is taken.
 constexpr double kNotLater = 0.4;
+/// Where a person shifts the depth in time, the nearest colour frame belongs to it.
+constexpr double kNearest = 0.499;
 constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
 /// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
@@ -45,6 +48,12 @@ ColourImage painted_depth(const DepthImage& depth) {
 
 double interval_of(const SourceFacts& facts) {
     return facts.frames_per_s > 0.0 ? 1.0 / facts.frames_per_s : 1.0;
+}
+
+/// Of an interval; none where each depth frame has exactly the time of a colour frame.
+double not_later(const PairTimes& times) {
+    if (times.offset_s != 0.0) return kNearest;
+    return times.colour_later_s ? 0.0 : kNotLater;
 }
 
 }  // namespace
@@ -77,17 +86,26 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
     description.live = facts.live;
 }
 
-ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
+void describe_timing(const SourceFacts& facts, MediaDescription& description) {
+    if (facts.still) return;
+    description.times_from = name_of(facts.timing.from);
+    description.timing = facts.live ? "as frames arrive" : facts.timing.text;
+}
+
+ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
+                         const PairTimes& times)
     : source_(std::move(source)),
-      start_offset_s_(colour_start_s(source_->facts(), depth)),
-      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
+      start_offset_s_(times.colour_later_s.value_or(colour_start_s(source_->facts(), depth)) -
+                      times.offset_s),
+      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))),
+      not_later_s_(not_later(times) * interval_s_) {}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
     if (source_->facts().live) {  // joined with the depth already
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
-    const double latest_s = depth_time_s - start_offset_s_ + kNotLater * interval_s_;
+    const double latest_s = depth_time_s - start_offset_s_ + not_later_s_;
     if (std::exchange(near_, false)) {
         source_->seek_near(latest_s);
         now_ = source_->next().value_or(now_);
@@ -107,13 +125,16 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
 }
 
 PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
-                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted)
+                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted,
+                         const PairTimes& times)
     : depth_(std::move(depth)), scale_(std::move(scale)), painted_(painted) {
     describe_depth(depth_->facts(), description_);
     size_ = {description_.depth_columns, description_.depth_rows};
     describe_time(depth_->facts(), description_);
+    describe_timing(depth_->facts(), description_);
     description_.meaning = scale_.meaning();
     if (colour != nullptr) describe_colour(colour->facts(), description_);
+    take_times(times, colour != nullptr ? &colour->facts() : nullptr);
     take_range();
     take_camera();
     take_true_shape();
@@ -126,7 +147,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     add_notice(colour->facts().notice);
     colour_of_view_ = true;
     take_registration(colour->facts());
-    colour_.emplace(std::move(colour), depth_->facts());
+    colour_.emplace(std::move(colour), depth_->facts(), times);
 }
 
 std::optional<RawFrame> PairedMedia::next() {
@@ -172,6 +193,16 @@ cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour
             cameras_->seen_from_depth(scale_.distances_mm(depth.picture), colour), registration_,
             size_);
     return apply_registration(colour, registration_, size_);
+}
+
+void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) {
+    if (description_.meaning) description_.meaning->times = times.times;
+    const bool colour_takes = colour != nullptr && colour->timing.from == TimesFrom::other;
+    if (colour_takes && !description_.still && !colour->still)
+        description_.timing += "; of the colour: " + colour->timing.text;
+    if (times.offset_s != 0.0)
+        description_.timing += "; " + short_text(times.offset_s) + " s later";
+    add_notice(times.notice);
 }
 
 void PairedMedia::take_range() {

@@ -11,6 +11,7 @@
 #include "core/video/depth/true_shape.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/media.hpp"
+#include "core/video/sources/pair_times.hpp"
 
 namespace dibhr {
 
@@ -18,11 +19,14 @@ namespace dibhr {
 void describe_depth(const SourceFacts& facts, MediaDescription& description);
 void describe_colour(const SourceFacts& facts, MediaDescription& description);
 void describe_time(const SourceFacts& facts, MediaDescription& description);
+/// Where its times are from, as known at the opening.
+void describe_timing(const SourceFacts& facts, MediaDescription& description);
 
 /// Gives the colour of each depth frame: the newest picture at its time.
 class ColourTrack {
   public:
-    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
+    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
+                const PairTimes& times);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
     void forget() { placed_ = near_ = false; }
@@ -39,6 +43,7 @@ class ColourTrack {
     std::unique_ptr<PictureSource> source_;
     double start_offset_s_;  ///< start of the colour after that of the depth
     double interval_s_;      ///< as known at the opening; never updated
+    double not_later_s_;     ///< a colour frame so much later belongs to the depth frame
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
@@ -50,7 +55,7 @@ class PairedMedia : public Media {
   public:
     /// `colour` may be null: then frames have none, or, if `painted`, colours of their depth.
     PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour,
-                DepthScale scale, bool painted = false);
+                DepthScale scale, bool painted = false, const PairTimes& times = {});
 
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override;
@@ -75,6 +80,7 @@ class PairedMedia : public Media {
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
     void take_range();
     void take_camera();
+    void take_times(const PairTimes& times, const SourceFacts* colour);
     void take_true_shape();
     void take_registration(const SourceFacts& colour);
     [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);

@@ -64,15 +64,6 @@ PictureRow& row_for(PictureSet& set, const fs::path& name) {
     return named_colour(name) ? set.colour : set.unnamed;
 }
 
-/// Whether every number occurs once, and all have a decimal point, or none.
-bool has_order(const PictureRow& row, bool decimal) {
-    std::set<double> numbers;
-    return std::all_of(row.begin(), row.end(), [&](const NumberedPicture& picture) {
-        return picture.number && picture.decimal == decimal &&
-               numbers.insert(*picture.number).second;
-    });
-}
-
 std::set<double> numbers_of(const PictureRow& row) {
     std::set<double> numbers;
     for (const NumberedPicture& picture : row) numbers.insert(*picture.number);
@@ -184,6 +175,14 @@ void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& 
 
 }  // namespace
 
+bool has_order(const PictureRow& row, bool decimal) {
+    std::set<double> numbers;
+    return std::all_of(row.begin(), row.end(), [&](const NumberedPicture& picture) {
+        return picture.number && picture.decimal == decimal &&
+               numbers.insert(*picture.number).second;
+    });
+}
+
 void sort_by_number(PictureRow& row) {
     if (!has_order(row, false) && !has_order(row, true)) return;
     std::sort(row.begin(), row.end(), [](const NumberedPicture& a, const NumberedPicture& b) {
@@ -259,12 +258,13 @@ std::vector<double> times_s(const PictureRow& row, const PictureRow& other, doub
 }
 
 PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<double> times,
-                                 PictureRole role, const LayoutFacts& layout)
+                                 PictureRole role, const LayoutFacts& layout, Timing timing)
     : row_(std::move(row)), role_(role) {
     StillFile first(row_.front().file, role_);
     facts_ = first.facts();
     last_ = first.next()->picture;
     facts_.file = std::move(place);
+    facts_.timing = std::move(timing);
     apply_layout(layout);
     const double lasts_s = times.back() - times.front();
     if (row_.size() > 1 && !(lasts_s <= kLongestRow_s))

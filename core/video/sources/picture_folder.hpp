@@ -31,9 +31,10 @@ using PictureRow = std::vector<NumberedPicture>;
 struct LayoutFacts {
     DepthStatement known{};
     std::string known_from{};
-    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: not stated
-    std::string notice{};      ///< a sentence on ignored entries
-    bool other_camera{false};  ///< colour is from another camera at an unknown place
+    int columns{0}, rows{0};       ///< picture size of the intrinsics; 0: not stated
+    std::string notice{};          ///< a sentence on ignored entries
+    bool other_camera{false};      ///< colour is from another camera at an unknown place
+    std::filesystem::path list{};  ///< the file that names the pictures and their times
 };
 
 /// Pictures of one place, sorted by the words in their names (media_names.hpp).
@@ -53,6 +54,9 @@ struct PictureSet {
 [[nodiscard]] bool is_painting(const std::filesystem::path& file);
 
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
+
+/// Whether every number occurs once, and all have a decimal point, or none.
+[[nodiscard]] bool has_order(const PictureRow& row, bool decimal);
 
 /// Sorts by number, where every picture has a different one.
 void sort_by_number(PictureRow& row);
@@ -81,7 +85,7 @@ class PictureSequence : public IndexedPictures {
     /// `times`: one for each picture, increasing. Throws InputError when the first picture cannot
     /// be read, or when the times span more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
-                    PictureRole role, const LayoutFacts& layout = {});
+                    PictureRole role, const LayoutFacts& layout = {}, Timing timing = {});
 
   private:
     [[nodiscard]] cv::Mat picture(std::size_t at) override;

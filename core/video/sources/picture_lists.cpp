@@ -209,6 +209,7 @@ class ListReader {
                              ": put it beside the folders of its pictures");
         set_.facts = facts_of_tum(list_);
         set_.facts.notice = sentence(list_, ignored_);
+        set_.facts.list = list_;
         return std::move(set_);
     }
 

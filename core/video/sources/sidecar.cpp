@@ -124,6 +124,22 @@ std::optional<double> finger_of(const std::vector<double>& numbers) {
     return fits ? std::optional(numbers.front()) : std::nullopt;
 }
 
+std::optional<double> offset_of(const std::vector<double>& numbers) {
+    constexpr double kMost_s = 86400.0;
+    const bool fits = numbers.size() == 1 && std::fabs(numbers[0]) <= kMost_s;
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
+/// 0: as the source has it.
+std::optional<double> rate_of(const std::vector<double>& numbers) {
+    constexpr double kLeast_per_s = 0.001;
+    constexpr double kMost_per_s = 10000.0;
+    const bool fits =
+        numbers.size() == 1 &&
+        (numbers[0] == 0.0 || (numbers[0] >= kLeast_per_s && numbers[0] <= kMost_per_s));
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
 template <typename Values>
 auto word_of(const toml::node& node, const Values& values) {
     std::optional<typename Values::value_type> named;
@@ -161,6 +177,8 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
                     "is none of grey, hue, rg16, rgb24, float32, terrain");
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
+    if (name == "times")
+        return keep(said.times, word_of(node, kDepthTimes), "is none of counted, own, paired");
     if (name == "intrinsics")
         return keep(
             said.intrinsics, intrinsics_of(node),
@@ -183,6 +201,12 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "finger")
         return keep(said.finger_mm, numbers ? finger_of(*numbers) : std::nullopt,
                     "is not a radius of 0 to 25 mm");
+    if (name == "offset")
+        return keep(said.time_offset_s, numbers ? offset_of(*numbers) : std::nullopt,
+                    "is not a number of seconds, at most a day");
+    if (name == "fps")
+        return keep(said.frames_per_s, numbers ? rate_of(*numbers) : std::nullopt,
+                    "is not a rate of 0.001 to 10000 frames a second");
     if (name == "no-data")
         return keep(said.no_data,
                     numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
@@ -286,6 +310,9 @@ std::string toml_of(const DepthStatement& said) {
                                       said.registration->scale}));
     if (said.cleaning) line("cleaning", text_of(*said.cleaning));
     if (said.finger_mm) line("finger", number_text(*said.finger_mm));
+    word("times", said.times);
+    if (said.time_offset_s) line("offset", number_text(*said.time_offset_s));
+    if (said.frames_per_s) line("fps", number_text(*said.frames_per_s));
     return toml;
 }
 
@@ -338,6 +365,16 @@ std::string text_of(const Intrinsics& said) {
     if (said.field_of_view_deg > 0.0) return number_text(said.field_of_view_deg) + "deg";
     return number_text(said.fx) + ',' + number_text(said.fy) + ',' + number_text(said.cx) + ',' +
            number_text(said.cy);
+}
+
+std::optional<double> offset_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? offset_of(*numbers) : std::nullopt;
+}
+
+std::optional<double> rate_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? rate_of(*numbers) : std::nullopt;
 }
 
 std::optional<Registration> registration_in(const std::string& text) {

@@ -1,6 +1,7 @@
 // `dibhr info` and `dibhr devices`: what files hold and what is attached.
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -142,6 +143,28 @@ TEST_CASE("info describes a video", "[info]") {
     CHECK(says(result, "2.000 s"));
     CHECK(says(result, "25.00 frames/s"));
     CHECK(says(result, "none found"));
+}
+
+TEST_CASE("info says whose times pictures have", "[info]") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "depth");
+    for (const char* const name : {"1.png", "2.png", "3.png"})
+        write_depth_png(folder / "depth" / name, 16, 12, 100, 2);
+    const ProgramResult counted = run_dibhr(folder, {"info", "depth"});
+    INFO(counted.output << counted.errors);
+    CHECK(says(counted, "assumed: 30 frames a second"));
+    write_text(folder / "depth/timestamps.txt", "0.5\n0.75\n1.0\n");
+    CHECK(says(run_dibhr(folder, {"info", "depth"}), "stamps in 'timestamps.txt'"));
+    const Json json = parsed_json(run_dibhr(folder, {"info", "depth", "--json"}).output);
+    CHECK(json["timing"]["from"] == "list");
+    CHECK(json["times"] == "own");
+    CHECK(json["duration_s"] == 0.75);
+    const Json faster = parsed_json(run_dibhr(folder, {"info", "depth", "--json", "--depth-fps",
+                                                       "10", "--depth-offset", "-0.5"})
+                                        .output);
+    CHECK(faster["timing"]["from"] == "stated");
+    CHECK(faster["time_offset_s"] == -0.5);
+    CHECK(faster["origin"]["stated_frames_per_s"] == "command line");
 }
 
 TEST_CASE("info describes a session file", "[info]") {

@@ -35,7 +35,10 @@ DepthStatement everything() {
             .registration = Registration{-3.25, 0.1, 1.01},
             .cleaning = CleaningChoice{CleaningPreset::own,
                                        {.fill_holes = true, .colour_edges = true, .steady = true}},
-            .finger_mm = 1.0 / 3.0};
+            .finger_mm = 1.0 / 3.0,
+            .times = DepthTimes::paired,
+            .time_offset_s = -1.0 / 3.0,
+            .frames_per_s = 30000.0 / 1001.0};
 }
 
 template <typename Value>
@@ -70,6 +73,8 @@ TEST_CASE("what a sidecar says reads back to the same bits", "[sidecar]") {
         CHECK(statement_in(toml_of({.unit = unit}), "a").unit == unit);
     for (const DepthPacking packing : kDepthPackings)
         CHECK(statement_in(toml_of({.packing = packing}), "a").packing == packing);
+    for (const DepthTimes times : kDepthTimes)
+        CHECK(statement_in(toml_of({.times = times}), "a").times == times);
 }
 
 TEST_CASE("a sidecar is written beside its file and read again", "[sidecar]") {
@@ -100,6 +105,9 @@ TEST_CASE("a fact's name may be written as the command line and as a table has i
         CAPTURE(name);
         CHECK(said_by(name + " = \"disparity\"").unit == DepthUnit::disparity);
     }
+    CHECK(said_by("depth-times = \"own\"").times == DepthTimes::own);
+    CHECK(said_by("depth-offset = -0.05").time_offset_s == -0.05);
+    CHECK(said_by("depth_fps = 29.97").frames_per_s == 29.97);
     for (const std::string name : {"no-data", "no_data"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = [0]").no_data == std::vector<double>{0.0});
@@ -214,8 +222,9 @@ TEST_CASE("auto is cleaned as the sidecar says, and any other choice beats that"
 }
 
 TEST_CASE("auto says nothing", "[sidecar]") {
-    for (const std::string name : {"near", "unit", "scale", "range", "no-data", "packing", "code",
-                                   "geometry", "intrinsics", "cleaning", "finger"}) {
+    for (const std::string name :
+         {"near", "unit", "scale", "range", "no-data", "packing", "code", "geometry", "intrinsics",
+          "cleaning", "finger", "times", "offset", "fps"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = \"auto\"") == DepthStatement{});
     }
@@ -235,8 +244,10 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
         "intrinsics = [1, -1, 0, 0]", "intrinsics = \"0.5deg\"", "intrinsics = 179",
         "intrinsics = \"60rad\"", "intrinsics = \"1,1,0,0deg\"", "colour = \"red\"", "unit = true",
         "cleaning = \"clean\"", "cleaning = \"own\"", "cleaning = [\"fill\"]", "cleaning = [1]",
-        "cleaning = true", "finger = -1", "finger = 26", "finger = [1, 2]", "finger = \"thumb\"",
-        "range = 2020-01-01", "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
+        "cleaning = true", "times = \"video\"", "times = 1", "offset = 86401", "offset = nan",
+        "offset = [1, 2]", "fps = -1", "fps = 0.0001", "fps = 10001", "fps = \"fast\"",
+        "finger = -1", "finger = 26", "finger = [1, 2]", "finger = \"thumb\"", "range = 2020-01-01",
+        "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
     CAPTURE(fact);
     const auto file = folder / "clip.toml";
     write_text(file, "# said by hand\n[depth]\n" + fact + "\n");
