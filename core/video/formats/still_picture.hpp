@@ -1,8 +1,10 @@
 // The readers of still pictures, one for each form; inside the room.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,10 @@ struct StillPicture {
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
+
+/// A picture in memory, in a form that claimed_size() knows; `flags`: OpenCV's for reading. Empty
+/// when it is damaged, or beyond the bound.
+[[nodiscard]] cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags);
 
 /// OpenEXR, as renderers and estimators write it, often with colours. Reads the display window;
 /// outside the data window, and at a renderer's infinity, is no data. Depth is the channel Z, else
