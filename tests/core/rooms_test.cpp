@@ -166,6 +166,7 @@ const std::vector<Ownership> kOwnerships{
     {"Imf", {"core/video/formats/"}},
     {"libheif/", {"core/video/formats/"}},
     {"zip.h", {"core/video/formats/"}},
+    {"expat.h", {"core/video/formats/xmp.cpp"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

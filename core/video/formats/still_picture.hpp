@@ -59,4 +59,13 @@ struct StillPicture {
 /// False when the file cannot be read.
 [[nodiscard]] bool heif_has_depth(const std::filesystem::path& file);
 
+/// JPEG photos with a depth map inside: Google's GDepth and Dynamic Depth, Apple's second picture.
+/// Gives the colour, of a blurred portrait the sharp original; or the depth, upright as the colour:
+/// distances where the photo states near and far, else disparities or levels. Throws InputError,
+/// also when depth is requested and there is none.
+[[nodiscard]] StillPicture read_jpeg_photo(const std::filesystem::path& file, PictureRole role);
+
+/// Reads only the metadata of a plain photo. False when the file cannot be read.
+[[nodiscard]] bool jpeg_has_depth(const std::filesystem::path& file);
+
 }  // namespace dibhr
