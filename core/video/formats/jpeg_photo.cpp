@@ -1,4 +1,6 @@
 // Reads JPEG photos with a depth map inside: where it is in the file, and what its levels are.
+#include "core/video/formats/still_picture.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,7 +22,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/jpeg_parts.hpp"
-#include "core/video/formats/still_picture.hpp"
 #include "core/video/formats/xmp.hpp"
 
 namespace dibhr {
