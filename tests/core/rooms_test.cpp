@@ -167,6 +167,7 @@ const std::vector<Ownership> kOwnerships{
     {"libheif/", {"core/video/formats/"}},
     {"zip.h", {"core/video/formats/"}},
     {"tiffio.h", {"core/video/modules/"}},
+    {"expat.h", {"core/video/formats/xmp.cpp"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <fstream>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <sstream>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -42,6 +44,14 @@ void require_plausible_claim(const fs::path& file) {
         throw InputError(shown(file) +
                          " is a picture of unknown size: it may be damaged, export it as PNG");
     require_plausible_size(file, claimed->columns, claimed->rows, claimed->pixel_bytes);
+}
+
+bool is_plausible_picture(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kHeaderBytes = 1U << 20U;  // metadata come before the size
+    const auto begin = bytes.first(std::min(bytes.size(), kHeaderBytes));
+    std::istringstream in(std::string(begin.begin(), begin.end()));
+    const auto claimed = claimed_size(in);
+    return claimed && can_hold(bytes.size(), claimed->columns, claimed->rows, claimed->pixel_bytes);
 }
 
 cv::Mat decoded(const fs::path& file, int flags) {
@@ -84,6 +94,19 @@ bool is_opencv_picture(const fs::path& file, std::string_view head) {
         return is_webp || picture_codecs().can_read(file.string());
     } catch (const cv::Exception&) {
         return false;
+    }
+}
+
+cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags) {
+    const bool is_too_large = bytes.size() > std::size_t{std::numeric_limits<int>::max()};
+    if (bytes.empty() || is_too_large || !is_plausible_picture(bytes)) return {};
+    const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1,
+                       const_cast<std::uint8_t*>(bytes.data()));  // only read
+    try {
+        const QuietErrors quiet;
+        return picture_codecs().decode(view, flags);
+    } catch (const cv::Exception&) {
+        return {};
     }
 }
 

@@ -1,8 +1,10 @@
 // The readers of still pictures, one for each form; inside the room.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -26,6 +28,10 @@ struct StillPicture {
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
+
+/// A picture in memory, in a form that claimed_size() knows; `flags`: OpenCV's for reading. Empty
+/// when it is damaged, or beyond the bound.
+[[nodiscard]] cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags);
 
 /// OpenEXR, as renderers and estimators write it, often with colours. Reads the display window;
 /// outside the data window, and at a renderer's infinity, is no data. Depth is the channel Z, else
@@ -59,5 +65,14 @@ struct StillPicture {
 
 /// False when the file cannot be read.
 [[nodiscard]] bool heif_has_depth(const std::filesystem::path& file);
+
+/// JPEG photos with a depth map inside: Google's GDepth and Dynamic Depth, Apple's second picture.
+/// Gives the colour, of a blurred portrait the sharp original; or the depth, upright as the colour:
+/// distances where the photo states near and far, else disparities or levels. Throws InputError,
+/// also when depth is requested and there is none.
+[[nodiscard]] StillPicture read_jpeg_photo(const std::filesystem::path& file, PictureRole role);
+
+/// Reads only the metadata of a plain photo. False when the file cannot be read.
+[[nodiscard]] bool jpeg_has_depth(const std::filesystem::path& file);
 
 }  // namespace dibhr

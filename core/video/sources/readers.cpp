@@ -47,6 +47,10 @@ bool is_heif(const fs::path& /*file*/, std::string_view head) {
            std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
 }
 
+bool is_jpeg_with_depth(const fs::path& file, std::string_view head) {
+    return head.starts_with("\xff\xd8\xff") && jpeg_has_depth(file);
+}
+
 template <typename Source>
 std::unique_ptr<PictureSource> open_file(const fs::path& file, PictureRole role) {
     return std::make_unique<Source>(file, role);
@@ -122,6 +126,8 @@ constexpr std::array kReaders{
     Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
     Reader{"16-bit levels beside their picture", PictureForm::still, is_raw_levels, read_raw_levels,
            nullptr, nullptr},
+    Reader{"photo with depth (JPEG)", PictureForm::still, is_jpeg_with_depth, read_jpeg_photo,
+           nullptr, both_if<jpeg_has_depth>},
     Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
            nullptr, nullptr},
     Reader{"video by libav", PictureForm::video,
