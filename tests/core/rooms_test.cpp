@@ -166,6 +166,8 @@ const std::vector<Ownership> kOwnerships{
     {"Imf", {"core/video/formats/"}},
     {"libheif/", {"core/video/formats/"}},
     {"zip.h", {"core/video/formats/"}},
+    {"zstd.h", {"core/video/formats/"}},
+    {"lz4frame.h", {"core/video/formats/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

@@ -56,10 +56,6 @@ constexpr std::array kUnsupportedForms{
         " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
         "bag of ROS 2 (.db3) of it with rosbags-convert"},
     UnsupportedForm{
-        "\x89MCAP0\r\n"sv,
-        {},
-        " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
-    UnsupportedForm{
         "NI10"sv,
         {},
         " is a recording of OpenNI: export its colour and its depth as PNG pictures with "
