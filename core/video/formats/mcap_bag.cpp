@@ -130,8 +130,8 @@ class McapBag : public BagFile {
     }
 
     /// The first bytes of a record's content, far more than the fields that are read.
-    [[nodiscard]] std::vector<std::uint8_t> content(const McapRead& from,
-                                                    const McapRecord& record) {
+    [[nodiscard]] static std::vector<std::uint8_t> content(const McapRead& from,
+                                                           const McapRecord& record) {
         constexpr std::uint64_t kMost_bytes = 1 << 20;
         std::vector<std::uint8_t> bytes(std::min(record.bytes, kMost_bytes));
         if (!from(record.at, bytes)) bytes.clear();
