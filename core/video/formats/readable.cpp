@@ -101,13 +101,10 @@ constexpr std::array kUnsupportedForms{
         " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
         "bag of ROS 2 (.db3) of it with rosbags-convert"},
     UnsupportedForm{
-        "\x89MCAP0\r\n"sv,
+        "NI10"sv,
         {},
-        " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
-    UnsupportedForm{"NI10"sv,
-                    {},
-                    " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
-                    "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
+        " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
+        "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
     UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"},
     UnsupportedForm{"EVENTS1"sv,
                     {},

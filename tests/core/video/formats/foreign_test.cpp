@@ -26,7 +26,6 @@ TEST_CASE("recordings of other makers are known by their content, and told how t
          {"frames.zip", zip, "unpack"},
          {"zed.svo", std::string(60, '\1'), "ZED"},
          {"zed.svo2", "\x89MCAP0\r\n" + std::string(60, '\0'), "ZED"},
-         {"ros.mcap", "\x89MCAP0\r\n" + std::string(60, '\0'), "ros2 bag convert"},
          {"old.oni", "NI10" + std::string(60, '\0'), "OpenNI"},
          {"telegie.mkv", "\x1a\x45\xdf\xa3" + std::string(60, '\0') + "V_TDC1", "pyrgbd"},
          {"walk.db3.zstd", "\x28\xb5\x2f\xfd" + std::string(60, '\0'), "zstd -d"}}));

@@ -18,6 +18,7 @@ TEST_CASE("a file belongs to the reader of its form by how it begins, whatever i
     const std::string rest(64, '\0');
     const auto [begin, form] = GENERATE_COPY(table<std::string, std::string>(
         {{"SQLite format 3", "bag of ROS 2"},
+         {"\x89MCAP0\r\n", "bag of ROS 2"},
          {std::string("\0\0\0\x18", 4) + "ftypisom", "video in a usual container"},
          {"\x1a\x45\xdf\xa3", "video in a usual container"},
          {"RIFF----AVI ", "video in a usual container"},
@@ -55,7 +56,7 @@ TEST_CASE("folders, lists and patterns are rows of pictures, but for a bag's fol
     CHECK(reader_of(folder / "depth_%04d.png").name == "row of pictures");
     write_text(folder / "depth.txt", "0.5 depth/0.5.png\n");
     CHECK(reader_of(folder / "depth.txt").name == "row of pictures");
-    write_text(folder / "walk_0.db3", "SQLite format 3");
+    write_text(folder / GENERATE("walk_0.db3", "walk_0.mcap"), "any");
     CHECK(reader_of(folder.path()).form == PictureForm::bag);
 }
 
