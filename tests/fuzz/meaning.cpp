@@ -14,8 +14,8 @@
 
 #include "core/files/names.hpp"
 #include "core/video/depth/colour_registration.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 #include "core/video/formats/camera_files.hpp"
-#include "core/video/formats/ros_messages.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/packed.hpp"

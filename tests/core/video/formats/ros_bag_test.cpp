@@ -1,5 +1,5 @@
 // Bags of ROS 2 in SQLite and MCAP, as their own programs write them.
-#include "core/video/formats/ros_bag.hpp"
+#include "core/video/formats/bags/ros_bag.hpp"
 
 #include <array>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Tells the forms of bags apart, and unpacks messages.
-#include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/bags/bag_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/sqlite/database.hpp"
-#include "core/video/formats/unpacked_bytes.hpp"
+#include "core/video/formats/bags/unpacked_bytes.hpp"
 
 namespace dibhr {
 

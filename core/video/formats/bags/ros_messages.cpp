@@ -1,5 +1,5 @@
 // Parses messages; a truncated message, or one with impossible sizes, gives nothing.
-#include "core/video/formats/ros_messages.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Reads fields, bytes of the file, and records one after the other.
-#include "core/video/formats/mcap_records.hpp"
+#include "core/video/formats/bags/mcap_records.hpp"
 
 #include <algorithm>
 #include <array>

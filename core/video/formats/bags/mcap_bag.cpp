@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "core/files/names.hpp"
-#include "core/video/formats/bag_file.hpp"
-#include "core/video/formats/mcap_records.hpp"
-#include "core/video/formats/unpacked_bytes.hpp"
+#include "core/video/formats/bags/bag_file.hpp"
+#include "core/video/formats/bags/mcap_records.hpp"
+#include "core/video/formats/bags/unpacked_bytes.hpp"
 
 namespace dibhr {
 

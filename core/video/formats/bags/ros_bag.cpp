@@ -1,5 +1,5 @@
 // Chooses a topic of a bag, sorts its messages by time, and decodes them.
-#include "core/video/formats/ros_bag.hpp"
+#include "core/video/formats/bags/ros_bag.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,9 +14,9 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/bags/bag_file.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/ros_messages.hpp"
 
 namespace dibhr {
 

@@ -10,7 +10,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/sqlite/database.hpp"
-#include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/bags/bag_file.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // Calls the decoders of libzstd and liblz4 with pieces of a stream.
-#include "core/video/formats/unpacked_bytes.hpp"
+#include "core/video/formats/bags/unpacked_bytes.hpp"
 
 #include <lz4frame.h>
 #include <zstd.h>
