@@ -98,7 +98,8 @@ void SessionMediaFinder::warn(const std::string& sentence) {
 }
 
 FrameCleaning cleaning_of(const FrameSource& source) {
-    return {{.remove_spikes = source.remove_spikes,
+    return {{.densify = source.densify,
+             .remove_spikes = source.remove_spikes,
              .fill_holes = source.fill_holes,
              .sharpen_silhouettes = source.sharpen_silhouettes,
              .colour_edges = source.colour_edges,
@@ -126,8 +127,8 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
 void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
-        const bool edges =
-            source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
+        const CleaningSteps recorded = cleaning_of(source.source).steps;
+        const bool edges = options_.cleaning ? recorded.densify : need_colour(recorded);
         const bool moves = source.source.motion || source.source.in_betweens || options_.motion;
         const bool by_colour = edges || moves;
         video.in_colour = video.in_colour || options_.colour || by_colour;

@@ -274,7 +274,11 @@ Nearness NearnessMeter::nearness() const {
 Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
                         CleaningPreset preset) {
     const CleaningOptions options{.preset = preset};
-    FrameReader reader(std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate));
+    auto media = std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate);
+    SparseMeter sparse;
+    sparse.add(recorded.front());
+    media->set_sparse(sparse.sparse_share());
+    FrameReader reader(std::move(media));
     reader.set_cleaning(options);
     NearnessMeter meter(truth);
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s))

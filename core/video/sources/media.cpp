@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
@@ -47,14 +48,35 @@ auto opened(const DepthRequest& request, const Open& open) {
     }
 }
 
+/// The share of the pixels with data where they are sparse, by the first picture; where that has
+/// hardly any data, by some from all over the source.
+std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
+    constexpr int kMostSide_px = 2048;  // the middle of a larger picture is enough
+    if (scale.is_always_data() || !scale.meaning()) return std::nullopt;
+    SparseMeter meter;
+    for (const int count : {1, 8}) {
+        if (meter.has_measured()) break;
+        for (const cv::Mat& picture : depth.samples(count)) {
+            const cv::Size size(std::min(picture.cols, kMostSide_px),
+                                std::min(picture.rows, kMostSide_px));
+            const cv::Point corner((picture.cols - size.width) / 2,
+                                   (picture.rows - size.height) / 2);
+            meter.add(scale.image_of(picture(cv::Rect(corner, size))));
+        }
+    }
+    return meter.sparse_share();
+}
+
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     DepthScale scale = find_scale(sources, request);
+    const std::optional<double> sparse_share = sparse_share_of(*sources.depth, scale);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
                                                std::move(scale), painted);
     media->add_notice(sources.notice);
+    if (sparse_share) media->set_sparse(*sparse_share);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
     media->set_live_feed(std::move(sources.live));

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_join.hpp"
@@ -257,6 +258,16 @@ void PairedMedia::add_notice(const std::string& sentence) {
     std::string& notice = description_.notice;
     if (sentence.empty() || notice.find(sentence) != std::string::npos) return;
     notice += (notice.empty() ? "" : "; ") + sentence;
+}
+
+void PairedMedia::set_sparse(double seen_share) {
+    constexpr int kDigits = 2;
+    description_.sparse_share = seen_share;
+    add_notice("sparse depth, " + short_text(100.0 * seen_share, kDigits) +
+               " % of the pixels are seen: " +
+               (shape_ ? "a true shape has no surface between them, the relief has "
+                         "(--geometry relief)"
+                       : "cleaning interpolates the surface between them"));
 }
 
 void PairedMedia::report_trouble(const SourceFacts& facts) {
