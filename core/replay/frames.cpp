@@ -128,7 +128,8 @@ void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
         const CleaningSteps recorded = cleaning_of(source.source).steps;
-        const bool edges = options_.cleaning ? recorded.densify : need_colour(recorded);
+        const bool densifies = recorded.densify && options_.cleaning != CleaningPreset::raw;
+        const bool edges = options_.cleaning ? densifies : need_colour(recorded);
         const bool moves = source.source.motion || source.source.in_betweens || options_.motion;
         const bool by_colour = edges || moves;
         video.in_colour = video.in_colour || options_.colour || by_colour;

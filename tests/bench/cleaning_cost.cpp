@@ -1,7 +1,7 @@
 // Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,gentle]
 // [--size 640x480,1920x1080] [--frames N] [PLACE...]. A place is what `dibhr view` takes, in one
-// word; its frames are stretched to the size, with fresh noise. bad, bad16, clean, clean16 and, with
-// 30 and 5 % of the pixels seen, sparse30 and sparse5 are synthetic.
+// word; its frames are stretched to the size, with fresh noise. bad, bad16, clean, clean16,
+// sparse30 and sparse5 are synthetic; of the last two 30 and 5 % of the pixels are seen.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -113,8 +113,8 @@ ColourImage shades_of(const DepthImage& image) {
     ColourImage colour{image.columns, image.rows, {}};
     for (const float level : image.levels) {
         const float shade = std::isnan(level) ? 0.0F : level;
-        const auto byte = static_cast<std::uint8_t>(
-            255.0 * static_cast<double>(shade) / image.highest_level);
+        const auto byte =
+            static_cast<std::uint8_t>(255.0 * static_cast<double>(shade) / image.highest_level);
         colour.rgb.insert(colour.rgb.end(), 3, byte);
     }
     return colour;

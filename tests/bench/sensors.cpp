@@ -304,10 +304,9 @@ std::vector<DepthImage> sparse(const TrueFrames& truth, std::uint32_t seed) {
 }  // namespace
 
 std::vector<Sensor> sensors() {
-    return {{"exact", exact},     {"white", white}, {"kinect", kinect},
-            {"stereo", stereo},   {"lidar", lidar}, {"tof", time_of_flight},
-            {"8-bit", eight_bit}, {"h264", h264},   {"mono", monocular},
-            {"sparse", sparse}};
+    return {{"exact", exact},    {"white", white},        {"kinect", kinect},   {"stereo", stereo},
+            {"lidar", lidar},    {"tof", time_of_flight}, {"8-bit", eight_bit}, {"h264", h264},
+            {"mono", monocular}, {"sparse", sparse}};
 }
 
 Sensor sensor(const std::string& name) {

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/haptics/facet.hpp"
 #include "core/metrics/force_variation.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "tests/support/listed_media.hpp"

@@ -151,7 +151,8 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
         add_marks(interpolated_.data(), single_frame.filled.data(), interpolated_.size());
     }
     const std::size_t pixels = single_frame.depth.levels.size();
-    free_if_large(pixels, sparse_, interpolated_, spikes_, seen_, held_, small_holes_, large_holes_);
+    free_if_large(pixels, sparse_, interpolated_, spikes_, seen_, held_, small_holes_,
+                  large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
         const float noise =
             plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);

@@ -63,8 +63,8 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 /// at a time may call clean_frame(), and the same or another one finish_frame().
 class CleaningChain {
   public:
-    /// Sparse depth, spikes, holes and silhouettes of one frame. `held`: the last levels of pixels without data;
-    /// `colour`: the picture of the same view, null: none.
+    /// Sparse depth, spikes, holes and silhouettes of one frame. `held`: the last levels of pixels
+    /// without data; `colour`: the picture of the same view, null: none.
     [[nodiscard]] SingleFrameDepth clean_frame(DepthImage image, const CleaningPlan& plan,
                                                std::span<const HeldLevel> held = {},
                                                const ColourImage* colour = nullptr);

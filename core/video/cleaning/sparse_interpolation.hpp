@@ -14,17 +14,17 @@ struct ColourImage;
 
 /// Fills the pixels between seen pixels that are spread over the image, as of a LiDAR.
 ///
-/// A pixel belongs to the seen pixel to which the path is shortest, where a step across a change of
-/// colour is a long one: so surfaces meet at the colour's edge, without colour half way. Of two
-/// such neighbours the levels are joined, unless they differ by more than one surface does
-/// (outline_levels) and the surface does not rise alike beyond either of them. Joined levels then
-/// are balanced: each pixel gets the mean of its neighbours, so a plane is continued exactly.
+/// A pixel is assigned to the seen pixel to which the path is shortest, where a step across a
+/// change of colour is a long one: so surfaces meet at the colour's edge, without colour half way.
+/// Two neighbours are joined where the levels that they are assigned differ by no more than those
+/// of one surface (outline_levels), or where the surface rises as steeply beyond. Joined levels
+/// then are balanced: each pixel gets the mean of its neighbours, so a plane is continued exactly.
 ///
 /// Seen pixels keep their level. A pixel farther than three mean spacings, or a sixteenth of the
 /// image's width, from all of them stays without data. The same input gives the same bits.
 class SparseInterpolator {
   public:
-    /// `image`: at least 2 x 2, NaN is no data. `colour`: of the same view, of any size; null: none.
+    /// `image`: at least 2 x 2, NaN is no data. `colour`: of the same view, any size; null: none.
     void fill(DepthImage& image, const ColourImage* colour);
 
     static constexpr int kMostRounds = 24;
@@ -50,14 +50,14 @@ class SparseInterpolator {
     int columns_{0}, rows_{0};
     std::ptrdiff_t stride_{0};  ///< of the planes
     int rounds_{0};
-    float lowest_{0.0F}, highest_{0.0F};       ///< of the seen levels
-    std::vector<std::int32_t> path_cost_{};    ///< to the nearest seen pixel
-    std::vector<std::int32_t> nearest_{};      ///< its index in the planes
-    std::vector<float> levels_{}, before_{};   ///< now, and a round earlier
-    std::vector<std::uint8_t> unseen_{};       ///< of the image's pixels, without a border
-    std::vector<std::uint8_t> in_reach_{};     ///< not 0: gets a level, or has one
+    float lowest_{0.0F}, highest_{0.0F};           ///< of the seen levels
+    std::vector<std::int32_t> path_cost_{};        ///< to the nearest seen pixel
+    std::vector<std::int32_t> nearest_{};          ///< its index in the planes
+    std::vector<float> levels_{}, before_{};       ///< now, and a round earlier
+    std::vector<std::uint8_t> unseen_{};           ///< of the image's pixels, without a border
+    std::vector<std::uint8_t> in_reach_{};         ///< not 0: gets a level, or has one
     std::vector<std::uint8_t> right_{}, below_{};  ///< 1: joined with the pixel there
-    std::vector<std::uint8_t> joins_{};            ///< bits: with which neighbours, and whether free
+    std::vector<std::uint8_t> joins_{};            ///< bits: neighbours, and whether free
     /// Differences of colour to the right, below, below right, below left; in [0, 255].
     std::array<std::vector<std::uint8_t>, 4> colour_steps_{};
 };

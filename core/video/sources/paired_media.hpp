@@ -64,7 +64,7 @@ class PairedMedia : public Media {
 
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
-    /// Says in the notice that only this share of the pixels is seen, and what becomes of the others.
+    /// Stored in the description; the notice says what becomes of the pixels that are not seen.
     void set_sparse(double seen_share);
     void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
     /// Stored in the description.
