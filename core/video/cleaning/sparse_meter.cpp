@@ -15,7 +15,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kLeastSide_px = 32;
 constexpr double kLeastSeenShare = 0.001;
 constexpr int kAround_px = 5;
 constexpr double kLeastUnseenAround = 0.4;

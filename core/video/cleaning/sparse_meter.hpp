@@ -12,7 +12,10 @@ namespace dibhr {
 /// the picture at least. So holes are everywhere, and not regions, however large.
 class SparseMeter {
   public:
-    /// NaN is no data. A picture with sides below 32 pixels, or with hardly any data, is ignored.
+    static constexpr int kLeastSide_px = 32;
+
+    /// NaN is no data. A picture with a side below kLeastSide_px, or with hardly any data, is
+    /// ignored.
     void add(const DepthImage& image);
 
     /// Whether a picture was measured.

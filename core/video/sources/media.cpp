@@ -52,7 +52,9 @@ auto opened(const DepthRequest& request, const Open& open) {
 /// hardly any data, by some from all over the source.
 std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
     constexpr int kMostSide_px = 2048;  // the middle of a larger picture is enough
-    if (scale.is_always_data() || !scale.meaning()) return std::nullopt;
+    const int side_px = std::min(depth.facts().columns, depth.facts().rows);
+    if (scale.is_always_data() || !scale.meaning() || side_px < SparseMeter::kLeastSide_px)
+        return std::nullopt;
     SparseMeter meter;
     for (const int count : {1, 8}) {
         if (meter.has_measured()) break;
