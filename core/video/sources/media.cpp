@@ -51,7 +51,7 @@ auto opened(const DepthRequest& request, const Open& open) {
 /// The share of the pixels with data where they are sparse, by the first picture; where that has
 /// hardly any data, by some from all over the source.
 std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
-    constexpr int kMostSide_px = 2048;  // the middle of a larger picture is enough
+    constexpr int kMeasuredSide_px = 2048;  // the middle of a larger picture is enough
     const int side_px = std::min(depth.facts().columns, depth.facts().rows);
     if (scale.is_always_data() || !scale.meaning() || side_px < SparseMeter::kLeastSide_px)
         return std::nullopt;
@@ -59,8 +59,8 @@ std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& sc
     for (const int count : {1, 8}) {
         if (meter.has_measured()) break;
         for (const cv::Mat& picture : depth.samples(count)) {
-            const cv::Size size(std::min(picture.cols, kMostSide_px),
-                                std::min(picture.rows, kMostSide_px));
+            const cv::Size size(std::min(picture.cols, kMeasuredSide_px),
+                                std::min(picture.rows, kMeasuredSide_px));
             const cv::Point corner((picture.cols - size.width) / 2,
                                    (picture.rows - size.height) / 2);
             meter.add(scale.image_of(picture(cv::Rect(corner, size))));
