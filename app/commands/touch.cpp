@@ -17,6 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/tick_runner.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/playing/depth_timeline.hpp"
 #include "device/goal_stream.hpp"
 
@@ -79,6 +80,12 @@ class TouchRun {
             print_warning(shown(options.depth) +
                           " asks for silhouettes at the colour's edges, but touch looks at no "
                           "colour without --color: its silhouettes are those of the depth alone");
+        const bool densifies =
+            plan_of(cleaning, {}, 0, media->description().sparse_share.has_value()).steps.densify;
+        if (densifies && options.colour.empty())
+            print_warning(shown(options.depth) +
+                          " is sparse, and touch looks at no colour without --color: its edges are "
+                          "those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
         using Wanted = DepthTimeline::Wanted;
         return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,

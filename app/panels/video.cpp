@@ -177,6 +177,9 @@ void draw_cleaning(ViewerState& state) {
     const auto row = [&changed](const char* label, bool& step, bool usual, const char* help) {
         changed = flag_row(label, step, usual, help) || changed;
     };
+    row("Interpolate sparse depth", steps.densify, standard.densify,
+        "Between seen pixels that lie apart, as a LiDAR's, up to the colour's edges; a replay then "
+        "needs the colour, too");
     row("Remove spikes", steps.remove_spikes, standard.remove_spikes,
         "Single pixels that stand out of all their neighbours");
     row("Fill holes", steps.fill_holes, standard.fill_holes,

@@ -198,11 +198,10 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                if (!request.preset || request.preset == CleaningPreset::own)
                    throw CLI::ValidationError(
                        "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
-               if (request.preset == CleaningPreset::raw) request.raw_depth = true;
                if (request.preset == CleaningPreset::automatic)
                    request.depth.cleaning.emplace();  // overrides a sidecar
            },
-           "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
+           "What is done to the depth: raw (nothing), gentle (holes, spikes, 8-bit steps), "
            "sensor (also silhouettes and noise), auto (chosen by the noise of the clip)")
         ->type_name("NAME")
         ->default_str("auto");

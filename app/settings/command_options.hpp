@@ -63,7 +63,7 @@ struct GivenParameters {
 /// Options of all commands that compute forces.
 struct TouchRequest {
     GivenParameters given{};
-    bool raw_depth{false};                    ///< --raw-depth, or --cleaning raw
+    bool raw_depth{false};                    ///< --raw-depth
     std::optional<CleaningPreset> preset{};   ///< --cleaning
     std::optional<double> finger_mm{};        ///< --finger
     std::optional<InBetweens> in_betweens{};  ///< --in-betweens

@@ -14,6 +14,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
@@ -49,11 +50,33 @@ auto opened(const DepthRequest& request, const Open& open) {
     }
 }
 
+/// The share of the pixels with data where they are sparse, by the first picture; where that has
+/// hardly any data, by some from all over the source.
+std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
+    constexpr int kMeasuredSide_px = 2048;  // the middle of a larger picture is enough
+    const int side_px = std::min(depth.facts().columns, depth.facts().rows);
+    if (scale.is_always_data() || !scale.meaning() || side_px < SparseMeter::kLeastSide_px)
+        return std::nullopt;
+    SparseMeter meter;
+    for (const int count : {1, 8}) {
+        if (meter.has_measured()) break;
+        for (const cv::Mat& picture : depth.samples(count)) {
+            const cv::Size size(std::min(picture.cols, kMeasuredSide_px),
+                                std::min(picture.rows, kMeasuredSide_px));
+            const cv::Point corner((picture.cols - size.width) / 2,
+                                   (picture.rows - size.height) / 2);
+            meter.add(scale.image_of(picture(cv::Rect(corner, size))));
+        }
+    }
+    return meter.sparse_share();
+}
+
 std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
     if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
+    const std::optional<double> sparse_share = sparse_share_of(*sources.depth, found.scale);
     const bool painted = seen && request.paints && sources.colour == nullptr;
     const PairTimes times =
         pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
@@ -61,6 +84,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
                                                std::move(found.scale), painted, times);
     media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
+    if (sparse_share) media->set_sparse(*sparse_share);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
     media->set_live_feed(std::move(sources.live));

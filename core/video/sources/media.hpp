@@ -75,6 +75,8 @@ struct MediaDescription {
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< different levels in the sample pictures (`dibhr info`)
     double holes_share{0.0};  ///< share of their pixels without data, in [0, 1] (`dibhr info`)
+    /// The share of the pixels with data where the depth is sparse; nothing: it is not.
+    std::optional<double> sparse_share{};
     std::optional<DepthNoise> noise{};      ///< used for cleaning when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file

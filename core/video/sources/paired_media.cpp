@@ -302,6 +302,16 @@ void PairedMedia::add_notice(const std::string& sentence) {
     add_clause(description_.notice, sentence);
 }
 
+void PairedMedia::set_sparse(double seen_share) {
+    constexpr int kDigits = 2;
+    description_.sparse_share = seen_share;
+    add_notice("sparse depth, " + short_text(100.0 * seen_share, kDigits) +
+               " % of the pixels are seen: " +
+               (shape_ ? "a true shape has no surface between them, the relief has "
+                         "(--geometry relief)"
+                       : "cleaning interpolates the surface between them"));
+}
+
 void PairedMedia::report_trouble(const SourceFacts& facts) {
     if (description_.trouble.empty()) description_.trouble = facts.trouble;
 }

@@ -69,6 +69,8 @@ class PairedMedia : public Media {
 
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
+    /// Stored in the description; the notice says what becomes of the pixels that are not seen.
+    void set_sparse(double seen_share);
     void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
     /// Both are stored in the description.
     void set_conclusion(DepthConclusion conclusion) {
