@@ -1,15 +1,13 @@
 // Whether an opening asks which meaning is right.
 #pragma once
 
+#include "core/video/sources/media.hpp"
+
 namespace dibhr::test {
 
-/// Whether the description of a media offers alternatives. One that has no such member never does.
-template <typename Description>
-[[nodiscard]] bool asks([[maybe_unused]] const Description& media) {
-    if constexpr (requires { media.alternatives.empty(); })
-        return !media.alternatives.empty();
-    else
-        return false;
+/// Whether the description of a media offers alternatives.
+[[nodiscard]] inline bool asks(const MediaDescription& media) {
+    return !media.conclusion.alternatives.empty();
 }
 
 }  // namespace dibhr::test

@@ -208,11 +208,10 @@ std::vector<BagMessage> bag_messages(const Film& film) {
     return messages;
 }
 
-Brought ros_recording(const fs::path& file,
-                      void (*save_as)(const fs::path&, const std::vector<BagMessage>&)) {
+Brought ros_recording(const fs::path& file) {
     const Film film = film_of(Place::room, 10);
     const std::vector<BagMessage> messages = bag_messages(film);
-    save_as(file, messages);
+    save_bag(file, messages);
     Brought brought{file, {}, truth_of(film, Knows::metric)};
     for (std::size_t k = 0; k < messages.size(); ++k) {
         std::vector<double>& times_s =
@@ -281,9 +280,9 @@ Forms forms_of_devices() {
         rows_of_camera("ZED, pictures", {.colour = "left######.png", .depth = "depth######.png"}),
         rows_of_camera("Orbbec", {.colour = "Color/Color_#.png", .depth = "Depth/Depth_#.png"}),
         {"ROS 2 bag, SQLite",
-         [](const fs::path& folder) { return ros_recording(folder / "walk.db3", save_bag); }},
+         [](const fs::path& folder) { return ros_recording(folder / "walk.db3"); }},
         {"ROS 2 bag, MCAP",
-         [](const fs::path& folder) { return ros_recording(folder / "walk.mcap", save_mcap); }},
+         [](const fs::path& folder) { return ros_recording(folder / "walk.mcap"); }},
         {"Azure Kinect", azure_kinect},
         {"recording beside its thumbnail", with_thumbnail},
         {"Depthkit", depthkit}};

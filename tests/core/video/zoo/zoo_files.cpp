@@ -1,11 +1,10 @@
-// Pictures by OpenCV and OpenEXR, videos by ffmpeg, bags by SQLite; the rest byte by byte.
+// Pictures by OpenCV and OpenEXR, videos by ffmpeg; the rest byte by byte.
 #include "tests/core/video/zoo/zoo_files.hpp"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfOutputFile.h>
-#include <sqlite3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +12,13 @@
 #include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
 #include "core/files/plain_text.hpp"
+#include "tests/core/video/bag_writers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/depth_photos.hpp"
 #include "tests/core/video/form_writers.hpp"
 #include "tests/core/video/forms.hpp"
 #include "tests/support/text.hpp"
@@ -215,97 +215,21 @@ void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& 
 
 // JPEG with depth in it.
 
-namespace {
-
-std::string encoded_as(const std::string& ending, const cv::Mat& picture) {
-    std::vector<std::uint8_t> bytes;
-    if (!cv::imencode(ending, picture, bytes)) throw std::runtime_error("not encoded");
-    return {bytes.begin(), bytes.end()};
-}
-
-std::string segment(int marker, const std::string& content) {
-    std::string bytes{static_cast<char>(0xff), static_cast<char>(marker)};
-    append_bytes(bytes, static_cast<std::uint16_t>(content.size() + 2), false);
-    return bytes + content;
-}
-
-/// A JPEG file with these segments at its beginning.
-std::string with_segments(const std::string& jpeg, const std::string& segments) {
-    return jpeg.substr(0, 2) + segments + jpeg.substr(2);
-}
-
-}  // namespace
-
 void save_gdepth(const fs::path& file, const cv::Mat& colour, const cv::Mat& depth, double near_m,
                  double far_m) {
-    const std::string guid = "0123456789ABCDEF0123456789ABCDEF";
-    const std::string about =
-        "<x:xmpmeta xmlns:x=\"adobe:ns:meta/\"><rdf:RDF "
-        "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\">"
-        "<rdf:Description rdf:about=\"\" ";
-    const std::string end = "/></rdf:RDF></x:xmpmeta>";
-    const std::string gdepth = "xmlns:GDepth=\"http://ns.google.com/photos/1.0/depthmap/\" ";
-    const std::string usual = about + gdepth +
-                              "xmlns:xmpNote=\"http://ns.adobe.com/xmp/note/\" "
-                              "GDepth:Format=\"RangeInverse\" GDepth:Near=\"" +
-                              number_text(near_m, 4) + "\" GDepth:Far=\"" + number_text(far_m, 4) +
-                              "\" GDepth:Units=\"m\" GDepth:MeasureType=\"OpticalAxis\" "
-                              "GDepth:Mime=\"image/png\" xmpNote:HasExtendedXMP=\"" +
-                              guid + "\"" + end;
-    const std::string extended =
-        about + gdepth + "GDepth:Data=\"" + base64_text(encoded_as(".png", depth)) + "\"" + end;
-    std::string segments =
-        segment(0xe1, std::string("http://ns.adobe.com/xap/1.0/") + '\0' + usual);
-    constexpr std::size_t kPart_bytes = 65000;
-    for (std::size_t at = 0; at < extended.size(); at += kPart_bytes) {
-        std::string part = std::string("http://ns.adobe.com/xmp/extension/") + '\0' + guid;
-        append_bytes(part, static_cast<std::uint32_t>(extended.size()), false);
-        append_bytes(part, static_cast<std::uint32_t>(at), false);
-        segments += segment(0xe1, part + extended.substr(at, kPart_bytes));
-    }
-    save_text(file, with_segments(encoded_as(".jpg", colour), segments));
+    constexpr std::size_t kPart_bytes = 40000;  // 4 / 3 of them as text, below a segment's most
+    const std::string picture = encoded_as(depth, ".png");
+    save_text(file, gdepth_photo(encoded_as(colour, ".jpg"),
+                                 "GDepth:Format=\"RangeInverse\" GDepth:Near=\"" +
+                                     number_text(near_m, 4) + "\" GDepth:Far=\"" +
+                                     number_text(far_m, 4) +
+                                     "\" GDepth:Units=\"m\" GDepth:MeasureType=\"OpticalAxis\" "
+                                     "GDepth:Mime=\"image/png\" ",
+                                 picture, {}, picture.size() / kPart_bytes + 1));
 }
 
 void save_multi_picture(const fs::path& file, const cv::Mat& colour, const cv::Mat& depth) {
-    const std::string first = encoded_as(".jpg", colour);
-    const std::string second = encoded_as(".jpg", depth);
-    const auto list = [&](std::size_t first_bytes, std::size_t second_at) {
-        std::string bytes = std::string("MPF") + '\0' + "MM";  // offsets are from "MM" on
-        const auto add16 = [&](int value) {
-            append_bytes(bytes, static_cast<std::uint16_t>(value), false);
-        };
-        const auto add32 = [&](std::size_t value) {
-            append_bytes(bytes, static_cast<std::uint32_t>(value), false);
-        };
-        add16(42);
-        add32(8);
-        add16(3);
-        add16(0xb000);  // version
-        add16(7);
-        add32(4);
-        bytes += "0100";
-        add16(0xb001);  // number of pictures
-        add16(4);
-        add32(1);
-        add32(2);
-        add16(0xb002);  // their list
-        add16(7);
-        add32(32);
-        add32(8 + 2 + 3 * 12 + 4);
-        add32(0);
-        add32(0x30000);  // the photo
-        add32(first_bytes);
-        add32(0);
-        add32(0);
-        add32(0);  // of no stated kind
-        add32(second.size());
-        add32(second_at);
-        add32(0);
-        return segment(0xe2, bytes);
-    };
-    const std::size_t first_bytes = first.size() + list(0, 0).size();
-    constexpr std::size_t kBeforeList = 2 + 4 + 4;  // SOI, marker and length, "MPF"
-    save_text(file, with_segments(first, list(first_bytes, first_bytes - kBeforeList)) + second);
+    save_text(file, multi_picture(encoded_as(colour, ".jpg"), {encoded_as(depth, ".jpg")}));
 }
 
 void save_heic(const fs::path& file, const cv::Mat& colour, const cv::Mat& depth) {
@@ -356,154 +280,22 @@ void save_video(const fs::path& file, const std::vector<Track>& tracks,
 
 // Bags.
 
-namespace {
-
-std::int64_t in_ns(double seconds) {
-    return std::llround(seconds * 1e9);
-}
-
-/// Little-endian CDR, after its four bytes.
-class Cdr {
-  public:
-    template <typename Number>
-    void add(Number number) {
-        while ((bytes_.size() - 4) % sizeof number != 0) bytes_.push_back('\0');
-        append_bytes(bytes_, number);
-    }
-    void add_text(const std::string& text) {
-        add(static_cast<std::uint32_t>(text.size() + 1));
-        bytes_ += text + '\0';
-    }
-    void add_bytes(const std::string& data) {
-        add(static_cast<std::uint32_t>(data.size()));
-        bytes_ += data;
-    }
-    [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
-  private:
-    std::string bytes_{"\0\1\0\0", 4};
-};
-
-/// Topics in the order in which they come first, each with its type.
-std::vector<std::pair<std::string, std::string>> topics_of(
-    const std::vector<BagMessage>& messages) {
-    std::vector<std::pair<std::string, std::string>> topics;
-    std::set<std::string> known;
-    for (const BagMessage& message : messages)
-        if (known.insert(message.topic).second) topics.emplace_back(message.topic, message.type);
-    return topics;
-}
-
-std::size_t number_of_topic(const std::vector<std::pair<std::string, std::string>>& topics,
-                            const BagMessage& message) {
-    std::size_t at = 0;
-    while (topics[at].first != message.topic) ++at;
-    return at + 1;
-}
-
-/// A text or a record after its length.
-template <typename Length>
-std::string sized(const std::string& content) {
-    std::string bytes;
-    append_bytes(bytes, static_cast<Length>(content.size()));
-    return bytes + content;
-}
-
-std::string mcap_record(int opcode, const std::string& content) {
-    return static_cast<char>(opcode) + sized<std::uint64_t>(content);
-}
-
-template <typename... Numbers>
-std::string numbers_as_bytes(Numbers... numbers) {
-    std::string bytes;
-    (append_bytes(bytes, numbers), ...);
-    return bytes;
-}
-
-}  // namespace
-
 BagMessage image_message(const std::string& topic, double time_s, const std::string& encoding,
                          const cv::Mat& picture) {
-    Cdr cdr;
-    const double whole_s = std::floor(time_s);
-    cdr.add(static_cast<std::int32_t>(whole_s));
-    cdr.add(static_cast<std::uint32_t>(in_ns(time_s - whole_s)));
-    cdr.add_text("camera_color_optical_frame");
-    cdr.add(static_cast<std::uint32_t>(picture.rows));
-    cdr.add(static_cast<std::uint32_t>(picture.cols));
-    cdr.add_text(encoding);
-    cdr.add(std::uint8_t{0});
-    cdr.add(
-        static_cast<std::uint32_t>(picture.elemSize() * static_cast<std::size_t>(picture.cols)));
-    cdr.add_bytes(bytes_of(picture.clone()));
-    return {topic, "Image", time_s, cdr.bytes()};
+    const int step = static_cast<int>(picture.elemSize()) * picture.cols;
+    return {topic, "Image", time_s,
+            image(time_s, picture.cols, picture.rows, encoding, step, bytes_of(picture.clone()))};
 }
 
 void save_bag(const fs::path& file, const std::vector<BagMessage>& messages) {
     make_folder_of(file);
-    sqlite3* database = nullptr;
-    if (sqlite3_open(file.c_str(), &database) != SQLITE_OK) throw std::runtime_error("no bag");
-    const auto run = [database](const std::string& sql) {
-        sqlite3_exec(database, sql.c_str(), nullptr, nullptr, nullptr);
-    };
-    run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-        "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
-    run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
-        "INTEGER NOT NULL, data BLOB NOT NULL)");
-    run("BEGIN");
-    const auto topics = topics_of(messages);
-    for (const auto& topic : topics)
-        run("INSERT INTO topics(name, type, serialization_format, offered_qos_profiles) VALUES('" +
-            topic.first + "', 'sensor_msgs/msg/" + topic.second + "', 'cdr', '')");
+    Bag bag(file, {.ending = file.extension().string(), .packing = "zstd"});
+    std::map<std::string, int> topics;
     for (const BagMessage& message : messages) {
-        sqlite3_stmt* insert = nullptr;
-        sqlite3_prepare_v2(database,
-                           "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", -1,
-                           &insert, nullptr);
-        sqlite3_bind_int(insert, 1, static_cast<int>(number_of_topic(topics, message)));
-        sqlite3_bind_int64(insert, 2, in_ns(message.time_s));
-        sqlite3_bind_blob(insert, 3, message.data.data(), static_cast<int>(message.data.size()),
-                          SQLITE_STATIC);
-        sqlite3_step(insert);
-        sqlite3_finalize(insert);
+        const auto [topic, is_new] = topics.try_emplace(message.topic, 0);
+        if (is_new) topic->second = bag.topic(message.topic, message.type);
+        bag.add(topic->second, message.data, std::llround(message.time_s * 1e9));
     }
-    run("COMMIT");
-    sqlite3_close(database);
-}
-
-/// One chunk, not compressed, and no index: mcap.dev/spec.
-void save_mcap(const fs::path& file, const std::vector<BagMessage>& messages) {
-    using Text = std::uint32_t;
-    const auto topics = topics_of(messages);
-    std::string records;
-    for (std::size_t k = 0; k < topics.size(); ++k) {
-        const auto id = static_cast<std::uint16_t>(k + 1);
-        records += mcap_record(3, numbers_as_bytes(id) +
-                                      sized<Text>("sensor_msgs/msg/" + topics[k].second) +
-                                      sized<Text>("ros2msg") + sized<Text>(""));
-        records += mcap_record(4, numbers_as_bytes(id, id) + sized<Text>(topics[k].first) +
-                                      sized<Text>("cdr") + sized<Text>(""));
-    }
-    for (std::size_t k = 0; k < messages.size(); ++k) {
-        const auto time_ns = static_cast<std::uint64_t>(in_ns(messages[k].time_s));
-        const auto topic = static_cast<std::uint16_t>(number_of_topic(topics, messages[k]));
-        records += mcap_record(
-            5, numbers_as_bytes(topic, static_cast<std::uint32_t>(k), time_ns, time_ns) +
-                   messages[k].data);
-    }
-    const auto begin_ns = static_cast<std::uint64_t>(in_ns(messages.front().time_s));
-    const auto end_ns = static_cast<std::uint64_t>(in_ns(messages.back().time_s));
-    const std::string chunk =
-        numbers_as_bytes(begin_ns, end_ns, static_cast<std::uint64_t>(records.size()),
-                         std::uint32_t{0}) +
-        sized<Text>("") + sized<std::uint64_t>(records);
-    const std::string magic("\x89MCAP0\r\n", 8);
-    save_text(
-        file,
-        magic + mcap_record(1, sized<Text>("ros2") + sized<Text>("libmcap")) +
-            mcap_record(6, chunk) + mcap_record(15, numbers_as_bytes(std::uint32_t{0})) +
-            mcap_record(2, numbers_as_bytes(std::uint64_t{0}, std::uint64_t{0}, std::uint32_t{0})) +
-            magic);
 }
 
 }  // namespace dibhr::test::zoo

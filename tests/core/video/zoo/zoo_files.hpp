@@ -85,7 +85,7 @@ struct BagMessage {
 /// `encoding`: "16UC1", "bgr8".
 [[nodiscard]] BagMessage image_message(const std::string& topic, double time_s,
                                        const std::string& encoding, const cv::Mat& picture);
+/// In the form that the ending says; MCAP as recorded by default, in chunks packed with zstd.
 void save_bag(const fs::path& file, const std::vector<BagMessage>& messages);
-void save_mcap(const fs::path& file, const std::vector<BagMessage>& messages);
 
 }  // namespace dibhr::test::zoo
