@@ -265,7 +265,7 @@ void look_at_record3d(const std::string& text) {
 }
 
 using Look = void (*)(const std::string&);
-constexpr std::array<std::pair<std::string_view, Look>, 11> kKinds{
+constexpr std::array<std::pair<std::string_view, Look>, 12> kKinds{
     {{"sidecar", look_at_sidecar},
      {"matrix", look_at_matrix},
      {"open3d", look_at_open3d},

@@ -151,8 +151,8 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
         facts_.known.intrinsics = camera;
         add_origin(facts_, *named(arrays, kCameraNames));
     } else {
-        facts_.notice =
-            fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice;  // why it is none
+        add_clause(facts_.notice,  // why it is none
+                   fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice);
     }
 }
 

@@ -273,8 +273,7 @@ std::optional<PictureSet> read_lists_in(const fs::path& folder) {
     if (!is_picture_list(folder / "rgb.txt")) return set;
     PictureSet colour = read_picture_list(folder / "rgb.txt");
     set.colour = std::move(colour.colour);
-    if (!colour.facts.notice.empty())
-        set.facts.notice += (set.facts.notice.empty() ? "" : "; ") + colour.facts.notice;
+    add_clause(set.facts.notice, colour.facts.notice);
     return set;
 }
 
