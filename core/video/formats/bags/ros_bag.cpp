@@ -214,6 +214,8 @@ class RosTopic : public IndexedPictures {
         messages_ = std::move(timed.messages);
         if (messages_.empty()) throw InputError(unreadable());
         for (const auto& file : files_) add_clause(facts_.notice, file->notice());
+        facts_.timing.text = timed.are_recording_times ? "when its messages were recorded"
+                                                       : "stamps of the messages";
         if (timed.are_recording_times)
             add_clause(facts_.notice,
                        "the times of " + one_line(topic_.name, 100) +
@@ -273,7 +275,6 @@ class RosTopic : public IndexedPictures {
         for (const Stamped& message : messages_)
             times_s.push_back(static_cast<double>(message.time_ns - messages_.front().time_ns) *
                               1e-9);
-        facts_.timing.text = "stamps of the messages";
         take_times(std::move(times_s));
         facts_.start_s = static_cast<double>(messages_.front().time_ns) * 1e-9;
     }
