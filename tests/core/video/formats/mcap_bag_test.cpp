@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <numeric>
+#include <opencv2/core.hpp>
 #include <string>
 #include <vector>
 
+#include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/bag_writers.hpp"
