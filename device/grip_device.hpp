@@ -15,8 +15,8 @@
 namespace dibhr {
 
 /// tuning_of(Settings, HandTuning) makes a Tuning, which the next tick takes as a whole. A Tuning
-/// has `workspace`, `clutch_buttons`, `force_off_buttons` and `centred` (with_hand_tuning()), and
-/// felt(): its values that change the goal or the force of a pose.
+/// has `workspace`, `clutch_buttons`, `force_off_buttons` and `centre_count` (with_hand_tuning()),
+/// and rendered_values(): its values that change the goal or the force of a pose.
 template <typename Settings, typename Tuning>
 class GripDevice : public ForceDevice {
   public:
@@ -46,11 +46,11 @@ class GripDevice : public ForceDevice {
 
     /// Takes the newest tuning, which is constant during the tick.
     void take_tuning() noexcept {
-        feels_other_ = false;
+        rendering_changed_ = false;
         if (!tuning_.fresh()) return;
         const Tuning& newest = tuning_.front();
         if (newest.centre_count != tuned_.centre_count) workspace_.centre();
-        feels_other_ = !(newest.felt() == tuned_.felt());
+        rendering_changed_ = !(newest.rendered_values() == tuned_.rendered_values());
         tuned_ = newest;
     }
 
@@ -81,7 +81,7 @@ class GripDevice : public ForceDevice {
         reading.goal_in_grid = goal_in_grid_.value_or(above_image(context.surface));
         reading.buttons = buttons;
         reading.ready = may_push_;
-        reading.hand_changed = was_posed_ && (!was_posed || feels_other_);
+        reading.hand_changed = was_posed_ && (!was_posed || rendering_changed_);
         reading.force_off = (buttons & tuned_.force_off_buttons) != 0;
         reading.limits = at_scale(limits, tuned_.workspace.scale);
         return reading;
@@ -99,7 +99,7 @@ class GripDevice : public ForceDevice {
 
     // Used by the haptic thread only.
     Tuning tuned_{};
-    bool feels_other_{false};  // the last take_tuning() changed felt()
+    bool rendering_changed_{false};  // the last take_tuning() changed rendered_values()
     Epoch epoch_{kNoEpoch};
     Workspace workspace_{};
     std::optional<Vec3> goal_in_grid_{};

@@ -53,9 +53,9 @@ struct DialogTimeouts {
 
 // The two ways of ask_desktop().
 
-/// org.freedesktop.portal.FileChooser on the session bus. Of::nobody within a few seconds if there
-/// is no portal, or it does not reply or refuses; later, if it is lost. cancel() closes the
-/// dialog.
+/// org.freedesktop.portal.FileChooser on the session bus. Outcome::unavailable within a few seconds
+/// if there is no portal, or it does not reply or refuses; later, if it is lost. cancel() closes
+/// the dialog.
 [[nodiscard]] FileAnswer ask_portal(const FileQuestion& question, const Cancellation& cancellation,
                                     const DialogTimeouts& timeouts = {});
 

@@ -40,7 +40,7 @@ struct UseFirmware {
     std::filesystem::path file{};
 };
 struct AnswerUnsafeSettings {
-    bool agreed{false};  ///< to UiState::doubts
+    bool agreed{false};  ///< to UiState::unsafe_settings
 };
 struct RemovePaint {};
 struct MarkMoment {

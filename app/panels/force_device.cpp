@@ -114,7 +114,7 @@ void draw_firmware_field(ViewerState& state) {
     }
 }
 
-void draw_wanted_firmware(ViewerState& state, const DeviceFirmware& firmware) {
+void draw_missing_firmware(ViewerState& state, const DeviceFirmware& firmware) {
     if (!firmware.trouble.empty()) draw_warning(capitalised(firmware.trouble));
     draw_firmware_field(state);
 }
@@ -176,7 +176,7 @@ void draw_force_device(ViewerState& state, const DeviceInfo& info) {
     draw_line(device.name_line);
     draw_sentence(device);
     if (!device.unguarded.empty()) draw_warning(capitalised(device.unguarded));
-    if (device.firmware && device.firmware->needed) draw_wanted_firmware(state, *device.firmware);
+    if (device.firmware && device.firmware->needed) draw_missing_firmware(state, *device.firmware);
     if (device.progress) draw_progress(*device.progress);
     if (!device.homing.empty()) draw_homing_guide(device.homing);
     const bool pushes = glm::length(state.touch.haptic.touch.sent_force_newton) > 0.0;

@@ -74,7 +74,7 @@ struct OpenDialog {
 
     bool shown{false};
     bool in_front{false};  ///< the dialog has the keyboard, not a panel
-    Folder folder{};       ///< its entries are still being read while `reads`
+    Folder folder{};       ///< its entries are still being read while `is_reading`
     bool is_reading{false};
     int reading_number{0};  ///< a new number with every change of `folder`
     Rows rows{};

@@ -19,7 +19,7 @@ constexpr std::size_t kMostPads = 8;
 constexpr Uint16 kSony = 0x054c;
 constexpr Uint16 kDualSense = 0x0ce6;
 constexpr Uint16 kDualSenseEdge = 0x0df2;
-constexpr Uint32 kRumbleDuration_ms = 1000;  // turn() renews the rumble long before its end
+constexpr Uint32 kRumbleDuration_ms = 1000;  // set_motors() renews the rumble long before its end
 constexpr double kSteps = 64.0;              // smaller changes are not sent to a pad
 
 Uint16 motor(double strength) {

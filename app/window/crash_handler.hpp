@@ -15,7 +15,8 @@ namespace dibhr {
 /// crash. At most one handler may exist.
 class CrashHandler {
   public:
-    /// The crashing thread calls `first`, which must be async-signal-safe. `words` must outlive it.
+    /// The crashing thread calls `first`, which must be async-signal-safe. `crash_note` must
+    /// outlive it.
     CrashHandler(const CrashNote& crash_note, void (*first)() noexcept);
     ~CrashHandler();
     CrashHandler(const CrashHandler&) = delete;

@@ -44,7 +44,7 @@ EventTimes::Time EventTimes::of(Kind kind, unsigned code) {
     const auto found = std::find_if(presses_.begin(), presses_.end(), [&](const Press& press) {
         return press.kind == kind && press.code == code;
     });
-    if (found == presses_.end()) return now;  // pressed after look()
+    if (found == presses_.end()) return now;  // pressed after collect()
     const Time at = of_server(found->server_ms, now);
     presses_.erase(presses_.begin(), found + 1);
     return at;

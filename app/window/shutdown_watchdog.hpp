@@ -37,7 +37,7 @@ class ShutdownRequests {
 /// it before any thread starts.
 class ShutdownWatchdog {
   public:
-    /// `words` must outlive it. Throws DeviceError when the system has no descriptor left.
+    /// `crash_note` must outlive it. Throws DeviceError when the system has no descriptor left.
     explicit ShutdownWatchdog(CrashNote& crash_note);
     ~ShutdownWatchdog();
     ShutdownWatchdog(const ShutdownWatchdog&) = delete;

@@ -91,7 +91,8 @@ class Window {
     [[nodiscard]] bool holds(int key) const;
     [[nodiscard]] glm::ivec2 framebuffer_size() const;
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
-    /// Of text and panels: `asked`, or if that is 0, the display's own scale (1: an ordinary one).
+    /// Of text and panels: `requested`, or if that is 0, the display's own scale (1: an ordinary
+    /// one).
     [[nodiscard]] float scale(double requested) const;
     void set_title(const std::string& title);
     void toggle_full_screen();

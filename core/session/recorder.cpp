@@ -45,7 +45,7 @@ std::filesystem::path absolute_path(const std::filesystem::path& file) {
     return file.empty() || gone ? file : whole;
 }
 
-/// Nothing when the file cannot be read or `leaving` became true.
+/// Nothing when the file cannot be read or `cancelled` became true.
 std::optional<SessionMedia> content_of(const std::filesystem::path& file,
                                        const std::atomic<bool>& cancelled) {
     try {

@@ -76,7 +76,7 @@ class Database {
     /// Options to read a file from an unknown source.
     struct ReadOnly {
         bool complete{false};  ///< no log belongs to it: no file beside it is made or read
-        int longest_bytes{0};  ///< as for distrust()
+        int longest_bytes{0};  ///< as for restrict_untrusted()
         int busy_timeout_ms{kBusyTimeout_ms};
     };
 

@@ -33,8 +33,8 @@ struct TouchValues {
 /// "material bark, friction 0.4"; without values "the program's defaults".
 [[nodiscard]] std::string in_words(const TouchValues& values);
 
-/// `under`, with the values of `over` in place of its own. In one table a single coefficient has
-/// priority over "friction"; "friction" of `over` removes both coefficients of `under`.
+/// `base`, with the values of `overrides` in place of its own. In one table a single coefficient
+/// has priority over "friction"; "friction" of `overrides` removes both coefficients of `base`.
 [[nodiscard]] TouchValues with_overrides(const TouchValues& base, const TouchValues& overrides);
 
 /// Text, a picture, or both; empty: nothing is shown.

@@ -58,7 +58,7 @@ class StudyRun {
     /// At an adjustment: feels the reference (0) or what is turned (1).
     void compare(int interval);
     /// The running trial with that answer, and whether it is right: to be stored before accept().
-    /// Changes nothing. takes() must be true for the answer.
+    /// Changes nothing. accepts() must be true for the answer.
     [[nodiscard]] AnsweredTrial judged(const StudyAnswer& answer, double utc_s) const;
     /// Goes on from a judged answer once it is safely stored.
     void accept(const AnsweredTrial& answered);

@@ -21,11 +21,11 @@ namespace dibhr {
 /// The page as a table. Throws InputError.
 [[nodiscard]] toml::table page_of(const std::string& text, const std::filesystem::path& file);
 
-/// One table of the page. Reading a key marks it as known; done() refuses all others. All functions
-/// throw InputError.
+/// One table of the page. Reading a key marks it as known; refuse_unknown_keys() refuses all
+/// others. All functions throw InputError.
 class PageTable {
   public:
-    /// `called`: "a block", for messages.
+    /// `label`: "a block", for messages.
     PageTable(const toml::table& table, std::filesystem::path file, std::string label)
         : table_(table), file_(std::move(file)), label_(std::move(label)) {}
 

@@ -21,7 +21,7 @@ namespace dibhr::falcon {
 /// Has a guardian process from construction on.
 class Driver {
   public:
-    /// `exchange` must outlive it.
+    /// `buffers` must outlive it.
     Driver(ConnectionOptions options, FirmwareImage firmware, ThreadBuffers& buffers);
     ~Driver();  ///< five packets without force, then the port is closed
     Driver(const Driver&) = delete;

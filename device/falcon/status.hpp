@@ -32,7 +32,7 @@ struct Tuning {
 
     bool operator==(const Tuning&) const = default;
     /// The values that change the goal of a pose, or the commands of a force.
-    [[nodiscard]] auto felt() const noexcept {
+    [[nodiscard]] auto rendered_values() const noexcept {
         return std::tie(geometry, motors, workspace, centre_count);
     }
 };

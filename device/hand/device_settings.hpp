@@ -127,7 +127,7 @@ struct HandTuning {
     std::uint32_t centre_count;  ///< a new value resets the clutch's shift
 };
 
-/// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centred` set.
+/// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centre_count` set.
 template <typename Tuning>
 [[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const DeviceSettings& settings,
                                       const HandTuning& hand) noexcept {

@@ -46,13 +46,13 @@ class Guardian {
     /// Why no guardian process exists, in one line for the user; empty: it exists.
     [[nodiscard]] std::string fault() const;
 
-    /// From now on the guardian sends `farewell` over this open file or socket, of which it gets a
-    /// descriptor of its own:
+    /// From now on the guardian sends `stop_packet` over this open file or socket, of which it gets
+    /// a descriptor of its own:
     /// - every 5 ms while beat() has not been called for 50 ms, until it is called again;
     /// - every 5 ms after alarm();
     /// - five times when the program has ended, for whatever reason.
     /// Over a stream no packet gets lost, and unread answers would pile up: there it sends only
-    /// five, and spoken() is true from then on. Not to be called while firmware is loaded: the
+    /// five, and has_sent() is true from then on. Not to be called while firmware is loaded: the
     /// packet would become a part of the image.
     void watch(int descriptor, const StopPacket& stop_packet) noexcept;
     /// The guardian has sent something since the last dismiss(). What the program then receives

@@ -110,8 +110,8 @@ void Driver::handle_no_service(const LinkError& error) {
 }
 
 void Driver::publish_status(Stage stage, const std::string& sentence, bool trouble) {
-    const Status& told = board_.draft();
-    if (told.stage == stage && told.sentence == sentence) return;
+    const Status& published = board_.draft();
+    if (published.stage == stage && published.sentence == sentence) return;
     board_.enter(stage, sentence, trouble);
 }
 

@@ -20,7 +20,7 @@ namespace dibhr::inverse3 {
 /// Has a guardian process from construction on.
 class Driver {
   public:
-    /// `exchange` must outlive it.
+    /// `buffers` must outlive it.
     Driver(ConnectionOptions options, ThreadBuffers& buffers);
     ~Driver();  ///< sends a zero force, then closes the connection
     Driver(const Driver&) = delete;

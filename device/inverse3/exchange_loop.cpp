@@ -457,8 +457,8 @@ void ExchangeLoop::report(Time now) {
 
 void ExchangeLoop::publish_status(Stage stage, const std::string& sentence, bool trouble) {
     stage_published_ = true;
-    const Status& told = board_.draft();
-    if (told.stage == stage && told.sentence == sentence) return;
+    const Status& published = board_.draft();
+    if (published.stage == stage && published.sentence == sentence) return;
     board_.enter(stage, sentence, trouble);
 }
 

@@ -76,13 +76,13 @@ Handedness handedness_of(std::string_view word) noexcept {
 }
 
 std::optional<ArmConfig> config_in(const object& device) noexcept {
-    const auto told = object_in(device, "config");
-    if (!told) return {};
+    const auto answer = object_in(device, "config");
+    if (!answer) return {};
     ArmConfig config;
-    config.minverse = text_in(*told, "type") == "minverse";
-    config.handedness = handedness_of(text_in(*told, "handedness"));
-    config.preset = text_in(*told, "preset");
-    if (const auto basis = object_in(*told, "basis")) {
+    config.minverse = text_in(*answer, "type") == "minverse";
+    config.handedness = handedness_of(text_in(*answer, "handedness"));
+    config.preset = text_in(*answer, "preset");
+    if (const auto basis = object_in(*answer, "basis")) {
         config.basis = text_in(*basis, "permutation");
     }
     return config;
@@ -107,10 +107,11 @@ Arm arm_of(const object& device) noexcept {
 std::uint8_t buttons_in(const std::optional<object>& state) noexcept {
     constexpr std::array<std::array<const char*, 2>, 4> kNames{
         {{"a", "button_0"}, {"b", "button_1"}, {"c", "button_2"}, {"home", "button_3"}}};
-    const auto told = state ? object_in(*state, "buttons") : std::nullopt;
+    const auto buttons = state ? object_in(*state, "buttons") : std::nullopt;
     std::uint8_t bits = flag_in(state, "button", false) ? 1U : 0U;  // a wired grip's only one
     for (std::size_t k = 0; k < kNames.size(); ++k) {
-        const bool down = flag_in(told, kNames[k][0], false) || flag_in(told, kNames[k][1], false);
+        const bool down =
+            flag_in(buttons, kNames[k][0], false) || flag_in(buttons, kNames[k][1], false);
         if (down) bits = static_cast<std::uint8_t>(bits | 1U << k);
     }
     return bits;

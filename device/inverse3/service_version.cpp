@@ -27,10 +27,10 @@ std::optional<ServiceVersion> version_at(std::uint16_t port) {
     try {
         const std::string text =
             http_get(port, "/version", std::chrono::steady_clock::now() + kAnswerTimeout);
-        const Json told = parsed_json(text);
-        if (!told.is_object()) return {};
-        const auto version = told.find("project_version");
-        if (version == told.end() || !version->is_string()) return {};
+        const Json answer = parsed_json(text);
+        if (!answer.is_object()) return {};
+        const auto version = answer.find("project_version");
+        if (version == answer.end() || !version->is_string()) return {};
         return version_of(version->get_ref<const std::string&>());
     } catch (const LinkError&) {
         return {};

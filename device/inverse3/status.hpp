@@ -41,7 +41,7 @@ struct Tuning {
 
     bool operator==(const Tuning&) const = default;
     /// The values that change the goal of a pose.
-    [[nodiscard]] auto felt() const noexcept {
+    [[nodiscard]] auto rendered_values() const noexcept {
         return std::tie(workspace, centre_mm, tilt_deg, centre_count);
     }
 };

@@ -17,7 +17,7 @@ class LargeHoleFiller {
   public:
     /// `seen`: the image before any hole was filled. A pixel without data in it gets no lower than
     /// all its data within a fingertip's reach. `unseen` (columns x rows, all 0) becomes 1 where a
-    /// hole is wider than a twentieth of the image's width. `refused`: pixels whose data was
+    /// hole is wider than a twentieth of the image's width. `rejected`: pixels whose data was
     /// rejected as spikes; the surface does not fall away beside their new levels either.
     void fill(DepthImage& image, const DepthImage& seen, std::span<const std::size_t> rejected,
               std::vector<std::uint8_t>& unseen);

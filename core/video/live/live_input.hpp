@@ -52,7 +52,7 @@ class LiveInput {
 
     /// Waits for the first packets. Throws InputError: what, which place, what to do next; also
     /// when nothing arrives for a while; LivePermanentError where nothing ever will. The last
-    /// argument gets the arrival time of each packet. It and `wants` must outlive this object.
+    /// argument gets the arrival time of each packet. It and `control` must outlive this object.
     LiveInput(const LiveName& name, const std::string& shown, const LiveControl& control,
               std::atomic<Clock::time_point>& last_packet);
     ~LiveInput();

@@ -15,7 +15,7 @@ class CheckPush {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// `release_force` leaves the device without force and does not throw; `guide` outlives this.
+    /// `release_force` leaves the device without force and does not throw; `console` outlives this.
     CheckPush(CheckConsole& console, std::function<void()> release_force);
     ~CheckPush() { release(); }
     CheckPush(const CheckPush&) = delete;

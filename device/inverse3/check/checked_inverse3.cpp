@@ -20,12 +20,12 @@ constexpr std::chrono::milliseconds kBeatPeriod{10};  // the guardian's timeout 
 
 /// Text that is no JSON stays text.
 Json parsed_or_text(std::string_view text) {
-    Json told = parsed_json(text);
-    return told.is_discarded() ? Json(text) : told;
+    Json answer = parsed_json(text);
+    return answer.is_discarded() ? Json(text) : answer;
 }
 
 /// Null: /version answers on no port.
-Json version_told(const ConnectionOptions& options) {
+Json reported_version(const ConnectionOptions& options) {
     for (const std::uint16_t port : {options.port, options.older_port}) {
         try {
             return parsed_or_text(
@@ -60,7 +60,7 @@ CheckedInverse3::CheckedInverse3(const ConnectionOptions& options) : options_(op
             id_ = arm.id;
         }
     }
-    version_answer_ = version_told(options);
+    version_answer_ = reported_version(options);
     const auto version = version_of(survey.version);
     newer_ = version && version->at_least(3, 5);
     inventory_unrequested_ = connect();

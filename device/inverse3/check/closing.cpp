@@ -46,7 +46,7 @@ void check_closing(CheckContext& context, Json& measured) {
     const Milliseconds pushed = times.ramp + times.closing_hold;
     const Milliseconds closed = times.closings.back();
     measured["pushed_s"] = pushed.count() / 1000.0;
-    std::string words = end.in_words() + ", as told to the next connection";
+    std::string words = end.in_words() + ", as reported to the next connection";
     const auto felt_s = context.number("For how many seconds did it pull, the last time? " +
                                            number_text(pushed.count() / 1000.0, 1) +
                                            " if it ended with the connection, " +

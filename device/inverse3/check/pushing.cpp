@@ -144,7 +144,7 @@ void check_silence(CheckContext& context, Json& measured) {
     end.add_to(measured);
     context.findings.record_answer(
         OpenQuestion::silence,
-        end.in_words() + ", as told to a message without force, which may itself end it");
+        end.in_words() + ", as reported for a message without force, which may itself end it");
 }
 
 void check_force(CheckContext& context, Json& measured) {
