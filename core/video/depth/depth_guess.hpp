@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/video/depth/findings.hpp"
+#include "core/video/depth/slope_shape.hpp"
 
 namespace dibhr {
 
@@ -28,9 +29,9 @@ class SampledLevels {
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
 
-    /// Near, by where the picture is brighter: things are mostly near in the middle and on the
-    /// floor. That is weak, and said as sure as it is clear. A picture whose middle differs from
-    /// all four sides may show a thing or a tunnel.
+    /// Near, by how slopes bend (SlopeShape), and by where the picture is brighter: things are
+    /// mostly near in the middle and on the floor. That is weak, and said as sure as it is clear. A
+    /// picture whose middle differs from all four sides may show a thing or a tunnel.
     [[nodiscard]] Findings near() const;
 
     /// The range by that meaning: between the half percents at either end, and at most a twentieth
@@ -56,6 +57,7 @@ class SampledLevels {
     [[nodiscard]] std::vector<double> outlying_integers() const;
     [[nodiscard]] std::vector<double> outlying_numbers() const;
     [[nodiscard]] bool is_scattered() const;
+    [[nodiscard]] SlopeShape slope_shape() const;
     [[nodiscard]] Findings units_of_integers() const;
     [[nodiscard]] Findings units_of_numbers() const;
 
