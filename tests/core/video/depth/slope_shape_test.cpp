@@ -73,12 +73,12 @@ TEST_CASE("a ball bends as a plane does", "[slopes]") {
     CHECK(shape_of(ball, [](double metres) { return 4.0 - metres; }).convex < 0.1);
 }
 
-TEST_CASE("noise, a step and no data have no slopes that bend to one side", "[slopes]") {
+TEST_CASE("noise, a step and pixels without data are no slopes", "[slopes]") {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> level(0.0, 1.0);
     const SlopeShape noise = shape_of([&](double, double) { return level(random); },
                                       [](double metres) { return metres; });
-    CHECK(std::abs(noise.convex - 0.5) < 0.1);
+    CHECK(noise.slopes < 100);
     const SlopeShape step = shape_of([](double x, double) { return x < 0.1 ? 1.0 : 2.0; },
                                      [](double metres) { return metres; });
     CHECK(step.slopes == 0);
