@@ -48,6 +48,8 @@ constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearl
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
+constexpr double kSurenessOfTunnel = 0.6;
+constexpr double kSurenessOfLitTunnel = 0.93;
 constexpr std::size_t kLeastSlopes = 400;
 constexpr double kLeastBent = 0.6;        ///< share of convex slopes, or of others
 constexpr double kSurestBend = 0.95;      ///< insides of bowls bend the other way
@@ -132,6 +134,21 @@ struct Places {
         return all_are(1.0) ? 1 : all_are(-1.0) ? -1 : 0;
     }
 };
+
+Places places_of(const std::vector<LevelLattice>& lattices, const std::vector<double>& no_data) {
+    Places places;
+    for (const LevelLattice& lattice : lattices) {
+        auto level = lattice.levels.begin();
+        for (int j = 0; j < lattice.rows; ++j) {
+            for (int i = 0; i < lattice.columns; ++i, ++level) {
+                if (!std::isfinite(*level) || holds(no_data, *level)) continue;
+                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
+                           *level);
+            }
+        }
+    }
+    return places;
+}
 
 /// The row on an area that is brighter or darker than another by so many standard deviations.
 void add_row_on_area(double deviations, double surest, const std::string& areas, Findings& rows) {
@@ -272,12 +289,12 @@ SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : b
     levels_ = rising_without({});
 }
 
-SampledLevels::Lattice SampledLevels::lattice_of(const cv::Mat& picture) {
+LevelLattice SampledLevels::lattice_of(const cv::Mat& picture) {
     const int step = std::max(
         1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
     cv::Mat all;
     grey_of(picture).convertTo(all, CV_32F);
-    Lattice lattice;
+    LevelLattice lattice;
     lattice.columns = (all.cols + step - 1) / step;
     for (int j = 0; j < all.rows; j += step) {
         const float* row = all.ptr<float>(j);
@@ -296,7 +313,7 @@ bool SampledLevels::is_data(float level) const {
 
 std::vector<float> SampledLevels::rising_without(const std::vector<double>& no_data) const {
     std::vector<float> levels;
-    for (const Lattice& lattice : lattices_) {
+    for (const LevelLattice& lattice : lattices_) {
         for (const float level : lattice.levels) {
             if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
         }
@@ -348,7 +365,7 @@ std::vector<double> SampledLevels::outlying_integers() const {
 
 double SampledLevels::share_of_border(double level) const {
     Mean border;
-    for (const Lattice& lattice : lattices_) {
+    for (const LevelLattice& lattice : lattices_) {
         auto here = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j)
             for (int i = 0; i < lattice.columns; ++i, ++here) {
@@ -397,7 +414,7 @@ bool SampledLevels::is_scattered() const {
     constexpr double kMostSeen = 0.6;
     Mean seen;
     Mean single;
-    for (const Lattice& lattice : lattices_)
+    for (const LevelLattice& lattice : lattices_)
         for (std::size_t k = 0; k < lattice.levels.size(); ++k) {
             const bool here = is_data(lattice.levels[k]);
             seen.add(here ? 1.0 : 0.0);
@@ -414,8 +431,8 @@ Findings SampledLevels::units() const {
 Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
-        return {{{.unit = DepthUnit::levels}, kNumbers, 0.97, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.92, "by custom 8 bits are near white"}};
+        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
+                {{.near = NearLevels::bright}, kNumbers, 0.94, "by custom 8 bits are near white"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
@@ -440,7 +457,7 @@ Findings SampledLevels::units_of_integers() const {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
         const double sureness = farthest < kFlat * nearest ? scale.of_flat
-                                : has_sky                  ? scale.of_sky
+                                : has_sky && !has_holes    ? scale.of_sky
                                                            : scale.sureness;
         rows.push_back({{.unit = scale.unit, .scale = scale.scale},
                         kNumbers,
@@ -504,25 +521,27 @@ Findings SampledLevels::units_of_numbers() const {
 
 // Near.
 
-Findings SampledLevels::near() const {
-    Places places;
-    for (const Lattice& lattice : lattices_) {
-        auto level = lattice.levels.begin();
-        for (int j = 0; j < lattice.rows; ++j) {
-            for (int i = 0; i < lattice.columns; ++i, ++level) {
-                if (!is_data(*level)) continue;
-                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
-                           *level);
-            }
-        }
-    }
+int SampledLevels::middle_brighter_than_sides() const {
+    return places_of(lattices_, no_data_).brighter_than_sides();
+}
+
+Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
     add_row_on_slopes(slope_shape(), rows);
+    const Places places = places_of(lattices_, no_data_);
     const int than_sides = places.brighter_than_sides();
-    if (than_sides > 0)
-        rows.push_back({{.near = NearLevels::dark},
+    const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
+    if (than_sides != 0 && middle_of_colour.value_or(0) < 0)
+        rows.push_back(
+            {{.near = of_tunnel},
+             Evidence::numbers,
+             kSurenessOfLitTunnel,
+             "the middle of the colour picture is darker than all four sides, as the end "
+             "of a tunnel that is lit from the camera"});
+    if (than_sides > 0 && !middle_of_colour)
+        rows.push_back({{.near = of_tunnel},
                         Evidence::numbers,
-                        0.6,
+                        kSurenessOfTunnel,
                         "the middle is brighter than all four sides, as the end of a tunnel"});
     if (than_sides != 0) return rows;  // neither floor nor things in the middle are seen
     add_row_on_area(places.brighter(places.middle, places.border), kSurestMiddle,
@@ -536,7 +555,7 @@ SlopeShape SampledLevels::slope_shape() const {
     SlopeMeter meter;
     const std::size_t step = 1 + lattices_.size() / kMostForSlopes;
     for (std::size_t k = 0; k < lattices_.size(); k += step) {
-        const Lattice& lattice = lattices_[k];
+        const LevelLattice& lattice = lattices_[k];
         std::vector<float> levels = lattice.levels;
         for (float& level : levels)
             if (!is_data(level)) level = std::numeric_limits<float>::quiet_NaN();
@@ -570,7 +589,7 @@ DepthRange SampledLevels::range(const DepthMeaning& meaning) const {
 
 double SampledLevels::holes_share() const {
     std::size_t all = 0;
-    for (const Lattice& lattice : lattices_) all += lattice.levels.size();
+    for (const LevelLattice& lattice : lattices_) all += lattice.levels.size();
     return all == 0 ? 0.0 : static_cast<double>(all - levels_.size()) / static_cast<double>(all);
 }
 

@@ -109,11 +109,17 @@ bool is_complete(const DepthStatement& known) {
     return known.no_data && known.unit && known.scale && known.near && known.range;
 }
 
+/// Whether the middle of the colour pictures is brighter than their sides; nothing: no colour.
+std::optional<int> middle_of_colour(const Sources& sources) {
+    if (!sources.colour) return {};
+    constexpr int kMostColours = 3;
+    return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
+}
+
 /// Adds the rows of the numbers on facts that nobody states yet, or not surely. Returns the levels
 /// without those that are no data.
-SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
-                          const RankedStatements& persons, Findings& rows) {
-    SampledLevels levels(pictures, bits);
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
+    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
     const auto add = [&rows](const Findings& more) {
         rows.insert(rows.end(), more.begin(), more.end());
@@ -128,7 +134,8 @@ SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
     if (!known.unit) add(levels.units());
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
-        add(levels.near());
+        add(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
+                                                                 : middle_of_colour(sources)));
     return levels;
 }
 
@@ -215,8 +222,8 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        persons.insert(persons.end(), {{Origin::panel, request.panel},
-                                       {Origin::sidecar, sidecars_of(places)}});
+        persons.insert(persons.end(),
+                       {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
         rows = findings_on(sources);
         meaning.found_in = facts.known_from;
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
@@ -225,14 +232,13 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows)))
-        levels = add_numbers(sample_pictures(depth), facts.bits, persons, rows);
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    const bool states_range = std::any_of(
-        conclusion.findings.begin(), conclusion.findings.end(),
-        [](const Finding& finding) { return finding.statement.range.has_value(); });
+    const bool states_range =
+        std::any_of(conclusion.findings.begin(), conclusion.findings.end(),
+                    [](const Finding& finding) { return finding.statement.range.has_value(); });
     if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};
