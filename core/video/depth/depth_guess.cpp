@@ -124,11 +124,12 @@ struct Places {
         return both ? (here.value() - there.value()) / deviation : 0.0;
     }
 
-    /// 1: the middle is brighter than each side, -1: it is darker than each, 0: neither.
-    [[nodiscard]] int brighter_than_sides() const {
-        const auto all_are = [this](double sign) {
+    /// 1: the middle is brighter than each side, by `least` deviations, -1: it is darker than
+    /// each, 0: neither.
+    [[nodiscard]] int brighter_than_sides(double least) const {
+        const auto all_are = [&](double sign) {
             return std::all_of(sides.begin(), sides.end(), [&](const Mean& side) {
-                return sign * brighter(middle, side) > kAllSides;
+                return sign * brighter(middle, side) > least;
             });
         };
         return all_are(1.0) ? 1 : all_are(-1.0) ? -1 : 0;
@@ -522,14 +523,14 @@ Findings SampledLevels::units_of_numbers() const {
 // Near.
 
 int SampledLevels::middle_brighter_than_sides() const {
-    return places_of(lattices_, no_data_).brighter_than_sides();
+    return places_of(lattices_, no_data_).brighter_than_sides(kClear);
 }
 
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
     add_row_on_slopes(slope_shape(), rows);
     const Places places = places_of(lattices_, no_data_);
-    const int than_sides = places.brighter_than_sides();
+    const int than_sides = places.brighter_than_sides(kAllSides);
     const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
     if (than_sides != 0 && middle_of_colour.value_or(0) < 0)
         rows.push_back(

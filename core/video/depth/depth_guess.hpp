@@ -44,8 +44,8 @@ class SampledLevels {
     /// the colour pictures, if there are any.
     [[nodiscard]] Findings near(std::optional<int> middle_of_colour = {}) const;
 
-    /// 1: the middle is brighter than each of the four sides, -1: it is darker than each, 0:
-    /// neither.
+    /// 1: the middle is clearly brighter than each of the four sides, -1: it is darker than each,
+    /// 0: neither.
     [[nodiscard]] int middle_brighter_than_sides() const;
 
     /// The range by that meaning: between the half percents at either end, and at most a twentieth
