@@ -32,8 +32,8 @@ struct Lattice {
 
 /// Means of 3 x 3 pixels; NaN where one of them has no data, and at the border.
 Lattice smoothed(const Lattice& levels) {
-    constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
-    Lattice means{levels.columns, levels.rows, std::vector<float>(levels.of.size(), kNothing)};
+    constexpr float kUnseen = std::numeric_limits<float>::quiet_NaN();
+    Lattice means{levels.columns, levels.rows, std::vector<float>(levels.of.size(), kUnseen)};
     for (int j = 1; j + 1 < levels.rows; ++j)
         for (int i = 1; i + 1 < levels.columns; ++i) {
             float sum = 0.0F;

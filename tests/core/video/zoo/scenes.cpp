@@ -168,7 +168,8 @@ View view_of(Place place, double moment, cv::Size size) {
             const bool is_sky = !std::isfinite(seen.farness);
             view.farness.at<float>(j, i) = is_sky ? kNothing : static_cast<float>(seen.farness);
             double light = is_sky ? 150.0 : texture.at<std::uint8_t>(j, i);
-            if (place == Place::organ) light *= std::min(1.0, std::pow(0.03 / seen.farness, 2.0));
+            // The lamp of an endoscope is beside its camera.
+            if (place == Place::organ) light *= std::min(1.0, std::pow(0.018 / seen.farness, 2.0));
             view.colour.at<cv::Vec3b>(j, i) = coloured(seen.object, static_cast<int>(light));
         }
     }
