@@ -51,12 +51,14 @@ constexpr double kSurestFloor = 0.9;
 constexpr double kSurenessOfTunnel = 0.6;
 constexpr double kSurenessOfLitTunnel = 0.93;
 constexpr std::size_t kLeastSlopes = 400;
-constexpr double kLeastBent = 0.6;        ///< share of convex slopes, or of others
-constexpr double kSurestBend = 0.95;      ///< insides of bowls bend the other way
-constexpr double kLeastStraight = 0.78;   ///< share of slopes; below, a surface is no plane
-constexpr double kSurestStraight = 0.88;  ///< a shallow scene has straight distances, too
+constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
+constexpr double kSurestBend = 0.98;          ///< insides of bowls bend the other way
+constexpr double kLeastStraight = 0.78;       ///< share of slopes; others are no planes
+constexpr double kSurenessOfStraight = 0.93;  ///< a shallow scene has straight distances, too
 constexpr double kLeastPerspective = 0.05;
-constexpr std::size_t kMostForSlopes = 6;  ///< pictures
+constexpr double kLeastProportional = 0.6;
+constexpr double kLevelsInProportion = 0.2;  ///< their 0 seldom is the camera's place
+constexpr std::size_t kMostForSlopes = 6;    ///< pictures
 
 // Range.
 constexpr double kTail = 0.005;
@@ -163,14 +165,15 @@ void add_row_on_area(double deviations, double surest, const std::string& areas,
                         " standard deviations, " + (brighter ? "brighter" : "darker")});
 }
 
-/// The row on how slopes bend, where they do.
-void add_row_on_slopes(const SlopeShape& shape, Findings& rows) {
+/// The rows on how slopes bend, where they do.
+void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
     if (shape.slopes < kLeastSlopes) return;
     const auto percent = [](double share) { return short_text(100.0 * share, 2) + " %"; };
-    if (shape.straight > kLeastStraight && shape.perspective > kLeastPerspective)
+    const bool has_perspective = shape.perspective > kLeastPerspective;
+    if (shape.straight > kLeastStraight && has_perspective)
         return rows.push_back({{.near = NearLevels::bright},
                                Evidence::numbers,
-                               std::min(shape.straight, kSurestStraight),
+                               kSurenessOfStraight,
                                percent(shape.straight) +
                                    " of the slopes are straight, as where levels are one over the "
                                    "distance"});
@@ -183,6 +186,12 @@ void add_row_on_slopes(const SlopeShape& shape, Findings& rows) {
                     percent(bent) + " of the slopes bend as " +
                         (is_convex ? "distances" : "nearness") +
                         " of planes and of convex things"});
+    if (bits > 8 && shape.proportional > kLeastProportional && has_perspective)
+        rows.push_back(
+            {{.unit = DepthUnit::levels},
+             Evidence::numbers,
+             kLevelsInProportion,
+             percent(shape.proportional) + " of the slopes bend as distances from the camera"});
 }
 
 /// The sizes of scenes, as distances of the nearest and of nine tenths of the pixels [m].
@@ -528,7 +537,7 @@ int SampledLevels::middle_brighter_than_sides() const {
 
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
-    add_row_on_slopes(slope_shape(), rows);
+    add_rows_on_slopes(slope_shape(), bits_, rows);
     const Places places = places_of(lattices_, no_data_);
     const int than_sides = places.brighter_than_sides(kAllSides);
     const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;

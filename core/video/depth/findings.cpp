@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kEvidenceNames{
-    "person", "magic", "metadata", "layout", "name", "appearance", "numbers"};
+constexpr std::array<std::string_view, 8> kEvidenceNames{
+    "person", "magic", "metadata", "layout", "code", "name", "appearance", "numbers"};
 
 /// How usual each kind of values is among the files that people bring. Bright and dark have half
 /// each, so that evidence on near alone counts for no unit.
@@ -216,6 +218,10 @@ std::string_view name_of(Evidence value) noexcept {
     return kEvidenceNames[static_cast<std::size_t>(value)];
 }
 
+Finding finding_of_metadata(const DepthStatement& statement, const std::string& reason) {
+    return {statement, Evidence::metadata, kSurenessOfMetadata, reason};
+}
+
 std::vector<DepthHypothesis> weigh(const Findings& findings) {
     std::vector<DepthHypothesis> kinds(kUsualKinds.begin(), kUsualKinds.end());
     for (const Finding& finding : findings)
@@ -239,6 +245,19 @@ DepthStatement sure_facts(const RankedStatements& persons, const Findings& findi
     return all;
 }
 
+std::string origins_of(const Findings& findings) {
+    std::vector<std::string> reasons;
+    for (const Finding& finding : findings) {
+        const bool looks = finding.evidence >= Evidence::appearance;
+        const bool is_new =
+            std::find(reasons.begin(), reasons.end(), finding.reason) == reasons.end();
+        if (!looks && is_new && finding.sureness >= kSureEnough &&
+            finding.statement != DepthStatement{})
+            reasons.push_back(finding.reason);
+    }
+    return listed(reasons);
+}
+
 DepthConclusion conclude(const RankedStatements& persons, const Findings& findings,
                          DepthMeaning& meaning) {
     DepthConclusion conclusion;
@@ -247,6 +266,7 @@ DepthConclusion conclude(const RankedStatements& persons, const Findings& findin
             conclusion.findings.push_back(
                 {statement, Evidence::person, 1.0, std::string(name_of(origin))});
     conclusion.findings.insert(conclusion.findings.end(), findings.begin(), findings.end());
+    meaning.found_in = origins_of(findings);
     take_surest(findings, meaning);
     merge_by_priority(persons, meaning);
     const DepthStatement stated = merged(persons);

@@ -111,9 +111,11 @@ SlopeShape SlopeMeter::shape() const {
         convex += bend > 0.0 ? 1.0 : 0.0;
         all += weight;
         if (std::fabs(bend) < kAlike * weight) shape.straight += weight;
+        if (std::fabs(bend - weight) < kAlike * weight) shape.proportional += weight;
     }
     shape.convex = convex / static_cast<double>(slopes_.size());
     shape.straight /= all;
+    shape.proportional /= all;
     std::vector<float> perspectives;
     for (const Slope& slope : slopes_) perspectives.push_back(slope.perspective);
     const auto middle = perspectives.begin() + static_cast<std::ptrdiff_t>(perspectives.size() / 2);

@@ -15,9 +15,9 @@ namespace dibhr {
 struct SlopeShape {
     std::size_t slopes{0};
     double convex{0.5};  ///< share whose b is below the mean
-    /// Share of the slopes that bend by less than 0.3 of what distances would; each slope is
-    /// weighted by that bend.
-    double straight{0.0};
+    /// Shares of the slopes, each weighted by the bend of distances: those that bend by less than
+    /// 0.3 of that, and those that bend as much, within 0.3 of that.
+    double straight{0.0}, proportional{0.0};
     double perspective{0.0};  ///< median of |d - a| / |a + d|
 };
 

@@ -98,9 +98,8 @@ Intrinsics intrinsics_of(const std::vector<double>& rows, const PictureShape& sh
             camera.cy * height - 0.5};
 }
 
-void add_origin(SourceFacts& facts, const std::string& array) {
-    if (!facts.known_from.empty()) facts.known_from += ", ";
-    facts.known_from += "array " + in_quotes(array);
+Finding finding_in(const std::string& array, const DepthStatement& statement) {
+    return finding_of_metadata(statement, "array " + in_quotes(array));
 }
 
 }  // namespace
@@ -139,21 +138,17 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
     if (role_ == PictureRole::colour || !arrays.zipped()) return;
     const std::string name = chosen(arrays, role_);
-    if (lower_case(name).starts_with("disp")) {
-        facts_.known.unit = DepthUnit::disparity;
-        add_origin(facts_, name);
-    }
+    if (lower_case(name).starts_with("disp"))
+        facts_.findings.push_back(finding_in(name, {.unit = DepthUnit::disparity}));
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
     const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
     if (rows.size() < 9) return;
     const Intrinsics camera = intrinsics_of(rows, shape_);
-    if (is_camera(camera)) {
-        facts_.known.intrinsics = camera;
-        add_origin(facts_, *named(arrays, kCameraNames));
-    } else {
+    if (is_camera(camera))
+        facts_.findings.push_back(finding_in(*named(arrays, kCameraNames), {.intrinsics = camera}));
+    else
         add_clause(facts_.notice,  // why it is none
                    fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice);
-    }
 }
 
 void ArrayFile::read_times(const NamedArrays& arrays) {
@@ -184,7 +179,7 @@ cv::Mat ArrayFile::picture(std::size_t at) {
 StillPicture read_array(const fs::path& file, PictureRole role) {
     ArrayFile array(file, role);
     const SourceFacts& facts = array.facts();
-    return {array.next()->picture, facts.bits, facts.codec, facts.known, facts.known_from};
+    return {array.next()->picture, facts.bits, facts.codec, facts.findings};
 }
 
 }  // namespace dibhr

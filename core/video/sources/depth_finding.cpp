@@ -17,6 +17,7 @@
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
@@ -77,30 +78,23 @@ Findings findings_by_name(const fs::path& file) {
             return {{{.near = NearLevels::bright, .unit = known.unit},
                      Evidence::name,
                      known.sureness,
-                     "the name holds " + in_quotes(known.word)}};
+                     in_quotes(known.word) + " in its name"}};
     return {};
 }
 
-/// The rows of the table but those of the numbers: of the source and its reader, of how the files
-/// lie, and of the name.
+void append(const Findings& more, Findings& rows) {
+    rows.insert(rows.end(), more.begin(), more.end());
+}
+
+/// The rows of the table but those of the numbers and of times: of the reader that took the file,
+/// of what it and the layout found, and of the name.
 Findings findings_on(const Sources& sources) {
     const SourceFacts& facts = sources.depth->facts();
-    Findings rows = facts.findings;
-    rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
-    const auto add = [&rows](const DepthStatement& statement, Evidence evidence, double sureness,
-                             const std::string& reason) {
-        if (!(statement == DepthStatement{}))
-            rows.push_back({statement, evidence, sureness, reason});
-    };
-    add(sources.assumed, Evidence::appearance, kSurenessOfAppearance, "its pictures look so");
-    add(facts.known, sources.by_appearance ? Evidence::appearance : Evidence::metadata,
-        sources.by_appearance ? kSurenessOfAppearance : kSurenessOfMetadata,
-        facts.known_from.empty() ? "its metadata" : facts.known_from);
-    for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
-    add(sources.found, Evidence::layout, kSurenessOfMetadata, "how its files lie");
-    if (facts.codec == "PFM")
-        add({.unit = DepthUnit::disparity}, Evidence::magic, kSurenessOfAppearance,
-            "portable float maps mostly hold disparities");
+    Findings rows;
+    if (!facts.live) rows.push_back(finding_on_form(facts));
+    append(facts.findings, rows);
+    append(sources.findings, rows);
+    append(findings_by_name(facts.file), rows);
     return rows;
 }
 
@@ -121,21 +115,19 @@ std::optional<int> middle_of_colour(const Sources& sources) {
 SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
     SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
-    const auto add = [&rows](const Findings& more) {
-        rows.insert(rows.end(), more.begin(), more.end());
-    };
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
         return row.statement.no_data.has_value();
     });
-    if (!known.no_data && !names_no_data) add(levels.no_data());
+    if (!known.no_data && !names_no_data) append(levels.no_data(), rows);
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
-    if (!known.unit) add(levels.units());
+    if (!known.unit) append(levels.units(), rows);
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
-        add(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
-                                                                 : middle_of_colour(sources)));
+        append(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
+                                                                    : middle_of_colour(sources)),
+               rows);
     return levels;
 }
 
@@ -225,7 +217,6 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
         rows = findings_on(sources);
-        meaning.found_in = facts.known_from;
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));

@@ -28,20 +28,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-LayoutFacts millimetres(std::vector<double> no_data, std::string known_from) {
+/// Of a layout that the names of folders alone show.
+constexpr double kSurenessOfFolderNames = 0.95;
+
+LayoutFacts millimetres(std::vector<double> no_data, std::string reason) {
     LayoutFacts facts;
-    facts.known.unit = DepthUnit::mm;
-    facts.known.scale = 1.0;
-    facts.known.no_data = std::move(no_data);
-    facts.known_from = std::move(known_from);
+    facts.finding.statement = {.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::move(no_data)};
+    facts.finding.reason = std::move(reason);
     return facts;
 }
 
 void take_camera(const CameraFile& camera, LayoutFacts& facts) {
-    facts.known.intrinsics = camera.intrinsics;
+    facts.finding.statement.intrinsics = camera.intrinsics;
     facts.columns = camera.columns;
     facts.rows = camera.rows;
-    if (camera.levels_per_m) facts.known.scale = 1000.0 / *camera.levels_per_m;
+    if (camera.levels_per_m) facts.finding.statement.scale = 1000.0 / *camera.levels_per_m;
 }
 
 bool all_match(const PictureRow& row, const std::string& pattern) {
@@ -60,9 +61,9 @@ std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const Pictu
         millimetres({0.0, 65535.0}, is_7_scenes ? "7-Scenes names" : "tsdf-fusion names");
     for (const fs::path& place : {folder, folder.parent_path()}) {
         const auto camera = read_camera_matrix(place / "camera-intrinsics.txt");
-        if (camera && !facts.known.intrinsics) take_camera(*camera, facts);
+        if (camera && !facts.finding.statement.intrinsics) take_camera(*camera, facts);
     }
-    if (is_7_scenes && !facts.known.intrinsics)
+    if (is_7_scenes && !facts.finding.statement.intrinsics)
         take_camera({{585.0, 585.0, 320.0, 240.0}, 640, 480, {}}, facts);
     facts.other_camera = is_7_scenes;  // "the RGB and depth camera have not been calibrated"
     return facts;
@@ -94,7 +95,10 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     const std::string colour = set.colour.empty() ? "" : folder_name(set.colour);
     if (!camera && colour != "color" && colour != "image") return std::nullopt;
     LayoutFacts facts = millimetres({0.0}, "folders as Open3D has them");
-    if (camera) take_camera(*camera, facts);
+    if (camera)
+        take_camera(*camera, facts);
+    else
+        facts.finding.sureness = kSurenessOfFolderNames;
     return facts;
 }
 

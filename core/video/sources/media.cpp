@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -83,6 +84,8 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
         pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
                                                std::move(found.scale), painted, times);
+    if (request.find_out)
+        std::ranges::copy(times.findings, std::back_inserter(found.conclusion.findings));
     media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
     if (sparse_share) media->set_sparse(*sparse_share);

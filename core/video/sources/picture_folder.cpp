@@ -276,16 +276,15 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
 void PictureSequence::apply_layout(const LayoutFacts& layout) {
     add_clause(facts_.notice, layout.notice);
     if (role_ != PictureRole::depth || facts_.bits != 16) return;
-    DepthStatement known = layout.known;
-    if (known.intrinsics && (layout.columns > 0 || !is_camera(*known.intrinsics))) {
-        const FittedCamera fitted = fit_camera(*known.intrinsics, {layout.columns, layout.rows},
-                                               {facts_.columns, facts_.rows});
-        known.intrinsics = fitted.camera;
+    Finding finding = layout.finding;
+    std::optional<Intrinsics>& camera = finding.statement.intrinsics;
+    if (camera && (layout.columns > 0 || !is_camera(*camera))) {
+        const FittedCamera fitted =
+            fit_camera(*camera, {layout.columns, layout.rows}, {facts_.columns, facts_.rows});
+        camera = fitted.camera;
         add_clause(facts_.notice, fitted.notice);
     }
-    if (facts_.known_from.empty() && known != DepthStatement{})
-        facts_.known_from = layout.known_from;
-    facts_.known.fill_in(known);
+    if (finding.statement != DepthStatement{}) facts_.findings.push_back(std::move(finding));
     facts_.other_camera = layout.other_camera;
 }
 

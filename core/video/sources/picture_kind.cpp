@@ -25,10 +25,11 @@ constexpr int kLongSide = 320;  ///< of the reduced pictures [px]
 constexpr std::size_t kMostKindSamples = 24;
 
 // Bounds for single pixels, in levels of 255.
-constexpr int kDark = 40;       ///< the highest channel is below
-constexpr int kGrey = 16;       ///< channels differ by less
-constexpr int kPure = 170;      ///< channels differ by at least
-constexpr float kFlat = 0.15F;  ///< levels a pixel
+constexpr int kDark = 40;        ///< the highest channel is below
+constexpr int kGrey = 16;        ///< channels differ by less
+constexpr int kFullLight = 225;  ///< of a pure hue the highest channel is at least
+constexpr int kNoLight = 40;     ///< and the lowest at most
+constexpr float kFlat = 0.15F;   ///< levels a pixel
 constexpr float kSlope = 4.0F;
 constexpr float kEdge = 8.0F;
 
@@ -370,7 +371,7 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
             if (highest < kDark) continue;
             ++lit;
             coloured += static_cast<int>(chroma >= kGrey);
-            pure += static_cast<int>(chroma >= kPure);
+            pure += static_cast<int>(highest >= kFullLight && highest - chroma <= kNoLight);
         }
     }
     PictureStatistics statistics;

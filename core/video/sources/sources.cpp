@@ -75,7 +75,9 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     const auto named = packing_by_name(place.path);
     if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
-            .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
+            .packing = named->packing,
+            .half_size = named->half_size,
+            .finding = {{}, Evidence::name, kSurenessOfName, "the last words of its name"}};
     if (!form && statement.packing) {
         form.emplace();
         const std::vector<cv::Mat> first = colour_samples(place.path, 1);
@@ -83,24 +85,18 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     }
     if (!form) return form;
     form->packing = statement.packing.value_or(form->packing);
-    if (!statement.code) return form;
-    if (*statement.code != DepthCode::hue)
-        form->hue.reset();
-    else if (!form->hue)
-        form->hue.emplace();
+    const bool is_hue = statement.code == DepthCode::hue;
+    if (!statement.code || (is_hue && form->hue)) return form;
+    form->hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
     if (is_of_bytes(*statement.code)) form->bytes = *statement.code;
+    form->coded = finding_on_code(*statement.code, true);
     return form;
 }
 
 /// The halves, where the pictures look packed; else nothing.
 std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
-    PackedForm form{.packing = guess.packing, .gap_px = guess.gap_px, .known_from = "its pictures"};
-    if (guess.code == DepthCode::hue) form.hue.emplace();
-    Sources sources = open_packed(place, form);
-    sources.assumed = std::exchange(sources.found, {});
-    sources.by_appearance = true;
-    return sources;
+    return open_packed(place, form_by_appearance(guess));
 }
 
 /// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
@@ -134,8 +130,8 @@ std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int mos
     std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
     for (cv::Mat& picture : pictures) {
         if (halves != nullptr)
-            picture = picture(half_of(picture.size(), halves->packing, PictureRole::depth,
-                                      halves->gap_px));
+            picture = picture(
+                half_of(picture.size(), halves->packing, PictureRole::depth, halves->gap_px));
     }
     return pictures;
 }
@@ -168,35 +164,31 @@ std::unique_ptr<PictureSource> in_colours(const Place& place, Sources& sources) 
     return open_as_colour(place.path, sources.depth_track);
 }
 
-void decode_hue(const Place& place, Sources& sources) {
-    sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, "its hues");
-    sources.assumed.code = DepthCode::hue;
+void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources& sources) {
+    const Finding coded = finding_on_code(code, is_stated);
+    if (is_of_bytes(code))
+        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
+    else
+        sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
 }
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
-    static constexpr const char* kBytes = "the bytes of its colours";
-    const auto told = statement.code;
-    if (told && is_of_bytes(*told)) {
-        sources.depth = byte_decoded(std::move(sources.depth), *told, kBytes);
-        return sources;
-    }
-    if (told == DepthCode::hue) {
-        decode_hue(place, sources);
+    const auto stated = statement.code;
+    if (stated && *stated != DepthCode::grey) {
+        decode_colours(place, *stated, true, sources);
         return sources;
     }
     const ColoursOfDepth colours = colours_of_depth(place, sources);
-    sources.by_appearance = colours.kind == PictureKind::ramp_depth;
-    if (sources.by_appearance)
-        sources.depth = ramp_decoded(in_colours(place, sources), "its colours");
-    if (told || sources.by_appearance || colours.kind == PictureKind::grey_depth) return sources;
+    const bool is_ramp = colours.kind == PictureKind::ramp_depth;
+    if (is_ramp) sources.depth = ramp_decoded(in_colours(place, sources));
+    if (stated || is_ramp || colours.kind == PictureKind::grey_depth) return sources;
     if (colours.kind == PictureKind::hue_depth)
-        decode_hue(place, sources);
+        decode_colours(place, DepthCode::hue, false, sources);
     else if (colours.kind == PictureKind::byte_depth)
-        sources.depth = byte_decoded(std::move(sources.depth), colours.bytes, kBytes);
+        decode_colours(place, colours.bytes, false, sources);
     else
         sources.not_depth = refusal_of_colours(sources.depth->facts());
-    sources.by_appearance = sources.not_depth.empty();
     return sources;
 }
 
@@ -268,16 +260,15 @@ Sources open_halves(const Place& place, PackedForm form, const DepthStatement& s
     if (colours.kind == PictureKind::grey_depth) return sources;
     if (colours.kind == PictureKind::hue_depth) {
         form.hue.emplace();
+        form.coded = finding_on_code(DepthCode::hue, false);
     } else if (colours.kind == PictureKind::byte_depth) {
         form.bytes = colours.bytes;
+        form.coded = finding_on_code(colours.bytes, false);
     } else {
         sources.not_depth = refusal_of_colours(sources.depth->facts());
         return sources;
     }
-    sources = open_packed(place.path, form);
-    sources.assumed.code = std::exchange(sources.found.code, {});
-    sources.by_appearance = true;
-    return sources;
+    return open_packed(place.path, form);
 }
 
 /// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth

@@ -12,14 +12,11 @@ namespace dibhr {
 
 class LiveFeed;
 
-/// The sources found, and the statements on depth that follow from how they were found.
+/// The sources found, and what was found out on the way.
 struct Sources {
     std::unique_ptr<PictureSource> depth{};   ///< null: only of find_content(), colour alone
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
-    DepthStatement found{};                   ///< from files, names and metadata
-    DepthStatement assumed{};                 ///< guessed from the pictures
-    bool by_appearance{false};                ///< the depth's own facts are guessed, too
-    Findings findings{};                      ///< what else was found out on the way
+    Findings findings{};                      ///< beside those of the depth's source
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files

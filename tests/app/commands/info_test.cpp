@@ -96,14 +96,18 @@ TEST_CASE("info --why prints what each finding states, how sure it is and where 
     const ProgramResult why = run_dibhr(folder, {"info", "rock_height.png", "--why"});
     INFO(why.output << why.errors);
     CHECK(why.exit_code == 0);
-    CHECK(says(why, "near bright, unit levels: 97 % by name, the name holds 'height'"));
+    CHECK(says(why, "form PNG                   99 %  magic       picture by OpenCV's codecs, by"));
+    CHECK(says(why, "near bright, unit levels   97 %  name        'height' in its name\n"));
     CHECK(says(why, "\n  so "));
     CHECK(says(why, "sure              97 %"));
-    CHECK_FALSE(says(run_dibhr(folder, {"info", "rock_height.png"}), "by name"));
+    CHECK(says(why, "found in          'height' in its name"));
+    CHECK_FALSE(says(run_dibhr(folder, {"info", "rock_height.png"}), "form PNG"));
     const Json json =
         parsed_json(run_dibhr(folder, {"info", "rock_height.png", "--json", "--why"}).output);
-    CHECK(json["findings"][0]["states"]["unit"] == "levels");
-    CHECK(json["findings"][0]["evidence"] == "name");
+    CHECK(json["findings"][0]["about"] == "form PNG");
+    CHECK(json["findings"][0]["evidence"] == "magic");
+    CHECK(json["findings"][1]["states"]["unit"] == "levels");
+    CHECK(json["findings"][1]["evidence"] == "name");
 }
 
 TEST_CASE("info describes a video", "[info]") {

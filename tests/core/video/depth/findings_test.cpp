@@ -120,6 +120,17 @@ TEST_CASE("the surest finding counts for facts that are not weighed", "[findings
     CHECK(conclusion.findings.size() == 3);
 }
 
+TEST_CASE("what sure findings state by more than a look is said once, with where it is from",
+          "[findings]") {
+    Findings findings{row(kMillimetres, 0.995, Evidence::metadata),
+                      row(kDark, 0.995, Evidence::layout), row(kDark, 0.97, Evidence::name)};
+    findings[1].reason = "a layout";
+    CHECK(concluded(findings).meaning.found_in == "a reason, a layout");
+    CHECK(origins_of({row(kDark, 0.85, Evidence::magic), row(kDark, 0.99, Evidence::numbers),
+                      row({}, 0.995, Evidence::magic)})
+              .empty());
+}
+
 TEST_CASE("what a person states beats every finding, and nobody is asked again", "[findings]") {
     const Findings sure{row(kMillimetres, 0.999, Evidence::metadata)};
     const auto [turned, conclusion] = concluded(sure, {{Origin::panel, kBright}});

@@ -53,6 +53,7 @@ TEST_CASE("distances are convex over planes, whatever their unit and their offse
     CHECK(shape.slopes > 1000);
     CHECK(shape.convex > 0.95);
     CHECK(shape.straight < 0.5);
+    CHECK((shape.proportional > 0.8) == (offset == 0.0));
 }
 
 TEST_CASE("what falls with the distance is concave over planes", "[slopes]") {

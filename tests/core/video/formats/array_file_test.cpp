@@ -11,6 +11,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -206,16 +207,16 @@ TEST_CASE("a .npz says when its frames are, how near is high, and what the camer
     write_zip(folder / "fps.npz", {{"depth.npy", frames}, {"fps.npy", scalar(10)}}, true);
     const auto steady = depth_of_file(folder / "fps.npz");
     CHECK_THAT(steady->facts().frames_per_s, WithinAbs(10.0, 1e-9));
-    CHECK(steady->facts().known == DepthStatement{});
+    CHECK(stated_by(steady->facts()) == DepthStatement{});
     write_zip(folder / "times.npz",
               {{"disparity.npy", frames},
                {"timestamps.npy", numbers("(3,)", {2.0, 2.5, 4.0})},
                {"K.npy", numbers("(3, 3)", {500, 0, 2, 0, 510, 1.5, 0, 0, 1})}},
               true);
     const auto source = depth_of_file(folder / "times.npz");
-    CHECK(source->facts().known.unit == DepthUnit::disparity);
-    CHECK(source->facts().known.intrinsics == Intrinsics{500, 510, 2, 1.5});
-    CHECK(source->facts().known_from == "array 'disparity', array 'K'");
+    CHECK(stated_by(source->facts()).unit == DepthUnit::disparity);
+    CHECK(stated_by(source->facts()).intrinsics == Intrinsics{500, 510, 2, 1.5});
+    CHECK(origins_of(source->facts().findings) == "array 'disparity', array 'K'");
     CHECK(source->facts().start_s == 2.0);
     CHECK(source->next()->time_s == 0.0);
     CHECK(source->next()->time_s == 0.5);
