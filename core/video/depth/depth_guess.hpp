@@ -2,11 +2,21 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <string>
 #include <vector>
 
 #include "core/video/depth/findings.hpp"
 
 namespace dibhr {
+
+/// The distances that depth of a unit and scale usually has where it is what a layout says.
+struct UsualDistances {
+    DepthUnit unit{DepthUnit::levels};
+    double scale{1.0};
+    double least_m{0.0}, most_m{0.0};  ///< 0, 0: any
+    bool is_dense{false};              ///< without holes
+    std::string of{};                  ///< "KITTI depth completion"
+};
 
 /// The levels of pictures spread over a source, on a lattice of pixels. Each function that returns
 /// findings gives rows of the table; evidence that is missing gives no row.
@@ -27,6 +37,10 @@ class SampledLevels {
     /// Unit and scale, by the kind of numbers, by the ends that they reach, and by the sizes that
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
+
+    /// The row that contradicts what a layout says, where its distances are not the usual ones;
+    /// else none.
+    [[nodiscard]] Findings contradictions(const UsualDistances& usual) const;
 
     /// Near, by where the picture is brighter: things are mostly near in the middle and on the
     /// floor. That is weak, and said as sure as it is clear. A picture whose middle differs from

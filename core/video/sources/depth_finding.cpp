@@ -16,6 +16,7 @@
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/sidecar.hpp"
 
@@ -81,9 +82,16 @@ Findings findings_by_name(const fs::path& file) {
     return {};
 }
 
+/// The data set of a source, but for one whose levels are decoded, and say it themselves.
+std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
+    auto set = data_set_of(facts);
+    if (set && set->finding.statement.code) set.reset();
+    return set;
+}
+
 /// The rows of the table but those of the numbers: of the source and its reader, of how the files
 /// lie, and of the name.
-Findings findings_on(const Sources& sources) {
+Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows = facts.findings;
     rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
@@ -98,7 +106,8 @@ Findings findings_on(const Sources& sources) {
         facts.known_from.empty() ? "its metadata" : facts.known_from);
     for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
     add(sources.found, Evidence::layout, kSurenessOfMetadata, "how its files lie");
-    if (facts.codec == "PFM")
+    if (set) rows.push_back(set->finding);
+    if (facts.codec == "PFM" && !facts.known.unit)
         add({.unit = DepthUnit::disparity}, Evidence::magic, kSurenessOfAppearance,
             "portable float maps mostly hold disparities");
     return rows;
@@ -109,10 +118,24 @@ bool is_complete(const DepthStatement& known) {
     return known.no_data && known.unit && known.scale && known.near && known.range;
 }
 
-/// Adds the rows of the numbers on facts that nobody states yet, or not surely. Returns the levels
-/// without those that are no data.
+/// The rows on units, but for those of the unit and scale of a data set: it has distances of its
+/// own.
+Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFacts>& set) {
+    Findings units = levels.units();
+    if (set) {
+        const DepthStatement& said = set->finding.statement;
+        std::erase_if(units, [&said](const Finding& row) {
+            return row.statement.unit == said.unit && row.statement.scale == said.scale;
+        });
+    }
+    return units;
+}
+
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what a data
+/// set states and they contradict. Returns the levels without those that are no data.
 SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
-                          const RankedStatements& persons, Findings& rows) {
+                          const RankedStatements& persons, const std::optional<DataSetFacts>& set,
+                          Findings& rows) {
     SampledLevels levels(pictures, bits);
     const DepthStatement known = sure_facts(persons, rows);
     const auto add = [&rows](const Findings& more) {
@@ -125,7 +148,9 @@ SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
-    if (!known.unit) add(levels.units());
+    const Findings contradictions = set ? levels.contradictions(set->usual) : Findings{};
+    add(contradictions);
+    if (!known.unit || !contradictions.empty()) add(units_beside(levels, set));
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
         add(levels.near());
@@ -212,13 +237,17 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
                              {Origin::command_line, request.command_line}};
     Findings rows;
     DepthMeaning meaning;
+    std::optional<DataSetFacts> set;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        persons.insert(persons.end(), {{Origin::panel, request.panel},
-                                       {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources);
+        persons.insert(persons.end(),
+                       {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
+        set = data_set_beside_codes(facts);
+        rows = findings_on(sources, set);
         meaning.found_in = facts.known_from;
+        if (set && meaning.found_in.empty() && set->finding.sureness >= kSureEnough)
+            meaning.found_in = set->finding.reason;
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
@@ -226,13 +255,13 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
     if (!is_complete(sure_facts(persons, rows)))
-        levels = add_numbers(sample_pictures(depth), facts.bits, persons, rows);
+        levels = add_numbers(sample_pictures(depth), facts.bits, persons, set, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    const bool states_range = std::any_of(
-        conclusion.findings.begin(), conclusion.findings.end(),
-        [](const Finding& finding) { return finding.statement.range.has_value(); });
+    const bool states_range =
+        std::any_of(conclusion.findings.begin(), conclusion.findings.end(),
+                    [](const Finding& finding) { return finding.statement.range.has_value(); });
     if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};

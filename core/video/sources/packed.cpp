@@ -128,6 +128,18 @@ void require_bytes(PictureSource& pictures, DepthCode code) {
                      ") are lost: write it without loss, " + kWithoutLoss);
 }
 
+/// Throws InputError where the pictures of a source have not the bits and channels of the code.
+void require_levels(PictureSource& pictures, DepthCode code) {
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty() || has_levels(first.front(), code)) return;
+    throw InputError(shown(pictures.facts().file) + " does not hold depth as " +
+                     std::string(name_of(code)) + ", which is in " +
+                     (code == DepthCode::xyz      ? "three channels of real numbers"
+                      : code == DepthCode::stereo ? "one channel"
+                                                  : "one channel of 16 bits") +
+                     ": give the picture as it was first written, or another --depth-code");
+}
+
 /// Whether CARLA is in the file's name or its folder's.
 bool names_carla(const fs::path& file) {
     const auto holds = [](const fs::path& name) {
@@ -237,6 +249,25 @@ std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictu
         if (code == DepthCode::rgb24 && names_carla(facts.file))
             facts.known.fill_in({.unit = DepthUnit::m, .scale = kCarlaFarthest_m / kCarlaHighest});
         facts.known.fill_in(byte_code_meaning(code));
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                             DepthCode code, const InverseLevels& law,
+                                             const DepthStatement& known, std::string known_from) {
+    require_levels(*pictures, code);
+    const auto decode = [code, law](const cv::Mat& picture) {
+        return numbers_in_levels(picture, code, law);
+    };
+    const auto change_facts = [code, known, from = std::move(known_from)](SourceFacts& facts) {
+        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.channels = 1;
+        facts.known_from = from;
+        DepthStatement decoded = level_code_meaning(code);
+        decoded.fill_in(known);
+        decoded.fill_in(facts.known);
+        facts.known = std::move(decoded);
     };
     return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
 }

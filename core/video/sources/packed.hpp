@@ -10,6 +10,7 @@
 
 #include "core/video/depth/depth_meaning.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/sources.hpp"
@@ -43,6 +44,13 @@ struct PackedForm {
 /// where they hold no such numbers, as after compression with losses.
 [[nodiscard]] std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures,
                                                           DepthCode code, std::string known_from);
+
+/// Decodes levels that are no distances (level_code.hpp): to levels of 16 bits, or to real numbers.
+/// `known`: other facts on them. Throws InputError where the pictures have no such levels.
+[[nodiscard]] std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                                           DepthCode code, const InverseLevels& law,
+                                                           const DepthStatement& known,
+                                                           std::string known_from);
 
 /// One line that refuses depth whose colours are no known code: what it is, and what to do.
 [[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts);

@@ -16,11 +16,13 @@
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -134,8 +136,8 @@ std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int mos
     std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
     for (cv::Mat& picture : pictures) {
         if (halves != nullptr)
-            picture = picture(half_of(picture.size(), halves->packing, PictureRole::depth,
-                                      halves->gap_px));
+            picture = picture(
+                half_of(picture.size(), halves->packing, PictureRole::depth, halves->gap_px));
     }
     return pictures;
 }
@@ -322,7 +324,54 @@ Sources of_one_place(const Place& place, const DepthStatement& statement) {
     return sources;
 }
 
+void decode_as(Sources& sources, DepthCode code, const InverseLevels& law,
+               const DepthStatement& known, const std::string& known_from) {
+    sources.depth = level_decoded(std::move(sources.depth), code, law, known, known_from);
+    sources.not_depth.clear();
+}
+
+/// As a person says.
+void decode_as_told(Sources& sources, DepthCode code) {
+    const auto set = data_set_of(sources.depth->facts());
+    const bool is_of_set = set && set->finding.statement.code == code;
+    if (code == DepthCode::stereo && !is_of_set)
+        throw InputError(shown(sources.depth->facts().file) +
+                         " has no calib.txt beside it, which --depth-code stereo needs: put that "
+                         "of the data set there, or give --depth-unit disparity");
+    decode_as(sources, code, is_of_set ? set->law : kKinectLevels, {}, "its levels");
+}
+
+/// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+void decode_as_found(Sources& sources) {
+    const SourceFacts facts = sources.depth->facts();
+    const auto set = data_set_of(facts);
+    const auto code = set ? set->finding.statement.code : std::nullopt;
+    if (code && is_of_levels(*code)) {
+        if (may_be_of(sources.depth->samples(kKindSamples), *code))
+            decode_as(sources, *code, set->law, set->finding.statement, set->finding.reason);
+        return;
+    }
+    const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
+    if (!may_show) return;
+    const auto shown_by_levels = level_code_in(sources.depth->samples(1));
+    if (!shown_by_levels) return;
+    sources.by_appearance = true;
+    decode_as(sources, *shown_by_levels, kKinectLevels, {}, "its levels");
+}
+
 }  // namespace
+
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (facts.known.code && is_of_levels(*facts.known.code)) return;  // decoded before
+    if (statement.code) {
+        if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
+        return;
+    }
+    const bool means_own =
+        statement.unit == DepthUnit::levels || statement.unit == DepthUnit::disparity;
+    if (find_out && !means_own && !facts.live && facts.bits >= 16) decode_as_found(sources);
+}
 
 Sources find_sources(const fs::path& colour, const fs::path& depth,
                      const DepthStatement& statement) {
