@@ -55,8 +55,10 @@ struct DepthAlternative {
 
 /// The table, and how sure the meaning concluded from it is.
 struct DepthConclusion {
-    Findings findings{};  ///< those of persons first
-    double sure{1.0};     ///< probability that near, unit and scale are all right
+    Findings findings{};    ///< those of persons first
+    double sure{1.0};       ///< probability that near, unit and scale are all right
+    double near_sure{1.0};  ///< of near alone
+    double unit_sure{1.0};  ///< of unit and scale
     /// The likeliest two to four answers, by falling probability; the first one is the meaning's.
     /// Empty where it is sure enough, or a person stated near, unit or range.
     std::vector<DepthAlternative> alternatives{};

@@ -118,6 +118,13 @@ bool is_complete(const DepthStatement& known) {
     return known.no_data && known.unit && known.scale && known.near && known.range;
 }
 
+/// Whether the middle of the colour pictures is brighter than their sides; nothing: no colour.
+std::optional<int> middle_of_colour(const Sources& sources) {
+    if (!sources.colour) return {};
+    constexpr int kMostColours = 3;
+    return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
+}
+
 /// The rows on units, but for those of the unit and scale of a data set: it has distances of its
 /// own.
 Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFacts>& set) {
@@ -133,10 +140,9 @@ Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFa
 
 /// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what a data
 /// set states and they contradict. Returns the levels without those that are no data.
-SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
-                          const RankedStatements& persons, const std::optional<DataSetFacts>& set,
-                          Findings& rows) {
-    SampledLevels levels(pictures, bits);
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons,
+                          const std::optional<DataSetFacts>& set, Findings& rows) {
+    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
     const auto add = [&rows](const Findings& more) {
         rows.insert(rows.end(), more.begin(), more.end());
@@ -153,7 +159,8 @@ SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
     if (!known.unit || !contradictions.empty()) add(units_beside(levels, set));
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
-        add(levels.near());
+        add(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
+                                                                 : middle_of_colour(sources)));
     return levels;
 }
 
@@ -254,8 +261,7 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows)))
-        levels = add_numbers(sample_pictures(depth), facts.bits, persons, set, rows);
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, set, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);

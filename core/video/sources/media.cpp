@@ -2,12 +2,12 @@
 #include "core/video/sources/media.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +23,7 @@
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/pair_times.hpp"
 #include "core/video/sources/paired_media.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {
@@ -141,42 +142,59 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
     return description;
 }
 
+bool has_scale(const DepthStatement& answer) {
+    return answer.scale.value_or(1.0) != 1.0;
+}
+
+std::string scale_text(const DepthStatement& answer) {
+    constexpr int kDigits = 7;
+    return short_text(answer.scale.value_or(1.0), kDigits);
+}
+
+/// How a person states near, or unit and scale, of an answer: "--near dark", "near = \"dark\"".
+std::string stated_text(const DepthStatement& answer, bool is_near, StatedBy way) {
+    const auto fact = [way](const char* option, const char* key, const std::string& value) {
+        return way == StatedBy::options ? std::string(option) + ' ' + value
+                                        : std::string(key) + " = " + value;
+    };
+    const auto word = [way](std::string_view name) {
+        return way == StatedBy::options ? std::string(name) : '"' + std::string(name) + '"';
+    };
+    if (is_near) return fact("--near", "near", word(name_of(*answer.near)));
+    const std::string unit = fact("--depth-unit", "unit", word(name_of(*answer.unit)));
+    if (!has_scale(answer)) return unit;
+    return unit + (way == StatedBy::options ? " " : ", ") +
+           fact("--depth-scale", "scale", scale_text(answer));
+}
+
 }  // namespace
 
 std::optional<RawFrame> Media::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &RawFrame::media_s);
 }
 
-std::string doubt_about(const MediaDescription& media) {
-    const std::vector<DepthAlternative>& all = media.conclusion.alternatives;
-    if (all.empty()) return {};
-    const DepthStatement& best = all.front().statement;
-    double sum = 0.0;
-    for (const DepthAlternative& other : all) sum += other.probability;
-    const auto share = [&](auto fact) {
-        double same = 0.0;
-        for (const DepthAlternative& other : all)
-            if (other.statement.*fact == best.*fact) same += other.probability;
-        return same / sum;
-    };
-    struct Fact {
-        double share;
-        std::string text;
-        const char* option;
-    };
-    const std::array facts{
-        Fact{share(&DepthStatement::near), "near is " + std::string(name_of(*best.near)),
-             "--near bright or --near dark"},
-        Fact{share(&DepthStatement::unit), "unit " + std::string(name_of(*best.unit)),
-             "--depth-unit"},
-        Fact{share(&DepthStatement::scale), "scale " + short_text(*best.scale),
-             "--depth-unit and --depth-scale"}};
-    const auto& least = *std::min_element(
-        facts.begin(), facts.end(), [](const Fact& a, const Fact& b) { return a.share < b.share; });
+std::string doubt_about(const MediaDescription& media, StatedBy way) {
+    const DepthConclusion& conclusion = media.conclusion;
+    if (conclusion.alternatives.empty()) return {};
+    const bool is_near =
+        conclusion.near_sure < kSureEnough || conclusion.near_sure <= conclusion.unit_sure;
+    const double sure = is_near ? conclusion.near_sure : conclusion.unit_sure;
+    std::vector<std::string> ways;
+    for (const DepthAlternative& answer : conclusion.alternatives) {
+        std::string text = stated_text(answer.statement, is_near, way);
+        if (std::find(ways.begin(), ways.end(), text) == ways.end())
+            ways.push_back(std::move(text));
+    }
+    const DepthStatement& best = conclusion.alternatives.front().statement;
+    std::string assumed = is_near ? "near is assumed to be " + std::string(name_of(*best.near))
+                                  : "the unit is assumed to be " + std::string(name_of(*best.unit));
+    if (!is_near && has_scale(best)) assumed += " and the scale " + scale_text(best);
     constexpr double kPercent = 100.0;
-    return shown(media.depth_path) + ": " + least.text + " is likely (" +
-           number_text(kPercent * least.share, 0) + " %), not certain: look at it, or say " +
-           least.option;
+    return shown(media.depth_path) + ": " + assumed + " (" + number_text(kPercent * sure, 0) +
+           " % sure): look at it, or " +
+           (way == StatedBy::options ? "say " + listed(ways, " or ")
+                                     : "state " + listed(ways, " or ") + " in its sidecar " +
+                                           shown(sidecar_of(media.depth_path)));
 }
 
 std::string motion_trouble(const MediaDescription& media) {
