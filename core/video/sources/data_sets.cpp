@@ -37,7 +37,7 @@ struct Values {
 constexpr Values kMillimetres{
     "millimetres, 0 is no data", NearLevels::dark, DepthUnit::mm, 1.0, 0.0, 0.02, 60.0};
 constexpr Values kStreet{
-    "metres x 256, 0 is no data", NearLevels::dark, DepthUnit::m, 1.0 / 256.0, 0.0, 0.5, 256.0};
+    "metres x 256, 0 is no data", NearLevels::dark, DepthUnit::m, 1.0 / 256.0, 0.0, 0.5, 120.0};
 constexpr Values kEstimated{"metres x 256, as programs that estimate depth write it",
                             NearLevels::dark,
                             DepthUnit::m,
@@ -71,6 +71,13 @@ constexpr Values kTaskonomy{"metres x 512, 65535 is no data",
                             128.0};
 constexpr Values kYcb{
     "metres x 10000, 0 is no data", NearLevels::dark, DepthUnit::mm, 0.1, 0.0, 0.1, 6.6};
+constexpr Values kBop{"the depth_scale of scene_camera.json, 0 is no data",
+                      NearLevels::dark,
+                      DepthUnit::mm,
+                      1.0,
+                      0.0,
+                      0.02,
+                      60.0};
 constexpr Values kMvs{
     "millimetres, 0 is no data", NearLevels::dark, DepthUnit::mm, 1.0, 0.0, 0.1, 5.0};
 constexpr Values kC3vd{"65535 is 100 mm", NearLevels::dark, DepthUnit::mm, 100.0 / 65535.0,
@@ -207,8 +214,7 @@ constexpr std::array kDataSets{
     DataSet{"Taskonomy", "*_domain_depth_euclidean.png", "", 16, kTaskonomy, 0.98},
     DataSet{"DIODE", "*_depth.npy", "same_mask.npy", kRealBits, kMetresOr0, 0.97},
     // Things.
-    DataSet{"BOP", "depth/#.*", "../scene_camera.json", 16, kMillimetres, 0.995, DepthCode::grey,
-            read_bop},
+    DataSet{"BOP", "depth/#.*", "../scene_camera.json", 16, kBop, 0.995, DepthCode::grey, read_bop},
     DataSet{"YCB-Video", "#-depth.png", "#-color.* #-box.txt", 16, kYcb, 0.97},
     DataSet{"YCB-Video", "#-depth.png", "#-color.* #-meta.mat", 16, kYcb, 0.97},
     DataSet{"Middlebury stereo", "disp#*.pfm", "calib.txt", kRealBits, kByCalibration, 0.98,
@@ -233,9 +239,9 @@ constexpr std::array kDataSets{
     DataSet{"Marigold", "depth_npy*/*_pred.npy", "", kRealBits, kFarBright, 0.97},
     DataSet{"Marigold", "depth_bw*/*_pred.png", "", 16, kFarBright, 0.97},
     DataSet{"Depth Anything", "vis_depth/*.png", "", 8, kNearBright, 0.95},
-    DataSet{"ZoeDepth", "*_depth.png", "short.j*g", 16, kEstimated, 0.35, DepthCode::grey, nullptr,
+    DataSet{"ZoeDepth", "*_depth.png", "short.j*g", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
             true},
-    DataSet{"ZoeDepth", "*_depth.png", "short.png", 16, kEstimated, 0.35, DepthCode::grey, nullptr,
+    DataSet{"ZoeDepth", "*_depth.png", "short.png", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
             true}};
 
 // Comparison.

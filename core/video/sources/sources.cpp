@@ -228,7 +228,8 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     }
     if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
-    return source->facts().bits > 8 && source->facts().channels == 1;
+    const bool is_deep = source->facts().bits > 8;
+    return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
