@@ -137,14 +137,26 @@ bool is_of_room(std::span<const cv::Mat> pictures) {
     return near >= kMostOfLevels * all;
 }
 
-/// Whether 2047 stands out from levels of 0.42 to 40 m.
+/// Pixels of a lattice over a picture of 16 bits.
+cv::Mat few_levels_of(const cv::Mat& picture) {
+    constexpr double kMostLevels = 40000.0;
+    const int step = std::max(
+        1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kMostLevels)));
+    cv::Mat few((picture.rows + step - 1) / step, (picture.cols + step - 1) / step, CV_16UC1);
+    for (int j = 0; j < few.rows; ++j)
+        for (int i = 0; i < few.cols; ++i)
+            few.at<std::uint16_t>(j, i) = picture.at<std::uint16_t>(j * step, i * step);
+    return few;
+}
+
+/// Whether 2047 stands out from the other levels, which are of 0.42 m and more.
 bool looks_like_kinect(const cv::Mat& picture) {
     constexpr double kLeastNone = 5e-4;  // of the pixels
     constexpr double kLeastSeen = 0.1;
     constexpr double kMostOfLevels = 0.98;
     constexpr int kNearest = 300;
     constexpr int kFarthest = 1092;
-    const cv::Mat raw = in_11_bits(picture);
+    const cv::Mat raw = in_11_bits(few_levels_of(picture));
     const std::span<const cv::Mat> levels(&raw, 1);
     const auto all = static_cast<double>(raw.total());
     if (count_levels(levels, [](int level) { return level > kKinectNone; }) > 0.0) return false;

@@ -38,7 +38,7 @@ int whole_in(const Json& json, const char* name) {
     return number > 0.0 && number < kMost ? static_cast<int>(number) : 0;
 }
 
-/// A length of picture: the one of these names that is there.
+/// A side of a picture, by the first of these names that is there.
 int side_in(const Json& json, const char* name, const char* short_name) {
     const int side = whole_in(json, name);
     return side > 0 ? side : whole_in(json, short_name);
@@ -139,7 +139,8 @@ std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
 std::optional<CameraFile> read_camera_json(const fs::path& file) {
     Json json = json_of(small_text_in(file).value_or(""));
     if (!json.is_object()) return std::nullopt;
-    if (json.contains("camera") && json["camera"].is_object()) json = Json(json["camera"]);
+    const bool is_inside = json.contains("camera") && json["camera"].is_object();
+    if (is_inside) json = Json(json["camera"]);
     const std::vector<double> columns = numbers_in(json, "intrinsic_matrix");
     const std::vector<double> rows = numbers_in(json, "intrinsics");
     CameraFile camera;
@@ -155,8 +156,7 @@ std::optional<CameraFile> read_camera_json(const fs::path& file) {
         return std::nullopt;
     camera.columns = side_in(json, "width", "w");
     camera.rows = side_in(json, "height", "h");
-    const double scale = number_in(json, "scale").value_or(0.0);
-    take_scale(camera, number_in(json, "depth_scale").value_or(scale));
+    take_scale(camera, number_in(json, is_inside ? "scale" : "depth_scale").value_or(0.0));
     return camera;
 }
 

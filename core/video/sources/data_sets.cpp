@@ -57,7 +57,7 @@ constexpr Values kMetresOr0{
 constexpr Values kMetresToSky{
     "metres, 65504 is the sky", NearLevels::dark, DepthUnit::m, 1.0, 65504.0, 0.01, 1e5};
 constexpr Values kTum{
-    "metres x 5000, 0 is no data", NearLevels::dark, DepthUnit::m, 0.0002, 0.0, 0.1, 14.0};
+    "metres x 5000, 0 is no data", NearLevels::dark, DepthUnit::mm, 0.2, 0.0, 0.1, 14.0};
 constexpr Values kMatterport{
     "metres x 4000, 0 is no data", NearLevels::dark, DepthUnit::m, 0.00025, 0.0, 0.1, 17.0};
 constexpr Values kReplica{
@@ -210,6 +210,7 @@ constexpr std::array kDataSets{
     DataSet{"NYU Depth V2", "sync_depth_#.png", "rgb_#.jpg", 16, kMillimetres, 0.97},
     DataSet{"NYU Depth V2", "#_depth.png", "#_colors.png", 16, kMillimetres, 0.95},
     DataSet{"TUM RGB-D", "depth/#.#.png", "../rgb ../groundtruth.txt", 16, kTum, 0.97},
+    DataSet{"TUM RGB-D", "depth/#.#.png", "../rgb", 16, kTum, 0.2},
     DataSet{"Taskonomy", "*_domain_depth_zbuffer.png", "", 16, kTaskonomy, 0.98},
     DataSet{"Taskonomy", "*_domain_depth_euclidean.png", "", 16, kTaskonomy, 0.98},
     DataSet{"DIODE", "*_depth.npy", "same_mask.npy", kRealBits, kMetresOr0, 0.97},

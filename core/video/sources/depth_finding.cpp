@@ -14,6 +14,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/data_sets.hpp"
@@ -104,7 +105,9 @@ Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& 
     add(facts.known, sources.by_appearance ? Evidence::appearance : Evidence::metadata,
         sources.by_appearance ? kSurenessOfAppearance : kSurenessOfMetadata,
         facts.known_from.empty() ? "its metadata" : facts.known_from);
-    for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
+    // A name speaks of the file's own levels.
+    if (!facts.known.code || !is_of_levels(*facts.known.code))
+        for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
     add(sources.found, Evidence::layout, kSurenessOfMetadata, "how its files lie");
     if (set) rows.push_back(set->finding);
     if (facts.codec == "PFM" && !facts.known.unit)

@@ -110,6 +110,18 @@ void drop_paintings_of_numbers(PictureRow& depth) {
     });
 }
 
+/// Depth pictures leave the row that are statistics of another one: Middlebury's "disp0-sd.pfm" and
+/// "disp0-n.pgm" of "disp0.pfm".
+void drop_statistics(PictureRow& depth) {
+    std::set<std::string> names;
+    for (const NumberedPicture& picture : depth) names.insert(stem_of(picture));
+    std::erase_if(depth, [&names](const NumberedPicture& picture) {
+        const std::string name = stem_of(picture);
+        const bool is_named_so = name.ends_with("-sd") || name.ends_with("-n");
+        return is_named_so && names.contains(name.substr(0, name.rfind('-')));
+    });
+}
+
 /// Arrays and pictures whose names say nothing are no single row: the arrays are depth, and the
 /// pictures their colour where they have the same names or are as many, and do not paint it.
 void part_numbers_from_pictures(PictureSet& set) {
@@ -189,6 +201,7 @@ PictureSet pictures_among(const std::vector<fs::path>& entries) {
 
 /// Decides what pictures beside others are, whose own names do not say it.
 void complete(PictureSet& set) {
+    drop_statistics(set.depth);
     restore_others(set);
     part_numbers_from_pictures(set);
     accept_as_colour(set);

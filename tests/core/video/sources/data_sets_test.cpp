@@ -77,8 +77,8 @@ TEST_CASE("a data set is known by the last parts of a path, and by what lies bes
         {{"undistorted_depth_images/ab12_d1_4.png", 16}, "Matterport3D", DepthUnit::m, 0.00025},
         {{"depth/1305.160407.png", 16, {"rgb/a.png", "groundtruth.txt"}},
          "TUM RGB-D",
-         DepthUnit::m,
-         0.0002},
+         DepthUnit::mm,
+         0.2},
         {{"depth/25.png", 16, {"photo/25.jpg", "instance/25.png"}},
          "SceneNet RGB-D",
          DepthUnit::mm,
@@ -108,7 +108,7 @@ TEST_CASE("a data set is known by the last parts of a path, and by what lies bes
 TEST_CASE("folders that only hold a common word are no data set", "[sets]") {
     const auto laid = GENERATE(values<Laid>({
         {"depth/000012.png", 16, {"rgb/000012.png", "notes.txt"}},
-        {"depth/1305.160407.png", 16, {"rgb/a.png"}},
+        {"depth/1305.160407.png", 16, {"color/a.png"}},
         {"proj_depth/000012.png", 16},
         {"depth_left/left.npy", kRealBits},
         {"velodyne_raw/000012.png", 16},
@@ -124,12 +124,16 @@ TEST_CASE("folders that only hold a common word are no data set", "[sets]") {
     CHECK_FALSE(set_of(laid, folder).has_value());
 }
 
-TEST_CASE("a name that estimators use is no more than a hint", "[sets]") {
+TEST_CASE("names that many use are no more than a hint", "[sets]") {
     const TemporaryFolder folder;
-    const auto found = set_of({"photo_depth.png", 16, {"photo.jpg"}}, folder);
-    REQUIRE(found);
-    CHECK(found->name == "ZoeDepth");
-    CHECK(found->finding.sureness < 0.5);
+    const auto estimated = set_of({"photo_depth.png", 16, {"photo.jpg"}}, folder);
+    REQUIRE(estimated);
+    CHECK(estimated->name == "ZoeDepth");
+    CHECK(estimated->finding.sureness < 0.5);
+    const auto stamped = set_of({"depth/1305.160407.png", 16, {"rgb/a.png"}}, folder);
+    REQUIRE(stamped);
+    CHECK(stamped->name == "TUM RGB-D");
+    CHECK(stamped->finding.sureness < 0.5);
 }
 
 TEST_CASE("scales are read from the files of a data set", "[sets]") {

@@ -339,7 +339,10 @@ Brought middlebury_2014(const fs::path& folder) {
     disparity -= 2.5;
     disparity.setTo(std::numeric_limits<double>::infinity(), farness != farness);
     save_pfm(folder / "disp0.pfm", disparity);
+    save_pfm(folder / "disp0-sd.pfm", cv::Mat(kView, CV_32FC1, cv::Scalar(0.2)));
+    save(folder / "disp0-n.pgm", cv::Mat(kView, CV_8UC1, cv::Scalar(7)));
     save(folder / "im0.png", view.colour);
+    save(folder / "im1.png", view_of(Place::room, 0.5).colour);
     return with_texts(brought_of(folder, farness, view.colour, Knows::metric),
                       {{"calib.txt",
                         "cam0=[106.7 0 63.5; 0 106.7 47.5; 0 0 1]\ndoffs=2.5\n"
