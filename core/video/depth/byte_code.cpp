@@ -40,8 +40,7 @@ ByteOrder byte_order(DepthCode code) noexcept {
             return kOfTerrain;
         case DepthCode::float32:
             return kOfFloat32;
-        case DepthCode::grey:
-        case DepthCode::hue:
+        default:
             break;
     }
     return {};

@@ -529,6 +529,22 @@ Findings SampledLevels::units_of_numbers() const {
     return rows;
 }
 
+Findings SampledLevels::contradictions(const UsualDistances& usual) const {
+    constexpr double kContradicted = 0.001;
+    if (levels_.empty() || usual.most_m <= 0.0) return {};
+    const double one_m = usual.scale * (usual.unit == DepthUnit::m ? 1.0 : 0.001);
+    const double nearest_m = one_m * quantile(levels_, kTail);
+    const double farthest_m = one_m * quantile(levels_, kNearest);
+    const bool is_usual = nearest_m >= usual.least_m && farthest_m <= usual.most_m;
+    const bool has_holes = holes_share() > kLeastNone;
+    if (is_usual && !(usual.is_dense && has_holes)) return {};
+    const std::string ends = short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m";
+    return {{{.unit = usual.unit, .scale = usual.scale},
+             Evidence::numbers,
+             kContradicted,
+             usual.of + " has no " + (is_usual ? "holes" : "depth from " + ends)}};
+}
+
 // Near.
 
 int SampledLevels::middle_brighter_than_sides() const {

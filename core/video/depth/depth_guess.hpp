@@ -3,12 +3,22 @@
 
 #include <opencv2/core/mat.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/video/depth/findings.hpp"
 #include "core/video/depth/slope_shape.hpp"
 
 namespace dibhr {
+
+/// The distances that depth of a unit and scale usually has where it is what a layout says.
+struct UsualDistances {
+    DepthUnit unit{DepthUnit::levels};
+    double scale{1.0};
+    double least_m{0.0}, most_m{0.0};  ///< 0, 0: any
+    bool is_dense{false};              ///< without holes
+    std::string of{};                  ///< "KITTI depth completion"
+};
 
 /// One picture's levels on a lattice of pixels, and those of the pixels to their right.
 struct LevelLattice {
@@ -36,6 +46,10 @@ class SampledLevels {
     /// Unit and scale, by the kind of numbers, by the ends that they reach, and by the sizes that
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
+
+    /// The row that contradicts what a layout says, where its distances are not the usual ones;
+    /// else none.
+    [[nodiscard]] Findings contradictions(const UsualDistances& usual) const;
 
     /// Near, by how slopes bend (SlopeShape), and by where the picture is brighter: things are
     /// mostly near in the middle and on the floor. That is weak, and said as sure as it is clear. A

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <span>
@@ -118,11 +119,14 @@ ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(NamedAr
 
 ArrayFile::ArrayFile(const NamedArrays& arrays, PictureRole role)
     : role_(role), array_(opened(arrays, chosen(arrays, role))), shape_(array_.pictures()) {
-    if (role == PictureRole::colour &&
-        (array_.header().kind != 'u' || array_.header().number_bytes != 1))
+    const NumpyHeader& header = array_.header();
+    const bool is_of_bytes = header.kind == 'u' && header.number_bytes == 1;
+    const bool may_be_colours = is_of_bytes || (header.kind == 'f' && shape_.channels == 3);
+    if (role == PictureRole::colour && !may_be_colours)
         throw InputError(shown(arrays.file()) +
                          " holds depth and no colours (uint8): give it as the depth file");
     read_facts(arrays);
+    if (role == PictureRole::colour && !is_of_bytes) find_white();
     read_times(arrays);
     require_size(facts_.file, facts_.columns, facts_.rows);
 }
@@ -167,8 +171,26 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     take_times(std::move(times_s));
 }
 
+/// Networks have colours from 0 to 1, or from -1 to 1; others from 0 to 255.
+void ArrayFile::find_white() {
+    constexpr double kMostOfParts = 1.5;
+    constexpr double kLeastBelow = -0.01;
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxIdx(array_.picture(shape_, 0).reshape(1), &lowest, &highest);
+    if (!(lowest >= -kMostOfParts && highest <= highest_level(8)))
+        throw InputError(shown(facts_.file) +
+                         " holds points or normals and no colours: save the colours as uint8");
+    black_ = lowest < kLeastBelow ? -1.0 : 0.0;
+    white_ = highest <= kMostOfParts ? 1.0 : highest_level(8);
+}
+
 cv::Mat ArrayFile::picture(std::size_t at) {
     cv::Mat frame = array_.picture(shape_, static_cast<std::int64_t>(at));
+    if (role_ == PictureRole::colour && frame.depth() != CV_8U) {
+        const double scale = highest_level(8) / (white_ - black_);
+        frame.convertTo(frame, CV_8U, scale, -black_ * scale);
+    }
     if (role_ == PictureRole::colour && frame.channels() == 1)
         cv::cvtColor(frame, frame, cv::COLOR_GRAY2BGR);
     if (role_ == PictureRole::colour && frame.channels() == 4)

@@ -53,6 +53,7 @@ struct Timing {
 /// The facts about a source known so far; more as frames are read.
 struct SourceFacts {
     std::filesystem::path file{};
+    std::filesystem::path first_picture{};  ///< of a folder, a list or a pattern; empty: `file`
     int columns{0};
     int rows{0};
     int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers

@@ -14,8 +14,10 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
@@ -86,15 +88,31 @@ void append(const Findings& more, Findings& rows) {
     rows.insert(rows.end(), more.begin(), more.end());
 }
 
+/// Whether the levels are decoded from others.
+bool has_level_code(const Findings& rows) {
+    return std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
+        return row.statement.code && is_of_levels(*row.statement.code);
+    });
+}
+
+/// The data set of a source, but for one whose levels are decoded, and say it themselves.
+std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
+    auto set = data_set_of(facts);
+    if (set && set->finding.statement.code) set.reset();
+    return set;
+}
+
 /// The rows of the table but those of the numbers and of times: of the reader that took the file,
-/// of what it and the layout found, and of the name.
-Findings findings_on(const Sources& sources) {
+/// of what it, the layout and the data set found, and of the name.
+Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
     if (!facts.live) rows.push_back(finding_on_form(facts));
     append(facts.findings, rows);
     append(sources.findings, rows);
-    append(findings_by_name(facts.file), rows);
+    // A name speaks of the file's own levels.
+    if (!has_level_code(facts.findings)) append(findings_by_name(facts.file), rows);
+    if (set) rows.push_back(set->finding);
     return rows;
 }
 
@@ -110,9 +128,23 @@ std::optional<int> middle_of_colour(const Sources& sources) {
     return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
 }
 
-/// Adds the rows of the numbers on facts that nobody states yet, or not surely. Returns the levels
-/// without those that are no data.
-SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
+/// The rows on units, but for those of the unit and scale of a data set: it has distances of its
+/// own.
+Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFacts>& set) {
+    Findings units = levels.units();
+    if (set) {
+        const DepthStatement& said = set->finding.statement;
+        std::erase_if(units, [&said](const Finding& row) {
+            return row.statement.unit == said.unit && row.statement.scale == said.scale;
+        });
+    }
+    return units;
+}
+
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what a data
+/// set states and they contradict. Returns the levels without those that are no data.
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons,
+                          const std::optional<DataSetFacts>& set, Findings& rows) {
     SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
@@ -122,7 +154,9 @@ SampledLevels add_numbers(const Sources& sources, const RankedStatements& person
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
-    if (!known.unit) append(levels.units(), rows);
+    const Findings contradictions = set ? levels.contradictions(set->usual) : Findings{};
+    append(contradictions, rows);
+    if (!known.unit || !contradictions.empty()) append(units_beside(levels, set), rows);
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
         append(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
@@ -211,19 +245,21 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
                              {Origin::command_line, request.command_line}};
     Findings rows;
     DepthMeaning meaning;
+    std::optional<DataSetFacts> set;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources);
+        set = data_set_beside_codes(facts);
+        rows = findings_on(sources, set);
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, set, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);

@@ -15,6 +15,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_lists.hpp"
 #include "core/video/sources/picture_pattern.hpp"
@@ -102,10 +103,27 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     return facts;
 }
 
+/// The camera that a data set has in a file beside; data_sets.cpp has the other facts.
+LayoutFacts camera_of_data_set(const PictureSet& set) {
+    LayoutFacts facts;
+    if (set.depth.empty()) return facts;
+    SourceFacts depth;
+    depth.file = set.depth.front().file;
+    depth.bits = 16;
+    const auto found = data_set_of(depth);
+    if (!found || !found->camera || !is_camera(found->camera->intrinsics)) return facts;
+    CameraFile camera = *found->camera;
+    camera.levels_per_m.reset();
+    take_camera(camera, facts);
+    facts.finding.reason = found->finding.reason;
+    return facts;
+}
+
 LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
     if (auto facts = facts_of_folders(folder, set)) return *facts;
-    return scanner_facts(folder);
+    LayoutFacts scanned = scanner_facts(folder);
+    return scanned.finding.statement == DepthStatement{} ? camera_of_data_set(set) : scanned;
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.

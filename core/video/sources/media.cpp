@@ -73,8 +73,10 @@ std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& sc
     return meter.sparse_share();
 }
 
-std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
+std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& statement,
+                                      const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
+    decode_levels(sources, statement, asked.find_out);
     if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
@@ -129,8 +131,9 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         description.notice = sources.colour->facts().notice;
         return description;
     }
+    decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
-    const auto media = media_of(std::move(sources), request, false, notice);
+    const auto media = media_of(std::move(sources), statement, request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
     description.levels_used = levels_used(pictures);
@@ -238,16 +241,18 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const DepthStatement statement =
             statement_for(depth_of_pair(colour, depth), colour, request);
-        return media_of(sources_of(colour, depth, statement, request), request, true, notice);
+        return media_of(sources_of(colour, depth, statement, request), statement, request, true,
+                        notice);
     });
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const fs::path depth = is_live(place) ? place : depth_place_for(place);
-        Sources sources = sources_of({}, place, statement_for(depth, place, request), request);
+        const DepthStatement statement = statement_for(depth, place, request);
+        Sources sources = sources_of({}, place, statement, request);
         sources.colour.reset();
-        return media_of(std::move(sources), request, false, notice);
+        return media_of(std::move(sources), statement, request, false, notice);
     });
 }
 

@@ -129,6 +129,18 @@ void require_bytes(PictureSource& pictures, DepthCode code) {
                      ") are lost: write it without loss, " + kWithoutLoss);
 }
 
+/// Throws InputError where the pictures of a source have not the bits and channels of the code.
+void require_levels(PictureSource& pictures, DepthCode code) {
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty() || has_levels(first.front(), code)) return;
+    throw InputError(shown(pictures.facts().file) + " does not hold depth as " +
+                     std::string(name_of(code)) + ", which is in " +
+                     (code == DepthCode::xyz      ? "three channels of real numbers"
+                      : code == DepthCode::stereo ? "one channel"
+                                                  : "one channel of 16 bits") +
+                     ": give the picture as it was first written, or another --depth-code");
+}
+
 /// Whether CARLA is in the file's name or its folder's.
 bool names_carla(const fs::path& file) {
     const auto holds = [](const fs::path& name) {
@@ -210,8 +222,9 @@ PackedForm form_by_appearance(const PictureGuess& guess) {
 
 Finding finding_on_code(DepthCode code, bool is_stated) {
     const std::string reason = is_stated ? "what " + std::string(name_of(code)) + " means"
-                               : code == DepthCode::hue
-                                   ? "its colours: pure hues alone"
+                               : code == DepthCode::hue ? "its colours: pure hues alone"
+                               : is_of_levels(code)
+                                   ? "its levels, which no distances have"
                                    : "the bytes of its colours, which carry as those of numbers";
     return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
 }
@@ -261,6 +274,31 @@ std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictu
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
         facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
         facts.channels = 1;
+        facts.findings.push_back(coded);
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                             DepthCode code, const InverseLevels& law,
+                                             Finding coded) {
+    require_levels(*pictures, code);
+    const auto decode = [code, law](const cv::Mat& picture) {
+        return numbers_in_levels(picture, code, law);
+    };
+    DepthStatement decoded = level_code_meaning(code);
+    decoded.fill_in(coded.statement);
+    coded.statement = std::move(decoded);
+    const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
+        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.channels = 1;
+        for (Finding& row : facts.findings) {  // on the levels before they are decoded
+            row.statement.near.reset();
+            row.statement.unit.reset();
+            row.statement.scale.reset();
+            row.statement.range.reset();
+            row.statement.no_data.reset();
+        }
         facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);

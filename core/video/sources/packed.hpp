@@ -10,6 +10,7 @@
 
 #include "core/video/depth/findings.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/sources.hpp"
@@ -54,6 +55,12 @@ struct PackedForm {
 /// losses.
 [[nodiscard]] std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures,
                                                           DepthCode code, Finding coded);
+
+/// Decodes levels that are no distances (level_code.hpp): to levels of 16 bits, or to real numbers.
+/// `coded`: as in hue_decoded(). Throws InputError where the pictures have no such levels.
+[[nodiscard]] std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                                           DepthCode code, const InverseLevels& law,
+                                                           Finding coded);
 
 /// One line that refuses depth whose colours are no known code: what it is, and what to do.
 [[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts);

@@ -164,6 +164,14 @@ bool looks_hue_depth(const PictureStatistics& statistics) {
            is_surface(statistics.hue, kHueDepth);
 }
 
+/// Whether pictures whose hues look like depth are painted in the colours of a map, as jet, which
+/// is pale in its middle and dark at its ends: there hues are not linear.
+bool is_painted(std::span<const cv::Mat> pictures, const PictureStatistics& statistics) {
+    constexpr double kLeastPure = 0.96;  // of hue codes, but for compression
+    return statistics.pure < kLeastPure &&
+           std::all_of(pictures.begin(), pictures.end(), is_colour_mapped);
+}
+
 bool looks_ramp_depth(const PictureStatistics& statistics) {
     return statistics.ramp >= 0.9 && statistics.coloured >= 0.2 &&
            is_surface(statistics.brightness, kGreyDepth);
@@ -397,7 +405,8 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     guess.whole = mean_statistics(pictures);
     if (guess.kind == PictureKind::packed) return guess;
     if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
-    if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
+    if (looks_hue_depth(guess.whole) && !is_painted(pictures, guess.whole))
+        guess.kind = PictureKind::hue_depth;
     // Last, because blue hues are on the ramp, too.
     if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
     if (const auto code = byte_code_in(pictures)) {

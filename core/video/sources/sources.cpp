@@ -16,11 +16,13 @@
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -218,7 +220,8 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     }
     if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
-    return source->facts().bits > 8 && source->facts().channels == 1;
+    const bool is_deep = source->facts().bits > 8;
+    return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
@@ -313,7 +316,58 @@ Sources of_one_place(const Place& place, const DepthStatement& statement) {
     return sources;
 }
 
+void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, Finding coded) {
+    sources.depth = level_decoded(std::move(sources.depth), code, law, std::move(coded));
+    sources.not_depth.clear();
+}
+
+/// As a person says.
+void decode_as_told(Sources& sources, DepthCode code) {
+    const auto set = data_set_of(sources.depth->facts());
+    const bool is_of_set = set && set->finding.statement.code == code;
+    if (code == DepthCode::stereo && !is_of_set)
+        throw InputError(shown(sources.depth->facts().file) +
+                         " has no calib.txt beside it, which --depth-code stereo needs: put that "
+                         "of the data set there, or give --depth-unit disparity");
+    decode_as(sources, code, is_of_set ? set->law : kKinectLevels, finding_on_code(code, true));
+}
+
+/// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+void decode_as_found(Sources& sources) {
+    const SourceFacts facts = sources.depth->facts();
+    const auto set = data_set_of(facts);
+    const auto code = set ? set->finding.statement.code : std::nullopt;
+    if (code && is_of_levels(*code)) {
+        if (may_be_of(sources.depth->samples(kKindSamples), *code))
+            decode_as(sources, *code, set->law, set->finding);
+        return;
+    }
+    const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
+    if (!may_show) return;
+    if (const auto code_of_levels = level_code_in(sources.depth->samples(1)))
+        decode_as(sources, *code_of_levels, kKinectLevels, finding_on_code(*code_of_levels, false));
+}
+
+/// Whether the levels of a source are decoded already.
+bool is_decoded(const SourceFacts& facts) {
+    return std::any_of(facts.findings.begin(), facts.findings.end(), [](const Finding& row) {
+        return row.statement.code && is_of_levels(*row.statement.code);
+    });
+}
+
 }  // namespace
+
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (is_decoded(facts)) return;
+    if (statement.code) {
+        if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
+        return;
+    }
+    const bool means_own =
+        statement.unit == DepthUnit::levels || statement.unit == DepthUnit::disparity;
+    if (find_out && !means_own && !facts.live && facts.bits >= 16) decode_as_found(sources);
+}
 
 Sources find_sources(const fs::path& colour, const fs::path& depth,
                      const DepthStatement& statement) {

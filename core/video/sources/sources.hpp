@@ -36,6 +36,11 @@ struct Sources {
 [[nodiscard]] Sources find_depth(const std::filesystem::path& place,
                                  const DepthStatement& statement);
 
+/// Decodes depth in levels that are no distances (level_code.hpp): of the code that is stated;
+/// else, if it may `find_out`, of that of its data set or of its numbers, unless the statement says
+/// what the file's own levels mean. Throws InputError where it has no levels of the stated code.
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out);
+
 /// The content of a place: colour, depth or both; ignores files beside it.
 [[nodiscard]] Sources find_content(const std::filesystem::path& place,
                                    const DepthStatement& statement);

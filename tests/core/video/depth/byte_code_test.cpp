@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "core/video/depth/level_code.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/sidecar.hpp"
 #include "tests/core/video/clips.hpp"
@@ -276,7 +277,9 @@ TEST_CASE("every code has a name that a sidecar keeps", "[bytes]") {
         CAPTURE(name_of(code));
         const DepthStatement said{.code = code};
         CHECK(statement_in(toml_of(said), "a") == said);
-        CHECK(is_of_bytes(code) == (code != DepthCode::grey && code != DepthCode::hue));
+        const bool is_number = is_of_bytes(code) || is_of_levels(code);
+        CHECK(is_number == (code != DepthCode::grey && code != DepthCode::hue));
+        CHECK_FALSE((is_of_bytes(code) && is_of_levels(code)));
     }
 }
 

@@ -254,6 +254,23 @@ TEST_CASE("arrays of bytes are colours, and one .npz opens as colour and depth",
     CHECK(contains(refusal_of(folder / "depth.npy", PictureRole::colour), "no colours"));
 }
 
+TEST_CASE("colours of networks are real numbers, whose channels may come first", "[numpy]") {
+    const TemporaryFolder folder;
+    const float black = GENERATE(0.0F, -1.0F);
+    std::string planes;
+    for (const float part : {0.0F, 0.4F, 1.0F})
+        for (int k = 0; k < 12; ++k) append_bytes(planes, black + part * (1.0F - black));
+    write_text(folder / "a.npy", npy("<f4", "(1, 3, 3, 4)", planes));
+    const auto colours_of = [&folder] {
+        return read_still(folder / "a.npy", PictureRole::colour).picture.at<cv::Vec3b>(2, 3);
+    };
+    CHECK(colours_of() == cv::Vec3b(255, 102, 0));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", planes));
+    CHECK(colours_of() == cv::Vec3b(255, 255, 255));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", std::string(36 * 4, '\x44')));
+    CHECK(contains(refusal_of(folder / "a.npy", PictureRole::colour), "points or normals"));
+}
+
 TEST_CASE("what is no array of pictures is refused with its shape", "[numpy]") {
     const TemporaryFolder folder;
     const std::string shape = GENERATE("(12,)", "()", "(2, 1, 2, 3, 1, 1)", "(0, 3, 4)", "(3, 0)");

@@ -163,7 +163,11 @@ TEST_CASE("names of colour and depth beside each other are told apart in many wo
                                          {"image/0001.png", "mono_depth/0001.png"},
                                          {"left/0001.png", "disparity/0001.png"},
                                          {"0001.png", "0001_depth.png"},
-                                         {"img_7.png", "disp_7.png"}}));
+                                         {"img_7.png", "disp_7.png"},
+                                         {"im0.png", "disp0.png"},
+                                         {"photo/25.png", "depth/25.png"},
+                                         {"image_left/1.png", "depth_left/1.png"},
+                                         {"results/frame1.png", "results/depth1.png"}}));
     CAPTURE(colour, depth);
     write_colour(folder / colour, 7);
     write_vga_depth(folder / depth, 3);
