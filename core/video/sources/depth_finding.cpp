@@ -14,11 +14,11 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
-#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/packed.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
@@ -88,13 +88,6 @@ void append(const Findings& more, Findings& rows) {
     rows.insert(rows.end(), more.begin(), more.end());
 }
 
-/// Whether the levels are decoded from others.
-bool has_level_code(const Findings& rows) {
-    return std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
-        return row.statement.code && is_of_levels(*row.statement.code);
-    });
-}
-
 /// The data set of a source, but for one whose levels are decoded, and say it themselves.
 std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
     auto set = data_set_of(facts);
@@ -103,16 +96,15 @@ std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
 }
 
 /// The rows of the table but those of the numbers and of times: of the reader that took the file,
-/// of what it, the layout and the data set found, and of the name.
+/// of what it and the layout found, of its data set, and of the name.
 Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
     if (!facts.live) rows.push_back(finding_on_form(facts));
     append(facts.findings, rows);
     append(sources.findings, rows);
-    // A name speaks of the file's own levels.
-    if (!has_level_code(facts.findings)) append(findings_by_name(facts.file), rows);
     if (set) rows.push_back(set->finding);
+    if (!has_decoded_levels(facts)) append(findings_by_name(facts.file), rows);
     return rows;
 }
 

@@ -116,6 +116,7 @@ LayoutFacts camera_of_data_set(const PictureSet& set) {
     camera.levels_per_m.reset();
     take_camera(camera, facts);
     facts.finding.reason = found->finding.reason;
+    facts.finding.sureness = found->finding.sureness;
     return facts;
 }
 

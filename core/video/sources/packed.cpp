@@ -129,6 +129,15 @@ void require_bytes(PictureSource& pictures, DepthCode code) {
                      ") are lost: write it without loss, " + kWithoutLoss);
 }
 
+/// Removes what a statement says about levels, which now are others.
+void forget_levels(DepthStatement& statement) {
+    statement.near.reset();
+    statement.unit.reset();
+    statement.scale.reset();
+    statement.range.reset();
+    statement.no_data.reset();
+}
+
 /// Throws InputError where the pictures of a source have not the bits and channels of the code.
 void require_levels(PictureSource& pictures, DepthCode code) {
     const std::vector<cv::Mat> first = pictures.samples(1);
@@ -221,11 +230,12 @@ PackedForm form_by_appearance(const PictureGuess& guess) {
 }
 
 Finding finding_on_code(DepthCode code, bool is_stated) {
-    const std::string reason = is_stated ? "what " + std::string(name_of(code)) + " means"
-                               : code == DepthCode::hue ? "its colours: pure hues alone"
-                               : is_of_levels(code)
-                                   ? "its levels, which no distances have"
-                                   : "the bytes of its colours, which carry as those of numbers";
+    const std::string reason =
+        is_stated                     ? "what " + std::string(name_of(code)) + " means"
+        : code == DepthCode::hue      ? "its colours: pure hues alone"
+        : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
+        : code == DepthCode::xyz      ? "its channels, which are points before one camera"
+                                      : "the bytes of its colours, which carry as those of numbers";
     return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
 }
 
@@ -286,22 +296,21 @@ std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pict
     const auto decode = [code, law](const cv::Mat& picture) {
         return numbers_in_levels(picture, code, law);
     };
-    DepthStatement decoded = level_code_meaning(code);
-    decoded.fill_in(coded.statement);
-    coded.statement = std::move(decoded);
+    coded.statement.code = code;
+    coded.statement.fill_in(level_code_meaning(code));
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
         facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
         facts.channels = 1;
-        for (Finding& row : facts.findings) {  // on the levels before they are decoded
-            row.statement.near.reset();
-            row.statement.unit.reset();
-            row.statement.scale.reset();
-            row.statement.range.reset();
-            row.statement.no_data.reset();
-        }
+        for (Finding& other : facts.findings) forget_levels(other.statement);
         facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+bool has_decoded_levels(const SourceFacts& facts) {
+    return std::any_of(facts.findings.begin(), facts.findings.end(), [](const Finding& finding) {
+        return finding.statement.code && is_of_levels(*finding.statement.code);
+    });
 }
 
 std::string refusal_of_colours(const SourceFacts& facts) {

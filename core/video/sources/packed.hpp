@@ -57,10 +57,14 @@ struct PackedForm {
                                                           DepthCode code, Finding coded);
 
 /// Decodes levels that are no distances (level_code.hpp): to levels of 16 bits, or to real numbers.
-/// `coded`: as in hue_decoded(). Throws InputError where the pictures have no such levels.
+/// `coded`: as in hue_decoded(). What other findings state about the file's own levels goes. Throws
+/// InputError where the pictures have no such levels.
 [[nodiscard]] std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
                                                            DepthCode code, const InverseLevels& law,
                                                            Finding coded);
+
+/// Whether a source is one of these.
+[[nodiscard]] bool has_decoded_levels(const SourceFacts& facts);
 
 /// One line that refuses depth whose colours are no known code: what it is, and what to do.
 [[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts);

@@ -177,7 +177,7 @@ void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources&
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
     const auto stated = statement.code;
-    if (stated && *stated != DepthCode::grey) {
+    if (stated && *stated != DepthCode::grey && !is_of_levels(*stated)) {
         decode_colours(place, *stated, true, sources);
         return sources;
     }
@@ -316,8 +316,8 @@ Sources of_one_place(const Place& place, const DepthStatement& statement) {
     return sources;
 }
 
-void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, Finding coded) {
-    sources.depth = level_decoded(std::move(sources.depth), code, law, std::move(coded));
+void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, const Finding& coded) {
+    sources.depth = level_decoded(std::move(sources.depth), code, law, coded);
     sources.not_depth.clear();
 }
 
@@ -329,7 +329,10 @@ void decode_as_told(Sources& sources, DepthCode code) {
         throw InputError(shown(sources.depth->facts().file) +
                          " has no calib.txt beside it, which --depth-code stereo needs: put that "
                          "of the data set there, or give --depth-unit disparity");
-    decode_as(sources, code, is_of_set ? set->law : kKinectLevels, finding_on_code(code, true));
+    if (is_of_set)
+        decode_as(sources, code, set->law, set->finding);
+    else
+        decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
 }
 
 /// As its data set says, where the levels do not contradict it; else as the levels themselves show.
@@ -344,22 +347,15 @@ void decode_as_found(Sources& sources) {
     }
     const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
     if (!may_show) return;
-    if (const auto code_of_levels = level_code_in(sources.depth->samples(1)))
-        decode_as(sources, *code_of_levels, kKinectLevels, finding_on_code(*code_of_levels, false));
-}
-
-/// Whether the levels of a source are decoded already.
-bool is_decoded(const SourceFacts& facts) {
-    return std::any_of(facts.findings.begin(), facts.findings.end(), [](const Finding& row) {
-        return row.statement.code && is_of_levels(*row.statement.code);
-    });
+    const auto seen = level_code_in(sources.depth->samples(1));
+    if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
 }
 
 }  // namespace
 
 void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
     const SourceFacts& facts = sources.depth->facts();
-    if (is_decoded(facts)) return;
+    if (has_decoded_levels(facts)) return;
     if (statement.code) {
         if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
         return;
