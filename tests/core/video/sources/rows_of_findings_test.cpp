@@ -66,6 +66,8 @@ std::vector<Row> rows() {
     const cv::Mat metres = scene_between(1.0, 5.0);
     const cv::Mat grey = painted(scene_depth(), as_grey);
     const cv::Mat halves = beside(scene_photo(), grey);
+    cv::Mat raw = in_16_bits(600.0, 1000.0);
+    raw.setTo(2047, raw == 0);
     const std::string flat = encoded_as(cv::Mat(24, 32, CV_8UC1, cv::Scalar(90)), ".png");
     return {
         {"a_depth.pfm",
@@ -138,6 +140,16 @@ std::vector<Row> rows() {
          Evidence::code,
          {.near = NearLevels::bright, .unit = DepthUnit::levels, .code = DepthCode::terrain},
          "bytes"},
+        {"a.png",
+         picture(raw),
+         Evidence::code,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .code = DepthCode::kinect11},
+         "2047"},
+        {"photo-dpt_large_384.png",
+         picture(in_16_bits(900.0, 60000.0)),
+         Evidence::layout,
+         {.near = NearLevels::bright, .unit = DepthUnit::levels},
+         "MiDaS"},
         {"a_RGBD.png",
          picture(halves),
          Evidence::name,
