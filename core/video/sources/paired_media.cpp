@@ -42,7 +42,8 @@ ColourImage painted_depth(const DepthImage& depth) {
     levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
     cv::Mat colours;
     cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
-    colours.setTo(cv::Scalar::all(kNoColour), levels != levels);
+    // Not levels != levels: OpenCV with AVX says that no number differs from itself.
+    colours.setTo(cv::Scalar::all(kNoColour), ~(levels == levels));
     return colour_of(colours);
 }
 
