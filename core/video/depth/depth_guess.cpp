@@ -42,7 +42,8 @@ constexpr double kReachesEnd = 0.02;    ///< of 1, for values normalised to 0 to
 constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a scene is as near
 constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
 constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
-constexpr double kFlat = 1.2;           ///< farthest to nearest of what is hardly a scene
+constexpr double kFlat = 1.3;           ///< farthest to nearest of what is hardly a scene
+constexpr double kClose_mm = 1000.0;    ///< numbers below may be centimetres of a room as well
 constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
 
@@ -228,10 +229,10 @@ struct IntegerScale {
 };
 
 constexpr std::array<IntegerScale, 4> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.78, 0.86},
-    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
-    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1},  // street data sets
-    {DepthUnit::mm, 10.0, kLand, 0.06, 0.06, 0.3},        // simulators: centimetres
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5},
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
+    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1},  // street data sets
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3},         // simulators: centimetres
 }};
 constexpr double kSurenessOfLaser = 0.85;
 
