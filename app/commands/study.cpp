@@ -82,7 +82,8 @@ AllowedNames allowed_names(bool files) {
     names.checks.values = validate_values;
     if (!files) return names;
     names.checks.media = [](const StudyMedia& media) {
-        static_cast<void>(open_media(media.colour, media.depth, usual_depth_request()));
+        const auto opened = open_media(media.colour, media.depth, usual_depth_request());
+        report_doubt(opened->description(), false);  // participants are not asked
     };
     names.checks.picture = [](const fs::path& picture) {
         static_cast<void>(read_colour_picture(picture));

@@ -19,6 +19,7 @@
 #include "app/settings/settings.hpp"
 #include "app/touching/pointer.hpp"
 #include "app/touching/touch_session.hpp"
+#include "app/viewer/asking.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
@@ -97,6 +98,12 @@ struct OwnRelief {
     bool operator==(const OwnRelief&) const = default;
 };
 
+/// What turning near and far has stated, and the request before.
+struct TurnedDepth {
+    DepthStatement panel{};
+    DepthRequest before{};
+};
+
 class Viewer {
   public:
     /// Opens the window and starts the loop. All references must outlive the viewer. Throws Error.
@@ -152,6 +159,11 @@ class Viewer {
     void fit_to_media();
     void keep_panel(const std::filesystem::path& depth_before);
     void open_again(const DepthStatement& panel);
+    void open_again(DepthRequest request);
+    [[nodiscard]] bool is_attended() const;
+    void ask_depth(const OpenRequest& request);
+    void answer_depth(const AnswerDepth& answer);
+    [[nodiscard]] Answer turn_depth();
     std::string save_sidecar();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
@@ -211,6 +223,8 @@ class Viewer {
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;
+    ViewerAsking asking_{};
+    std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;
