@@ -42,6 +42,12 @@ std::string unit_text(const DepthStatement& statement) {
     return "Steps of " + short_text(mm, 3) + " mm";
 }
 
+/// With two digits, or more before the point.
+std::string two_digits(double value) {
+    constexpr double kTwoDigits = 10.0;
+    return value < kTwoDigits ? short_text(value, 2) : number_text(value, 0);
+}
+
 /// "0.4 to 3.1 m".
 std::string distance_text(const DepthAlternative& alternative) {
     const bool is_m = alternative.statement.unit == DepthUnit::m;
@@ -49,8 +55,8 @@ std::string distance_text(const DepthAlternative& alternative) {
     const double far_m = alternative.range.far * (is_m ? 1.0 : 0.001);
     constexpr double kLeast_m = 0.1;  // below, in millimetres
     if (far_m < kLeast_m)
-        return short_text(1000.0 * near_m, 2) + " to " + short_text(1000.0 * far_m, 2) + " mm";
-    return short_text(near_m, 2) + " to " + short_text(far_m, 2) + " m";
+        return two_digits(1000.0 * near_m) + " to " + two_digits(1000.0 * far_m) + " mm";
+    return two_digits(near_m) + " to " + two_digits(far_m) + " m";
 }
 
 /// Whether some, but not all of the alternatives are so.
@@ -71,7 +77,7 @@ bool have_one_shape(const std::vector<DepthAlternative>& all) {
 std::string question_text(const ViewerState& state, const DepthQuestion& question) {
     const std::string name = one_line(shown(state.media.depth_path.filename()), 40);
     if (have_one_shape(question.alternatives))
-        return name + " does not say its unit. The shape is the same by each: how far away is it?";
+        return name + " does not say its unit. The shape is the same in all: how far away is it?";
     return name +
            " does not say what its depth means. Read the wrong way, it is inside out, bent or of "
            "another size.";

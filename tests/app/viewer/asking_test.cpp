@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/panels/panels.hpp"
+#include "core/files/names.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/sidecar.hpp"
@@ -111,7 +112,7 @@ TEST_CASE("a file is asked about where its meaning is not sure, with its folder"
     REQUIRE(question);
     CHECK(question->alternatives.size() >= 2);
     CHECK(question->alternatives.size() <= 4);
-    CHECK(question->folder == files.folder.path().filename());
+    CHECK(question->folder == shown(files.folder.path().filename()));
     CHECK(question->alternatives.front().range == media.meaning->range.value);
     keep_choice(files.choices(), files.depth("first"), {.near = kDark});
     CHECK_FALSE(question_on(files.opened("first")));

@@ -265,7 +265,7 @@ TEST_CASE(
     REQUIRE(names.size() == 1);
     CHECK(names.front().starts_with("takes-files-"));
     CHECK(contains(read_text(takes.choices / names.front()),
-                   "the files of " + fs::canonical(takes.first.parent_path()).string()));
+                   "the files of '" + fs::canonical(takes.first.parent_path()).string()));
     write_sidecar(takes.first, against);
     CHECK(takes.opened(takes.first).meaning->near == known(other, Origin::sidecar));
     keep_choice(takes.choices, takes.second, against);
