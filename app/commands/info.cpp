@@ -1,5 +1,6 @@
 // `dibhr info`: describes media and session files.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <initializer_list>
@@ -180,18 +181,32 @@ Json json_of(const DepthStatement& statement) {
     return facts;
 }
 
-/// "near bright, unit levels"; "nothing" for an empty statement.
+std::string fact_text(const Json& value) {
+    constexpr int kDigits = 8;
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return short_text(value.get<double>(), kDigits);
+    std::vector<std::string> parts;
+    for (const Json& part : value) parts.push_back(fact_text(part));
+    return parts.empty() ? "none" : listed(parts);
+}
+
+/// "near bright, unit levels, no data none"; "nothing" for an empty statement.
 std::string statement_text(const DepthStatement& statement) {
     const Json stated = json_of(statement);
     std::vector<std::string> facts;
-    for (const auto& [name, value] : stated.items())
-        facts.push_back(name + ' ' +
-                        (value.is_string() ? value.get<std::string>() : json_line(value)));
+    for (const auto& [name, value] : stated.items()) {
+        std::string words = name;
+        std::ranges::replace(words, '_', ' ');
+        facts.push_back(words + ' ' + fact_text(value));
+    }
     return list_text(facts);
 }
 
+/// Never 0 or 100 % of what is not certain.
 std::string percent_text(double probability) {
-    return number_text(100.0 * probability, 0) + " %";
+    const double percent = 100.0 * probability;
+    const bool is_certain = probability <= 0.0 || probability >= 1.0;
+    return number_text(is_certain ? percent : std::clamp(percent, 1.0, 99.0), 0) + " %";
 }
 
 /// How sure the meaning is, and what else it may be.
@@ -199,26 +214,43 @@ void print_sureness(const DepthConclusion& conclusion) {
     print_fact("sure", percent_text(conclusion.sure));
     for (std::size_t k = 1; k < conclusion.alternatives.size(); ++k) {
         const DepthAlternative& other = conclusion.alternatives[k];
-        print_fact("or",
-                   statement_text(other.statement) + ", " + percent_text(other.probability));
+        print_fact("or", statement_text(other.statement) + ", " + percent_text(other.probability));
     }
 }
 
-/// The table: a line for each finding, then the conclusion.
+std::string says_text(const Finding& finding) {
+    return finding.about.empty() ? statement_text(finding.statement) : finding.about;
+}
+
+/// The table: a line for each finding, then what is concluded.
 void print_why(const MediaDescription& media) {
+    constexpr std::size_t kMostWidth = 48;  // longer ones move the other columns
+    constexpr int kSureWidth = 5;
+    constexpr int kFromWidth = 10;
+    std::size_t width = 0;
     for (const Finding& finding : media.conclusion.findings)
-        print_fact("why", statement_text(finding.statement) + ": " +
-                              percent_text(finding.sureness) + " by " +
-                              std::string(name_of(finding.evidence)) + ", " + finding.reason);
+        width = std::clamp(says_text(finding).size(), width, kMostWidth);
+    const auto print_row = [width](const std::string& says, std::string_view sure,
+                                   std::string_view from, std::string_view reason) {
+        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << one_line(says)
+                  << "  " << std::right << std::setw(kSureWidth) << sure << "  " << std::left
+                  << std::setw(kFromWidth) << from << "  " << one_line(reason) << '\n';
+    };
+    std::cout << '\n';
+    print_row("finding", "sure", "from", "because of");
+    for (const Finding& finding : media.conclusion.findings)
+        print_row(says_text(finding), percent_text(finding.sureness), name_of(finding.evidence),
+                  finding.reason);
     const DepthMeaning& meaning = *media.meaning;
     print_fact("so", statement_text({.near = meaning.near.value,
                                      .unit = meaning.unit.value,
                                      .scale = meaning.scale.value,
                                      .no_data = meaning.no_data.value}) +
                          ": " + percent_text(media.conclusion.sure));
+    if (!media.timing.empty()) print_fact("so", "times: " + media.timing);
 }
 
-void print_depth(const MediaDescription& media, bool why) {
+void print_depth(const MediaDescription& media) {
     print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
                             media.depth_codec + ", " + levels_text(media));
     if (!media.meaning) return;
@@ -227,7 +259,6 @@ void print_depth(const MediaDescription& media, bool why) {
     if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
     print_fact("assumed", list_text(assumed_facts(meaning)));
     print_sureness(media.conclusion);
-    if (why) print_why(media);
     print_fact("packing", name_of(meaning.packing.value));
     print_fact("code", name_of(meaning.code.value));
     if (const std::string colour = registration_text(media); !colour.empty())
@@ -251,7 +282,7 @@ void describe_pictures(const fs::path& file, const InfoOptions& options) {
                                  : size_text(media.depth_columns, media.depth_rows));
     const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
     if (!codec.empty()) print_fact("codec", codec);
-    if (has_depth) print_depth(media, options.why);
+    if (has_depth) print_depth(media);
     if (media.live) {
         print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
     } else if (!media.still) {
@@ -262,6 +293,7 @@ void describe_pictures(const fs::path& file, const InfoOptions& options) {
     }
     if (!media.notice.empty()) print_fact("notice", media.notice);
     if (is_colour && !has_depth) describe_partner(file);
+    if (options.why && media.meaning) print_why(media);
 }
 
 /// Each fact and its origin; an unknown fact is null.
@@ -290,7 +322,8 @@ void add_conclusion(Json& json, const MediaDescription& media, bool why) {
         });
     if (!why) return;
     json["findings"] = json_list(conclusion.findings, [](const Finding& finding) {
-        return Json{{"states", json_of(finding.statement)},
+        return Json{{"about", finding.about},
+                    {"states", json_of(finding.statement)},
                     {"sureness", finding.sureness},
                     {"evidence", name_of(finding.evidence)},
                     {"reason", finding.reason}};

@@ -455,8 +455,8 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
 
 void add_sure_option(CLI::App& app, bool& sure) {
     app.add_flag("--sure", sure,
-                 "Fails where the meaning of the depth is likely but not sure; else one line on "
-                 "stderr says so");
+                 "Fails where the meaning of the depth is likely but not sure; without this option "
+                 "one line on stderr says so, where no window asks");
 }
 
 void add_shape_options(CLI::App& app, TouchRequest& request) {

@@ -308,24 +308,19 @@ void Viewer::open_again(DepthRequest statements) {
     open(request);
 }
 
-/// Whether somebody sits at the window who knows the file: no visitor of an exhibition, no script.
-bool Viewer::is_attended() const {
-    return !options_.full_screen && options_.clip.empty() && !options_.seconds;
-}
-
 /// Asks what the depth of the opened files means, where that is not sure. From now on no force is
 /// sent until a person has answered.
 void Viewer::ask_depth(const OpenRequest& request) {
     state_.ui.depth_question.reset();
     const std::string doubt = doubt_about(state_.media);
     if (doubt.empty() || request.chosen || request.reconnect) return;
-    if (is_attended()) {
+    if (!options_.asks_nobody()) {
         state_.ui.depth_question = question_on(state_.media);
         state_.touch.depth_in_question = state_.ui.depth_question.has_value();
         if (touch_.runs()) touch_.publish();
-    } else {
+    } else if (touch_.runs()) {  // of files of the command line it was said before
         print_error_line(doubt);
-        log_.append("doubt", doubt);
+        log_.append("warning", doubt);
     }
 }
 

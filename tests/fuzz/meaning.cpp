@@ -233,7 +233,7 @@ void look_at_packed(const fs::path& video) {
     static const std::string bytes = colour_picture();
     const auto form = form_by_recorder(video, {12, 8});
     if (!form) return;
-    const auto& known = form->known.intrinsics;
+    const auto& known = form->finding.statement.intrinsics;
     test::require_rule(!known || is_camera(*known), "a recorder's camera is one");
     static const fs::path packed =
         picture.with({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});

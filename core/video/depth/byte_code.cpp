@@ -40,8 +40,7 @@ ByteOrder byte_order(DepthCode code) noexcept {
             return kOfTerrain;
         case DepthCode::float32:
             return kOfFloat32;
-        case DepthCode::grey:
-        case DepthCode::hue:
+        default:
             break;
     }
     return {};
@@ -88,7 +87,11 @@ struct Steps {
 
     void add(std::int64_t before, std::int64_t here, std::int64_t after) {
         constexpr std::int64_t kSmall = 128;                 // half of a step
+        constexpr std::int64_t kSlow = 4;                    // of a surface, where two are equal
         if (before == 0 || here == 0 || after == 0) return;  // no data
+        // Flat colours that meet, as in a drawing, tell nothing.
+        const bool may_be_flat = before == here || here == after;
+        if (may_be_flat && std::abs(after - before) > kSlow) return;
         if (std::abs((before >> 8) - 2 * (here >> 8) + (after >> 8)) != 1) return;
         ++all;
         continued += static_cast<std::int64_t>(std::abs(before - 2 * here + after) < kSmall);

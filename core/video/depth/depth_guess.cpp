@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <set>
 #include <string>
 
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
+#include "core/video/depth/slope_shape.hpp"
 
 namespace dibhr {
 
@@ -32,11 +34,11 @@ constexpr double kSurenessOfMark = 0.95;
 constexpr double kSurenessOfNoMark = 0.8;  ///< holes may look like data
 
 // Unit.
-constexpr double kReachesEnd = 0.02;     ///< of 1, for values normalised to 0 to 1
-constexpr double kReachesZero = 0.005;   ///< of the highest: no distance of a scene is as near
-constexpr double kReachesTop = 0.9;      ///< of the highest level of the bits
-constexpr double kMostScattered = 0.4;   ///< share of pixels with data without data beside them
-constexpr double kFlat = 1.2;            ///< farthest to nearest of what is hardly a scene
+constexpr double kReachesEnd = 0.02;    ///< of 1, for values normalised to 0 to 1
+constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a scene is as near
+constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
+constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
+constexpr double kFlat = 1.2;           ///< farthest to nearest of what is hardly a scene
 constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
 
@@ -46,6 +48,17 @@ constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearl
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
+constexpr double kSurenessOfTunnel = 0.6;
+constexpr double kSurenessOfLitTunnel = 0.93;
+constexpr std::size_t kLeastSlopes = 400;
+constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
+constexpr double kSurestBend = 0.98;          ///< insides of bowls bend the other way
+constexpr double kLeastStraight = 0.78;       ///< share of slopes; others are no planes
+constexpr double kSurenessOfStraight = 0.93;  ///< a shallow scene has straight distances, too
+constexpr double kLeastPerspective = 0.05;
+constexpr double kLeastProportional = 0.6;
+constexpr double kLevelsInProportion = 0.2;  ///< their 0 seldom is the camera's place
+constexpr std::size_t kMostForSlopes = 6;    ///< pictures
 
 // Range.
 constexpr double kTail = 0.005;
@@ -113,16 +126,32 @@ struct Places {
         return both ? (here.value() - there.value()) / deviation : 0.0;
     }
 
-    /// 1: the middle is brighter than each side, -1: it is darker than each, 0: neither.
-    [[nodiscard]] int brighter_than_sides() const {
-        const auto all_are = [this](double sign) {
+    /// 1: the middle is brighter than each side, by `least` deviations, -1: it is darker than
+    /// each, 0: neither.
+    [[nodiscard]] int brighter_than_sides(double least) const {
+        const auto all_are = [&](double sign) {
             return std::all_of(sides.begin(), sides.end(), [&](const Mean& side) {
-                return sign * brighter(middle, side) > kAllSides;
+                return sign * brighter(middle, side) > least;
             });
         };
         return all_are(1.0) ? 1 : all_are(-1.0) ? -1 : 0;
     }
 };
+
+Places places_of(const std::vector<LevelLattice>& lattices, const std::vector<double>& no_data) {
+    Places places;
+    for (const LevelLattice& lattice : lattices) {
+        auto level = lattice.levels.begin();
+        for (int j = 0; j < lattice.rows; ++j) {
+            for (int i = 0; i < lattice.columns; ++i, ++level) {
+                if (!std::isfinite(*level) || holds(no_data, *level)) continue;
+                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
+                           *level);
+            }
+        }
+    }
+    return places;
+}
 
 /// The row on an area that is brighter or darker than another by so many standard deviations.
 void add_row_on_area(double deviations, double surest, const std::string& areas, Findings& rows) {
@@ -134,6 +163,35 @@ void add_row_on_area(double deviations, double surest, const std::string& areas,
                     0.5 + (surest - 0.5) * clear,
                     areas + " by " + short_text(std::fabs(deviations), 2) +
                         " standard deviations, " + (brighter ? "brighter" : "darker")});
+}
+
+/// The rows on how slopes bend, where they do.
+void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
+    if (shape.slopes < kLeastSlopes) return;
+    const auto percent = [](double share) { return short_text(100.0 * share, 2) + " %"; };
+    const bool has_perspective = shape.perspective > kLeastPerspective;
+    if (shape.straight > kLeastStraight && has_perspective)
+        return rows.push_back({{.near = NearLevels::bright},
+                               Evidence::numbers,
+                               kSurenessOfStraight,
+                               percent(shape.straight) +
+                                   " of the slopes are straight, as where levels are one over the "
+                                   "distance"});
+    const bool is_convex = shape.convex > 0.5;
+    const double bent = is_convex ? shape.convex : 1.0 - shape.convex;
+    if (bent < kLeastBent) return;
+    rows.push_back({{.near = is_convex ? NearLevels::dark : NearLevels::bright},
+                    Evidence::numbers,
+                    0.5 + (kSurestBend - 0.5) * (2.0 * bent - 1.0),
+                    percent(bent) + " of the slopes bend as " +
+                        (is_convex ? "distances" : "nearness") +
+                        " of planes and of convex things"});
+    if (bits > 8 && shape.proportional > kLeastProportional && has_perspective)
+        rows.push_back(
+            {{.unit = DepthUnit::levels},
+             Evidence::numbers,
+             kLevelsInProportion,
+             percent(shape.proportional) + " of the slopes bend as distances from the camera"});
 }
 
 /// The sizes of scenes, as distances of the nearest and of nine tenths of the pixels [m].
@@ -166,17 +224,17 @@ struct IntegerScale {
 
 constexpr std::array<IntegerScale, 4> kIntegerScales{{
     {DepthUnit::mm, 1.0, kRoom, 0.86, 0.78, 0.86},
-    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1},            // TUM: 5000 a metre
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
     {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1},  // street data sets
-    {DepthUnit::mm, 10.0, kLand, 0.06, 0.06, 0.3},         // simulators: centimetres
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.06, 0.3},        // simulators: centimetres
 }};
 constexpr double kSurenessOfLaser = 0.85;
 
 /// "as numbers of 1 mm from 0.5 to 4.2 m: a room".
 std::string sizes_text(const IntegerScale& scale, double nearest_m, double farthest_m, bool fits) {
     return "as numbers of " + short_text(scale.scale, 3) + ' ' + std::string(name_of(scale.unit)) +
-           " from " + short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m: " +
-           (fits ? "" : "not ") + scale.sizes.name;
+           " from " + short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) +
+           " m: " + (fits ? "" : "not ") + scale.sizes.name;
 }
 
 /// Values in which elevation is linear, with the sign that makes the nearest the highest, in rising
@@ -241,12 +299,12 @@ SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : b
     levels_ = rising_without({});
 }
 
-SampledLevels::Lattice SampledLevels::lattice_of(const cv::Mat& picture) {
+LevelLattice SampledLevels::lattice_of(const cv::Mat& picture) {
     const int step = std::max(
         1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
     cv::Mat all;
     grey_of(picture).convertTo(all, CV_32F);
-    Lattice lattice;
+    LevelLattice lattice;
     lattice.columns = (all.cols + step - 1) / step;
     for (int j = 0; j < all.rows; j += step) {
         const float* row = all.ptr<float>(j);
@@ -265,7 +323,7 @@ bool SampledLevels::is_data(float level) const {
 
 std::vector<float> SampledLevels::rising_without(const std::vector<double>& no_data) const {
     std::vector<float> levels;
-    for (const Lattice& lattice : lattices_) {
+    for (const LevelLattice& lattice : lattices_) {
         for (const float level : lattice.levels) {
             if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
         }
@@ -317,7 +375,7 @@ std::vector<double> SampledLevels::outlying_integers() const {
 
 double SampledLevels::share_of_border(double level) const {
     Mean border;
-    for (const Lattice& lattice : lattices_) {
+    for (const LevelLattice& lattice : lattices_) {
         auto here = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j)
             for (int i = 0; i < lattice.columns; ++i, ++here) {
@@ -366,7 +424,7 @@ bool SampledLevels::is_scattered() const {
     constexpr double kMostSeen = 0.6;
     Mean seen;
     Mean single;
-    for (const Lattice& lattice : lattices_)
+    for (const LevelLattice& lattice : lattices_)
         for (std::size_t k = 0; k < lattice.levels.size(); ++k) {
             const bool here = is_data(lattice.levels[k]);
             seen.add(here ? 1.0 : 0.0);
@@ -383,8 +441,8 @@ Findings SampledLevels::units() const {
 Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
-        return {{{.unit = DepthUnit::levels}, kNumbers, 0.97, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.92, "by custom 8 bits are near white"}};
+        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
+                {{.near = NearLevels::bright}, kNumbers, 0.94, "by custom 8 bits are near white"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
@@ -393,11 +451,15 @@ Findings SampledLevels::units_of_integers() const {
     const bool has_holes = holds(no_data_, 0.0);
     const bool has_sky = holds(no_data_, highest_level(bits_));
     if (has_holes)
-        rows.push_back({{.near = NearLevels::dark}, kNumbers, 0.8,
+        rows.push_back({{.near = NearLevels::dark},
+                        kNumbers,
+                        0.8,
                         "0 stands for no data, as sensors of distances have it"});
     const bool is_full = quantile(levels_, 1.0 - kTail) >= kReachesTop * highest_level(bits_);
     if (!has_holes && (bits_ < 16 || is_full))
-        rows.push_back({{.unit = DepthUnit::levels}, kNumbers, 0.93,
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.93,
                         is_full ? "the levels reach the highest of their bits"
                                 : "without holes, so few bits are levels"});
     if (!has_holes && bits_ < 16) return rows;
@@ -405,7 +467,7 @@ Findings SampledLevels::units_of_integers() const {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
         const double sureness = farthest < kFlat * nearest ? scale.of_flat
-                                : has_sky                  ? scale.of_sky
+                                : has_sky && !has_holes    ? scale.of_sky
                                                            : scale.sureness;
         rows.push_back({{.unit = scale.unit, .scale = scale.scale},
                         kNumbers,
@@ -426,19 +488,27 @@ Findings SampledLevels::units_of_numbers() const {
     const double highest = quantile(levels_, 1.0 - kTail);
     Findings rows{{{.scale = 1.0}, kNumbers, 0.99, "real numbers need no scale"}};
     if (lowest < 0.0) {
-        rows.push_back({{.unit = DepthUnit::levels}, kNumbers, 0.97,
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.97,
                         "some are below 0: no distances, and not one over them"});
-        rows.push_back({{.near = NearLevels::bright}, kNumbers, 0.75,
+        rows.push_back({{.near = NearLevels::bright},
+                        kNumbers,
+                        0.75,
                         "relative values mostly rise towards the viewer"});
         return rows;
     }
     const std::string ends = short_text(lowest, 3) + " to " + short_text(highest, 3);
     if (lowest < kReachesZero * highest)
-        rows.push_back({{.unit = DepthUnit::levels}, kNumbers, 0.85,
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.85,
                         "they reach 0: no distance is as near, and no disparity has one over it"});
     if (highest <= 1.0) {
         const bool is_normalised = lowest < kReachesEnd && highest > 1.0 - kReachesEnd;
-        rows.push_back({{.unit = DepthUnit::levels}, kNumbers, is_normalised ? 0.93 : 0.55,
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        is_normalised ? 0.93 : 0.55,
                         is_normalised ? "they go from 0 to 1" : "they lie between 0 and 1"});
     }
     const bool in_room = lowest >= 0.05 && highest > 1.0 && highest <= 30.0;
@@ -451,34 +521,53 @@ Findings SampledLevels::units_of_numbers() const {
                                        : 0.02,
                     ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres")});
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
-    rows.push_back({{.unit = DepthUnit::mm, .scale = 1.0},
-                    kNumbers,
-                    in_millimetres ? 0.85 : 0.02,
-                    ends + (in_millimetres ? " is a scene in millimetres"
-                                           : " is no scene in millimetres")});
+    rows.push_back(
+        {{.unit = DepthUnit::mm, .scale = 1.0},
+         kNumbers,
+         in_millimetres ? 0.85 : 0.02,
+         ends + (in_millimetres ? " is a scene in millimetres" : " is no scene in millimetres")});
     return rows;
+}
+
+Findings SampledLevels::contradictions(const UsualDistances& usual) const {
+    constexpr double kContradicted = 0.001;
+    if (levels_.empty() || usual.most_m <= 0.0) return {};
+    const double one_m = usual.scale * (usual.unit == DepthUnit::m ? 1.0 : 0.001);
+    const double nearest_m = one_m * quantile(levels_, kTail);
+    const double farthest_m = one_m * quantile(levels_, kNearest);
+    const bool is_usual = nearest_m >= usual.least_m && farthest_m <= usual.most_m;
+    const bool has_holes = holes_share() > kLeastNone;
+    if (is_usual && !(usual.is_dense && has_holes)) return {};
+    const std::string ends = short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m";
+    return {{{.unit = usual.unit, .scale = usual.scale},
+             Evidence::numbers,
+             kContradicted,
+             usual.of + " has no " + (is_usual ? "holes" : "depth from " + ends)}};
 }
 
 // Near.
 
-Findings SampledLevels::near() const {
-    Places places;
-    for (const Lattice& lattice : lattices_) {
-        auto level = lattice.levels.begin();
-        for (int j = 0; j < lattice.rows; ++j) {
-            for (int i = 0; i < lattice.columns; ++i, ++level) {
-                if (!is_data(*level)) continue;
-                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
-                           *level);
-            }
-        }
-    }
+int SampledLevels::middle_brighter_than_sides() const {
+    return places_of(lattices_, no_data_).brighter_than_sides(kClear);
+}
+
+Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
-    const int than_sides = places.brighter_than_sides();
-    if (than_sides > 0)
-        rows.push_back({{.near = NearLevels::dark},
+    add_rows_on_slopes(slope_shape(), bits_, rows);
+    const Places places = places_of(lattices_, no_data_);
+    const int than_sides = places.brighter_than_sides(kAllSides);
+    const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
+    if (than_sides != 0 && middle_of_colour.value_or(0) < 0)
+        rows.push_back(
+            {{.near = of_tunnel},
+             Evidence::numbers,
+             kSurenessOfLitTunnel,
+             "the middle of the colour picture is darker than all four sides, as the end "
+             "of a tunnel that is lit from the camera"});
+    if (than_sides > 0 && !middle_of_colour)
+        rows.push_back({{.near = of_tunnel},
                         Evidence::numbers,
-                        0.6,
+                        kSurenessOfTunnel,
                         "the middle is brighter than all four sides, as the end of a tunnel"});
     if (than_sides != 0) return rows;  // neither floor nor things in the middle are seen
     add_row_on_area(places.brighter(places.middle, places.border), kSurestMiddle,
@@ -486,6 +575,19 @@ Findings SampledLevels::near() const {
     add_row_on_area(places.brighter(places.floor, places.ceiling), kSurestFloor,
                     "the lower part differs from the upper", rows);
     return rows;
+}
+
+SlopeShape SampledLevels::slope_shape() const {
+    SlopeMeter meter;
+    const std::size_t step = 1 + lattices_.size() / kMostForSlopes;
+    for (std::size_t k = 0; k < lattices_.size(); k += step) {
+        const LevelLattice& lattice = lattices_[k];
+        std::vector<float> levels = lattice.levels;
+        for (float& level : levels)
+            if (!is_data(level)) level = std::numeric_limits<float>::quiet_NaN();
+        meter.add(lattice.columns, lattice.rows, levels);
+    }
+    return meter.shape();
 }
 
 // Range.
@@ -513,7 +615,7 @@ DepthRange SampledLevels::range(const DepthMeaning& meaning) const {
 
 double SampledLevels::holes_share() const {
     std::size_t all = 0;
-    for (const Lattice& lattice : lattices_) all += lattice.levels.size();
+    for (const LevelLattice& lattice : lattices_) all += lattice.levels.size();
     return all == 0 ? 0.0 : static_cast<double>(all - levels_.size()) / static_cast<double>(all);
 }
 

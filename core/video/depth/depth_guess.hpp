@@ -2,11 +2,30 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "core/video/depth/findings.hpp"
+#include "core/video/depth/slope_shape.hpp"
 
 namespace dibhr {
+
+/// The distances that depth of a unit and scale usually has where it is what a layout says.
+struct UsualDistances {
+    DepthUnit unit{DepthUnit::levels};
+    double scale{1.0};
+    double least_m{0.0}, most_m{0.0};  ///< 0, 0: any
+    bool is_dense{false};              ///< without holes
+    std::string of{};                  ///< "KITTI depth completion"
+};
+
+/// One picture's levels on a lattice of pixels, and those of the pixels to their right.
+struct LevelLattice {
+    int columns{0}, rows{0};
+    std::vector<float> levels{};
+    std::vector<float> beside{};
+};
 
 /// The levels of pictures spread over a source, on a lattice of pixels. Each function that returns
 /// findings gives rows of the table; evidence that is missing gives no row.
@@ -28,10 +47,20 @@ class SampledLevels {
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
 
-    /// Near, by where the picture is brighter: things are mostly near in the middle and on the
-    /// floor. That is weak, and said as sure as it is clear. A picture whose middle differs from
-    /// all four sides may show a thing or a tunnel.
-    [[nodiscard]] Findings near() const;
+    /// The row that contradicts what a layout says, where its distances are not the usual ones;
+    /// else none.
+    [[nodiscard]] Findings contradictions(const UsualDistances& usual) const;
+
+    /// Near, by how slopes bend (SlopeShape), and by where the picture is brighter: things are
+    /// mostly near in the middle and on the floor. That is weak, and said as sure as it is clear. A
+    /// picture whose middle differs from all four sides may show a thing or a tunnel: there the
+    /// light of a camera in a tunnel decides. `middle_of_colour`: middle_brighter_than_sides() of
+    /// the colour pictures, if there are any.
+    [[nodiscard]] Findings near(std::optional<int> middle_of_colour = {}) const;
+
+    /// 1: the middle is clearly brighter than each of the four sides, -1: it is darker than each,
+    /// 0: neither.
+    [[nodiscard]] int middle_brighter_than_sides() const;
 
     /// The range by that meaning: between the half percents at either end, and at most a twentieth
     /// of the span beyond; at the near end also the last ten-thousandth. Distances beyond twice the
@@ -42,25 +71,19 @@ class SampledLevels {
     [[nodiscard]] double holes_share() const;
 
   private:
-    /// One picture's levels on a lattice, and those of the pixels to their right.
-    struct Lattice {
-        int columns{0}, rows{0};
-        std::vector<float> levels{};
-        std::vector<float> beside{};
-    };
-
-    [[nodiscard]] static Lattice lattice_of(const cv::Mat& picture);
+    [[nodiscard]] static LevelLattice lattice_of(const cv::Mat& picture);
     [[nodiscard]] bool is_data(float level) const;
     [[nodiscard]] std::vector<float> rising_without(const std::vector<double>& no_data) const;
     [[nodiscard]] double share_of_border(double level) const;
     [[nodiscard]] std::vector<double> outlying_integers() const;
     [[nodiscard]] std::vector<double> outlying_numbers() const;
     [[nodiscard]] bool is_scattered() const;
+    [[nodiscard]] SlopeShape slope_shape() const;
     [[nodiscard]] Findings units_of_integers() const;
     [[nodiscard]] Findings units_of_numbers() const;
 
     int bits_;
-    std::vector<Lattice> lattices_{};
+    std::vector<LevelLattice> lattices_{};
     std::vector<double> no_data_{};
     std::vector<float> levels_{};  ///< that are data, in rising order
 };

@@ -24,9 +24,9 @@ enum class DepthUnit { levels, disparity, mm, m };
 /// in tracks of one file.
 enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_top, tracks };
 
-/// How a picture holds depth: by its brightness, by its hue, or as a number in the bytes of its
-/// channels (byte_code.hpp).
-enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain };
+/// How a picture holds depth: by its brightness, by its hue, as a number in the bytes of its
+/// channels (byte_code.hpp), or in levels that are no distances (level_code.hpp).
+enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain, turned16, kinect11, stereo, xyz };
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
 /// millimetres, in orthographic view.
@@ -50,8 +50,10 @@ inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity,
 inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPacking::left_right,
                                            DepthPacking::right_left, DepthPacking::top_bottom,
                                            DepthPacking::bottom_top, DepthPacking::tracks};
-inline constexpr std::array kDepthCodes{DepthCode::grey,  DepthCode::hue,     DepthCode::rg16,
-                                        DepthCode::rgb24, DepthCode::float32, DepthCode::terrain};
+inline constexpr std::array kDepthCodes{
+    DepthCode::grey,    DepthCode::hue,     DepthCode::rg16,     DepthCode::rgb24,
+    DepthCode::float32, DepthCode::terrain, DepthCode::turned16, DepthCode::kinect11,
+    DepthCode::stereo,  DepthCode::xyz};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 

@@ -7,12 +7,14 @@
 #include <cstddef>
 #include <optional>
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kEvidenceNames{
-    "person", "magic", "metadata", "layout", "name", "appearance", "numbers"};
+constexpr std::array<std::string_view, 8> kEvidenceNames{
+    "person", "magic", "metadata", "layout", "code", "name", "appearance", "numbers"};
 
 /// How usual each kind of values is among the files that people bring. Bright and dark have half
 /// each, so that evidence on near alone counts for no unit.
@@ -66,15 +68,13 @@ bool is_on_kind(const DepthStatement& statement) {
 void add_kinds(const DepthStatement& statement, std::vector<DepthHypothesis>& kinds) {
     if (!statement.unit) return;
     for (const NearLevels near : kNearLevels) {
-        const bool is_natural =
-            *statement.unit == DepthUnit::levels ||
-            (near == NearLevels::dark) == is_distance(*statement.unit);
+        const bool is_natural = *statement.unit == DepthUnit::levels ||
+                                (near == NearLevels::dark) == is_distance(*statement.unit);
         if (statement.near ? *statement.near != near : !is_natural) continue;
         const DepthHypothesis kind{near, *statement.unit, stated_scale(statement).value_or(1.0),
                                    kShareOfOthers};
-        const bool is_there = std::any_of(kinds.begin(), kinds.end(), [&](const auto& other) {
-            return same_kind(kind, other);
-        });
+        const bool is_there = std::any_of(
+            kinds.begin(), kinds.end(), [&](const auto& other) { return same_kind(kind, other); });
         if (!is_there) kinds.push_back(kind);
     }
 }
@@ -84,9 +84,8 @@ void normalise(std::vector<DepthHypothesis>& kinds) {
     double sum = 0.0;
     for (const DepthHypothesis& kind : kinds) sum += kind.probability;
     for (DepthHypothesis& kind : kinds) kind.probability /= sum;
-    std::stable_sort(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) {
-        return a.probability > b.probability;
-    });
+    std::stable_sort(kinds.begin(), kinds.end(),
+                     [](const auto& a, const auto& b) { return a.probability > b.probability; });
 }
 
 /// Adds what one finding tells to the logarithms of the probabilities.
@@ -99,9 +98,8 @@ void add_evidence(const Finding& finding, const std::vector<DepthHypothesis>& ki
     if (!(share > 0.0 && share < 1.0)) return;
     const double sureness = std::clamp(finding.sureness, kLeast, 1.0 - kLeast);
     for (std::size_t k = 0; k < kinds.size(); ++k)
-        logs[k] += agrees(kinds[k], finding.statement)
-                       ? std::log(sureness / share)
-                       : std::log((1.0 - sureness) / (1.0 - share));
+        logs[k] += agrees(kinds[k], finding.statement) ? std::log(sureness / share)
+                                                       : std::log((1.0 - sureness) / (1.0 - share));
 }
 
 /// Origin of a fact of that probability.
@@ -114,9 +112,8 @@ void take_surest(const Findings& findings, DepthMeaning& meaning) {
     std::vector<const Finding*> rising;
     for (auto finding = findings.rbegin(); finding != findings.rend(); ++finding)
         rising.push_back(&*finding);
-    std::stable_sort(rising.begin(), rising.end(), [](const Finding* a, const Finding* b) {
-        return a->sureness < b->sureness;
-    });
+    std::stable_sort(rising.begin(), rising.end(),
+                     [](const Finding* a, const Finding* b) { return a->sureness < b->sureness; });
     for (const Finding* const finding : rising) {
         const Origin origin = origin_of(finding->sureness);
         visit_facts(finding->statement, meaning,
@@ -155,9 +152,8 @@ std::vector<DepthHypothesis> possible_kinds(const DepthStatement& stated, Findin
     for (DepthHypothesis kind : kinds) {
         kind.near = stated.near.value_or(kind.near);
         kind.scale = scale.value_or(kind.scale);
-        const auto same = std::find_if(possible.begin(), possible.end(), [&](const auto& other) {
-            return same_kind(kind, other);
-        });
+        const auto same = std::find_if(possible.begin(), possible.end(),
+                                       [&](const auto& other) { return same_kind(kind, other); });
         if (same == possible.end())
             possible.push_back(kind);
         else
@@ -167,25 +163,33 @@ std::vector<DepthHypothesis> possible_kinds(const DepthStatement& stated, Findin
     return possible;
 }
 
+/// The probability of all kinds that are the same as the likeliest one by `is_same`.
+template <typename IsSame>
+double probability_of(const std::vector<DepthHypothesis>& kinds, const IsSame& is_same) {
+    double sum = 0.0;
+    for (const DepthHypothesis& kind : kinds)
+        if (is_same(kind, kinds.front())) sum += kind.probability;
+    return sum;
+}
+
+bool same_near(const DepthHypothesis& a, const DepthHypothesis& b) {
+    return a.near == b.near;
+}
+
 /// Sets near, unit and scale where no person states them.
 void set_kind(const std::vector<DepthHypothesis>& kinds, const DepthStatement& stated,
               DepthMeaning& meaning) {
     const DepthHypothesis& best = kinds.front();
-    const auto share = [&kinds](auto is_same) {
-        double sum = 0.0;
-        for (const DepthHypothesis& kind : kinds)
-            if (is_same(kind)) sum += kind.probability;
-        return sum;
-    };
     if (!stated.unit)
-        meaning.unit = {best.unit, origin_of(share([&](const DepthHypothesis& kind) {
-                            return kind.unit == best.unit;
-                        }))};
+        meaning.unit = {best.unit,
+                        origin_of(probability_of(
+                            kinds, [](const auto& a, const auto& b) { return a.unit == b.unit; }))};
     if (!stated.scale)
         meaning.scale = {best.scale, stated.unit ? meaning.unit.origin
-                                                 : origin_of(share([&](const auto& kind) {
-                                                       return same_scale(kind.scale, best.scale);
-                                                   }))};
+                                                 : origin_of(probability_of(
+                                                       kinds, [](const auto& a, const auto& b) {
+                                                           return same_scale(a.scale, b.scale);
+                                                       }))};
     if (stated.near) return;
     const bool falls = meaning.range.value.near > meaning.range.value.far;
     if (meaning.unit.value == DepthUnit::levels && stated.range)
@@ -193,9 +197,7 @@ void set_kind(const std::vector<DepthHypothesis>& kinds, const DepthStatement& s
     else if (meaning.unit.value != DepthUnit::levels && stated.unit)
         meaning.near = {best.near, meaning.unit.origin};
     else
-        meaning.near = {best.near, origin_of(share([&](const DepthHypothesis& kind) {
-                            return kind.near == best.near;
-                        }))};
+        meaning.near = {best.near, origin_of(probability_of(kinds, same_near))};
 }
 
 std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>& kinds) {
@@ -203,8 +205,8 @@ std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>
     if (kinds.front().probability >= kSureEnough) return all;
     for (const DepthHypothesis& kind : kinds) {
         if (all.size() == kMostAlternatives || kind.probability < kLeastLikely) break;
-        all.push_back({{.near = kind.near, .unit = kind.unit, .scale = kind.scale},
-                       kind.probability});
+        all.push_back(
+            {{.near = kind.near, .unit = kind.unit, .scale = kind.scale}, kind.probability});
     }
     if (all.size() < 2) all.clear();
     return all;
@@ -214,6 +216,10 @@ std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>
 
 std::string_view name_of(Evidence value) noexcept {
     return kEvidenceNames[static_cast<std::size_t>(value)];
+}
+
+Finding finding_of_metadata(const DepthStatement& statement, const std::string& reason) {
+    return {statement, Evidence::metadata, kSurenessOfMetadata, reason};
 }
 
 std::vector<DepthHypothesis> weigh(const Findings& findings) {
@@ -227,8 +233,7 @@ std::vector<DepthHypothesis> weigh(const Findings& findings) {
     for (const Finding& finding : findings)
         if (is_on_kind(finding.statement)) add_evidence(finding, kinds, logs);
     const double most = *std::max_element(logs.begin(), logs.end());
-    for (std::size_t k = 0; k < kinds.size(); ++k)
-        kinds[k].probability = std::exp(logs[k] - most);
+    for (std::size_t k = 0; k < kinds.size(); ++k) kinds[k].probability = std::exp(logs[k] - most);
     normalise(kinds);
     return kinds;
 }
@@ -240,6 +245,19 @@ DepthStatement sure_facts(const RankedStatements& persons, const Findings& findi
     return all;
 }
 
+std::string origins_of(const Findings& findings) {
+    std::vector<std::string> reasons;
+    for (const Finding& finding : findings) {
+        const bool looks = finding.evidence >= Evidence::appearance;
+        const bool is_new =
+            std::find(reasons.begin(), reasons.end(), finding.reason) == reasons.end();
+        if (!looks && is_new && finding.sureness >= kSureEnough &&
+            finding.statement != DepthStatement{})
+            reasons.push_back(finding.reason);
+    }
+    return listed(reasons);
+}
+
 DepthConclusion conclude(const RankedStatements& persons, const Findings& findings,
                          DepthMeaning& meaning) {
     DepthConclusion conclusion;
@@ -248,12 +266,17 @@ DepthConclusion conclude(const RankedStatements& persons, const Findings& findin
             conclusion.findings.push_back(
                 {statement, Evidence::person, 1.0, std::string(name_of(origin))});
     conclusion.findings.insert(conclusion.findings.end(), findings.begin(), findings.end());
+    meaning.found_in = origins_of(findings);
     take_surest(findings, meaning);
     merge_by_priority(persons, meaning);
     const DepthStatement stated = merged(persons);
     const std::vector<DepthHypothesis> kinds = possible_kinds(stated, findings);
     set_kind(kinds, stated, meaning);
     conclusion.sure = kinds.front().probability;
+    conclusion.near_sure = probability_of(kinds, same_near);
+    conclusion.unit_sure = probability_of(kinds, [](const auto& a, const auto& b) {
+        return a.unit == b.unit && same_scale(a.scale, b.scale);
+    });
     if (!stated.near && !stated.unit && !stated.range)
         conclusion.alternatives = alternatives_of(kinds);
     return conclusion;

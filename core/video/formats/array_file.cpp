@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <span>
@@ -98,9 +99,8 @@ Intrinsics intrinsics_of(const std::vector<double>& rows, const PictureShape& sh
             camera.cy * height - 0.5};
 }
 
-void add_origin(SourceFacts& facts, const std::string& array) {
-    if (!facts.known_from.empty()) facts.known_from += ", ";
-    facts.known_from += "array " + in_quotes(array);
+Finding finding_in(const std::string& array, const DepthStatement& statement) {
+    return finding_of_metadata(statement, "array " + in_quotes(array));
 }
 
 }  // namespace
@@ -119,11 +119,14 @@ ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(NamedAr
 
 ArrayFile::ArrayFile(const NamedArrays& arrays, PictureRole role)
     : role_(role), array_(opened(arrays, chosen(arrays, role))), shape_(array_.pictures()) {
-    if (role == PictureRole::colour &&
-        (array_.header().kind != 'u' || array_.header().number_bytes != 1))
+    const NumpyHeader& header = array_.header();
+    const bool is_of_bytes = header.kind == 'u' && header.number_bytes == 1;
+    const bool may_be_colours = is_of_bytes || (header.kind == 'f' && shape_.channels == 3);
+    if (role == PictureRole::colour && !may_be_colours)
         throw InputError(shown(arrays.file()) +
                          " holds depth and no colours (uint8): give it as the depth file");
     read_facts(arrays);
+    if (role == PictureRole::colour && !is_of_bytes) find_white();
     read_times(arrays);
     require_size(facts_.file, facts_.columns, facts_.rows);
 }
@@ -139,21 +142,17 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
     if (role_ == PictureRole::colour || !arrays.zipped()) return;
     const std::string name = chosen(arrays, role_);
-    if (lower_case(name).starts_with("disp")) {
-        facts_.known.unit = DepthUnit::disparity;
-        add_origin(facts_, name);
-    }
+    if (lower_case(name).starts_with("disp"))
+        facts_.findings.push_back(finding_in(name, {.unit = DepthUnit::disparity}));
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
     const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
     if (rows.size() < 9) return;
     const Intrinsics camera = intrinsics_of(rows, shape_);
-    if (is_camera(camera)) {
-        facts_.known.intrinsics = camera;
-        add_origin(facts_, *named(arrays, kCameraNames));
-    } else {
+    if (is_camera(camera))
+        facts_.findings.push_back(finding_in(*named(arrays, kCameraNames), {.intrinsics = camera}));
+    else
         add_clause(facts_.notice,  // why it is none
                    fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice);
-    }
 }
 
 void ArrayFile::read_times(const NamedArrays& arrays) {
@@ -172,8 +171,26 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     take_times(std::move(times_s));
 }
 
+/// Networks have colours from 0 to 1, or from -1 to 1; others from 0 to 255.
+void ArrayFile::find_white() {
+    constexpr double kMostOfParts = 1.5;
+    constexpr double kLeastBelow = -0.01;
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxIdx(array_.picture(shape_, 0).reshape(1), &lowest, &highest);
+    if (!(lowest >= -kMostOfParts && highest <= highest_level(8)))
+        throw InputError(shown(facts_.file) +
+                         " holds points or normals and no colours: save the colours as uint8");
+    black_ = lowest < kLeastBelow ? -1.0 : 0.0;
+    white_ = highest <= kMostOfParts ? 1.0 : highest_level(8);
+}
+
 cv::Mat ArrayFile::picture(std::size_t at) {
     cv::Mat frame = array_.picture(shape_, static_cast<std::int64_t>(at));
+    if (role_ == PictureRole::colour && frame.depth() != CV_8U) {
+        const double scale = highest_level(8) / (white_ - black_);
+        frame.convertTo(frame, CV_8U, scale, -black_ * scale);
+    }
     if (role_ == PictureRole::colour && frame.channels() == 1)
         cv::cvtColor(frame, frame, cv::COLOR_GRAY2BGR);
     if (role_ == PictureRole::colour && frame.channels() == 4)
@@ -184,7 +201,7 @@ cv::Mat ArrayFile::picture(std::size_t at) {
 StillPicture read_array(const fs::path& file, PictureRole role) {
     ArrayFile array(file, role);
     const SourceFacts& facts = array.facts();
-    return {array.next()->picture, facts.bits, facts.codec, facts.known, facts.known_from};
+    return {array.next()->picture, facts.bits, facts.codec, facts.findings};
 }
 
 }  // namespace dibhr

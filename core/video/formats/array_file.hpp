@@ -18,9 +18,10 @@ namespace dibhr {
 /// (depths, disp). False when it cannot be read.
 [[nodiscard]] bool arrays_have_colour_and_depth(const std::filesystem::path& file);
 
-/// Reads the frames of one array in order. Of a .npz the array called `depths`, `depth`,
-/// `disparity` or `disp` (colour: `images`, `rgb`), else the only one. Times come from `times` or
-/// `timestamps` [s], else from `fps`, else 30 a second; `K` or `intrinsics` is the camera.
+/// Reads the frames of one array in order; colours of bytes, or of real numbers in three channels.
+/// Of a .npz the array called `depths`, `depth`, `disparity` or `disp` (colour: `images`, `rgb`),
+/// else the only one. Times come from `times` or `timestamps` [s], else from `fps`, else 30 a
+/// second; `K` or `intrinsics` is the camera.
 class ArrayFile : public IndexedPictures {
   public:
     /// Throws InputError.
@@ -31,10 +32,12 @@ class ArrayFile : public IndexedPictures {
     [[nodiscard]] cv::Mat picture(std::size_t at) override;
     void read_facts(const NamedArrays& arrays);
     void read_times(const NamedArrays& arrays);
+    void find_white();
 
     PictureRole role_;
     NumpyArray array_;
     PictureShape shape_{};
+    double black_{0.0}, white_{255.0};  ///< of colours
 };
 
 /// The first picture of a file of arrays. Throws InputError.

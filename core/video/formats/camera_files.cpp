@@ -38,6 +38,16 @@ int whole_in(const Json& json, const char* name) {
     return number > 0.0 && number < kMost ? static_cast<int>(number) : 0;
 }
 
+/// A side of a picture, by the first of these names that is there.
+int side_in(const Json& json, const char* name, const char* short_name) {
+    const int side = whole_in(json, name);
+    return side > 0 ? side : whole_in(json, short_name);
+}
+
+void take_scale(CameraFile& camera, double levels_per_m) {
+    if (levels_per_m > 0.0 && std::isfinite(levels_per_m)) camera.levels_per_m = levels_per_m;
+}
+
 std::vector<double> numbers_in(const Json& json, const char* name) {
     std::vector<double> numbers;
     const auto found = json.find(name);
@@ -127,8 +137,10 @@ std::optional<CameraFile> read_camera_matrix(const fs::path& file) {
 }
 
 std::optional<CameraFile> read_camera_json(const fs::path& file) {
-    const Json json = json_of(small_text_in(file).value_or(""));
+    Json json = json_of(small_text_in(file).value_or(""));
     if (!json.is_object()) return std::nullopt;
+    const bool is_inside = json.contains("camera") && json["camera"].is_object();
+    if (is_inside) json = Json(json["camera"]);
     const std::vector<double> columns = numbers_in(json, "intrinsic_matrix");
     const std::vector<double> rows = numbers_in(json, "intrinsics");
     CameraFile camera;
@@ -142,11 +154,45 @@ std::optional<CameraFile> read_camera_json(const fs::path& file) {
             number_in(json, "cx").value_or(0.0), number_in(json, "cy").value_or(0.0)};
     else
         return std::nullopt;
-    camera.columns = whole_in(json, "width");
-    camera.rows = whole_in(json, "height");
-    const double scale = number_in(json, "depth_scale").value_or(0.0);
-    if (scale > 0.0 && std::isfinite(scale)) camera.levels_per_m = scale;
+    camera.columns = side_in(json, "width", "w");
+    camera.rows = side_in(json, "height", "h");
+    take_scale(camera, number_in(json, is_inside ? "scale" : "depth_scale").value_or(0.0));
     return camera;
+}
+
+std::optional<CameraFile> read_camera_bop(const fs::path& file, int number) {
+    const Json scene = json_of(small_text_in(file).value_or(""));
+    if (!scene.is_object() || scene.empty()) return std::nullopt;
+    const auto named = scene.find(std::to_string(number));
+    const Json& picture = named == scene.end() ? *scene.begin() : *named;
+    if (!picture.is_object()) return std::nullopt;
+    CameraFile camera;
+    const std::vector<double> rows = numbers_in(picture, "cam_K");
+    if (rows.size() == 9) camera.intrinsics = {rows[0], rows[4], rows[2], rows[5]};
+    take_scale(camera, 1000.0 / number_in(picture, "depth_scale").value_or(0.0));
+    return camera;
+}
+
+std::optional<InverseLevels> read_stereo_calibration(const fs::path& file, int columns) {
+    std::istringstream text(small_text_in(file).value_or(""));
+    double focal_px = 0.0;
+    double baseline_mm = 0.0;
+    double width = 0.0;
+    double doffs = 0.0;
+    for (std::string line; std::getline(text, line);) {
+        const auto value = [&line](const std::string& begin, double& into) {
+            if (line.starts_with(begin)) std::istringstream(line.substr(begin.size())) >> into;
+        };
+        value("cam0=[", focal_px);
+        value("baseline=", baseline_mm);
+        value("width=", width);
+        value("doffs=", doffs);
+    }
+    const double scale = width > 0.0 ? columns / width : 1.0;
+    const InverseLevels law{focal_px * scale * baseline_mm, doffs * scale};
+    const bool is_law = law.factor_mm > 0.0 && std::isfinite(law.factor_mm) &&
+                        std::isfinite(law.offset) && scale > 0.0;
+    return is_law ? std::optional(law) : std::nullopt;
 }
 
 std::optional<CameraFile> read_camera_pincam(const fs::path& file) {

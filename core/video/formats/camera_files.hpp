@@ -7,6 +7,7 @@
 
 #include "core/video/depth/camera.hpp"
 #include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/level_code.hpp"
 
 namespace dibhr {
 
@@ -22,9 +23,22 @@ struct CameraFile {
 [[nodiscard]] std::optional<CameraFile> read_camera_matrix(const std::filesystem::path& file);
 
 /// A camera in JSON: Open3D's `intrinsic_matrix`, column by column, with `depth_scale`;
-/// `intrinsics` row by row, as of 3D Scanner App; or `fx`, `fy`, `cx`, `cy`, as of Polycam. With
-/// `width` and `height`. Nothing as above.
+/// `intrinsics` row by row, as of 3D Scanner App; or `fx`, `fy`, `cx`, `cy`, as of Polycam, or
+/// inside `camera` with `scale`, as of Replica. With `width` and `height`, or `w` and `h`. Nothing
+/// as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_json(const std::filesystem::path& file);
+
+/// The picture of that number in a scene_camera.json of BOP, or the first one: `cam_K` row by row,
+/// and `depth_scale`, the millimetres of a level (bop.felk.cvut.cz: "BOP dataset format"). Nothing
+/// as above.
+[[nodiscard]] std::optional<CameraFile> read_camera_bop(const std::filesystem::path& file,
+                                                        int number);
+
+/// The law of disparities by a calib.txt as of Middlebury 2014 (vision.middlebury.edu/stereo) and
+/// ETH3D: focal length of `cam0`, `doffs` and `baseline` [mm], for pictures of `width` columns;
+/// here for pictures of so many `columns`. Nothing as above.
+[[nodiscard]] std::optional<InverseLevels> read_stereo_calibration(
+    const std::filesystem::path& file, int columns);
 
 /// ARKitScenes' line of six numbers: columns, rows, fx, fy, cx, cy. Nothing as above.
 [[nodiscard]] std::optional<CameraFile> read_camera_pincam(const std::filesystem::path& file);

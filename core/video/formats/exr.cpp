@@ -199,7 +199,7 @@ StillPicture read_colour(Imf::MultiPartInputFile& input, const fs::path& file) {
         throw InputError(shown(file) +
                          " has no channels R, G and B: give it as the depth file, and the colour "
                          "file first");
-    return {screen_colours(read_channels(input, *colour, file, 0.0F)), 8, "EXR", {}, {}};
+    return {screen_colours(read_channels(input, *colour, file, 0.0F)), 8, "EXR"};
 }
 
 StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
@@ -212,11 +212,10 @@ StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
     cv::Mat values = read_channels(input, *chosen, file, kNothing);
     cv::Mat single = values.reshape(1);
     single.setTo(kNothing, ~(single < kRenderersInfinity));
-    StillPicture still{first_if_equal(values), kRealBits, "EXR", {}, {}};
-    if (named && layer_and_name(named->names[0]).second == "Z") {
-        still.known.unit = DepthUnit::m;
-        still.known_from = "EXR channel " + named->names[0];
-    }
+    StillPicture still{first_if_equal(values), kRealBits, "EXR"};
+    if (named && layer_and_name(named->names[0]).second == "Z")
+        still.findings = {
+            finding_of_metadata({.unit = DepthUnit::m}, "EXR channel " + named->names[0])};
     return still;
 }
 

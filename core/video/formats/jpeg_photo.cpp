@@ -293,13 +293,17 @@ cv::Mat upright_picture(const std::string& bytes, const DepthPhoto& photo, int f
 StillPicture in_coding(const cv::Mat& levels, const DepthPhoto& photo) {
     const LevelCoding& coding = photo.coding;
     const int bits = levels.depth() == CV_16U ? 16 : 8;
-    StillPicture still{levels, bits, "JPEG", {}, "depth map in the photo (" + photo.form + ")"};
+    StillPicture still{levels,
+                       bits,
+                       "JPEG",
+                       {finding_of_metadata({}, "depth map in the photo (" + photo.form + ")")}};
+    DepthStatement& statement = still.findings.front().statement;
     if (coding.first == coding.last) {
-        still.known.unit = coding.inverse ? DepthUnit::disparity : DepthUnit::levels;
-        still.known.near = coding.inverse ? NearLevels::bright : coding.near;
+        statement.unit = coding.inverse ? DepthUnit::disparity : DepthUnit::levels;
+        statement.near = coding.inverse ? NearLevels::bright : coding.near;
         if (coding.inverse && coding.near == NearLevels::dark)
             cv::bitwise_not(levels, still.picture);
-        if (coding.near == NearLevels::dark) still.known.no_data.emplace();  // 0 is Near
+        if (coding.near == NearLevels::dark) statement.no_data.emplace();  // 0 is Near
         return still;
     }
     cv::Mat values;
@@ -312,7 +316,7 @@ StillPicture in_coding(const cv::Mat& levels, const DepthPhoto& photo) {
     }
     still.picture = values;
     still.bits = kRealBits;
-    still.known.unit = coding.unit.value_or(DepthUnit::disparity);
+    statement.unit = coding.unit.value_or(DepthUnit::disparity);
     return still;
 }
 
@@ -325,7 +329,7 @@ StillPicture read_jpeg_photo(const fs::path& file, PictureRole role) {
         const cv::Mat original = upright_picture(photo->colour, *photo,
                                                  cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
         if (original.empty()) return read_by_opencv(file, role);
-        return {original, 8, "JPEG", {}, {}};
+        return {original, 8, "JPEG"};
     }
     cv::Mat levels;
     if (photo) levels = grey_of(upright_picture(photo->depth, *photo, cv::IMREAD_UNCHANGED));

@@ -170,10 +170,14 @@ PictureShape NumpyArray::pictures() const {
     while (sides.size() > 4 && sides.front() == 1) sides.erase(sides.begin());
     if (sides.size() > 2) {
         const std::int64_t last = sides.back();
-        if (last == 1 || (of_colours && (last == 3 || last == 4))) {
+        const bool may_be_planar =
+            sides.size() == 4 && (sides[1] == 1 || (sides[1] == 3 && !header_.fortran));
+        if (last == 1 || last == 3 || (of_colours && last == 4)) {
             shape.channels = last;
             sides.pop_back();
-        } else if (sides.size() == 4 && sides[1] == 1) {  // [frames, 1, rows, columns]
+        } else if (may_be_planar) {  // [frames, channels, rows, columns]
+            shape.channels = sides[1];
+            shape.is_planar = shape.channels > 1;
             sides.erase(sides.begin() + 1);
         }
     }
@@ -225,12 +229,24 @@ cv::Mat NumpyArray::fortran_picture(const PictureShape& shape, std::int64_t fram
     return picture;
 }
 
-cv::Mat NumpyArray::picture(const PictureShape& shape, std::int64_t frame) {
+/// In C order.
+cv::Mat NumpyArray::plain_picture(const PictureShape& shape, std::int64_t frame) {
     const std::int64_t count = shape.rows * shape.columns * shape.channels;
-    cv::Mat picture = header_.fortran ? fortran_picture(shape, frame)
-                                      : read(static_cast<std::uint64_t>(frame * count), count)
-                                            .reshape(static_cast<int>(shape.channels),
-                                                     static_cast<int>(shape.rows));
+    const auto rows = static_cast<int>(shape.rows);
+    const auto channels = static_cast<int>(shape.channels);
+    const cv::Mat numbers = read(static_cast<std::uint64_t>(frame * count), count);
+    if (!shape.is_planar) return numbers.reshape(channels, rows);
+    const cv::Mat stacked = numbers.reshape(1, channels * rows);
+    std::vector<cv::Mat> planes;
+    planes.reserve(static_cast<std::size_t>(channels));
+    for (int k = 0; k < channels; ++k) planes.push_back(stacked.rowRange(k * rows, (k + 1) * rows));
+    cv::Mat picture;
+    cv::merge(planes, picture);
+    return picture;
+}
+
+cv::Mat NumpyArray::picture(const PictureShape& shape, std::int64_t frame) {
+    cv::Mat picture = header_.fortran ? fortran_picture(shape, frame) : plain_picture(shape, frame);
     const bool keeps = picture.depth() == CV_8U || picture.depth() == CV_16U;
     if (!keeps) picture.convertTo(picture, CV_32F);
     if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);

@@ -22,12 +22,14 @@ struct NumpyHeader {
     std::uint64_t data_at{0};  ///< where the numbers begin
 };
 
-/// [rows, columns] or [frames, rows, columns], each also with 1, 3 or 4 channels at the end.
+/// [rows, columns] or [frames, rows, columns], each also with 1, 3 or 4 channels at the end;
+/// [frames, 3, rows, columns] as networks have colours.
 struct PictureShape {
     std::int64_t frames{1};
     std::int64_t rows{0};
     std::int64_t columns{0};
     std::int64_t channels{1};
+    bool is_planar{false};  ///< the channels come before rows and columns
 };
 
 class NumpyArray {
@@ -48,6 +50,7 @@ class NumpyArray {
 
   private:
     [[nodiscard]] cv::Mat read(std::uint64_t first, std::int64_t count);
+    [[nodiscard]] cv::Mat plain_picture(const PictureShape& shape, std::int64_t frame);
     [[nodiscard]] cv::Mat fortran_picture(const PictureShape& shape, std::int64_t frame);
 
     std::filesystem::path file_;

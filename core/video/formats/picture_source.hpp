@@ -53,6 +53,7 @@ struct Timing {
 /// The facts about a source known so far; more as frames are read.
 struct SourceFacts {
     std::filesystem::path file{};
+    std::filesystem::path first_picture{};  ///< of a folder, a list or a pattern; empty: `file`
     int columns{0};
     int rows{0};
     int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers
@@ -68,11 +69,9 @@ struct SourceFacts {
     bool live{false};                   ///< a live source: no length, no end
     std::string trouble{};              ///< why less is readable than at the opening; empty: all is
     std::string notice{};               ///< what the opening ignored or chose; mostly empty
-    DepthStatement known{};             ///< stated by the file's metadata or its format
-    std::string known_from{};           ///< the source of `known`: "EXR channel Z"; empty: none
-    Findings findings{};                ///< what else its reader found out, row by row
+    Findings findings{};                ///< what its reader and its layout state about depth
     std::optional<DepthNoise> noise{};  ///< used for cleaning when it was recorded live
-    Lens lens{};                        ///< of the camera of `known.intrinsics`
+    Lens lens{};                        ///< of the camera that the findings state
     bool other_camera{false};           ///< its colour is from another camera at another place
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 };

@@ -57,7 +57,7 @@ StillPicture read_raw_levels(const fs::path& file, PictureRole role) {
     if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size())))
         throw InputError(shown(file) + " is cut off or damaged: copy it or save it again");
     if (std::endian::native == std::endian::big) swap_bytes(bytes, kLevelBytes);
-    return {levels, 16, "RAW", {}, {}};
+    return {levels, 16, "RAW"};
 }
 
 }  // namespace dibhr

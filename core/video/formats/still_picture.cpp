@@ -10,6 +10,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -73,16 +74,15 @@ cv::Mat decoded(const fs::path& file, int flags) {
 /// Adds what the tags of a TIFF file of one channel tell: GeoTIFF holds heights seen from above.
 void add_tags(const fs::path& file, StillPicture& still) {
     const TiffTags tags = picture_codecs().tiff_tags(file.string());
-    if (tags.is_geographic) {
-        still.known.near = NearLevels::bright;
-        still.known.unit = DepthUnit::levels;
-        still.known_from = "GeoTIFF tags: heights";
-    }
+    if (tags.is_geographic)
+        still.findings.push_back(finding_of_metadata(
+            {.near = NearLevels::bright, .unit = DepthUnit::levels}, "GeoTIFF tags: heights"));
     const auto mark = number_of_text(tags.gdal_no_data);
     if (!mark || std::abs(*mark) > std::numeric_limits<float>::max()) return;
     const bool is_real = still.bits == kRealBits;
-    still.known.no_data = {is_real ? static_cast<double>(static_cast<float>(*mark)) : *mark};
-    still.known_from += (still.known_from.empty() ? "" : ", ") + std::string("tag GDAL_NODATA");
+    const double level = is_real ? static_cast<double>(static_cast<float>(*mark)) : *mark;
+    still.findings.push_back(
+        finding_of_metadata({.no_data = std::vector{level}}, "tag GDAL_NODATA"));
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ StillPicture read_by_opencv(const fs::path& file, PictureRole role) {
     cv::Mat picture = decoded(file, is_depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR);
     if (picture.depth() != CV_8U && picture.depth() != CV_16U) picture.convertTo(picture, CV_32F);
     const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : kRealBits;
-    StillPicture still{picture, bits, codec_by_name(file), {}, {}};
+    StillPicture still{picture, bits, codec_by_name(file)};
     if (is_depth && picture.channels() == 1 && is_tiff(head_of(file))) add_tags(file, still);
     return still;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
@@ -17,8 +17,7 @@ struct StillPicture {
     cv::Mat picture{};    ///< as in a TimedPicture
     int bits{8};          ///< of a level; kRealBits: real numbers
     std::string codec{};  ///< "PNG", "EXR"
-    DepthStatement known{};
-    std::string known_from{};  ///< as in SourceFacts
+    Findings findings{};  ///< as in SourceFacts
 };
 
 /// Whether OpenCV's codecs read the file, or it is a WebP picture. OpenCV does not recognise a

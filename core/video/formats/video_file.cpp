@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -108,19 +109,19 @@ void VideoFile::read_facts() {
 void VideoFile::read_azure_kinect() {
     const VideoPackets& packets = decoder_.packets();
     if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
-    facts_.known.unit = DepthUnit::mm;
-    facts_.known.scale = 1.0;
-    facts_.known.no_data = std::vector<double>{0.0};
+    Finding finding =
+        finding_of_metadata({.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::vector{0.0}},
+                            "Azure Kinect recording");
     const std::string calibration = packets.attachment("calibration.json");
     const cv::Size size(facts_.columns, facts_.rows);
     if (const auto camera = azure_kinect_depth_camera(calibration, size)) {
-        facts_.known.intrinsics = camera->intrinsics();
+        finding.statement.intrinsics = camera->intrinsics();
+        finding.reason = "Azure Kinect calibration";
         facts_.lens = camera->lens();
     }
     if (auto cameras = azure_kinect_cameras(calibration, size))
         facts_.cameras = std::make_shared<const CameraPair>(std::move(*cameras));
-    facts_.known_from =
-        facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
+    facts_.findings.push_back(std::move(finding));
 }
 
 /// Reports an end before the duration that was verified at the opening.

@@ -16,7 +16,10 @@
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/packed.hpp"
+#include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
@@ -77,30 +80,31 @@ Findings findings_by_name(const fs::path& file) {
             return {{{.near = NearLevels::bright, .unit = known.unit},
                      Evidence::name,
                      known.sureness,
-                     "the name holds " + in_quotes(known.word)}};
+                     in_quotes(known.word) + " in its name"}};
     return {};
 }
 
-/// The rows of the table but those of the numbers: of the source and its reader, of how the files
-/// lie, and of the name.
-Findings findings_on(const Sources& sources) {
+void append(const Findings& more, Findings& rows) {
+    rows.insert(rows.end(), more.begin(), more.end());
+}
+
+/// The data set of a source, but for one whose levels are decoded, and say it themselves.
+std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
+    auto set = data_set_of(facts);
+    if (set && set->finding.statement.code) set.reset();
+    return set;
+}
+
+/// The rows of the table but those of the numbers and of times: of the reader that took the file,
+/// of what it and the layout found, of its data set, and of the name.
+Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
-    Findings rows = facts.findings;
-    rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
-    const auto add = [&rows](const DepthStatement& statement, Evidence evidence, double sureness,
-                             const std::string& reason) {
-        if (!(statement == DepthStatement{}))
-            rows.push_back({statement, evidence, sureness, reason});
-    };
-    add(sources.assumed, Evidence::appearance, kSurenessOfAppearance, "its pictures look so");
-    add(facts.known, sources.by_appearance ? Evidence::appearance : Evidence::metadata,
-        sources.by_appearance ? kSurenessOfAppearance : kSurenessOfMetadata,
-        facts.known_from.empty() ? "its metadata" : facts.known_from);
-    for (Finding& by_name : findings_by_name(facts.file)) rows.push_back(std::move(by_name));
-    add(sources.found, Evidence::layout, kSurenessOfMetadata, "how its files lie");
-    if (facts.codec == "PFM")
-        add({.unit = DepthUnit::disparity}, Evidence::magic, kSurenessOfAppearance,
-            "portable float maps mostly hold disparities");
+    Findings rows;
+    if (!facts.live) rows.push_back(finding_on_form(facts));
+    append(facts.findings, rows);
+    append(sources.findings, rows);
+    if (set) rows.push_back(set->finding);
+    if (!has_decoded_levels(facts)) append(findings_by_name(facts.file), rows);
     return rows;
 }
 
@@ -109,26 +113,47 @@ bool is_complete(const DepthStatement& known) {
     return known.no_data && known.unit && known.scale && known.near && known.range;
 }
 
-/// Adds the rows of the numbers on facts that nobody states yet, or not surely. Returns the levels
-/// without those that are no data.
-SampledLevels add_numbers(const std::vector<cv::Mat>& pictures, int bits,
-                          const RankedStatements& persons, Findings& rows) {
-    SampledLevels levels(pictures, bits);
+/// Whether the middle of the colour pictures is brighter than their sides; nothing: no colour.
+std::optional<int> middle_of_colour(const Sources& sources) {
+    if (!sources.colour) return {};
+    constexpr int kMostColours = 3;
+    return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
+}
+
+/// The rows on units, but for those of the unit and scale of a data set: it has distances of its
+/// own.
+Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFacts>& set) {
+    Findings units = levels.units();
+    if (set) {
+        const DepthStatement& said = set->finding.statement;
+        std::erase_if(units, [&said](const Finding& row) {
+            return row.statement.unit == said.unit && row.statement.scale == said.scale;
+        });
+    }
+    return units;
+}
+
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what a data
+/// set states and they contradict. Returns the levels without those that are no data.
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons,
+                          const std::optional<DataSetFacts>& set, Findings& rows) {
+    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
-    const auto add = [&rows](const Findings& more) {
-        rows.insert(rows.end(), more.begin(), more.end());
-    };
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
         return row.statement.no_data.has_value();
     });
-    if (!known.no_data && !names_no_data) add(levels.no_data());
+    if (!known.no_data && !names_no_data) append(levels.no_data(), rows);
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
-    if (!known.unit) add(levels.units());
+    const Findings contradictions = set ? levels.contradictions(set->usual) : Findings{};
+    append(contradictions, rows);
+    if (!known.unit || !contradictions.empty()) append(units_beside(levels, set), rows);
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
-        add(levels.near());
+        append(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
+                                                                    : middle_of_colour(sources)),
+               rows);
     return levels;
 }
 
@@ -240,21 +265,21 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
                              {Origin::command_line, request.command_line}};
     Findings rows;
     DepthMeaning meaning;
+    std::optional<DataSetFacts> set;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources);
-        meaning.found_in = facts.known_from;
+        set = data_set_beside_codes(facts);
+        rows = findings_on(sources, set);
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows)))
-        levels = add_numbers(sample_pictures(depth), facts.bits, persons, rows);
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, set, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
     if (!(of_folder == DepthStatement{})) {

@@ -15,6 +15,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_lists.hpp"
 #include "core/video/sources/picture_pattern.hpp"
@@ -28,20 +29,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-LayoutFacts millimetres(std::vector<double> no_data, std::string known_from) {
+/// Of a layout that the names of folders alone show.
+constexpr double kSurenessOfFolderNames = 0.95;
+
+LayoutFacts millimetres(std::vector<double> no_data, std::string reason) {
     LayoutFacts facts;
-    facts.known.unit = DepthUnit::mm;
-    facts.known.scale = 1.0;
-    facts.known.no_data = std::move(no_data);
-    facts.known_from = std::move(known_from);
+    facts.finding.statement = {.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::move(no_data)};
+    facts.finding.reason = std::move(reason);
     return facts;
 }
 
 void take_camera(const CameraFile& camera, LayoutFacts& facts) {
-    facts.known.intrinsics = camera.intrinsics;
+    facts.finding.statement.intrinsics = camera.intrinsics;
     facts.columns = camera.columns;
     facts.rows = camera.rows;
-    if (camera.levels_per_m) facts.known.scale = 1000.0 / *camera.levels_per_m;
+    if (camera.levels_per_m) facts.finding.statement.scale = 1000.0 / *camera.levels_per_m;
 }
 
 bool all_match(const PictureRow& row, const std::string& pattern) {
@@ -60,9 +62,9 @@ std::optional<LayoutFacts> facts_of_7_scenes(const fs::path& folder, const Pictu
         millimetres({0.0, 65535.0}, is_7_scenes ? "7-Scenes names" : "tsdf-fusion names");
     for (const fs::path& place : {folder, folder.parent_path()}) {
         const auto camera = read_camera_matrix(place / "camera-intrinsics.txt");
-        if (camera && !facts.known.intrinsics) take_camera(*camera, facts);
+        if (camera && !facts.finding.statement.intrinsics) take_camera(*camera, facts);
     }
-    if (is_7_scenes && !facts.known.intrinsics)
+    if (is_7_scenes && !facts.finding.statement.intrinsics)
         take_camera({{585.0, 585.0, 320.0, 240.0}, 640, 480, {}}, facts);
     facts.other_camera = is_7_scenes;  // "the RGB and depth camera have not been calibrated"
     return facts;
@@ -94,14 +96,35 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     const std::string colour = set.colour.empty() ? "" : folder_name(set.colour);
     if (!camera && colour != "color" && colour != "image") return std::nullopt;
     LayoutFacts facts = millimetres({0.0}, "folders as Open3D has them");
-    if (camera) take_camera(*camera, facts);
+    if (camera)
+        take_camera(*camera, facts);
+    else
+        facts.finding.sureness = kSurenessOfFolderNames;
+    return facts;
+}
+
+/// The camera that a data set has in a file beside; data_sets.cpp has the other facts.
+LayoutFacts camera_of_data_set(const PictureSet& set) {
+    LayoutFacts facts;
+    if (set.depth.empty()) return facts;
+    SourceFacts depth;
+    depth.file = set.depth.front().file;
+    depth.bits = 16;
+    const auto found = data_set_of(depth);
+    if (!found || !found->camera || !is_camera(found->camera->intrinsics)) return facts;
+    CameraFile camera = *found->camera;
+    camera.levels_per_m.reset();
+    take_camera(camera, facts);
+    facts.finding.reason = found->finding.reason;
+    facts.finding.sureness = found->finding.sureness;
     return facts;
 }
 
 LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
     if (auto facts = facts_of_folders(folder, set)) return *facts;
-    return scanner_facts(folder);
+    LayoutFacts scanned = scanner_facts(folder);
+    return scanned.finding.statement == DepthStatement{} ? camera_of_data_set(set) : scanned;
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.

@@ -144,21 +144,16 @@ Sources decoded(const std::shared_ptr<LiveCursor>& cursor, const PictureGuess& g
                 const DepthStatement& statement) {
     Sources sources;
     const DepthCode code = code_of(guess, statement);
-    if (code == DepthCode::hue) {
-        sources.depth =
-            hue_decoded(pictures_of(cursor, Which::depth_as_seen), HueCode{}, "its hues");
-        sources.assumed.code = DepthCode::hue;
-        sources.by_appearance = true;
-    } else if (is_of_bytes(code)) {
-        sources.depth = byte_decoded(pictures_of(cursor, Which::depth_as_seen), code,
-                                     "the bytes of its colours");
-        sources.by_appearance = !statement.code;
-    } else if (!statement.code && guess.kind == PictureKind::ramp_depth) {
-        sources.depth = ramp_decoded(pictures_of(cursor, Which::depth_as_seen), "its colours");
-        sources.by_appearance = true;
-    } else {
-        sources.depth = pictures_of(cursor, Which::depth);
-    }
+    const bool is_ramp = !statement.code && guess.kind == PictureKind::ramp_depth;
+    const bool is_coded = code != DepthCode::grey || is_ramp;
+    sources.depth = pictures_of(cursor, is_coded ? Which::depth_as_seen : Which::depth);
+    const Finding coded = finding_on_code(code, statement.code.has_value());
+    if (code == DepthCode::hue)
+        sources.depth = hue_decoded(std::move(sources.depth), HueCode{}, coded);
+    else if (is_of_bytes(code))
+        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
+    else if (is_ramp)
+        sources.depth = ramp_decoded(std::move(sources.depth));
     return sources;
 }
 
@@ -178,18 +173,15 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     const bool says_halves = statement.packing && is_of_halves(*statement.packing);
     const PictureGuess guess = guess_kind_of(cursor);
     if (says_halves || (!statement.packing && guess.kind == PictureKind::packed)) {
-        PackedForm form{.packing = says_halves ? *statement.packing : guess.packing,
-                        .gap_px = says_halves ? 0 : guess.gap_px,
-                        .known_from = says_halves ? "" : "its pictures"};
+        PackedForm form =
+            says_halves ? PackedForm{.packing = *statement.packing} : form_by_appearance(guess);
         const bool looks_hue = guess.kind == PictureKind::packed && guess.code == DepthCode::hue;
-        if (statement.code ? *statement.code == DepthCode::hue : looks_hue) form.hue.emplace();
+        const bool is_hue = statement.code ? *statement.code == DepthCode::hue : looks_hue;
+        form.hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
         if (statement.code && is_of_bytes(*statement.code)) form.bytes = *statement.code;
-        Sources sources = halves(cursor, form);
-        if (!says_halves) {
-            sources.assumed = std::exchange(sources.found, {});
-            sources.by_appearance = true;
-        }
-        return sources;
+        form.coded =
+            finding_on_code(statement.code.value_or(DepthCode::hue), statement.code.has_value());
+        return halves(cursor, form);
     }
     const LivePicture& first = cursor->pair->depth;
     const bool is_depth = guess.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
@@ -240,8 +232,9 @@ Sources find_live_sources(const fs::path& colour, const fs::path& depth,
         feed->set_outputs(is_coded, !is_coded);
     } else {
         sources = of_one(cursor, statement);
-        const bool as_seen = sources.colour != nullptr || is_coded ||
-                             sources.depth->facts().bits == kRealBits || sources.by_appearance;
+        const Findings& rows = sources.depth->facts().findings;  // only those of colours
+        const bool as_seen = sources.colour != nullptr || is_coded || !rows.empty() ||
+                             sources.depth->facts().bits == kRealBits;
         feed->set_outputs(as_seen, true);
     }
     sources.live = std::move(feed);

@@ -2,12 +2,13 @@
 #include "core/video/sources/media.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,7 @@
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/pair_times.hpp"
 #include "core/video/sources/paired_media.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {
@@ -71,8 +73,10 @@ std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& sc
     return meter.sparse_share();
 }
 
-std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
+std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& statement,
+                                      const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
+    decode_levels(sources, statement, asked.find_out);
     if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
@@ -82,6 +86,8 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked
         pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
                                                std::move(found.scale), painted, times);
+    if (request.find_out)
+        std::ranges::copy(times.findings, std::back_inserter(found.conclusion.findings));
     media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
     if (sparse_share) media->set_sparse(*sparse_share);
@@ -125,8 +131,9 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         description.notice = sources.colour->facts().notice;
         return description;
     }
+    decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
-    const auto media = media_of(std::move(sources), request, false, notice);
+    const auto media = media_of(std::move(sources), statement, request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
     description.levels_used = levels_used(pictures);
@@ -138,42 +145,59 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
     return description;
 }
 
+bool has_scale(const DepthStatement& answer) {
+    return answer.scale.value_or(1.0) != 1.0;
+}
+
+std::string scale_text(const DepthStatement& answer) {
+    constexpr int kDigits = 7;
+    return short_text(answer.scale.value_or(1.0), kDigits);
+}
+
+/// How a person states near, or unit and scale, of an answer: "--near dark", "near = \"dark\"".
+std::string stated_text(const DepthStatement& answer, bool is_near, StatedBy way) {
+    const auto fact = [way](const char* option, const char* key, const std::string& value) {
+        return way == StatedBy::options ? std::string(option) + ' ' + value
+                                        : std::string(key) + " = " + value;
+    };
+    const auto word = [way](std::string_view name) {
+        return way == StatedBy::options ? std::string(name) : '"' + std::string(name) + '"';
+    };
+    if (is_near) return fact("--near", "near", word(name_of(*answer.near)));
+    const std::string unit = fact("--depth-unit", "unit", word(name_of(*answer.unit)));
+    if (!has_scale(answer)) return unit;
+    return unit + (way == StatedBy::options ? " " : ", ") +
+           fact("--depth-scale", "scale", scale_text(answer));
+}
+
 }  // namespace
 
 std::optional<RawFrame> Media::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &RawFrame::media_s);
 }
 
-std::string doubt_about(const MediaDescription& media) {
-    const std::vector<DepthAlternative>& all = media.conclusion.alternatives;
-    if (all.empty()) return {};
-    const DepthStatement& best = all.front().statement;
-    double sum = 0.0;
-    for (const DepthAlternative& other : all) sum += other.probability;
-    const auto share = [&](auto fact) {
-        double same = 0.0;
-        for (const DepthAlternative& other : all)
-            if (other.statement.*fact == best.*fact) same += other.probability;
-        return same / sum;
-    };
-    struct Fact {
-        double share;
-        std::string text;
-        const char* option;
-    };
-    const std::array facts{
-        Fact{share(&DepthStatement::near), "near is " + std::string(name_of(*best.near)),
-             "--near bright or --near dark"},
-        Fact{share(&DepthStatement::unit), "unit " + std::string(name_of(*best.unit)),
-             "--depth-unit"},
-        Fact{share(&DepthStatement::scale), "scale " + short_text(*best.scale),
-             "--depth-unit and --depth-scale"}};
-    const auto& least = *std::min_element(
-        facts.begin(), facts.end(), [](const Fact& a, const Fact& b) { return a.share < b.share; });
+std::string doubt_about(const MediaDescription& media, StatedBy way) {
+    const DepthConclusion& conclusion = media.conclusion;
+    if (conclusion.alternatives.empty()) return {};
+    const bool is_near =
+        conclusion.near_sure < kSureEnough || conclusion.near_sure <= conclusion.unit_sure;
+    const double sure = is_near ? conclusion.near_sure : conclusion.unit_sure;
+    std::vector<std::string> ways;
+    for (const DepthAlternative& answer : conclusion.alternatives) {
+        std::string text = stated_text(answer.statement, is_near, way);
+        if (std::find(ways.begin(), ways.end(), text) == ways.end())
+            ways.push_back(std::move(text));
+    }
+    const DepthStatement& best = conclusion.alternatives.front().statement;
+    std::string assumed = is_near ? "near is assumed to be " + std::string(name_of(*best.near))
+                                  : "the unit is assumed to be " + std::string(name_of(*best.unit));
+    if (!is_near && has_scale(best)) assumed += " and the scale " + scale_text(best);
     constexpr double kPercent = 100.0;
-    return shown(media.depth_path) + ": " + least.text + " is likely (" +
-           number_text(kPercent * least.share, 0) + " %), not certain: look at it, or say " +
-           least.option;
+    return shown(media.depth_path) + ": " + assumed + " (" + number_text(kPercent * sure, 0) +
+           " % sure): look at it, or " +
+           (way == StatedBy::options ? "say " + listed(ways, " or ")
+                                     : "state " + listed(ways, " or ") + " in its sidecar " +
+                                           shown(sidecar_of(media.depth_path)));
 }
 
 std::string motion_trouble(const MediaDescription& media) {
@@ -217,16 +241,18 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const DepthStatement statement =
             statement_for(depth_of_pair(colour, depth), colour, request);
-        return media_of(sources_of(colour, depth, statement, request), request, true, notice);
+        return media_of(sources_of(colour, depth, statement, request), statement, request, true,
+                        notice);
     });
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const fs::path depth = is_live(place) ? place : depth_place_for(place);
-        Sources sources = sources_of({}, place, statement_for(depth, place, request), request);
+        const DepthStatement statement = statement_for(depth, place, request);
+        Sources sources = sources_of({}, place, statement, request);
         sources.colour.reset();
-        return media_of(std::move(sources), request, false, notice);
+        return media_of(std::move(sources), statement, request, false, notice);
     });
 }
 

@@ -83,7 +83,7 @@ struct MediaDescription {
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file
     /// What the meaning was concluded from, how sure it is, and what else it may be: a window asks.
     DepthConclusion conclusion{};
-    DepthStatement panel{};                 ///< chosen on the panel, now or kept
+    DepthStatement panel{};       ///< chosen on the panel, now or kept
     std::string registered_by{};  ///< the calibration that puts colour over depth; empty: none
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< mean of the intervals known so far; 0 for a still
@@ -108,9 +108,14 @@ struct MediaDescription {
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
 
-/// A sentence for people where the meaning is likely but not sure, with the option that settles it;
-/// empty: it is sure, or a person stated it.
-[[nodiscard]] std::string doubt_about(const MediaDescription& media);
+/// Where a person can state what depth means: by options, or only in a sidecar.
+enum class StatedBy { options, sidecar };
+
+/// A sentence for people where the meaning is likely but not sure: what near is assumed to be or,
+/// where that is sure, the unit and the scale; how sure that is, and what settles it. Empty: the
+/// meaning is sure, or a person stated it.
+[[nodiscard]] std::string doubt_about(const MediaDescription& media,
+                                      StatedBy way = StatedBy::options);
 
 /// The paper's proportions at any picture size: the height from farthest to nearest is 255/720 of
 /// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres.

@@ -32,7 +32,7 @@ constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "dis
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
 constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
-constexpr std::array<std::string_view, 6> kMayBeColour{"image", "images", "img",
+constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",   "im",
                                                        "left",  "frame",  "frames"};
 constexpr std::array<std::string_view, 2> kNeutralWords{"map",
                                                         "mono"};  // "mono_depth", "depth map"

@@ -30,7 +30,7 @@ namespace dibhr {
 /// Likewise depth: depth, disparity, displacement, heightmap; disp and height as words of their
 /// own.
 [[nodiscard]] bool named_depth(const std::filesystem::path& file);
-/// Whether the name means colour only beside depth: image, img, frame, left (the view of a
+/// Whether the name means colour only beside depth: image, img, im, frame, left (the view of a
 /// disparity).
 [[nodiscard]] bool may_name_colour(const std::filesystem::path& file);
 

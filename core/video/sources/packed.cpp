@@ -13,6 +13,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/picture_kind.hpp"
 #include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
@@ -61,7 +62,7 @@ Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
     return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
 }
 
-/// Stretches a half to its own size, and adds the known facts.
+/// Stretches a half to its own size, and adds how the packing is known.
 std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
                                           const PackedForm& form, PictureRole role) {
     const double wide = is_side_by_side(form.packing) ? 2.0 : 0.5;
@@ -71,13 +72,13 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
     if (role == PictureRole::colour)
         return std::make_unique<ChangedPictures>(std::move(half), change, [](SourceFacts&) {});
     const auto change_facts = [form](SourceFacts& facts) {
-        DepthStatement known = form.known;
-        const cv::Size size(facts.columns, facts.rows);
-        if (known.intrinsics && !form.intrinsics_size.empty())
-            known.intrinsics = resized(*known.intrinsics, form.intrinsics_size, size);
-        known.fill_in(facts.known);
-        facts.known = std::move(known);
-        if (!form.known_from.empty()) facts.known_from = form.known_from;
+        Finding finding = form.finding;
+        if (finding.reason.empty()) return;
+        finding.statement.packing = form.packing;
+        auto& camera = finding.statement.intrinsics;
+        if (camera && !form.intrinsics_size.empty())
+            camera = resized(*camera, form.intrinsics_size, {facts.columns, facts.rows});
+        facts.findings.push_back(std::move(finding));
     };
     return std::make_unique<ChangedPictures>(std::move(half), change, change_facts);
 }
@@ -126,6 +127,27 @@ void require_bytes(PictureSource& pictures, DepthCode code) {
     throw InputError(shown(facts.file) + " does not keep the bytes of red, green and blue (" +
                      one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
                      ") are lost: write it without loss, " + kWithoutLoss);
+}
+
+/// Removes what a statement says about levels, which now are others.
+void forget_levels(DepthStatement& statement) {
+    statement.near.reset();
+    statement.unit.reset();
+    statement.scale.reset();
+    statement.range.reset();
+    statement.no_data.reset();
+}
+
+/// Throws InputError where the pictures of a source have not the bits and channels of the code.
+void require_levels(PictureSource& pictures, DepthCode code) {
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty() || has_levels(first.front(), code)) return;
+    throw InputError(shown(pictures.facts().file) + " does not hold depth as " +
+                     std::string(name_of(code)) + ", which is in " +
+                     (code == DepthCode::xyz      ? "three channels of real numbers"
+                      : code == DepthCode::stereo ? "one channel"
+                                                  : "one channel of 16 bits") +
+                     ": give the picture as it was first written, or another --depth-code");
 }
 
 /// Whether CARLA is in the file's name or its folder's.
@@ -191,8 +213,35 @@ bool is_number(const std::string& word) {
 
 }  // namespace
 
-std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,
-                                           std::string known_from) {
+PackedForm form_by_appearance(const PictureGuess& guess) {
+    PackedForm form{.packing = guess.packing,
+                    .gap_px = guess.gap_px,
+                    .finding = {{},
+                                Evidence::appearance,
+                                kSurenessOfAppearance,
+                                "its halves, which look like a photo and its depth"}};
+    if (guess.code == DepthCode::hue) {
+        form.hue.emplace();
+        form.coded = finding_on_code(DepthCode::hue, false);
+    } else {
+        form.finding.statement.code = DepthCode::grey;
+    }
+    return form;
+}
+
+Finding finding_on_code(DepthCode code, bool is_stated) {
+    const std::string reason =
+        is_stated                     ? "what " + std::string(name_of(code)) + " means"
+        : code == DepthCode::hue      ? "its colours: pure hues alone"
+        : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
+        : code == DepthCode::xyz      ? "its channels, which are points before one camera"
+                                      : "the bytes of its colours, which carry as those of numbers";
+    return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
+}
+
+std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours,
+                                           const HueCode& code, Finding coded) {
+    coded.statement.fill_in(meaning_of(code));
     const auto decode = [code](const cv::Mat& picture) {
         cv::Mat depth = hues_of(picture, code);
         if (!code.metres) return depth;
@@ -200,45 +249,68 @@ std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colour
         depth.convertTo(depth, CV_32F, code.metres->far - near, near);
         return depth;
     };
-    const auto change_facts = [code, from = std::move(known_from)](SourceFacts& facts) {
+    const auto change_facts = [coded = std::move(coded)](SourceFacts& facts) {
         facts.bits = kRealBits;
         facts.channels = 1;
-        facts.known_from = from;
-        facts.known.fill_in(meaning_of(code));
+        facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(colours), decode, change_facts);
 }
 
-std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
-                                            std::string known_from) {
-    const auto change_facts = [from = std::move(known_from)](SourceFacts& facts) {
+std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours) {
+    const auto change_facts = [](SourceFacts& facts) {
         facts.bits = 8;
         facts.channels = 1;
-        facts.known_from = from;
-        DepthStatement ramp;
-        ramp.near = NearLevels::bright;
-        ramp.unit = DepthUnit::levels;
-        ramp.no_data = {0.0};
-        facts.known.fill_in(ramp);
+        facts.findings.push_back(
+            {{.near = NearLevels::bright, .unit = DepthUnit::levels, .no_data = std::vector{0.0}},
+             Evidence::appearance,
+             kSurenessOfAppearance,
+             "its colours: from white over cyan and blue to black"});
     };
     return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, change_facts);
 }
 
 std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures, DepthCode code,
-                                            std::string known_from) {
+                                            Finding coded) {
     require_bytes(*pictures, code);
     const auto decode = [code](const cv::Mat& picture) { return numbers_in_bytes(picture, code); };
-    const auto change_facts = [code, from = std::move(known_from)](SourceFacts& facts) {
+    if (code == DepthCode::rgb24 && names_carla(pictures->facts().file)) {
         constexpr double kCarlaFarthest_m = 1000.0;  // carla.readthedocs.io, "Depth camera"
         constexpr double kCarlaHighest = 16777215.0;
+        coded.statement.fill_in({.unit = DepthUnit::m, .scale = kCarlaFarthest_m / kCarlaHighest});
+        coded.reason += ", of CARLA by its name";
+    }
+    coded.statement.fill_in(byte_code_meaning(code));
+    const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
         facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
         facts.channels = 1;
-        facts.known_from = from;
-        if (code == DepthCode::rgb24 && names_carla(facts.file))
-            facts.known.fill_in({.unit = DepthUnit::m, .scale = kCarlaFarthest_m / kCarlaHighest});
-        facts.known.fill_in(byte_code_meaning(code));
+        facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                             DepthCode code, const InverseLevels& law,
+                                             Finding coded) {
+    require_levels(*pictures, code);
+    const auto decode = [code, law](const cv::Mat& picture) {
+        return numbers_in_levels(picture, code, law);
+    };
+    coded.statement.code = code;
+    coded.statement.fill_in(level_code_meaning(code));
+    const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
+        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.channels = 1;
+        for (Finding& other : facts.findings) forget_levels(other.statement);
+        facts.findings.push_back(coded);
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+bool has_decoded_levels(const SourceFacts& facts) {
+    return std::any_of(facts.findings.begin(), facts.findings.end(), [](const Finding& finding) {
+        return finding.statement.code && is_of_levels(*finding.statement.code);
+    });
 }
 
 std::string refusal_of_colours(const SourceFacts& facts) {
@@ -274,13 +346,11 @@ Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<Pictur
                const PackedForm& form) {
     auto colour = cropped(std::move(for_colour), form, PictureRole::colour);
     auto depth = cropped(std::move(for_depth), form, PictureRole::depth);
-    if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
-    if (form.bytes) depth = byte_decoded(std::move(depth), *form.bytes, form.known_from);
+    if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.coded);
+    if (form.bytes) depth = byte_decoded(std::move(depth), *form.bytes, form.coded);
     Sources sources;
     sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);
     sources.depth = unsqueezed(std::move(depth), form, PictureRole::depth);
-    sources.found.packing = form.packing;
-    sources.found.code = form.hue ? DepthCode::hue : form.bytes.value_or(DepthCode::grey);
     return sources;
 }
 

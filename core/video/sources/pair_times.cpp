@@ -2,6 +2,7 @@
 #include "core/video/sources/pair_times.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -126,9 +127,42 @@ namespace {
 
 using OwnedSource = std::unique_ptr<PictureSource>;
 
+struct TimesEvidence {
+    Evidence evidence;
+    double sureness;
+};
+/// Of times by their origin, in the order of TimesFrom. A source takes the surest of its times.
+constexpr std::array<TimesEvidence, 6> kTimesEvidence{{{Evidence::metadata, kSurenessOfMetadata},
+                                                       {Evidence::name, kSurenessOfName},
+                                                       {Evidence::layout, 0.99},
+                                                       {Evidence::layout, 0.93},
+                                                       {Evidence::metadata, 0.99},
+                                                       {Evidence::numbers, 0.3}}};
+
+const TimesEvidence& evidence_for(TimesFrom from) {
+    return kTimesEvidence.at(static_cast<std::size_t>(from));
+}
+
+bool is_surer(TimesFrom from, TimesFrom than) {
+    return evidence_for(from).sureness > evidence_for(than).sureness;
+}
+
 bool has_own_times(const SourceFacts& facts) {
-    const TimesFrom from = facts.timing.from;
-    return from != TimesFrom::assumed && from != TimesFrom::other;
+    return is_surer(facts.timing.from, TimesFrom::other);
+}
+
+Finding finding_on_times(const std::string& whose, TimesFrom from, const std::string& text) {
+    const auto [evidence, sureness] = evidence_for(from);
+    return {{}, evidence, sureness, text, "times of the " + whose};
+}
+
+/// The times that a source has, and those that it may have by stamps.
+void add_times(const PictureSource* source, const std::string& whose, Findings& rows) {
+    if (source == nullptr || source->facts().still) return;
+    const Timing& timing = source->facts().timing;
+    rows.push_back(finding_on_times(whose, timing.from, timing.text));
+    if (timing.stamps_s)
+        rows.push_back(finding_on_times(whose, timing.stamps_from, timing.stamps_text));
 }
 
 /// The name in a sentence: of a folder and of a file.
@@ -165,8 +199,8 @@ OwnedSource at_times(OwnedSource source, std::vector<double> times_s, Timing tim
 OwnedSource at_stamps(OwnedSource source) {
     Timing timing = source->facts().timing;
     const auto stamps_s = timing.stamps_s;
-    const bool fits = stamps_s && !has_own_times(source->facts()) && stamps_s->size() > 1 &&
-                      source->picture_times_s().size() == stamps_s->size();
+    const bool fits = stamps_s && is_surer(timing.stamps_from, timing.from) &&
+                      stamps_s->size() > 1 && source->picture_times_s().size() == stamps_s->size();
     if (!fits) return source;
     timing.from = timing.stamps_from;
     timing.text = timing.stamps_text;
@@ -340,6 +374,8 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
     const bool is_stated = meaning.times.origin != Origin::assumed;
     if (!is_stated) pair.times = {find_out ? DepthTimes::own : DepthTimes::counted, Origin::found};
     if (sources.depth->facts().live) return pair;
+    add_times(sources.depth.get(), "depth", pair.findings);
+    add_times(sources.colour.get(), "colour", pair.findings);
     sources.depth = at_stated_rate(std::move(sources.depth), meaning.frames_per_s);
     if (pair.times.value != DepthTimes::counted) {
         sources.depth = at_stamps(std::move(sources.depth));
@@ -352,6 +388,9 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
     const SourceFacts& colour = sources.colour->facts();
     if (pair.colour_later_s) {
         const bool of_depth = depth.timing.from == TimesFrom::other;
+        pair.findings.push_back(
+            finding_on_times(of_depth ? "depth" : "colour", TimesFrom::other,
+                             of_depth ? depth.timing.text : colour.timing.text));
         pair.notice = of_depth ? "times of the depth: " + depth.timing.text
                                : "times of the colour: " + colour.timing.text;
     }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/sources.hpp"
 
@@ -71,6 +71,7 @@ struct PairTimes {
     /// those of the other; nothing: by the clocks of their files.
     std::optional<double> colour_later_s{};
     std::string notice{};  ///< what was done, or why both cannot be right; mostly empty
+    Findings findings{};   ///< who says when frames are: of each source the surest counts
 };
 
 /// Gives the sources the times that the meaning states, and, where it states none and `find_out`,

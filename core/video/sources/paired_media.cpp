@@ -234,7 +234,8 @@ void PairedMedia::take_registration(const SourceFacts& colour) {
 void PairedMedia::take_camera() {
     auto& meaning = description_.meaning;
     if (!meaning || !meaning->intrinsics.value) return;
-    is_own_camera_ = meaning->intrinsics.value == depth_->facts().known.intrinsics;
+    is_own_camera_ =
+        meaning->intrinsics.value == sure_facts({}, depth_->facts().findings).intrinsics;
     if (is_of_halves(meaning->packing.value)) return;
     FittedCamera fitted = fit_camera(*meaning->intrinsics.value, {}, size_);
     meaning->intrinsics.value = fitted.camera;

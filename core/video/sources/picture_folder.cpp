@@ -76,8 +76,8 @@ void append_pictures_of(const fs::path& folder, PictureRow& row) {
     }
 }
 
-/// Beside depth, unnamed pictures count as colour where a word allows it, else where their names
-/// are those of depth pictures without the word for depth.
+/// Beside depth, unnamed pictures count as colour where their names are those of all depth pictures
+/// without the word for depth, else where a word allows it, else where names are those of some.
 void accept_as_colour(PictureSet& set) {
     if (set.depth.empty() || !set.colour.empty()) return;
     std::set<std::string> subjects;
@@ -88,9 +88,12 @@ void accept_as_colour(PictureSet& set) {
     const auto belongs = [&subjects](const NumberedPicture& picture) {
         return subjects.contains(subject_of(picture.file));
     };
-    std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), allowed);
-    if (!set.colour.empty()) return;
-    std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour), belongs);
+    PictureRow own;
+    std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(own), belongs);
+    if (own.size() != set.depth.size())
+        std::copy_if(set.unnamed.begin(), set.unnamed.end(), std::back_inserter(set.colour),
+                     allowed);
+    if (set.colour.empty()) set.colour = std::move(own);
 }
 
 std::string stem_of(const NumberedPicture& picture) {
@@ -104,6 +107,18 @@ void drop_paintings_of_numbers(PictureRow& depth) {
         if (named_numbers(picture.file)) numbers.insert(stem_of(picture));
     std::erase_if(depth, [&numbers](const NumberedPicture& picture) {
         return !named_numbers(picture.file) && numbers.contains(stem_of(picture));
+    });
+}
+
+/// Depth pictures leave the row that are statistics of another one: Middlebury's "disp0-sd.pfm" and
+/// "disp0-n.pgm" of "disp0.pfm".
+void drop_statistics(PictureRow& depth) {
+    std::set<std::string> names;
+    for (const NumberedPicture& picture : depth) names.insert(stem_of(picture));
+    std::erase_if(depth, [&names](const NumberedPicture& picture) {
+        const std::string name = stem_of(picture);
+        const bool is_named_so = name.ends_with("-sd") || name.ends_with("-n");
+        return is_named_so && names.contains(name.substr(0, name.rfind('-')));
     });
 }
 
@@ -169,8 +184,50 @@ void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& 
     }
     for (const fs::path& entry : entries) {
         if (set.depth.empty() || !set.colour.empty()) return;
-        if (may_name_colour(entry) && is_folder(entry)) append_pictures_of(entry, set.colour);
+        const bool is_photo = lower_case(entry.filename().string()) == "photo";
+        const bool is_colour = (is_photo || may_name_colour(entry)) && !named_depth(entry) &&
+                               named_other(entry).empty();
+        if (is_colour && is_folder(entry)) append_pictures_of(entry, set.colour);
     }
+}
+
+PictureSet pictures_among(const std::vector<fs::path>& entries) {
+    PictureSet found;
+    for (const fs::path& entry : entries) {
+        if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
+    }
+    return found;
+}
+
+/// Decides what pictures beside others are, whose own names do not say it.
+void complete(PictureSet& set) {
+    drop_statistics(set.depth);
+    restore_others(set);
+    part_numbers_from_pictures(set);
+    accept_as_colour(set);
+}
+
+bool is_empty(const PictureSet& set) {
+    return set.colour.empty() && set.depth.empty() && set.unnamed.empty() && set.others.empty();
+}
+
+/// The pictures of the only subfolder that has depth with its colour ("results", "frames").
+PictureSet find_pictures_below(const std::vector<fs::path>& entries) {
+    PictureSet only;
+    for (const fs::path& entry : entries) {
+        if (!is_folder(entry) || entry.filename().string().starts_with('.')) continue;
+        PictureSet inside;
+        try {
+            inside = pictures_among(entries_of(entry));
+        } catch (const InputError&) {
+            continue;  // it may not be read
+        }
+        complete(inside);
+        if (inside.colour.empty() || inside.depth.empty()) continue;
+        if (!is_empty(only)) return {};
+        only = std::move(inside);
+    }
+    return only;
 }
 
 }  // namespace
@@ -191,21 +248,17 @@ void sort_by_number(PictureRow& row) {
 }
 
 PictureSet find_pictures_in(const fs::path& folder) {
-    PictureSet found;
     const std::vector<fs::path> entries = entries_of(folder);
-    for (const fs::path& entry : entries) {
-        if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
-    }
+    PictureSet found = pictures_among(entries);
     const bool has_named = !found.colour.empty() || !found.depth.empty();
+    const bool is_bare = is_empty(found);
     PictureSet inside;
     if (!has_named && found.unnamed.size() <= 1) find_pictures_in_folders(entries, inside);
-    if (!inside.depth.empty() || (!inside.colour.empty() && found.unnamed.empty())) {
+    if (!inside.depth.empty() || (!inside.colour.empty() && found.unnamed.empty()))
         found = std::move(inside);
-    } else {
-        restore_others(found);
-        part_numbers_from_pictures(found);
-        accept_as_colour(found);
-    }
+    else
+        complete(found);
+    if (is_bare && is_empty(found)) found = find_pictures_below(entries);
     drop_paintings_of_numbers(found.depth);
     sort_by_number(found.colour);
     sort_by_number(found.depth);
@@ -263,6 +316,7 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
     StillFile first(row_.front().file, role_);
     facts_ = first.facts();
     last_ = first.next()->picture;
+    facts_.first_picture = row_.front().file;
     facts_.file = std::move(place);
     facts_.timing = std::move(timing);
     apply_layout(layout);
@@ -276,16 +330,15 @@ PictureSequence::PictureSequence(fs::path place, PictureRow row, std::vector<dou
 void PictureSequence::apply_layout(const LayoutFacts& layout) {
     add_clause(facts_.notice, layout.notice);
     if (role_ != PictureRole::depth || facts_.bits != 16) return;
-    DepthStatement known = layout.known;
-    if (known.intrinsics && (layout.columns > 0 || !is_camera(*known.intrinsics))) {
-        const FittedCamera fitted = fit_camera(*known.intrinsics, {layout.columns, layout.rows},
-                                               {facts_.columns, facts_.rows});
-        known.intrinsics = fitted.camera;
+    Finding finding = layout.finding;
+    std::optional<Intrinsics>& camera = finding.statement.intrinsics;
+    if (camera && (layout.columns > 0 || !is_camera(*camera))) {
+        const FittedCamera fitted =
+            fit_camera(*camera, {layout.columns, layout.rows}, {facts_.columns, facts_.rows});
+        camera = fitted.camera;
         add_clause(facts_.notice, fitted.notice);
     }
-    if (facts_.known_from.empty() && known != DepthStatement{})
-        facts_.known_from = layout.known_from;
-    facts_.known.fill_in(known);
+    if (finding.statement != DepthStatement{}) facts_.findings.push_back(std::move(finding));
     facts_.other_camera = layout.other_camera;
 }
 

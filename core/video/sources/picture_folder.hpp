@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 
@@ -29,8 +29,7 @@ using PictureRow = std::vector<NumberedPicture>;
 /// Facts about depth that follow from the layout of the pictures. For depth of 16 bits only: the
 /// datasets' conventions are for such pictures.
 struct LayoutFacts {
-    DepthStatement known{};
-    std::string known_from{};
+    Finding finding{.evidence = Evidence::layout, .sureness = kSurenessOfMetadata};
     int columns{0}, rows{0};       ///< picture size of the intrinsics; 0: not stated
     std::string notice{};          ///< a sentence on ignored entries
     bool other_camera{false};      ///< colour is from another camera at an unknown place

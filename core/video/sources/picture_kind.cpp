@@ -25,10 +25,11 @@ constexpr int kLongSide = 320;  ///< of the reduced pictures [px]
 constexpr std::size_t kMostKindSamples = 24;
 
 // Bounds for single pixels, in levels of 255.
-constexpr int kDark = 40;       ///< the highest channel is below
-constexpr int kGrey = 16;       ///< channels differ by less
-constexpr int kPure = 170;      ///< channels differ by at least
-constexpr float kFlat = 0.15F;  ///< levels a pixel
+constexpr int kDark = 40;        ///< the highest channel is below
+constexpr int kGrey = 16;        ///< channels differ by less
+constexpr int kFullLight = 225;  ///< of a pure hue the highest channel is at least
+constexpr int kNoLight = 40;     ///< and the lowest at most
+constexpr float kFlat = 0.15F;   ///< levels a pixel
 constexpr float kSlope = 4.0F;
 constexpr float kEdge = 8.0F;
 
@@ -161,6 +162,14 @@ bool looks_grey_depth(const PictureStatistics& statistics, const SurfaceBounds& 
 bool looks_hue_depth(const PictureStatistics& statistics) {
     return statistics.pure >= 0.8 && statistics.hue.covered >= 0.05 &&
            is_surface(statistics.hue, kHueDepth);
+}
+
+/// Whether pictures whose hues look like depth are painted in the colours of a map, as jet, which
+/// is pale in its middle and dark at its ends: there hues are not linear.
+bool is_painted(std::span<const cv::Mat> pictures, const PictureStatistics& statistics) {
+    constexpr double kLeastPure = 0.96;  // of hue codes, but for compression
+    return statistics.pure < kLeastPure &&
+           std::all_of(pictures.begin(), pictures.end(), is_colour_mapped);
 }
 
 bool looks_ramp_depth(const PictureStatistics& statistics) {
@@ -370,7 +379,7 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
             if (highest < kDark) continue;
             ++lit;
             coloured += static_cast<int>(chroma >= kGrey);
-            pure += static_cast<int>(chroma >= kPure);
+            pure += static_cast<int>(highest >= kFullLight && highest - chroma <= kNoLight);
         }
     }
     PictureStatistics statistics;
@@ -396,7 +405,8 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     guess.whole = mean_statistics(pictures);
     if (guess.kind == PictureKind::packed) return guess;
     if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
-    if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
+    if (looks_hue_depth(guess.whole) && !is_painted(pictures, guess.whole))
+        guess.kind = PictureKind::hue_depth;
     // Last, because blue hues are on the ramp, too.
     if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
     if (const auto code = byte_code_in(pictures)) {

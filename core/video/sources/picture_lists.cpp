@@ -161,15 +161,13 @@ LayoutFacts facts_of_tum(const fs::path& list) {
                                          Camera{"freiburg2", {520.9, 521.0, 325.1, 249.7}},
                                          Camera{"freiburg3", {535.4, 539.2, 320.1, 247.6}}};
     LayoutFacts facts;
-    facts.known.unit = DepthUnit::m;
-    facts.known.scale = 0.0002;
-    facts.known.no_data = std::vector<double>{0.0};
-    facts.known_from = "TUM lists";
+    facts.finding.statement = {.unit = DepthUnit::m, .scale = 0.0002, .no_data = std::vector{0.0}};
+    facts.finding.reason = "TUM lists";
     std::error_code gone;
     const std::string place = lower_case(fs::absolute(list, gone).string());
     for (const Camera& camera : kCameras) {
         if (place.find(camera.name) == std::string::npos) continue;
-        facts.known.intrinsics = camera.intrinsics;
+        facts.finding.statement.intrinsics = camera.intrinsics;
         facts.columns = 640;
         facts.rows = 480;
     }

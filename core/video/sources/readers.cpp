@@ -103,7 +103,8 @@ Sources both_tracks(const fs::path& file) {
     both.depth = std::make_unique<VideoFile>(file, PictureRole::depth, both.depth_track);
     both.colour = std::make_unique<VideoFile>(file, PictureRole::colour,
                                               static_cast<int>(colour - tracks.begin()));
-    both.found.packing = DepthPacking::tracks;
+    both.findings = {
+        finding_of_metadata({.packing = DepthPacking::tracks}, "tracks of colour and depth")};
     return both;
 }
 
@@ -113,7 +114,7 @@ constexpr std::array kReaders{
            both_if<bag_has_colour>},
     Reader{"row of pictures", PictureForm::row,
            [](const fs::path& place, std::string_view) { return names_pictures(place); }, nullptr,
-           open_row, both_rows},
+           open_row, both_rows, Evidence::layout},
     Reader{"video in a usual container", PictureForm::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", PictureForm::arrays, is_array_file, read_array, open_file<ArrayFile>,
@@ -125,7 +126,7 @@ constexpr std::array kReaders{
     Reader{"portable float map", PictureForm::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
     Reader{"16-bit levels beside their picture", PictureForm::still, is_raw_levels, read_raw_levels,
-           nullptr, nullptr},
+           nullptr, nullptr, Evidence::layout},
     Reader{"photo with depth (JPEG)", PictureForm::still, is_jpeg_with_depth, read_jpeg_photo,
            nullptr, both_if<jpeg_has_depth>},
     Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
@@ -150,6 +151,17 @@ const Reader& reader_of(const fs::path& place) {
         if (found == last) require_no_other_form(place);
     }
     return *found;
+}
+
+Finding finding_on_form(const SourceFacts& facts) {
+    const Reader& reader = reader_of(facts.file);
+    const char* const by =
+        reader.decided_by == Evidence::magic ? ", by its first bytes" : ", by the files there";
+    return {{},
+            reader.decided_by,
+            kSurenessOfMetadata,
+            std::string(reader.name) + by,
+            "form " + facts.codec};
 }
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& place, PictureRole role) {
@@ -181,8 +193,7 @@ StillFile::StillFile(const fs::path& file, StillPicture still)
     facts_.bits = still.bits;
     facts_.channels = picture_.channels();
     facts_.codec = std::move(still.codec);
-    facts_.known = std::move(still.known);
-    facts_.known_from = std::move(still.known_from);
+    facts_.findings = std::move(still.findings);
     take_times({0.0});
     require_size(file, facts_.columns, facts_.rows);
 }

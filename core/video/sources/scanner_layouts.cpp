@@ -71,14 +71,12 @@ PictureRow row_in(const fs::path& folder, std::string_view place) {
 
 LayoutFacts facts_in(const fs::path& folder, const ScannerLayout& layout) {
     LayoutFacts facts;
-    facts.known.unit = DepthUnit::mm;
-    facts.known.scale = 1.0;
-    facts.known.no_data = std::vector<double>{0.0};
-    facts.known_from = std::string(layout.name) + "'s folders";
+    facts.finding.statement = {.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::vector{0.0}};
+    facts.finding.reason = std::string(layout.name) + "'s folders";
     const std::vector<fs::path> cameras = files_of(folder, layout.camera);
     const auto camera = cameras.empty() ? std::nullopt : layout.read_camera(cameras.front());
     if (!camera) return facts;
-    facts.known.intrinsics = camera->intrinsics;
+    facts.finding.statement.intrinsics = camera->intrinsics;
     const bool states_size = camera->columns > 0 && camera->rows > 0;
     facts.columns = states_size ? camera->columns : layout.camera_columns;
     facts.rows = states_size ? camera->rows : layout.camera_rows;

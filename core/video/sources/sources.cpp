@@ -16,11 +16,13 @@
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -75,7 +77,9 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     const auto named = packing_by_name(place.path);
     if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
-            .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
+            .packing = named->packing,
+            .half_size = named->half_size,
+            .finding = {{}, Evidence::name, kSurenessOfName, "the last words of its name"}};
     if (!form && statement.packing) {
         form.emplace();
         const std::vector<cv::Mat> first = colour_samples(place.path, 1);
@@ -83,24 +87,18 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     }
     if (!form) return form;
     form->packing = statement.packing.value_or(form->packing);
-    if (!statement.code) return form;
-    if (*statement.code != DepthCode::hue)
-        form->hue.reset();
-    else if (!form->hue)
-        form->hue.emplace();
+    const bool is_hue = statement.code == DepthCode::hue;
+    if (!statement.code || (is_hue && form->hue)) return form;
+    form->hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
     if (is_of_bytes(*statement.code)) form->bytes = *statement.code;
+    form->coded = finding_on_code(*statement.code, true);
     return form;
 }
 
 /// The halves, where the pictures look packed; else nothing.
 std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
-    PackedForm form{.packing = guess.packing, .gap_px = guess.gap_px, .known_from = "its pictures"};
-    if (guess.code == DepthCode::hue) form.hue.emplace();
-    Sources sources = open_packed(place, form);
-    sources.assumed = std::exchange(sources.found, {});
-    sources.by_appearance = true;
-    return sources;
+    return open_packed(place, form_by_appearance(guess));
 }
 
 /// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
@@ -134,8 +132,8 @@ std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int mos
     std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
     for (cv::Mat& picture : pictures) {
         if (halves != nullptr)
-            picture = picture(half_of(picture.size(), halves->packing, PictureRole::depth,
-                                      halves->gap_px));
+            picture = picture(
+                half_of(picture.size(), halves->packing, PictureRole::depth, halves->gap_px));
     }
     return pictures;
 }
@@ -168,35 +166,31 @@ std::unique_ptr<PictureSource> in_colours(const Place& place, Sources& sources) 
     return open_as_colour(place.path, sources.depth_track);
 }
 
-void decode_hue(const Place& place, Sources& sources) {
-    sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, "its hues");
-    sources.assumed.code = DepthCode::hue;
+void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources& sources) {
+    const Finding coded = finding_on_code(code, is_stated);
+    if (is_of_bytes(code))
+        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
+    else
+        sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
 }
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
-    static constexpr const char* kBytes = "the bytes of its colours";
-    const auto told = statement.code;
-    if (told && is_of_bytes(*told)) {
-        sources.depth = byte_decoded(std::move(sources.depth), *told, kBytes);
-        return sources;
-    }
-    if (told == DepthCode::hue) {
-        decode_hue(place, sources);
+    const auto stated = statement.code;
+    if (stated && *stated != DepthCode::grey && !is_of_levels(*stated)) {
+        decode_colours(place, *stated, true, sources);
         return sources;
     }
     const ColoursOfDepth colours = colours_of_depth(place, sources);
-    sources.by_appearance = colours.kind == PictureKind::ramp_depth;
-    if (sources.by_appearance)
-        sources.depth = ramp_decoded(in_colours(place, sources), "its colours");
-    if (told || sources.by_appearance || colours.kind == PictureKind::grey_depth) return sources;
+    const bool is_ramp = colours.kind == PictureKind::ramp_depth;
+    if (is_ramp) sources.depth = ramp_decoded(in_colours(place, sources));
+    if (stated || is_ramp || colours.kind == PictureKind::grey_depth) return sources;
     if (colours.kind == PictureKind::hue_depth)
-        decode_hue(place, sources);
+        decode_colours(place, DepthCode::hue, false, sources);
     else if (colours.kind == PictureKind::byte_depth)
-        sources.depth = byte_decoded(std::move(sources.depth), colours.bytes, kBytes);
+        decode_colours(place, colours.bytes, false, sources);
     else
         sources.not_depth = refusal_of_colours(sources.depth->facts());
-    sources.by_appearance = sources.not_depth.empty();
     return sources;
 }
 
@@ -226,7 +220,8 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     }
     if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
-    return source->facts().bits > 8 && source->facts().channels == 1;
+    const bool is_deep = source->facts().bits > 8;
+    return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
@@ -268,16 +263,15 @@ Sources open_halves(const Place& place, PackedForm form, const DepthStatement& s
     if (colours.kind == PictureKind::grey_depth) return sources;
     if (colours.kind == PictureKind::hue_depth) {
         form.hue.emplace();
+        form.coded = finding_on_code(DepthCode::hue, false);
     } else if (colours.kind == PictureKind::byte_depth) {
         form.bytes = colours.bytes;
+        form.coded = finding_on_code(colours.bytes, false);
     } else {
         sources.not_depth = refusal_of_colours(sources.depth->facts());
         return sources;
     }
-    sources = open_packed(place.path, form);
-    sources.assumed.code = std::exchange(sources.found.code, {});
-    sources.by_appearance = true;
-    return sources;
+    return open_packed(place.path, form);
 }
 
 /// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth
@@ -322,7 +316,54 @@ Sources of_one_place(const Place& place, const DepthStatement& statement) {
     return sources;
 }
 
+void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, const Finding& coded) {
+    sources.depth = level_decoded(std::move(sources.depth), code, law, coded);
+    sources.not_depth.clear();
+}
+
+/// As a person says.
+void decode_as_told(Sources& sources, DepthCode code) {
+    const auto set = data_set_of(sources.depth->facts());
+    const bool is_of_set = set && set->finding.statement.code == code;
+    if (code == DepthCode::stereo && !is_of_set)
+        throw InputError(shown(sources.depth->facts().file) +
+                         " has no calib.txt beside it, which --depth-code stereo needs: put that "
+                         "of the data set there, or give --depth-unit disparity");
+    if (is_of_set)
+        decode_as(sources, code, set->law, set->finding);
+    else
+        decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
+}
+
+/// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+void decode_as_found(Sources& sources) {
+    const SourceFacts facts = sources.depth->facts();
+    const auto set = data_set_of(facts);
+    const auto code = set ? set->finding.statement.code : std::nullopt;
+    if (code && is_of_levels(*code)) {
+        if (may_be_of(sources.depth->samples(kKindSamples), *code))
+            decode_as(sources, *code, set->law, set->finding);
+        return;
+    }
+    const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
+    if (!may_show) return;
+    const auto seen = level_code_in(sources.depth->samples(1));
+    if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
+}
+
 }  // namespace
+
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (has_decoded_levels(facts)) return;
+    if (statement.code) {
+        if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
+        return;
+    }
+    const bool means_own =
+        statement.unit == DepthUnit::levels || statement.unit == DepthUnit::disparity;
+    if (find_out && !means_own && !facts.live && facts.bits >= 16) decode_as_found(sources);
+}
 
 Sources find_sources(const fs::path& colour, const fs::path& depth,
                      const DepthStatement& statement) {

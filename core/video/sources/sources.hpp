@@ -12,14 +12,11 @@ namespace dibhr {
 
 class LiveFeed;
 
-/// The sources found, and the statements on depth that follow from how they were found.
+/// The sources found, and what was found out on the way.
 struct Sources {
     std::unique_ptr<PictureSource> depth{};   ///< null: only of find_content(), colour alone
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
-    DepthStatement found{};                   ///< from files, names and metadata
-    DepthStatement assumed{};                 ///< guessed from the pictures
-    bool by_appearance{false};                ///< the depth's own facts are guessed, too
-    Findings findings{};                      ///< what else was found out on the way
+    Findings findings{};                      ///< beside those of the depth's source
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files
@@ -38,6 +35,11 @@ struct Sources {
 /// The depth in a place, without the colour.
 [[nodiscard]] Sources find_depth(const std::filesystem::path& place,
                                  const DepthStatement& statement);
+
+/// Decodes depth in levels that are no distances (level_code.hpp): of the code that is stated;
+/// else, if it may `find_out`, of that of its data set or of its numbers, unless the statement says
+/// what the file's own levels mean. Throws InputError where it has no levels of the stated code.
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out);
 
 /// The content of a place: colour, depth or both; ignores files beside it.
 [[nodiscard]] Sources find_content(const std::filesystem::path& place,

@@ -196,22 +196,6 @@ TEST_CASE("a page that could not be felt to its end is refused with its line, be
     CHECK(split(checked.errors, '\n').size() <= 2);
 }
 
-TEST_CASE("a study asks nobody what a depth means: it says on stderr what is likely", "[study]") {
-    const TemporaryFolder folder;
-    run_shell(folder,
-              "ffmpeg -nostdin -v error -f lavfi -i nullsrc=s=64x48,format=gray16le,"
-              "geq=lum='58000-1000*max(abs(X-32)\\,abs(Y-24))' -frames:v 1 -pix_fmt gray16be "
-              "corridor_depth.png");
-    write_text(folder / "study.toml",
-               "title = \"T\"\n[[media]]\nname = \"m\"\ncolour = \"corridor_depth.png\"\n"
-               "[[condition]]\nname = \"a\"\nmedia = \"m\"\n"
-               "[[block]]\nform = \"rating\"\nquestion = \"Q\"\n");
-    const ProgramResult checked = run_dibhr(folder, {"study", "check", "study.toml"});
-    INFO(checked.errors);
-    CHECK(checked.exit_code == 0);
-    CHECK(contains(checked.errors, "not certain"));
-}
-
 TEST_CASE("a pilot is refused what cannot be felt, but needs no files", "[study]") {
     const TemporaryFolder folder;
     write_text(folder / "study.toml", "thanks-picture = \"none.png\"\n" + kPage);

@@ -253,5 +253,5 @@ TEST_CASE("a window that fills the screen asks no visitor: stderr says what is a
     viewer.wait_for_surface();
     CHECK(viewer.seen().depth_answers == 0);
     quit(desk, viewer);
-    CHECK(contains(read_text(files.folder / "errors.txt"), "not certain"));
+    CHECK(contains(read_text(files.folder / "errors.txt"), "% sure): look at it"));
 }

@@ -280,10 +280,12 @@ class RosTopic : public IndexedPictures {
     }
 
     void describe_levels() {
-        facts_.known.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm;
-        facts_.known.scale = 1.0;
-        facts_.known.no_data = std::vector<double>{0.0};
-        facts_.known_from = "ROS topic " + one_line(topic_.name, 100);
+        // Millimetres in whole numbers, metres in real ones: www.ros.org/reps/rep-0118.html.
+        facts_.findings.push_back(
+            finding_of_metadata({.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm,
+                                 .scale = 1.0,
+                                 .no_data = std::vector{0.0}},
+                                "ROS topic " + one_line(topic_.name, 100)));
         describe_cameras();
     }
 
@@ -301,7 +303,7 @@ class RosTopic : public IndexedPictures {
             fit_camera(depth.camera.intrinsics(), depth.size, {facts_.columns, facts_.rows});
         add_clause(facts_.notice, fitted.notice);
         if (!fitted.camera) return;
-        facts_.known.intrinsics = fitted.camera;
+        facts_.findings.back().statement.intrinsics = fitted.camera;
         facts_.lens = depth.camera.lens();
         const std::string colour_topic = chosen(files_, PictureRole::colour).topic.name;
         const auto colour_info = camera_info_message(colour_topic);

@@ -283,7 +283,9 @@ TEST_CASE("a file of sparse depth is opened as such, and its notice says so", "[
                   [&](int i, int j, int) { return seen(i, j) ? mm(i, j) : 0; });
     write_picture(folder / "a_color.png", kWide, kHigh, 8, 3,
                   [](int i, int j, int) { return in_disc(i, j) ? 180 : 90; });
-    auto media = open_media(folder / "a_color.png", folder / "a_depth.png", {.find_out = true});
+    auto media = open_media(
+        folder / "a_color.png", folder / "a_depth.png",
+        {.find_out = true, .command_line = {.unit = DepthUnit::mm, .scale = 1.0}});
     const MediaDescription description = media->description();
     REQUIRE(description.sparse_share);
     CHECK_THAT(*description.sparse_share, WithinAbs(0.05, 0.005));

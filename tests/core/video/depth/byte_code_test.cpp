@@ -12,6 +12,7 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "core/video/depth/level_code.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/sidecar.hpp"
 #include "tests/core/video/clips.hpp"
@@ -131,6 +132,14 @@ TEST_CASE("a code is found out by bytes that wrap where the next byte steps", "[
     cv::Mat see_through;
     cv::cvtColor(scene_photo(), see_through, cv::COLOR_BGR2BGRA);
     CHECK_FALSE(found(see_through));
+    cv::Mat squares(kSceneRows, kSceneColumns, CV_8UC3);  // a byte steps where the next one wraps
+    for (int j = 0; j < kSceneRows; ++j)
+        for (int i = 0; i < kSceneColumns; ++i) {
+            const int number = 25000 + (i / 40 + j / 40) % 2 * 100;
+            squares.at<cv::Vec3b>(j, i) = {static_cast<std::uint8_t>(number / 256),
+                                           static_cast<std::uint8_t>(number % 256), 90};
+        }
+    CHECK_FALSE(found(squares));
     CHECK_FALSE(byte_code_in({}));
 }
 
@@ -139,10 +148,10 @@ TEST_CASE("what a code means in itself is known with it", "[bytes]") {
     picture(rgb24_scene())(folder / "a.png");
     const auto media = open_media(folder / "a.png", {}, kAsFound);
     const DepthMeaning meaning = meaning_of(*media);
-    CHECK(meaning.code == Known<DepthCode>{DepthCode::rgb24, Origin::assumed});
+    CHECK(meaning.code == Known<DepthCode>{DepthCode::rgb24, Origin::found});
     CHECK(meaning.near.value == NearLevels::dark);
     CHECK(meaning.unit.value == DepthUnit::levels);
-    CHECK(meaning.found_in == "the bytes of its colours");
+    CHECK(meaning.found_in == "the bytes of its colours, which carry as those of numbers");
     const auto frame = media->next();
     REQUIRE(frame);
     CHECK(std::isnan(frame->depth.at(100, 5)));  // the sky
@@ -174,6 +183,8 @@ TEST_CASE("a folder of pictures in bytes is decoded, and CARLA's are in metres",
     CHECK(media->next()->colour.columns == kSceneColumns);
     CHECK(meaning.unit.value == (is_carla ? DepthUnit::m : DepthUnit::levels));
     if (is_carla) {
+        CHECK(meaning.unit.origin == Origin::found);
+        CHECK(media->description().conclusion.alternatives.empty());
         CHECK_THAT(meaning.range.value.near, WithinRel(2.0 + 78.0 * 0.02, 0.1));
         CHECK_THAT(meaning.range.value.far, WithinRel(2.0 + 78.0 * 0.9, 0.1));
     }
@@ -231,10 +242,11 @@ TEST_CASE("coloured pictures without a code are refused as depth, in every form"
     for (int k = 0; k < 2; ++k) picture(colours)(folder / "depth" / (std::to_string(k) + ".png"));
     picture(colours)(folder / "a_depth.png");
     video(colours, "bgr24", "-c:v libx264 -crf 18 -pix_fmt yuv420p")(folder / "a_depth.mp4");
-    write_text(folder / "a_depth.npy", npy("|u1", "(240, 320, 3)", bytes_of(rgb)));
-    write_text(folder / "a_depth.pfm", pfm(real, "-1", true));
+    // Not named as the picture, which else is taken for a painting of these numbers.
+    write_text(folder / "b_depth.npy", npy("|u1", "(240, 320, 3)", bytes_of(rgb)));
+    write_text(folder / "c_depth.pfm", pfm(real, "-1", true));
     for (const char* const name :
-         {"depth", "a_depth.png", "a_depth.mp4", "a_depth.npy", "a_depth.pfm"}) {
+         {"depth", "a_depth.png", "a_depth.mp4", "b_depth.npy", "c_depth.pfm"}) {
         CAPTURE(name);
         const fs::path file = folder / name;
         const std::string line = refusal([&] { (void)open_depth(file, kAsFound); });
@@ -265,7 +277,9 @@ TEST_CASE("every code has a name that a sidecar keeps", "[bytes]") {
         CAPTURE(name_of(code));
         const DepthStatement said{.code = code};
         CHECK(statement_in(toml_of(said), "a") == said);
-        CHECK(is_of_bytes(code) == (code != DepthCode::grey && code != DepthCode::hue));
+        const bool is_number = is_of_bytes(code) || is_of_levels(code);
+        CHECK(is_number == (code != DepthCode::grey && code != DepthCode::hue));
+        CHECK_FALSE((is_of_bytes(code) && is_of_levels(code)));
     }
 }
 

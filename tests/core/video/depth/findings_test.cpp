@@ -99,6 +99,17 @@ TEST_CASE("what is not sure has two to four answers, the likeliest first", "[fin
     }
 }
 
+TEST_CASE("near, and unit with scale, are each as sure as all answers that share them",
+          "[findings]") {
+    const DepthConclusion weak = concluded({row(kDark, 0.6)}).conclusion;
+    CHECK_THAT(weak.near_sure, WithinAbs(0.6, 1e-9));
+    CHECK(weak.sure < weak.near_sure);
+    CHECK(weak.sure < weak.unit_sure);
+    const DepthConclusion stated =
+        concluded({row(kDark, 0.6)}, {{Origin::panel, kDark}}).conclusion;
+    CHECK_THAT(stated.near_sure, WithinAbs(1.0, 1e-9));
+}
+
 TEST_CASE("the surest finding counts for facts that are not weighed", "[findings]") {
     const auto [meaning, conclusion] =
         concluded({row({.code = DepthCode::hue}, 0.85, Evidence::appearance),
@@ -107,6 +118,17 @@ TEST_CASE("the surest finding counts for facts that are not weighed", "[findings
     CHECK(meaning.code == Known<DepthCode>{DepthCode::grey, Origin::found});
     CHECK(meaning.packing == Known<DepthPacking>{DepthPacking::tracks, Origin::assumed});
     CHECK(conclusion.findings.size() == 3);
+}
+
+TEST_CASE("what sure findings state by more than a look is said once, with where it is from",
+          "[findings]") {
+    Findings findings{row(kMillimetres, 0.995, Evidence::metadata),
+                      row(kDark, 0.995, Evidence::layout), row(kDark, 0.97, Evidence::name)};
+    findings[1].reason = "a layout";
+    CHECK(concluded(findings).meaning.found_in == "a reason, a layout");
+    CHECK(origins_of({row(kDark, 0.85, Evidence::magic), row(kDark, 0.99, Evidence::numbers),
+                      row({}, 0.995, Evidence::magic)})
+              .empty());
 }
 
 TEST_CASE("what a person states beats every finding, and nobody is asked again", "[findings]") {
@@ -118,7 +140,8 @@ TEST_CASE("what a person states beats every finding, and nobody is asked again",
     CHECK(conclusion.findings.front().evidence == Evidence::person);
     CHECK(conclusion.findings.front().reason == "panel");
 
-    const auto [levels, ignored] = concluded(sure, {{Origin::sidecar, {.unit = DepthUnit::levels}}});
+    const auto [levels, ignored] =
+        concluded(sure, {{Origin::sidecar, {.unit = DepthUnit::levels}}});
     CHECK(levels.unit == Known<DepthUnit>{DepthUnit::levels, Origin::sidecar});
     CHECK(ignored.alternatives.empty());
 

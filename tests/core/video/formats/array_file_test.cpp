@@ -11,6 +11,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -206,16 +207,16 @@ TEST_CASE("a .npz says when its frames are, how near is high, and what the camer
     write_zip(folder / "fps.npz", {{"depth.npy", frames}, {"fps.npy", scalar(10)}}, true);
     const auto steady = depth_of_file(folder / "fps.npz");
     CHECK_THAT(steady->facts().frames_per_s, WithinAbs(10.0, 1e-9));
-    CHECK(steady->facts().known == DepthStatement{});
+    CHECK(stated_by(steady->facts()) == DepthStatement{});
     write_zip(folder / "times.npz",
               {{"disparity.npy", frames},
                {"timestamps.npy", numbers("(3,)", {2.0, 2.5, 4.0})},
                {"K.npy", numbers("(3, 3)", {500, 0, 2, 0, 510, 1.5, 0, 0, 1})}},
               true);
     const auto source = depth_of_file(folder / "times.npz");
-    CHECK(source->facts().known.unit == DepthUnit::disparity);
-    CHECK(source->facts().known.intrinsics == Intrinsics{500, 510, 2, 1.5});
-    CHECK(source->facts().known_from == "array 'disparity', array 'K'");
+    CHECK(stated_by(source->facts()).unit == DepthUnit::disparity);
+    CHECK(stated_by(source->facts()).intrinsics == Intrinsics{500, 510, 2, 1.5});
+    CHECK(origins_of(source->facts().findings) == "array 'disparity', array 'K'");
     CHECK(source->facts().start_s == 2.0);
     CHECK(source->next()->time_s == 0.0);
     CHECK(source->next()->time_s == 0.5);
@@ -251,6 +252,23 @@ TEST_CASE("arrays of bytes are colours, and one .npz opens as colour and depth",
           cv::Vec3b(3, 2, 1));
     write_text(folder / "depth.npy", small_npy(1));
     CHECK(contains(refusal_of(folder / "depth.npy", PictureRole::colour), "no colours"));
+}
+
+TEST_CASE("colours of networks are real numbers, whose channels may come first", "[numpy]") {
+    const TemporaryFolder folder;
+    const float black = GENERATE(0.0F, -1.0F);
+    std::string planes;
+    for (const float part : {0.0F, 0.4F, 1.0F})
+        for (int k = 0; k < 12; ++k) append_bytes(planes, black + part * (1.0F - black));
+    write_text(folder / "a.npy", npy("<f4", "(1, 3, 3, 4)", planes));
+    const auto colours_of = [&folder] {
+        return read_still(folder / "a.npy", PictureRole::colour).picture.at<cv::Vec3b>(2, 3);
+    };
+    CHECK(colours_of() == cv::Vec3b(255, 102, 0));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", planes));
+    CHECK(colours_of() == cv::Vec3b(255, 255, 255));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", std::string(36 * 4, '\x44')));
+    CHECK(contains(refusal_of(folder / "a.npy", PictureRole::colour), "points or normals"));
 }
 
 TEST_CASE("what is no array of pictures is refused with its shape", "[numpy]") {

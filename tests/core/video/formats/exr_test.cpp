@@ -21,6 +21,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -113,8 +114,8 @@ TEST_CASE("every level of an EXR file is kept, however it is packed", "[exr]") {
     const StillPicture still = read_still(folder / "z.exr", PictureRole::depth);
     CHECK(still.bits == kRealBits);
     CHECK(still.codec == "EXR");
-    CHECK(still.known.unit == DepthUnit::m);
-    CHECK(still.known_from == "EXR channel Z");
+    CHECK(stated_by(still).unit == DepthUnit::m);
+    CHECK(origins_of(still.findings) == "EXR channel Z");
     CHECK(different(still.picture, scene()) == 0);
 }
 
@@ -198,8 +199,8 @@ TEST_CASE("depth is the channel that names it, not a coordinate of something els
     write_exr(channels, folder / "named.exr");
     const StillPicture still = read_still(folder / "named.exr", PictureRole::depth);
     CHECK(different(still.picture, flat(static_cast<float>(wanted) + 1)) == 0);
-    CHECK(still.known_from == from);
-    CHECK(still.known.unit.has_value() == !from.empty());
+    CHECK(origins_of(still.findings) == from);
+    CHECK(stated_by(still).unit.has_value() == !from.empty());
 }
 
 TEST_CASE("colours alone are depth where they are grey, and stay colours where not", "[exr]") {

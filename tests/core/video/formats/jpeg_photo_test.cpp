@@ -12,6 +12,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/depth_photos.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -79,13 +80,14 @@ TEST_CASE("a photo with GDepth opens as colour and as distances by the formula o
     const StillPicture depth = depth_in(
         file, gdepth_photo(photo(), inverse ? kInverse : kLinear, encoded_as(ramp(), ".png")));
     CHECK(depth.bits == kRealBits);
-    CHECK(depth.known.unit == DepthUnit::m);
-    CHECK(contains(depth.known_from, "GDepth"));
+    CHECK(stated_by(depth).unit == DepthUnit::m);
+    CHECK(contains(origins_of(depth.findings), "GDepth"));
     REQUIRE(depth.picture.size() == cv::Size(32, 24));
     for (int j = 0; j < 24; ++j)
         for (int i = 0; i < 32; ++i)
             REQUIRE_THAT(depth.picture.at<float>(j, i), WithinRel(distance_at(4 * i + j), 1e-5));
-    const auto media = open_media(file);
+    const auto media = open_media(file, {}, {.find_out = true});
+    REQUIRE(media->description().meaning);
     CHECK(media->description().meaning->near.value == NearLevels::dark);
     CHECK(contains(media->description().meaning->found_in, "GDepth"));  // as `info` prints it
     const auto frame = media->next();
@@ -105,7 +107,7 @@ TEST_CASE("a depth map in 16 bits keeps all of its levels, and millimetres their
                                                 "GDepth:Format=\"RangeLinear\" GDepth:Near=\"0\" "
                                                 "GDepth:Far=\"65535\" GDepth:Units=\"mm\" ",
                                                 encoded_as(levels, ".png")));
-    CHECK(depth.known.unit == DepthUnit::mm);
+    CHECK(stated_by(depth).unit == DepthUnit::mm);
     CHECK_THAT(depth.picture.at<float>(0, 0), WithinAbs(1.0, 1e-3));
     CHECK_THAT(depth.picture.at<float>(2, 3), WithinAbs(14.0 * 257.0 + 1.0, 0.01));
 }
@@ -123,7 +125,7 @@ TEST_CASE("extended metadata are joined by their offsets, and the sharp original
         gdepth_photo(photo(), kInverse, encoded_as(ramp(), ".jpg"), original, segments);
     const StillPicture depth = depth_in(folder / "a.jpg", bytes);
     CHECK(depth.picture.size() == cv::Size(32, 24));
-    CHECK(depth.known.unit == DepthUnit::m);
+    CHECK(stated_by(depth).unit == DepthUnit::m);
     const cv::Mat colour = read_still(folder / "a.jpg", PictureRole::colour).picture;
     REQUIRE(colour.size() == cv::Size(400, 300));
     CHECK(colour.at<cv::Vec3b>(2, 5)[1] > 200);
@@ -134,13 +136,13 @@ TEST_CASE("a depth map without near and far is disparity, or levels that are nea
     const TemporaryFolder folder;
     const std::string map = encoded_as(ramp(), ".png");
     const StillPicture inverse = depth_in(folder / "a.jpg", gdepth_photo(photo(), "", map));
-    CHECK(inverse.known.unit == DepthUnit::disparity);
+    CHECK(stated_by(inverse).unit == DepthUnit::disparity);
     CHECK(inverse.picture.at<std::uint8_t>(0, 0) == 255);  // the nearest level is the brightest
     const StillPicture linear =
         depth_in(folder / "b.jpg",
                  gdepth_photo(photo(), "GDepth:Format=\"RangeLinear\" GDepth:Far=\"inf\" ", map));
-    CHECK(linear.known.unit == DepthUnit::levels);
-    CHECK(linear.known.near == NearLevels::dark);
+    CHECK(stated_by(linear).unit == DepthUnit::levels);
+    CHECK(stated_by(linear).near == NearLevels::dark);
     CHECK(linear.picture.at<std::uint8_t>(0, 0) == 0);
 }
 
@@ -149,13 +151,13 @@ TEST_CASE("Apple's second picture is disparity, in metres where it is accurate",
     const double per_metre = 0.25 + 51.0 / 255.0 * 1.75;
     const StillPicture relative =
         depth_in(folder / "a.jpg", multi_picture(photo(), {apple_picture(kDisparity)}));
-    CHECK(relative.known.unit == DepthUnit::disparity);
+    CHECK(stated_by(relative).unit == DepthUnit::disparity);
     CHECK_THAT(relative.picture.at<float>(5, 5), WithinRel(per_metre, 0.02));
     const StillPicture absolute =
         depth_in(folder / "b.jpg",
                  multi_picture(photo(), {apple_picture(kDisparity + "<depthData:Accuracy>absolute"
                                                                     "</depthData:Accuracy>")}));
-    CHECK(absolute.known.unit == DepthUnit::m);
+    CHECK(stated_by(absolute).unit == DepthUnit::m);
     CHECK_THAT(absolute.picture.at<float>(5, 5), WithinRel(1.0 / per_metre, 0.02));
     const auto frame = open_media(folder / "b.jpg")->next();
     REQUIRE(frame);
@@ -168,7 +170,7 @@ TEST_CASE("a grey second picture without metadata is disparity beside a photo in
     const TemporaryFolder folder;
     const StillPicture depth =
         depth_in(folder / "a.jpg", multi_picture(photo(), {encoded_as(ramp(), ".jpg")}));
-    CHECK(depth.known.unit == DepthUnit::disparity);
+    CHECK(stated_by(depth).unit == DepthUnit::disparity);
     CHECK(depth.bits == 8);
     write_text(folder / "grey.jpg", multi_picture(grey_jpeg(90), {grey_jpeg(70)}));
     CHECK_FALSE(jpeg_has_depth(folder / "grey.jpg"));
@@ -216,15 +218,15 @@ TEST_CASE("Dynamic Depth is found behind the photo by the lengths of its directo
             dynamic_depth_photo(photo(), range + "<DepthMap:Units>Meters</DepthMap:Units>",
                                 {{"Item:Semantic=\"Original\"", photo(40, 30)}, {name, map}}, 7);
         const StillPicture depth = depth_in(file, bytes);
-        CHECK(contains(depth.known_from, "Dynamic Depth"));
-        CHECK(depth.known.unit == DepthUnit::m);
+        CHECK(contains(origins_of(depth.findings), "Dynamic Depth"));
+        CHECK(stated_by(depth).unit == DepthUnit::m);
         CHECK_THAT(depth.picture.at<float>(0, 0), WithinRel(0.5, 1e-5));
         CHECK(read_still(file, PictureRole::colour).picture.size() == cv::Size(40, 30));
     }
     const StillPicture unknown =
         depth_in(file, dynamic_depth_photo(photo(), range + "<DepthMap:Units>None</DepthMap:Units>",
                                            {{names[0], map}}));
-    CHECK(unknown.known.unit == DepthUnit::disparity);  // one over distances of no unit
+    CHECK(stated_by(unknown).unit == DepthUnit::disparity);  // one over distances of no unit
     CHECK_THAT(unknown.picture.at<float>(0, 0), WithinRel(2.0, 1e-5));
 }
 

@@ -18,6 +18,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/bag_writers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -123,10 +124,10 @@ TEST_CASE("a bag plays its depth and colour topics by the stamps of their messag
     media->seek(0.15);
     CHECK(media->next()->depth.at(2, 2) == 1001.0F);
     const auto source = open_picture_source(file, PictureRole::depth);
-    CHECK(source->facts().known.unit == DepthUnit::mm);
-    CHECK(source->facts().known.no_data == std::vector<double>{0.0});
-    CHECK(source->facts().known.intrinsics == Intrinsics{600.0, 900.0, 3.5, 2.5});
-    CHECK(source->facts().known_from == "ROS topic /camera/depth/image_rect_raw");
+    CHECK(stated_by(source->facts()).unit == DepthUnit::mm);
+    CHECK(stated_by(source->facts()).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(source->facts()).intrinsics == Intrinsics{600.0, 900.0, 3.5, 2.5});
+    CHECK(origins_of(source->facts().findings) == "ROS topic /camera/depth/image_rect_raw");
     CHECK(describe_media(file).depth_bits == 16);
 }
 
@@ -150,7 +151,7 @@ TEST_CASE("a bag's floats are metres, in either order of bytes, and its rows may
         bag.add(depth, image(5.0, 8, 6, "32FC1", 36, data, big_endian));
     }
     const auto source = open_picture_source(file, PictureRole::depth);
-    CHECK(source->facts().known.unit == DepthUnit::m);
+    CHECK(stated_by(source->facts()).unit == DepthUnit::m);
     CHECK(source->facts().bits == kRealBits);
     CHECK(source->facts().still);
     const auto picture = source->next();
@@ -193,7 +194,7 @@ TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does
     }
     const auto source = open_picture_source(file, PictureRole::depth);
     const SourceFacts& facts = source->facts();
-    CHECK(facts.known.intrinsics);
+    CHECK(stated_by(facts).intrinsics);
     REQUIRE((facts.cameras != nullptr) == (told == "well"));
     const auto notice = [&](const DepthRequest& request) {
         return open_media(file, {}, request)->description().notice;
@@ -266,8 +267,8 @@ TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both k
         CHECK(std::abs(picture->picture.at<float>(2, 2) - 2.0F) < 1e-6F);
     else
         CHECK(picture->picture.at<std::uint16_t>(2, 2) == 1234);
-    CHECK((source->facts().known.unit == DepthUnit::m) == floats);
-    CHECK(source->facts().known.intrinsics);
+    CHECK((stated_by(source->facts()).unit == DepthUnit::m) == floats);
+    CHECK(stated_by(source->facts()).intrinsics);
     if (!floats) {
         const auto frame = open_media(file)->next();
         REQUIRE(frame);

@@ -102,8 +102,8 @@ bool may_be(const MediaDescription& media, NearLevels near, DepthUnit unit, doub
 TEST_CASE("a value that real numbers have exactly, beyond a gap, is no data", "[meaning]") {
     const double mark = GENERATE(0.0, -9999.0, 1e10, 65504.0, 0.001, 100.0);
     CAPTURE(mark);
-    const cv::Mat numbers = each_pixel(
-        CV_32F, [=](double x, double y) { return in_hole(x, y) ? mark : metres(x, y); });
+    const cv::Mat numbers =
+        each_pixel(CV_32F, [=](double x, double y) { return in_hole(x, y) ? mark : metres(x, y); });
     const TemporaryFolder folder;
     const std::vector<std::pair<std::string, Write>> files{
         {"a.npy", real_array(numbers)},
@@ -152,8 +152,8 @@ TEST_CASE("numbers without a gap, and a wall behind a scene, are all data", "[me
 }
 
 TEST_CASE("the tag GDAL_NODATA names no data that no number shows", "[meaning]") {
-    const cv::Mat numbers = each_pixel(
-        CV_32F, [](double x, double y) { return in_hole(x, y) ? 2.0 : metres(x, y); });
+    const cv::Mat numbers =
+        each_pixel(CV_32F, [](double x, double y) { return in_hole(x, y) ? 2.0 : metres(x, y); });
     const MediaDescription media = described("a.tif", real_tiff(numbers, "2"));
     CHECK(media.meaning->no_data == Known<std::vector<double>>{{2.0}, Origin::found});
     CHECK(media.meaning->found_in == "tag GDAL_NODATA");
@@ -169,9 +169,9 @@ TEST_CASE("heights are near where they are high, and linear", "[meaning]") {
     const cv::Mat eight =
         each_pixel(CV_8U, [](double x, double y) { return 10.0 + 240.0 * height(x, y); });
     const std::vector<std::pair<std::string, Write>> files{
-        {"heightmap8.png", picture(eight)},     {"displacement.jpg", picture(eight)},
-        {"rock_bump.png", picture(eight)},      {"heightmap.npy", real_array(heights)},
-        {"x_height.npy", real_array(heights)},  {"dem.tif", real_tiff(heights)},
+        {"heightmap8.png", picture(eight)},      {"displacement.jpg", picture(eight)},
+        {"rock_bump.png", picture(eight)},       {"heightmap.npy", real_array(heights)},
+        {"x_height.npy", real_array(heights)},   {"dem.tif", real_tiff(heights)},
         {"a.tif", real_tiff(heights, {}, true)}, {"b.tif", real_tiff(heights, "-9999", true)}};
     for (const auto& [name, write] : files) {
         CAPTURE(name);
@@ -200,9 +200,45 @@ TEST_CASE("far in the middle, without a floor: near is not sure, and both are of
         CHECK(media.conclusion.sure < kSureEnough);
         CHECK(may_be(media, NearLevels::dark, DepthUnit::levels, 1.0));
         CHECK(may_be(media, NearLevels::bright, DepthUnit::levels, 1.0));
-        CHECK(contains(doubt_about(media), "a.png: "));
-        CHECK(contains(doubt_about(media), " %), not certain: look at it, or say --"));
+        CHECK(contains(doubt_about(media), "a.png': near is assumed to be " +
+                                               std::string(name_of(media.meaning->near.value))));
+        CHECK(contains(doubt_about(media), " % sure): look at it, or say --near "));
     }
+}
+
+TEST_CASE("a doubt names near or, where that is sure, unit and scale, and how to state each answer",
+          "[meaning]") {
+    const auto answer = [](NearLevels near, DepthUnit unit, double scale) {
+        return DepthAlternative{{.near = near, .unit = unit, .scale = scale}, 0.0};
+    };
+    MediaDescription media{.depth_path = "/f/a.png"};
+    DepthConclusion& conclusion = media.conclusion;
+    CHECK(doubt_about(media).empty());
+    conclusion.alternatives = {answer(NearLevels::dark, DepthUnit::mm, 0.2),
+                               answer(NearLevels::dark, DepthUnit::mm, 1.0),
+                               answer(NearLevels::bright, DepthUnit::levels, 1.0)};
+    conclusion.sure = 0.4;
+    conclusion.near_sure = 0.7;
+    conclusion.unit_sure = 0.41;
+    CHECK(doubt_about(media) ==
+          "'/f/a.png': near is assumed to be dark (70 % sure): look at it, or say --near dark or "
+          "--near bright");
+    CHECK(contains(doubt_about(media, StatedBy::sidecar),
+                   "state near = \"dark\" or near = \"bright\" in its sidecar '/f/a.toml'"));
+    conclusion.unit_sure = 0.96;  // each is sure enough, but not both together
+    conclusion.near_sure = 0.92;
+    CHECK(contains(doubt_about(media), "near is assumed to be dark (92 % sure)"));
+    conclusion.near_sure = 0.95;
+    conclusion.unit_sure = 0.41;
+    CHECK(doubt_about(media) ==
+          "'/f/a.png': the unit is assumed to be mm and the scale 0.2 (41 % sure): look at it, or "
+          "say --depth-unit mm --depth-scale 0.2 or --depth-unit mm or --depth-unit levels");
+    CHECK(contains(doubt_about(media, StatedBy::sidecar), "state unit = \"mm\", scale = 0.2 or "));
+    conclusion.alternatives = {answer(NearLevels::dark, DepthUnit::levels, 1.0),
+                               answer(NearLevels::dark, DepthUnit::m, 1.0 / 256.0)};
+    CHECK(contains(doubt_about(media),
+                   "the unit is assumed to be levels (41 % sure): look at it, or say --depth-unit "
+                   "levels or --depth-unit m --depth-scale 0.00390625"));
 }
 
 TEST_CASE("a person's word on near, unit or range leaves no doubt", "[meaning]") {

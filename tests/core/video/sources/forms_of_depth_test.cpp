@@ -187,20 +187,6 @@ Write late_video(const cv::Mat& content, const std::string& format, const std::s
     };
 }
 
-/// A track of colour, and one of depth.
-Write tracks(const cv::Mat& content, const std::string& format, const std::string& title) {
-    return [=](const fs::path& file) {
-        const fs::path first = file.string() + ".colour";
-        const fs::path second = file.string() + ".depth";
-        ffmpeg(raw_input(photo(), "bgr24", first) + raw_input(content, format, second) +
-               "-map 0 -map 1 -c:v ffv1 -pix_fmt:v:0 bgr0 -pix_fmt:v:1 " +
-               (format == "bgr24" ? "bgr0" : format) + " -metadata:s:v:1 title='" + title + "' '" +
-               file.string() + "'");
-        fs::remove(first);
-        fs::remove(second);
-    };
-}
-
 const std::string kHevc = "-c:v libx265 -x265-params lossless=1:log-level=none -pix_fmt ";
 const std::string kCrf4 = "-c:v libx264 -crf 4 -pix_fmt yuv420p";
 
@@ -265,15 +251,14 @@ std::vector<Form> forms() {
          {},
          1.0,
          true},
-        {"PNG, hue", "a.png", picture(hues()), kHue, 1529, kAll + " code"},
-        {"PNG, rg16, mm", "a.png", picture(in_bytes_of(DepthCode::rg16)), kExact, 4096,
-         kAll + " code"},
+        {"PNG, hue", "a.png", picture(hues()), kHue, 1529, ""},
+        {"PNG, rg16, mm", "a.png", picture(in_bytes_of(DepthCode::rg16)), kExact, 4096, kAll},
         {"PNG, rgb24",
          "a_depth.png",
          picture(in_bytes_of(DepthCode::rgb24)),
          kExact,
          4096,
-         kAll + " code",
+         "",
          {},
          1.0,
          true},
@@ -284,10 +269,8 @@ std::vector<Form> forms() {
          4096,
          "",
          {.code = DepthCode::rgb24}},
-        {"PNG, float32, m", "a.png", picture(in_bytes_of(DepthCode::float32)), kExact, 4096,
-         kAll + " code"},
-        {"PNG, terrain", "a.png", picture(in_bytes_of(DepthCode::terrain)), kExact, 4096,
-         kAll + " code"},
+        {"PNG, float32, m", "a.png", picture(in_bytes_of(DepthCode::float32)), kExact, 4096, kAll},
+        {"PNG, terrain", "a.png", picture(in_bytes_of(DepthCode::terrain)), kExact, 4096, ""},
         {"TIFF 16 bit, mm", "a.tiff", picture(mm), kExact, 4096, kAll},
         {"TIFF float, m", "a.tif", text(tiff(kSceneColumns, kSceneRows, 32, 3, true, bytes_of(m))),
          kExact, 4096, kAll},
@@ -357,17 +340,16 @@ std::vector<Form> forms() {
         {"H.264 8 bit CRF 4, near dark, turned", "a.mp4",
          turned_video(levels(8, false), "gray", kCrf4), kCompressed, 200, kDark8},
         {"H.264 4:4:4 lossless, hue", "a.mkv",
-         video(hues(), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"), kHue, 1529,
-         kAll + " code"},
+         video(hues(), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"), kHue, 1529, ""},
         {"H.264 RGB lossless, rg16, mm", "a.mkv",
          video(in_bytes_of(DepthCode::rg16), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"),
-         kExact, 4096, kAll + " code"},
+         kExact, 4096, kAll},
         {"FFV1, rgb24", "a.mkv",
          video(in_bytes_of(DepthCode::rgb24), "bgr24", "-c:v ffv1 -pix_fmt bgr0"), kExact, 4096,
-         kAll + " code"},
+         ""},
         {"FFV1, float32, m", "a.mkv",
          video(in_bytes_of(DepthCode::float32), "bgra", "-c:v ffv1 -pix_fmt bgra"), kExact, 4096,
-         kAll + " code"},
+         kAll},
         {"FFV1, terrain, told",
          "a.mkv",
          video(in_bytes_of(DepthCode::terrain), "bgr24", "-c:v ffv1 -pix_fmt bgr0"),
@@ -377,7 +359,7 @@ std::vector<Form> forms() {
          {.code = DepthCode::terrain}},
         {"tracks, FFV1 16 bit, mm",
          "a.mkv",
-         tracks(mm, "gray16le", ""),
+         tracks(photo(), mm, "gray16le", ""),
          kExact,
          4096,
          kAll,
@@ -386,7 +368,7 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1 12 bit, near dark",
          "a.mkv",
-         tracks(levels(12, false), "gray12le", "Depth"),
+         tracks(photo(), levels(12, false), "gray12le", "Depth"),
          kExact,
          4096,
          kAll,
@@ -395,7 +377,7 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1 8 bit, near bright",
          "a.mkv",
-         tracks(levels(8, true), "gray", ""),
+         tracks(photo(), levels(8, true), "gray", ""),
          k8Bits,
          256,
          kAll,
@@ -404,10 +386,10 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1, hue",
          "a.mkv",
-         tracks(hues(), "bgr24", "Depth"),
+         tracks(photo(), hues(), "bgr24", "Depth"),
          kHue,
          1529,
-         kAll + " code",
+         "",
          {},
          1.0,
          true},
@@ -443,7 +425,7 @@ std::vector<Form> forms() {
          picture(above(photo(), hues())),
          kHue,
          1529,
-         kAll + kHalves,
+         "packing",
          {},
          1.0,
          true},
@@ -452,7 +434,7 @@ std::vector<Form> forms() {
          picture(beside(photo(), in_bytes_of(DepthCode::rg16))),
          kExact,
          4096,
-         kAll + " code",
+         kAll,
          {.packing = DepthPacking::left_right},
          1.0,
          true},
@@ -492,7 +474,7 @@ std::vector<Form> forms() {
          video(beside(hues(), photo()), "bgr24", "-c:v libx264 -crf 4 -pix_fmt yuv444p"),
          kCompressed,
          1000,
-         kAll + kHalves,
+         "packing",
          {},
          0.98,
          true},

@@ -10,6 +10,7 @@
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -99,16 +100,16 @@ TEST_CASE("TUM's lists say metres of 1/5000, 0 for no data, and which camera it 
     const TemporaryFolder folder;
     const fs::path sequence = folder / "rgbd_dataset_freiburg3_long_office";
     write_tum(sequence);
-    CHECK_FALSE(depth_facts(sequence).known.intrinsics);  // of pictures of another size
+    CHECK_FALSE(stated_by(depth_facts(sequence)).intrinsics);  // of pictures of another size
     for (int number = 1; number <= 4; ++number)
         write_depth(sequence / "depth" / (std::to_string(number) + ".png"), number, 640, 480);
     const SourceFacts facts = depth_facts(sequence);
-    CHECK(facts.known.unit == DepthUnit::m);
-    CHECK(facts.known.scale == 0.0002);
-    CHECK(facts.known.no_data == std::vector<double>{0.0});
-    CHECK(facts.known.intrinsics == Intrinsics{535.4, 539.2, 320.1, 247.6});
-    CHECK(facts.known_from == "TUM lists");
-    CHECK_FALSE(facts.known.near);
+    CHECK(stated_by(facts).unit == DepthUnit::m);
+    CHECK(stated_by(facts).scale == 0.0002);
+    CHECK(stated_by(facts).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(facts).intrinsics == Intrinsics{535.4, 539.2, 320.1, 247.6});
+    CHECK(origins_of(facts.findings) == "TUM lists");
+    CHECK_FALSE(stated_by(facts).near);
 }
 
 TEST_CASE("numbers without a point are frames, thirty a second", "[lists]") {

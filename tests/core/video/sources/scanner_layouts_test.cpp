@@ -8,6 +8,7 @@
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -131,6 +132,6 @@ TEST_CASE("a folder of a film and depth without an app's sign says nothing of mi
     write_lidar(folder / "depth/1.png", 20);
     make_flat_clip(folder / "rgb.mp4", 4, 30, kH264);
     CHECK_FALSE(scanner_folder(folder.path()));
-    CHECK(open_picture_source(folder / "depth", PictureRole::depth)->facts().known ==
+    CHECK(stated_by(open_picture_source(folder / "depth", PictureRole::depth)->facts()) ==
           DepthStatement{});
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/files/plain_text.hpp"
+#include "tests/core/video/coded_scene.hpp"
 #include "tests/core/video/zoo/zoo.hpp"
 
 namespace dibhr::test::zoo {
@@ -119,16 +120,54 @@ Brought arkit_scenes(const fs::path& folder) {
     return brought;
 }
 
-/// 16 bits, turned three to the left.
+/// 16 bits of each level in another order.
+template <typename Change>
+cv::Mat with_bits_changed(cv::Mat levels, const Change& change) {
+    for (int j = 0; j < levels.rows; ++j)
+        for (int i = 0; i < levels.cols; ++i) {
+            auto& level = levels.at<std::uint16_t>(j, i);
+            level = static_cast<std::uint16_t>(change(static_cast<int>(level)) & 0xffff);
+        }
+    return levels;
+}
+
+/// Millimetres in 16 bits, turned three to the left.
+cv::Mat turned_levels(const cv::Mat& farness) {
+    return with_bits_changed(in_16_bits(farness, 1000.0),
+                             [](int level) { return level << 3 | level >> 13; });
+}
+
+Brought sun3d(const fs::path& folder) {
+    const Film film = film_of(Place::room, kRowFrames);
+    for (int k = 0; k < kRowFrames; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        const std::string name = numbered_name("#######-", k + 1) +
+                                 numbered_name("############", std::int64_t{33369} * k);
+        save(folder / "depth" / (name + ".png"), turned_levels(film.farness[at]));
+        save(folder / "image" / (name + ".jpg"), film.colour[at]);
+    }
+    return with_texts({folder, {}, truth_of(film, Knows::metric)},
+                      {{"intrinsics.txt", kMatrix3}, {"extrinsics/20140.txt", "1 0 0 0\n"}});
+}
+
+/// The Kinect's raw disparities, whose bytes are swapped: 351.3 / (1092.5 - v) metres, as the
+/// data set's toolbox has it.
+Brought nyu_raw(const fs::path& folder) {
+    const cv::Mat farness = with_hole(view_of(Place::room).farness);
+    cv::Mat inverse;
+    cv::divide(1.0, with_no_data_as(farness, 1.0), inverse);
+    cv::Mat raw;
+    inverse.convertTo(raw, CV_16U, -351.3, 1092.5);
+    raw.setTo(2047, farness != farness);
+    const fs::path file = folder / "bedroom_0001/d-1294886360.208451-2996770081.pgm";
+    save(file, with_bits_changed(raw, [](int level) { return level << 8 | level >> 8; }));
+    return {file, {}, truth_of(farness, Knows::metric)};
+}
+
 Brought sun_rgbd(const fs::path& folder) {
     const View view = view_of(Place::room);
     const cv::Mat farness = with_hole(view.farness);
-    cv::Mat turned = in_16_bits(farness, 1000.0);
-    for (int j = 0; j < turned.rows; ++j)
-        for (int i = 0; i < turned.cols; ++i) {
-            auto& level = turned.at<std::uint16_t>(j, i);
-            level = static_cast<std::uint16_t>((level << 3) | (level >> 13));
-        }
+    const cv::Mat turned = turned_levels(farness);
     save(folder / "depth/0000103.png", turned);
     save(folder / "depth_bfx/0000103.png", turned);
     save(folder / "image/0000103.jpg", view.colour);
@@ -152,6 +191,29 @@ Brought kitti_completion(const fs::path& folder) {
     save(folder / name("velodyne_raw"), in_16_bits(thinned(view.farness, 0.05), 256.0));
     Brought brought = brought_of(folder, seen, view.colour, Knows::metric);
     brought.truth.between = view.farness;
+    return brought;
+}
+
+/// One file out of the data set's own folders.
+Brought kitti_file(const fs::path& folder) {
+    const View view = view_of(Place::street);
+    const fs::path file = folder /
+                          "train/2011_09_26_drive_0001_sync/proj_depth/groundtruth/image_02/"
+                          "0000000005.png";
+    const cv::Mat seen = thinned(view.farness, 0.3);
+    save(file, in_16_bits(seen, 256.0));
+    Brought brought{file, {}, truth_of(seen, Knows::metric)};
+    brought.truth.between = view.farness;
+    return brought;
+}
+
+/// Disparities x 256, 0 where there is none.
+Brought kitti_stereo(const fs::path& folder) {
+    const View view = view_of(Place::street);
+    const fs::path file = folder / "training/disp_occ_0/000000_10.png";
+    save(file, in_16_bits(disparity_of(view.farness, 120.0), 256.0));
+    Brought brought{file, {}, truth_of(view.farness, Knows::shape)};
+    brought.truth.sky = true;
     return brought;
 }
 
@@ -235,6 +297,31 @@ Brought tartan_air(const fs::path& folder) {
     return sky_film(folder, film);
 }
 
+/// Metres as the bytes of floats.
+Brought tartan_air_2(const fs::path& folder) {
+    const Film film = film_of(Place::room, kRowFrames);
+    for (int k = 0; k < kRowFrames; ++k) {
+        const auto at = static_cast<std::size_t>(k);
+        save(folder / numbered_name("image_lcam_front/######_lcam_front.png", k), film.colour[at]);
+        save(folder / numbered_name("depth_lcam_front/######_lcam_front_depth.png", k),
+             in_bytes(film.farness[at], DepthCode::float32));
+    }
+    return {folder, {}, truth_of(film, Knows::metric)};
+}
+
+/// A picture of one number for each pixel, alone.
+Form file_form(const std::string& name, const std::string& file, double levels_per_m, int none) {
+    return {name, [=](const fs::path& folder) {
+                const cv::Mat farness = with_hole(view_of(Place::room).farness);
+                const fs::path place = folder / file;
+                if (place.extension() == ".pfm")
+                    save_pfm(place, with_no_data_as(farness * levels_per_m, none));
+                else
+                    save(place, in_16_bits(farness, levels_per_m, none));
+                return Brought{place, {}, truth_of(farness, Knows::metric)};
+            }};
+}
+
 Brought habitat(const fs::path& folder) {
     const View view = view_of(Place::room);
     save(folder / "rgb.png", view.colour);
@@ -242,17 +329,23 @@ Brought habitat(const fs::path& folder) {
     return brought_of(folder, view.farness, view.colour);
 }
 
-/// Disparities in pixels, infinity where there is none.
+/// Disparities in pixels, infinity where there is none; the distance is
+/// baseline x focal length / (disparity + doffs).
 Brought middlebury_2014(const fs::path& folder) {
     const View view = view_of(Place::room);
     const cv::Mat farness = with_hole(view.farness);
-    cv::Mat disparity = disparity_of(farness, 60.0);
+    cv::Mat disparity;
+    cv::divide(0.193001 * 106.7, with_no_data_as(farness, 1.0), disparity);
+    disparity -= 2.5;
     disparity.setTo(std::numeric_limits<double>::infinity(), farness != farness);
     save_pfm(folder / "disp0.pfm", disparity);
+    save_pfm(folder / "disp0-sd.pfm", cv::Mat(kView, CV_32FC1, cv::Scalar(0.2)));
+    save(folder / "disp0-n.pgm", cv::Mat(kView, CV_8UC1, cv::Scalar(7)));
     save(folder / "im0.png", view.colour);
-    return with_texts(brought_of(folder, farness, view.colour, Knows::shape),
+    save(folder / "im1.png", view_of(Place::room, 0.5).colour);
+    return with_texts(brought_of(folder, farness, view.colour, Knows::metric),
                       {{"calib.txt",
-                        "cam0=[106.7 0 63.5; 0 106.7 47.5; 0 0 1]\ndoffs=0\n"
+                        "cam0=[106.7 0 63.5; 0 106.7 47.5; 0 0 1]\ndoffs=2.5\n"
                         "baseline=193.001\nwidth=128\nheight=96\nndisp=64\n"}});
 }
 
@@ -327,10 +420,8 @@ Brought endoslam(const fs::path& folder) {
     return {folder, {}, truth_of(film)};
 }
 
-/// Points in millimetres: x, y and the distance z; not a number where there is none.
-Brought scared(const fs::path& folder) {
-    const View view = view_of(Place::organ);
-    const cv::Mat farness = with_hole(view.farness);
+/// Points: x, y and the distance z in millimetres; not a number where there is none.
+cv::Mat points_of(const cv::Mat& farness) {
     cv::Mat points(kView, CV_32FC3);
     for (int j = 0; j < kView.height; ++j)
         for (int i = 0; i < kView.width; ++i) {
@@ -338,9 +429,15 @@ Brought scared(const fs::path& folder) {
             points.at<cv::Vec3f>(j, i) = {z, z * (static_cast<float>(j) - 47.5F) / 106.7F,
                                           z * (static_cast<float>(i) - 63.5F) / 106.7F};
         }
-    save(folder / "left_depth_map.tiff", points);
+    return points;
+}
+
+Brought scared(const fs::path& folder) {
+    const View view = view_of(Place::organ);
+    const cv::Mat farness = with_hole(view.farness);
+    save(folder / "left_depth_map.tiff", points_of(farness));
     save(folder / "Left_Image.png", view.colour);
-    return brought_of(folder, farness, view.colour);
+    return brought_of(folder, farness, view.colour, Knows::metric);
 }
 
 }  // namespace
@@ -381,10 +478,14 @@ Forms forms_of_datasets() {
                                                             .knows = Knows::order,
                                                             .holes = false}),
         {"SUN RGB-D", sun_rgbd},
+        {"SUN3D", sun3d},
+        {"NYUv2, raw", nyu_raw},
+        file_form("Taskonomy", "point_7_view_2_domain_depth_zbuffer.png", 512.0, 65535),
+        file_form("DTU", "depths/scan9/depth_map_0007.pfm", 1000.0, 0),
         row_form("Matterport3D", {.colour = "undistorted_color_images/7812#_i0_0.jpg",
                                   .depth = "undistorted_depth_images/7812#_d0_0.png",
                                   .levels_per_m = 4000.0,
-                                  .knows = Knows::order}),
+                                  .knows = Knows::metric}),
         row_form(
             "YCB-Video",
             {.colour = "######-color.jpg", .depth = "######-depth.png", .levels_per_m = 10000.0},
@@ -395,11 +496,14 @@ Forms forms_of_datasets() {
                    R"({"0": {"cam_K": [106.7, 0, 63.5, 0, 106.7, 47.5, 0, 0, 1],
                        "depth_scale": 0.1}})"}}),
         {"KITTI depth completion", kitti_completion},
+        {"KITTI depth completion, one file", kitti_file},
+        {"KITTI stereo", kitti_stereo},
         {"Virtual KITTI 2", virtual_kitti},
         {"Cityscapes disparity", cityscapes},
         {"CARLA", carla},
         {"DIODE", diode},
         {"TartanAir", tartan_air},
+        {"TartanAir V2", tartan_air_2},
         {"Habitat", habitat},
         {"Middlebury 2014", middlebury_2014},
         {"Middlebury 2006", middlebury_2006},
@@ -407,15 +511,22 @@ Forms forms_of_datasets() {
         {"AirSim", airsim},
         {"C3VD", c3vd},
         {"EndoSLAM", endoslam},
+        // 20 cm x level / 256 / 255: visualize_3D_data.py of its authors.
         row_form("SimCol3D", {.colour = "FrameBuffer_####.png",
                               .depth = "Depth_####.png",
-                              .levels_per_m = 327675.0,
+                              .levels_per_m = 326400.0,
                               .place = Place::organ,
                               .knows = Knows::order,
                               .holes = false}),
         row_form("Hamlyn", {.colour = "image01/##########.jpg",
                             .depth = "depth01/##########.png",
-                            .place = Place::organ}),
+                            .place = Place::organ,
+                            .size = 5.0}),  // it is in whole millimetres
+        row_form("C3VD v2", {.colour = "rgb/####.png",
+                             .depth = "depth/####_depth.tiff",
+                             .levels_per_m = 655350.0,
+                             .place = Place::organ,
+                             .holes = false}),
         {"SCARED", scared}};
 }
 

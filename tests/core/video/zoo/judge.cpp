@@ -21,7 +21,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/sources/media.hpp"
-#include "tests/core/video/asks.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace dibhr::test::zoo {
@@ -258,9 +257,10 @@ void judge_surface(const Truth& truth, const cv::Mat& farness, const cv::Mat& el
 }
 
 /// The cleaned surface of sparse depth is near where the whole one is, also between its pixels.
-void judge_between(const Brought& brought, Verdict& verdict) {
+void judge_between(const Brought& brought, const DepthStatement& stated, Verdict& verdict) {
     if (brought.truth.between.empty()) return;
-    FrameReader reader(open_media(brought.place, brought.depth, {.find_out = true}));
+    FrameReader reader(
+        open_media(brought.place, brought.depth, {.find_out = true, .command_line = stated}));
     const auto frame = reader.at(0.0);
     if (!frame || !frame->depth) return fail(verdict, "no surface");
     if (order_of(compared(brought.truth.between, elevations_of(*frame->depth))) < kLeastBetween)
@@ -328,7 +328,31 @@ void judge_opened(const Truth& truth, Media& media, Verdict& verdict) {
         judge_colour(truth, frames[at], at, verdict);
     }
     judge_times(truth, media, verdict);
-    if (asks(media.description())) verdict.outcome = Outcome::asked;
+}
+
+/// As opened with what a person states.
+Verdict judge_with(const Brought& brought, const DepthStatement& stated) {
+    Verdict verdict;
+    const auto media =
+        open_media(brought.place, brought.depth, {.find_out = true, .command_line = stated});
+    judge_opened(brought.truth, *media, verdict);
+    if (verdict.outcome == Outcome::right) judge_between(brought, stated, verdict);
+    return verdict;
+}
+
+/// Asked truly: one of the answers that are offered is right.
+Verdict judge_answers(const Brought& brought, const std::vector<DepthAlternative>& answers) {
+    Verdict likeliest;
+    for (const DepthAlternative& answer : answers) {
+        Verdict verdict = judge_with(brought, answer.statement);
+        if (verdict.outcome == Outcome::right) {
+            verdict.outcome = Outcome::asked;
+            return verdict;
+        }
+        if (likeliest.remark.empty()) likeliest = verdict;
+    }
+    likeliest.remark = "asked, and no answer is right: " + likeliest.remark;
+    return likeliest;
 }
 
 /// Whether a refusal of what cannot be read names it, and of what could be is not misleading.
@@ -361,15 +385,15 @@ std::string name_of(Outcome outcome) {
 Verdict judge(const Form& form) {
     const TemporaryFolder folder;
     Verdict verdict;
-    verdict.form = form.name;
     Truth truth;
     try {
         fs::create_directory(folder / "scan");
         const Brought brought = form.bring(folder / "scan");
         truth = brought.truth;
-        const auto media = open_media(brought.place, brought.depth, {.find_out = true});
-        judge_opened(truth, *media, verdict);
-        if (verdict.outcome == Outcome::right) judge_between(brought, verdict);
+        const auto answers = open_media(brought.place, brought.depth, {.find_out = true})
+                                 ->description()
+                                 .conclusion.alternatives;
+        verdict = answers.empty() ? judge_with(brought, {}) : judge_answers(brought, answers);
     } catch (const InputError& error) {
         verdict.outcome = is_refused_truly(truth, error.what()) ? Outcome::refused : Outcome::wrong;
         verdict.remark = error.what();
@@ -380,6 +404,7 @@ Verdict judge(const Form& form) {
     } catch (const std::exception& error) {
         fail(verdict, std::string("exception: ") + error.what());
     }
+    verdict.form = form.name;
     return verdict;
 }
 

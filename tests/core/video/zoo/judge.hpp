@@ -8,7 +8,7 @@
 
 namespace dibhr::test::zoo {
 
-/// `asked`: the opening offers alternatives; `refused`: with a sentence that says what it is.
+/// `asked`: the opening offers answers, and one of them is right; `refused`: with a sentence that says what it is.
 enum class Outcome { right, asked, refused, wrong };
 
 [[nodiscard]] std::string name_of(Outcome outcome);

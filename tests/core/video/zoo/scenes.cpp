@@ -167,8 +167,10 @@ View view_of(Place place, double moment, cv::Size size) {
             const Nearest seen = seen_in(place, ray, moment);
             const bool is_sky = !std::isfinite(seen.farness);
             view.farness.at<float>(j, i) = is_sky ? kNothing : static_cast<float>(seen.farness);
-            view.colour.at<cv::Vec3b>(j, i) =
-                coloured(seen.object, is_sky ? 150 : texture.at<std::uint8_t>(j, i));
+            double light = is_sky ? 150.0 : texture.at<std::uint8_t>(j, i);
+            // The lamp of an endoscope is beside its camera.
+            if (place == Place::organ) light *= std::min(1.0, std::pow(0.018 / seen.farness, 2.0));
+            view.colour.at<cv::Vec3b>(j, i) = coloured(seen.object, static_cast<int>(light));
         }
     }
     return view;

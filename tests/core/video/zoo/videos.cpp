@@ -13,6 +13,7 @@ namespace dibhr::test::zoo {
 namespace {
 
 constexpr int kVideoFrames = 20;
+constexpr int kFewFrames = 6;
 
 Pictures grey_near_bright(const Film& film) {
     return each(film.farness,
@@ -27,9 +28,11 @@ Brought timed(const fs::path& place, const Film& film, double frames_per_s,
     return brought;
 }
 
-/// Colour and grey depth as halves, each of the whole size or squeezed.
+/// Colour and grey depth as halves, each of the whole size or squeezed. A squeezed half has every
+/// other column: of a larger picture, whose outlines are as narrow as in films.
 Brought halves(const fs::path& file, Place place, bool above_each_other, bool squeezed) {
-    const Film film = film_of(place, kVideoFrames);
+    const cv::Size size = squeezed ? cv::Size(kView * 4) : kView;
+    const Film film = film_of(place, squeezed ? kFewFrames : kVideoFrames, size);
     const Pictures grey = grey_near_bright(film);
     Pictures packed;
     for (std::size_t k = 0; k < grey.size(); ++k) {
@@ -37,7 +40,7 @@ Brought halves(const fs::path& file, Place place, bool above_each_other, bool sq
         cv::cvtColor(grey[k], depth, cv::COLOR_GRAY2BGR);
         cv::Mat both =
             above_each_other ? above(film.colour[k], depth) : beside(film.colour[k], depth);
-        if (squeezed) cv::resize(both, both, kView, 0.0, 0.0, cv::INTER_AREA);
+        if (squeezed) cv::resize(both, both, size, 0.0, 0.0, cv::INTER_AREA);
         packed.push_back(both);
     }
     save_video(file, {{packed, 30.0, kGoodH264}});

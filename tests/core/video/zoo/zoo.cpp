@@ -36,6 +36,7 @@ std::vector<double> even_times(std::size_t frames, double frames_per_s) {
 Brought rows_in(const fs::path& folder, const Rows& rows) {
     Film film = film_of(rows.place, kRowFrames);
     if (rows.holes) film.farness = each(film.farness, with_hole);
+    film.farness = each(film.farness, [&](const cv::Mat& far) { return cv::Mat(far * rows.size); });
     for (std::size_t k = 0; k < film.farness.size(); ++k) {
         const int number = rows.first + rows.step * static_cast<int>(k);
         save(folder / numbered_name(rows.depth, number),

@@ -76,7 +76,8 @@ struct Rows {
     int first{0};
     int step{1};
     bool holes{true};
-    int none{0};  ///< level of no data
+    int none{0};       ///< level of no data
+    double size{1.0};  ///< how many times as large the place is
 };
 inline constexpr int kRowFrames = 5;
 /// Writes them; the owner opens the folder.
