@@ -328,11 +328,10 @@ void Viewer::answer_depth(const AnswerDepth& answer) {
     std::optional<DepthQuestion>& question = state_.ui.depth_question;
     if (!question || question->answered) return;
     if (!answer.alternative) {
-        const std::string used = labels_of(question->alternatives).front();
         question.reset();
-        return show_notice("Goes on with 1, not kept: " + used +
+        return show_notice("Goes on with 1 and keeps nothing" +
                            state_.keys.key_hint(Action::turn_depth, " turns near and far") +
-                           ". The Video panel has the rest");
+                           "; the Video panel has the rest");
     }
     if (opening_.running()) return show_notice("Still opening the last files");
     const DepthStatement& right = question->alternatives[*answer.alternative].statement;

@@ -66,6 +66,16 @@ struct OpenFiles {
     }
 };
 
+/// The place of the likeliest answer by which the other end is near.
+std::size_t other_end_of(const std::vector<DepthAlternative>& answers) {
+    REQUIRE(answers.size() >= 2);
+    std::size_t other = 1;
+    while (other < answers.size() && answers[other].statement.near == answers[0].statement.near)
+        ++other;
+    REQUIRE(other < answers.size());
+    return other;
+}
+
 bool is_asked(const Seen& seen) {
     return seen.depth_answers > 0 && seen.depth_reliefs == seen.depth_answers;
 }
@@ -152,8 +162,7 @@ TEST_CASE("a key answers which depth is right: no force before, and nobody asks 
     const Desk desk;
     const OpenFiles files;
     const std::vector<DepthAlternative> answers = files.opened("first").conclusion.alternatives;
-    REQUIRE(answers.size() >= 2);
-    REQUIRE(answers[0].statement.near != answers[1].statement.near);
+    const std::size_t other = other_end_of(answers);
     double middle = 0.0;
     {
         WindowProgram viewer = files.view(desk, "first");
@@ -168,13 +177,13 @@ TEST_CASE("a key answers which depth is right: no force before, and nobody asks 
         viewer.act("mouseup 1 key x key space key 9");  // they are no answers
         CHECK(is_asked(viewer.seen()));
         const std::uint32_t media = viewer.seen().drawn_media;
-        viewer.act("key 2");
+        viewer.act("key " + std::to_string(other + 1));
         wait_until_opened_again(viewer, media);
         CHECK(viewer.seen().depth_answers == 0);
         CHECK_THAT(viewer.seen().drawn_middle, WithinAbs(1.0 - middle, 0.1));
         quit(desk, viewer);
     }
-    CHECK(files.opened("first").panel == answers[1].statement);
+    CHECK(files.opened("first").panel == answers[other].statement);
     CHECK(question_on(files.opened("second")));
     WindowProgram viewer = files.view(desk, "first");
     viewer.wait_for_surface();

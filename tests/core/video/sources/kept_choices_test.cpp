@@ -223,6 +223,16 @@ struct OpenFolder {
     [[nodiscard]] std::vector<DepthAlternative> alternatives() const {
         return opened(first).conclusion.alternatives;
     }
+    /// The likeliest answer by which the other end is near.
+    [[nodiscard]] DepthAlternative other_end() const {
+        const std::vector<DepthAlternative> all = alternatives();
+        REQUIRE(all.size() >= 2);
+        const auto other = std::find_if(all.begin(), all.end(), [&all](const auto& one) {
+            return one.statement.near != all.front().statement.near;
+        });
+        REQUIRE(other != all.end());
+        return *other;
+    }
 };
 
 }  // namespace
@@ -230,10 +240,9 @@ struct OpenFolder {
 TEST_CASE("an answer for a folder is heard for its files that leave it open, and nobody asks again",
           "[kept]") {
     const OpenFolder takes;
-    const std::vector<DepthAlternative> before = takes.alternatives();
-    REQUIRE(before.size() >= 2);
-    const DepthStatement answer = before[1].statement;
-    REQUIRE(answer.near != before[0].statement.near);
+    const std::size_t before = takes.alternatives().size();
+    const DepthAlternative other = takes.other_end();
+    const DepthStatement answer = other.statement;
     keep_folder_choice(takes.choices, takes.first, answer);
     for (const fs::path& file : {takes.first, takes.second}) {
         const MediaDescription media = takes.opened(file);
@@ -241,14 +250,14 @@ TEST_CASE("an answer for a folder is heard for its files that leave it open, and
         CHECK(doubt_about(media).empty());
         CHECK(media.meaning->near == known(*answer.near, Origin::folder));
         CHECK(media.meaning->unit == known(*answer.unit, Origin::folder));
-        CHECK(media.meaning->range.value == before[1].range);
+        CHECK(media.meaning->range.value == other.range);
         CHECK(media.panel == DepthStatement{});
     }
     const fs::path apart = takes.folder / "apart.png";
     fs::copy_file(takes.first, apart);
-    CHECK(takes.opened(apart).conclusion.alternatives.size() == before.size());
+    CHECK(takes.opened(apart).conclusion.alternatives.size() == before);
     keep_folder_choice(takes.choices, takes.second, {});
-    CHECK(takes.alternatives().size() == before.size());
+    CHECK(takes.alternatives().size() == before);
     CHECK(names_in(takes.choices).empty());
 }
 
@@ -256,7 +265,7 @@ TEST_CASE(
     "an answer for a folder gives way to a sidecar, to a choice for the file, and to findings",
     "[kept]") {
     const OpenFolder takes;
-    const DepthStatement answer = takes.alternatives()[1].statement;
+    const DepthStatement answer = takes.other_end().statement;
     const NearLevels other =
         answer.near == NearLevels::dark ? NearLevels::bright : NearLevels::dark;
     const DepthStatement against{.near = other, .unit = DepthUnit::levels};
