@@ -63,6 +63,7 @@ struct DepthHypothesis {
 struct DepthAlternative {
     DepthStatement statement{};
     double probability{0.0};
+    DepthRange range{};  ///< that the depth has by this answer
 };
 
 /// The table, and how sure the meaning concluded from it is.

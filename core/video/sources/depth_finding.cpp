@@ -208,6 +208,34 @@ void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) 
                          "; turn --depth-range or --near around");
 }
 
+/// The kept answer for the files of this folder, where the file leaves open what it states, and it
+/// is one of the likely ones; empty: there is none.
+DepthStatement folder_choice(const DepthConclusion& conclusion, const DepthRequest& request,
+                             const fs::path& file) {
+    const std::vector<DepthAlternative>& all = conclusion.alternatives;
+    if (all.empty()) return {};
+    DepthStatement kept = kept_folder_choice(request, file);
+    const bool is_likely = std::any_of(all.begin(), all.end(), [&](const auto& alternative) {
+        return alternative.statement == kept;
+    });
+    return is_likely ? kept : DepthStatement{};
+}
+
+/// Of the answers those that a stated range allows; none, where that leaves no choice.
+void keep_that_fit(const DepthRange& range, std::vector<DepthAlternative>& alternatives) {
+    const NearLevels near = range.near > range.far ? NearLevels::bright : NearLevels::dark;
+    std::erase_if(alternatives, [near](const DepthAlternative& alternative) {
+        return alternative.statement.near != near;
+    });
+    if (alternatives.size() < 2) alternatives.clear();
+}
+
+/// `meaning` by that alternative; its range stays.
+DepthMeaning by_alternative(DepthMeaning meaning, const DepthAlternative& alternative) {
+    merge_by_priority({{Origin::assumed, alternative.statement}}, meaning);
+    return meaning;
+}
+
 }  // namespace
 
 std::vector<cv::Mat> sample_pictures(PictureSource& source) {
@@ -253,12 +281,22 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     std::optional<SampledLevels> levels;
     if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, set, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
+    const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
+    if (!(of_folder == DepthStatement{})) {
+        persons.emplace_back(Origin::folder, of_folder);
+        conclusion = conclude(persons, rows, meaning);
+    }
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
     const bool states_range =
         std::any_of(conclusion.findings.begin(), conclusion.findings.end(),
                     [](const Finding& finding) { return finding.statement.range.has_value(); });
     if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
+    if (states_range) keep_that_fit(meaning.range.value, conclusion.alternatives);
+    for (DepthAlternative& alternative : conclusion.alternatives)
+        alternative.range = levels && !states_range
+                                ? levels->range(by_alternative(meaning, alternative))
+                                : meaning.range.value;
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};
 }

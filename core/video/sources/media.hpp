@@ -50,9 +50,10 @@ struct DepthRequest {
     bool find_out{false};
     DepthStatement command_line{};
     DepthStatement panel{};
-    /// The folder of earlier choices on the panel, a file for each media; they complete `panel`.
-    /// Empty: not used.
+    /// The folder of earlier choices, a file for each media, which complete `panel`, and for each
+    /// folder of media. Empty: not used.
     std::filesystem::path kept_in{};
+    bool panel_is_whole{false};  ///< earlier choices for this media do not complete `panel`
     DepthStatement recorded{};  ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
     std::shared_ptr<LiveFeed> live{};
