@@ -90,9 +90,6 @@ const std::set<std::string> kKnownGaps{
     "DIGIT",
     "GelSight (.tmd)",
     "two videos of an organ, near is dark",
-    "video at 60 a second and pictures",
-    "video of uneven times and pictures",
-    "video and every fifth picture",
 };
 
 constexpr double kLeastRight = 0.85;
