@@ -82,8 +82,9 @@ void draw_files(const MediaDescription& media) {
              formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
-    if (!media.timing.empty() && media.times_from != "file" && !media.live)
-        fact_row("Times", media.timing, "When the frames of depth are shown (--depth-times)");
+    if (!media.timing.empty() && !media.live)
+        fact_row("Times", capitalised(media.timing),
+                 "Who says when each frame is (below: Depth, Times, Offset, Rate)");
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 

@@ -302,7 +302,9 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
     if (are_of_two_clocks(depth, colour))
         return "the times of colour and depth are of two clocks: both are taken to begin together; "
                "if they do not, state how much later the depth begins (--depth-offset)";
-    if (last_as_long(depth, colour)) return {};
+    const bool is_paired =  // frame with frame
+        depth.timing.from == TimesFrom::other || colour.timing.from == TimesFrom::other;
+    if (is_paired || last_as_long(depth, colour)) return {};
     const bool of_files =
         depth.timing.from == TimesFrom::file && colour.timing.from == TimesFrom::file;
     const bool of_stamps = depth.timing.from != TimesFrom::assumed &&
@@ -363,14 +365,7 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
     if (!sources.colour || sources.colour->facts().still || sources.depth->facts().still)
         return pair;
     take_pair_times(sources, pair, is_stated, find_out);
-    const SourceFacts& depth = sources.depth->facts();
-    const SourceFacts& colour = sources.colour->facts();
-    if (pair.colour_later_s) {
-        const bool of_depth = depth.timing.from == TimesFrom::other;
-        pair.notice = of_depth ? "the times of the depth are " + depth.timing.text
-                               : "the times of the colour are " + colour.timing.text;
-    }
-    add_clause(pair.notice, contradiction(depth, colour));
+    pair.notice = contradiction(sources.depth->facts(), sources.colour->facts());
     return pair;
 }
 

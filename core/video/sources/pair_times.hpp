@@ -70,7 +70,7 @@ struct PairTimes {
     /// How much later the colour's own beginning is than the depth's, where the times of one are
     /// those of the other; nothing: by the clocks of their files.
     std::optional<double> colour_later_s{};
-    std::string notice{};  ///< what was done, or why both cannot be right; mostly empty
+    std::string notice{};  ///< why both cannot be right; mostly empty
 };
 
 /// Gives the sources the times that the meaning states, and, where it states none and `find_out`,

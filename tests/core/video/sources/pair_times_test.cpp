@@ -207,7 +207,7 @@ TEST_CASE("as many pictures as a video has frames are shown with them, at any ra
     const MediaDescription& told = media->description();
     CHECK(told.times_from == "other");
     CHECK(contains(told.timing, shown(name) + ", frame by frame"));
-    CHECK(contains(told.notice, "the times of the depth are those of " + shown(name)));
+    CHECK(told.notice.empty());
     REQUIRE(told.meaning);
     CHECK(told.meaning->times == Known<DepthTimes>{DepthTimes::paired, Origin::found});
     CHECK(told.frames == 60);
@@ -365,8 +365,7 @@ TEST_CASE("colour pictures without times take those of a depth video", "[pair_ti
     for (int k = 0; k < 40; ++k) write_numbered_colour(folder / "rgb" / (digits(k, 4) + ".png"), k);
     const auto times_s = decoded_times_s(folder / "depth.mkv");
     const auto media = open_media(folder / "rgb", folder / "depth.mkv", as_grey_video());
-    CHECK(
-        contains(media->description().notice, "the times of the colour are those of 'depth.mkv'"));
+    CHECK(contains(media->description().timing, "of the colour: those of 'depth.mkv'"));
     check_pair(*media, times_s);
 }
 
