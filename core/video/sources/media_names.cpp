@@ -193,7 +193,7 @@ std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem
     if (numbers && named_picture(given) && !is_folder(given)) {
         if (auto found = numbers_beside(same)) return found;
     }
-    return is_file(same) && may_be_pair(given, same) ? same : with_any_extension(given, stem);
+    return !is_folder(given) && is_file(same) ? same : with_any_extension(given, stem);
 }
 
 /// The place beside `given` that may belong to it and that `fits`: preferably a file beside a file

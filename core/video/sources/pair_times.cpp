@@ -301,7 +301,8 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
     if (!(depth.duration_s > 0.0) || !(colour.duration_s > 0.0)) return {};
     if (are_of_two_clocks(depth, colour))
         return "the times of colour and depth are of two clocks: both are taken to begin together; "
-               "if they do not, state how much later the depth begins (--depth-offset)";
+               "if they do not, state how much later the depth begins (--depth-offset; on the "
+               "panel: Offset)";
     const bool is_paired =  // frame with frame
         depth.timing.from == TimesFrom::other || colour.timing.from == TimesFrom::other;
     if (is_paired || last_as_long(depth, colour)) return {};
@@ -314,8 +315,8 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
         return {};
     return "the colour lasts " + short_text(colour.duration_s, 4) + " s and the depth " +
            short_text(depth.duration_s, 4) +
-           " s: they cannot both be right; state the depth's rate (--depth-fps) or whose times "
-           "it has (--depth-times)";
+           " s: they cannot both be right; state the depth's rate (--depth-fps; on the panel: "
+           "Rate) or whose times it has (--depth-times; Times)";
 }
 
 /// Where one source has times and the other has none, or where a person states that they are

@@ -21,6 +21,8 @@ namespace dibhr {
 
 namespace {
 
+/// Rounding of the distances of two pictures from a third one, whose times are in milliseconds [s].
+constexpr double kSameDistance_s = 4.0 * kTimeTolerance_s;
 constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
 /// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
@@ -118,7 +120,7 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
         placed_ = true;
     }
     // Of two at the same distance the earlier one stays.
-    while (later_ && later_->time_s - time_s < time_s - now_.time_s - kTimeTolerance_s) {
+    while (later_ && later_->time_s - time_s < time_s - now_.time_s - kSameDistance_s) {
         now_ = std::move(*later_);
         later_ = source_->next();
     }
@@ -199,10 +201,14 @@ cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour
 void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) {
     if (description_.meaning) description_.meaning->times = times.times;
     const bool colour_takes = colour != nullptr && colour->timing.from == TimesFrom::other;
-    if (colour_takes && !description_.still && !colour->still)
+    if (colour_takes && !description_.still && !colour->still) {
+        description_.times_from = name_of(TimesFrom::other);
         description_.timing += "; of the colour: " + colour->timing.text;
-    if (times.offset_s != 0.0)
+    }
+    if (times.offset_s != 0.0) {
+        description_.times_from = name_of(TimesFrom::stated);
         description_.timing += "; " + short_text(times.offset_s) + " s later";
+    }
     add_notice(times.notice);
 }
 

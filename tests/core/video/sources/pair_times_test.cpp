@@ -88,19 +88,19 @@ std::vector<double> even_s(int count, double frames_per_s, double begin_s = 0.0)
 /// The depth is of its time, and no colour picture is nearer to it than the one it is shown with:
 /// they are at most half a frame of the colour apart, while it lasts.
 void check_together(const RawFrame& frame, const Moments& moments) {
-    constexpr double kRounding_s = 0.0012;  // times of a container in ms, twice
+    constexpr double kRounding_s = 0.0006;  // of a time of a container in ms
     const auto depth = static_cast<std::size_t>(number_in(frame.depth));
     const auto colour = static_cast<std::size_t>(number_in(frame.colour));
     CAPTURE(depth, colour, frame.media_s);
     REQUIRE(depth < moments.depth_s.size());
     REQUIRE(colour < moments.colour_s.size());
     const double depth_s = moments.depth_s[depth];
-    CHECK_THAT(frame.media_s, WithinAbs(depth_s, 0.5 * kRounding_s));
+    CHECK_THAT(frame.media_s, WithinAbs(depth_s, kRounding_s));
     double nearest_s = std::fabs(moments.colour_s[colour] - depth_s);
     const double apart_s = nearest_s;
     for (const double colour_s : moments.colour_s)
         nearest_s = std::min(nearest_s, std::fabs(colour_s - depth_s));
-    CHECK(apart_s <= nearest_s + kRounding_s);
+    CHECK(apart_s <= nearest_s + 4.0 * kRounding_s);
 }
 
 /// At random times, and where only some frames are read: the depth shown at that time, and the
