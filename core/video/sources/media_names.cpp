@@ -175,12 +175,12 @@ std::optional<fs::path> with_any_extension(const fs::path& given, const std::str
     std::set<fs::path> files;
     std::optional<fs::path> folder;
     for (const fs::path& other : neighbours_of(given)) {
-        if ((is_folder(other) ? other.filename() : other.stem()) != stem) continue;
-        if (!may_be_pair(given, other)) continue;
-        if (is_folder(other))
-            folder = other;
-        else
+        const bool may_be_folder = other.filename() == stem;
+        if ((!may_be_folder && other.stem() != stem) || !may_be_pair(given, other)) continue;
+        if (!is_folder(other))
             files.insert(other);
+        else if (may_be_folder)
+            folder = other;
     }
     return files.empty() ? folder : *files.begin();
 }
