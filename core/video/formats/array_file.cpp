@@ -160,11 +160,11 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     const bool usable = !rate.empty() && rate[0] >= 0.001 && rate[0] <= 10000.0;
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
     std::vector<double> times_s = numbers_of(arrays, kTimeNames, shape_.frames);
-    facts_.timing = {.from = TimesFrom::list, .text = "times in the file"};
+    facts_.timing = {.from = TimesFrom::list, .text = "in the file"};
     if (std::cmp_not_equal(times_s.size(), shape_.frames) || !rises(times_s)) {
         times_s.clear();
         facts_.timing = assumed_timing();
-        if (usable) facts_.timing = {.from = TimesFrom::stated, .text = "rate in the file"};
+        if (usable) facts_.timing = {.from = TimesFrom::stated, .text = "by the rate in the file"};
         for (std::int64_t k = 0; k < shape_.frames; ++k)
             times_s.push_back(static_cast<double>(k) / frames_per_s);
     }

@@ -54,7 +54,6 @@ NumberedPicture numbered(const fs::path& file) {
 
 namespace {
 
-constexpr double kSameTime_s = 0.02;  ///< associate.py's own limit
 constexpr double kLongestRow_s = 1e6;
 
 /// The row for a picture, by the words in `name`, the name of the picture or of its folder.
@@ -264,30 +263,6 @@ PictureSet find_pictures_in(const fs::path& folder) {
     sort_by_number(found.depth);
     sort_by_number(found.unnamed);
     return found;
-}
-
-PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth) {
-    if (colour.empty() || depth.empty() || !has_order(colour, true) || !has_order(depth, true))
-        return colour;
-    const auto time_of = [](const NumberedPicture& picture) { return *picture.number; };
-    const bool overlap = time_of(colour.front()) <= time_of(depth.back()) + kSameTime_s &&
-                         time_of(depth.front()) <= time_of(colour.back()) + kSameTime_s;
-    if (!overlap) return colour;
-    PictureRow nearest;
-    auto later = colour.begin();
-    for (const NumberedPicture& picture : depth) {
-        const double time_s = time_of(picture);
-        while (later != colour.end() && time_of(*later) <= time_s) ++later;
-        const bool has_before = later != colour.begin();
-        const double before_s = has_before ? time_s - time_of(later[-1]) : kLongestRow_s;
-        const double until_s = later != colour.end() ? time_of(*later) - time_s : kLongestRow_s;
-        const bool takes_later = until_s <= kSameTime_s && until_s < before_s;
-        if (!takes_later && !has_before) continue;
-        const NumberedPicture& taken = takes_later ? *later : later[-1];
-        if (nearest.empty() || nearest.back().file != taken.file)
-            nearest.push_back({taken.file, time_s, true});
-    }
-    return nearest.empty() ? colour : nearest;
 }
 
 std::vector<double> times_s(const PictureRow& row, const PictureRow& other, double frames_per_s) {
