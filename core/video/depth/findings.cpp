@@ -200,6 +200,25 @@ void set_kind(const std::vector<DepthHypothesis>& kinds, const DepthStatement& s
         meaning.near = {best.near, origin_of(probability_of(kinds, same_near))};
 }
 
+/// Where one of the answers is numbers in millimetres or in metres, the other is one, too, if it is
+/// likely enough: in place of the last one.
+void offer_other_unit(const std::vector<DepthHypothesis>& kinds,
+                      std::vector<DepthAlternative>& all) {
+    const auto is_plain = [](DepthUnit unit, double scale) {
+        return is_distance(unit) && same_scale(scale, 1.0);
+    };
+    const auto offered = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end() - 1, [&](const DepthAlternative& answer) {
+            return is_plain(*answer.statement.unit, *answer.statement.scale);
+        }));
+    const auto other =
+        std::find_if(kinds.begin() + static_cast<std::ptrdiff_t>(all.size()), kinds.end(),
+                     [&](const DepthHypothesis& kind) { return is_plain(kind.unit, kind.scale); });
+    if (offered != 1 || other == kinds.end() || other->probability < kLeastLikely) return;
+    all.back() = {{.near = other->near, .unit = other->unit, .scale = other->scale},
+                  other->probability};
+}
+
 std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>& kinds) {
     std::vector<DepthAlternative> all;
     if (kinds.front().probability >= kSureEnough) return all;
@@ -208,6 +227,7 @@ std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>
         all.push_back(
             {{.near = kind.near, .unit = kind.unit, .scale = kind.scale}, kind.probability});
     }
+    if (all.size() == kMostAlternatives) offer_other_unit(kinds, all);
     if (all.size() < 2) all.clear();
     return all;
 }

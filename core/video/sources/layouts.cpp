@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -318,6 +319,39 @@ Sources both_rows(const fs::path& place) {
 
 Sources rows_of_two(const fs::path& colour, const fs::path& depth) {
     return pair_of(row_of(colour, PictureRole::colour), row_of(depth, PictureRole::depth));
+}
+
+void add_camera_beside(Sources& sources) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (facts.live || facts.cameras) return;
+    Findings rows = facts.findings;
+    rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
+    if (const auto set = data_set_of(facts)) rows.push_back(set->finding);
+    const DepthStatement known = sure_facts({}, rows);
+    const bool is_row = !facts.first_picture.empty();
+    const fs::path& picture = is_row ? facts.first_picture : facts.file;
+    std::error_code failed;
+    const fs::path folder = fs::absolute(picture, failed).parent_path();
+    constexpr double kMostNumber = 1e9;
+    const int number =
+        static_cast<int>(std::min(numbered(picture).number.value_or(0.0), kMostNumber));
+    const auto beside =
+        read_camera_beside(picture, is_row || named_depth(folder.filename()), number);
+    if (!beside) return;
+    DepthStatement said;
+    const CameraFile& camera = beside->camera;
+    if (beside->has_intrinsics && !known.intrinsics) {
+        const FittedCamera fitted = fit_camera(camera.intrinsics, {camera.columns, camera.rows},
+                                               {facts.columns, facts.rows});
+        said.intrinsics = fitted.camera;
+        add_clause(sources.notice, fitted.notice);
+    }
+    if (camera.levels_per_m && facts.bits == 16 && !known.unit) {
+        said.unit = DepthUnit::mm;
+        said.scale = 1000.0 / *camera.levels_per_m;
+    }
+    if (said == DepthStatement{}) return;
+    sources.findings.push_back(finding_of_metadata(said, shown(beside->file.filename())));
 }
 
 MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/colour_maps.hpp"
+#include "core/video/formats/array_file.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/readers.hpp"
@@ -190,11 +192,26 @@ void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& 
     }
 }
 
+/// Arrays leave the row whose shapes are no pictures': cameras, poses, lists of numbers. Of those
+/// with one name and several numbers the first is examined.
+void drop_matrices(PictureRow& row) {
+    std::map<std::string, bool> may_be_pictures;
+    std::erase_if(row, [&may_be_pictures](const NumberedPicture& picture) {
+        if (lower_case(picture.file.extension().string()) != ".npy") return false;
+        std::string name = stem_of(picture);
+        std::erase_if(name, is_decimal_digit);
+        const auto known = may_be_pictures.find(name);
+        if (known != may_be_pictures.end()) return !known->second;
+        return !(may_be_pictures[name] = may_be_picture(picture.file));
+    });
+}
+
 PictureSet pictures_among(const std::vector<fs::path>& entries) {
     PictureSet found;
     for (const fs::path& entry : entries) {
         if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
     }
+    drop_matrices(found.unnamed);
     return found;
 }
 

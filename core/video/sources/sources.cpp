@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -305,12 +306,23 @@ Sources of_the_same_place(const fs::path& place, const DepthStatement& statement
     return of_two_places(place, place, statement);
 }
 
+/// Throws InputError for an array that is by its name a mask, confidence, ..., unless a person says
+/// what its levels are.
+void require_no_other_content(const Place& place, const DepthStatement& statement) {
+    const std::string_view other = named_other(place.path);
+    if (!place.is(PictureForm::arrays) || other.empty() || statement.near || statement.unit) return;
+    throw InputError(shown(place.path) + " is by its name " + std::string(other) +
+                     " and no depth: give the depth that it belongs to, or say what its levels are "
+                     "(--near, --depth-unit)");
+}
+
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
 Sources of_one_place(const Place& place, const DepthStatement& statement) {
     if (Sources both = both_as_stated(place, statement); both.depth) return both;
     std::string looked_for;
     if (const auto depth = find_depth_beside(place.path, looked_for))
         return of_two_places(place.path, *depth, statement);
+    require_no_other_content(place, statement);
     Sources sources = guessed_content(place, statement);
     if (!sources.depth) refuse_without_depth(place.path, looked_for);
     return sources;
@@ -385,7 +397,10 @@ Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     const fs::path found = depth_place_for(place);
     const Place depth(found);
     Sources sources = both_as_stated(depth, statement);
-    if (!sources.depth) sources = depth_in(depth, statement);
+    if (!sources.depth) {
+        require_no_other_content(depth, statement);
+        sources = depth_in(depth, statement);
+    }
     sources.colour.reset();
     return sources;
 }
@@ -399,7 +414,10 @@ Sources find_content(const fs::path& place, const DepthStatement& statement) {
     } else {
         const Place only(places.colour);
         sources = both_as_stated(only, statement);
-        if (!sources.depth) sources = guessed_content(only, statement);
+        if (!sources.depth) {
+            require_no_other_content(only, statement);
+            sources = guessed_content(only, statement);
+        }
     }
     add_clause(sources.notice, places.notice);
     return sources;
