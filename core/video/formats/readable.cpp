@@ -146,11 +146,10 @@ constexpr std::array kUnsupportedForms{
         {},
         " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
         "bag of ROS 2 (.db3) of it with rosbags-convert"},
-    UnsupportedForm{
-        "NI10"sv,
-        {},
-        " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
-        "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
+    UnsupportedForm{"NI10"sv,
+                    {},
+                    " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
+                    "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
     UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"},
     UnsupportedForm{"EVENTS1"sv,
                     {},

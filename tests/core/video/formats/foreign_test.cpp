@@ -145,14 +145,13 @@ TEST_CASE("the command for depth in a form of a data set, or without a header, g
     for (int k = 0; k < 6 * 40; ++k) text += std::to_string(k % 6 + 1) + ".0 ";
     const std::string levels =
         bytes_of<std::int32_t>({2, 3}) + bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
-    const auto [name, bytes, form] =
-        GENERATE_COPY(table<std::string, std::string, std::string>(
-            {{"frame_0001.dpt", sintel(4), "MPI Sintel"},
-             {"depth0.dpt", levels, "LINEMOD"},
-             {"a.jpg.geometric.bin", "3&2&1&" + bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
-             {"DSC_0286.JPG", bytes_of(reals), "holds 240 real numbers"},
-             {"depth_0001.bin", bytes_of(reals), "without a header"},
-             {"scene_00.depth", text, "numbers as text"}}));
+    const auto [name, bytes, form] = GENERATE_COPY(table<std::string, std::string, std::string>(
+        {{"frame_0001.dpt", sintel(4), "MPI Sintel"},
+         {"depth0.dpt", levels, "LINEMOD"},
+         {"a.jpg.geometric.bin", "3&2&1&" + bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
+         {"DSC_0286.JPG", bytes_of(reals), "holds 240 real numbers"},
+         {"depth_0001.bin", bytes_of(reals), "without a header"},
+         {"scene_00.depth", text, "numbers as text"}}));
     CAPTURE(name);
     write_text(folder / name, bytes);
     std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });

@@ -97,13 +97,14 @@ TEST_CASE("a picture that cannot be written is refused by name and leaves nothin
 
 TEST_CASE("a picture in text is read, also without a blank after its last level", "[pictures]") {
     const TemporaryFolder folder;
-    write_text(folder / "levels.pgm", std::string("P2\n3 2\n5000\n0 10 20\n30 40 5000") +
-                                          GENERATE("", "\n"));
+    write_text(folder / "levels.pgm",
+               std::string("P2\n3 2\n5000\n0 10 20\n30 40 5000") + GENERATE("", "\n"));
     const StillPicture still = read_still(folder / "levels.pgm", PictureRole::depth);
     REQUIRE(still.picture.type() == CV_16UC1);
     CHECK(still.picture.at<std::uint16_t>(0, 2) == 20);
     CHECK(still.picture.at<std::uint16_t>(1, 2) == 5000);
     write_text(folder / "part.pgm", "P2\n3 2\n5000\n0 10 20\n30");
-    CHECK(refusal([&] { (void)read_still(folder / "part.pgm", PictureRole::depth); })
-              .find("damaged") != std::string::npos);
+    CHECK(refusal([&] {
+              (void)read_still(folder / "part.pgm", PictureRole::depth);
+          }).find("damaged") != std::string::npos);
 }
