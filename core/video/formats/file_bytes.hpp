@@ -31,8 +31,12 @@ namespace dibhr {
 void require_readable(const std::filesystem::path& file);
 
 /// Likewise for a file whose magic bytes no reader knows: throws where its ending is that of
-/// another form, and for text.
+/// another form, for numbers without a header or as text, and for other text.
 void require_no_other_form(const std::filesystem::path& file);
+
+/// What a file is that no reader reads, and what to do, as the rest of a sentence that begins with
+/// its name; empty where neither its bytes nor its ending tell a form. Does not judge text.
+[[nodiscard]] std::string advice_on_form(const std::filesystem::path& file);
 
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);

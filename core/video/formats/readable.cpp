@@ -1,9 +1,14 @@
-// Refuses unsupported files: by magic bytes, and where there are none by the ending or as text.
+// Refuses unsupported files: by magic bytes, and where there are none by the size that the file
+// claims, the ending, as numbers without a header, or as text.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cctype>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -25,9 +30,16 @@ using namespace std::string_view_literals;
 /// A form that no reader reads, and what to do about it; "{}" stands for the file's name.
 struct UnsupportedForm {
     std::string_view begins;  ///< magic bytes; empty: none, then the ending decides
-    std::string_view ending;  ///< of the name; empty: any
+    std::string_view ending;  ///< of the name, in small letters; empty: any
     std::string_view advice;
     std::size_t at{0};  ///< where the magic bytes are
+};
+
+/// Such a form that its first bytes and the size of the file tell together.
+struct SizedForm {
+    bool (*fits)(std::string_view head, std::uint64_t bytes);
+    std::string_view ending;
+    std::string_view advice;
 };
 
 constexpr std::string_view kZip = "PK\x03\x04";
@@ -80,6 +92,40 @@ constexpr std::string_view kNoHeader =
     "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape(ROWS, "
     "COLUMNS))\", "
     "with its own rows and columns ('<f4' for real numbers)";
+constexpr std::string_view kReals =
+    " real numbers of 32 bits without a header, so its size is not known: convert it: python3 -c "
+    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape(ROWS, "
+    "COLUMNS))\", with its own rows and columns";
+constexpr std::string_view kNumbersInText =
+    " holds numbers as text: if they are depth, convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.loadtxt('{}').reshape(ROWS, COLUMNS))\", with its own rows and "
+    "columns";
+constexpr std::string_view kSintel =
+    " is a depth picture of MPI Sintel: convert it: python3 -c \"import numpy; b = open('{}', "
+    "'rb').read(); c, r = numpy.frombuffer(b, '<i4', 2, 4); numpy.save('depth.npy', "
+    "numpy.frombuffer(b, '<f4', -1, 12).reshape(r, c))\", and give that with --depth-unit m";
+constexpr std::string_view kFlow =
+    " holds optical flow, where each pixel moves to, and no depth: give the depth of the same "
+    "pictures, or let an estimator make it (dibhr help depth)";
+constexpr std::string_view kSintelCutOff =
+    " begins as depth of MPI Sintel or optical flow (.flo), but is not as long as it claims: copy "
+    "it again";
+constexpr std::string_view kLinemod =
+    " is a depth picture of LINEMOD: convert it: python3 -c \"import numpy; b = open('{}', "
+    "'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, '<u2', -1, "
+    "8).reshape(numpy.frombuffer(b, '<i4', 2)))\", and give that with --depth-unit mm";
+constexpr std::string_view kColmap =
+    " is a depth map of COLMAP: convert it: python3 -c \"import numpy; c, r, n, d = open('{}', "
+    "'rb').read().split(b'&', 3); numpy.save('depth.npy', numpy.frombuffer(d, "
+    "'<f4').reshape(int(r), int(c)))\", and give that";
+constexpr std::string_view kColmapNormals =
+    " is a map of normals of COLMAP, not of depth: give the file of the same name in the folder "
+    "depth_maps";
+constexpr std::string_view kSweep =
+    " is a sweep of a LiDAR: points, not a picture of depth: save them as text with python3 -c "
+    "\"import numpy; numpy.savetxt('points.xyz', numpy.fromfile('{}', '<f4').reshape(-1, 5)[:, "
+    ":3])\", open that in CloudCompare, choose Tools, Projection, Rasterize, save the heights as "
+    "GeoTIFF (height.tif), and give that";
 constexpr std::string_view kTable =
     " is a table in text: if its cells are depth, convert it: python3 -c \"import numpy; "
     "numpy.save('depth.npy', numpy.loadtxt('{}', delimiter=','))\"";
@@ -100,11 +146,10 @@ constexpr std::array kUnsupportedForms{
         {},
         " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
         "bag of ROS 2 (.db3) of it with rosbags-convert"},
-    UnsupportedForm{
-        "NI10"sv,
-        {},
-        " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
-        "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
+    UnsupportedForm{"NI10"sv,
+                    {},
+                    " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
+                    "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
     UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"},
     UnsupportedForm{"EVENTS1"sv,
                     {},
@@ -136,17 +181,78 @@ constexpr std::array kUnsupportedForms{
     UnsupportedForm{"Rar!\x1a\x07"sv, {}, kPacked7z},
     UnsupportedForm{"ustar"sv, {}, kTar, 257}};
 
+/// The number of pixels by the two sides, whole numbers of 32 bits, there; 0: of no picture.
+std::uint64_t pixels_at(std::string_view head, std::size_t at) {
+    if (head.size() < at + 8) return 0;
+    const auto side = [&](std::size_t begin) {
+        std::uint64_t number = 0;
+        for (std::size_t k = 4; k-- > 0;)
+            number = number * 256 + static_cast<unsigned char>(head[begin + k]);
+        return static_cast<std::int64_t>(number);
+    };
+    const std::int64_t first = side(at);
+    const std::int64_t second = side(at + 4);
+    return may_be_decoded(first, second, 1) ? static_cast<std::uint64_t>(first * second) : 0;
+}
+
+/// Whether it begins as depth of MPI Sintel (sintel.is.tue.mpg.de/depth) and as optical flow
+/// (vision.middlebury.edu/flow) do: 202021.25 as a real number, columns and rows.
+bool begins_as_sintel(std::string_view head) {
+    return head.starts_with("PIEH");
+}
+
+/// "160&120&1&", then real numbers row by row: colmap.github.io, format of its dense workspace.
+bool begins_as_colmap(std::string_view head, char channels) {
+    std::size_t at = 0;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = at;
+        while (at < head.size() && is_decimal_digit(head[at])) ++at;
+        if (at == first || at == head.size() || head[at++] != '&') return false;
+    }
+    return head.size() >= at + 2 && head[at] == channels && head[at + 1] == '&';
+}
+
+// The first entry that fits counts.
+constexpr std::array kSizedForms{
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return begins_as_sintel(head) && bytes == 12 + 4 * pixels_at(head, 4);
+              },
+              {},
+              kSintel},
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return begins_as_sintel(head) && bytes == 12 + 8 * pixels_at(head, 4);
+              },
+              {},
+              kFlow},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_sintel(head); },
+              {},
+              kSintelCutOff},
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return bytes > 8 && bytes == 8 + 2 * pixels_at(head, 0);
+              },
+              ".dpt", kLinemod},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_colmap(head, '1'); },
+              {},
+              kColmap},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_colmap(head, '3'); },
+              {},
+              kColmapNormals}};
+
 // Of files that no reader accepts.
 constexpr std::array kUnsupportedEndings{
     UnsupportedForm{{}, ".svo", kZed},        UnsupportedForm{{}, ".svo2", kZed},
-    UnsupportedForm{{}, ".raw", kNoHeader},   UnsupportedForm{{}, ".z16", kNoHeader},
-    UnsupportedForm{{}, ".depth", kNoHeader}, UnsupportedForm{{}, ".csv", kTable},
+    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".csv", kTable},
     UnsupportedForm{{}, ".asc", kTerrain},    UnsupportedForm{{}, ".hgt", kTerrain},
     UnsupportedForm{{}, ".dem", kTerrain},    UnsupportedForm{{}, ".bil", kTerrain},
     UnsupportedForm{{}, ".flt", kTerrain},    UnsupportedForm{{}, ".grd", kTerrain},
     UnsupportedForm{{}, ".obj", kPointCloud}, UnsupportedForm{{}, ".stl", kPointCloud},
     UnsupportedForm{{}, ".xyz", kPointCloud}, UnsupportedForm{{}, ".pts", kPointCloud},
     UnsupportedForm{{}, ".pkl", kPyTorch}};
+
+// Of such files that do not hold text.
+constexpr std::array kHeaderlessEndings{UnsupportedForm{{}, ".raw", kNoHeader},
+                                        UnsupportedForm{{}, ".z16", kNoHeader},
+                                        UnsupportedForm{{}, ".depth", kNoHeader}};
 
 constexpr std::size_t kInspected_bytes = 1 << 16;
 
@@ -186,10 +292,10 @@ std::string filled(std::string_view advice, const fs::path& file) {
 template <std::size_t count>
 std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs::path& file,
                       std::string_view head) {
-    const std::string ending = lower_case(file.extension().string());
+    const std::string name = lower_case(file.filename().string());
     const auto found = std::find_if(forms.begin(), forms.end(), [&](const UnsupportedForm& form) {
         return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
-               (form.ending.empty() || form.ending == ending);
+               name.ends_with(form.ending);
     });
     return found == forms.end() ? std::string() : filled(found->advice, file);
 }
@@ -205,13 +311,72 @@ std::string advice_on_unsupported(const fs::path& file) {
                    ? " is damaged, or holds no array: save it again by numpy.savez"
                    : filled(kZipArchive, file);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
-    return {};
+    const std::string name = lower_case(file.filename().string());
+    const auto* const sized =
+        std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
+            return name.ends_with(form.ending) && form.fits(head, size_of(file));
+        });
+    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+}
+
+/// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
+/// of other bytes one in eight would be.
+bool are_reals(std::string_view bytes) {
+    constexpr std::size_t kLeast = 64;
+    constexpr std::size_t kAtBeginning = 16;  // a header would be there
+    constexpr float kSmallest = 1e-4F;
+    constexpr float kLargest = 1e6F;
+    const std::size_t count = bytes.size() / 4;
+    std::size_t usual = 0;
+    std::size_t unusual = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint32_t bits = 0;
+        for (std::size_t b = 4; b-- > 0;)
+            bits = bits * 256 + static_cast<unsigned char>(bytes[4 * k + b]);
+        const float size = std::abs(std::bit_cast<float>(bits));
+        const bool is_nothing = size == 0.0F || (bits & 0x7fbfffffU) == 0x7f800000U;
+        const bool is_usual = size >= kSmallest && size <= kLargest;
+        usual += static_cast<std::size_t>(is_usual);
+        unusual += static_cast<std::size_t>(!is_usual && !is_nothing);
+        if (unusual > 0 && k < kAtBeginning) return false;
+    }
+    return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
+}
+
+/// Whether the text is numbers and what parts them.
+bool is_of_numbers(std::string_view text) {
+    constexpr std::string_view kOthers = "+-.eE, \t\r\nnaifNAIF";
+    std::size_t digits = 0;
+    std::size_t others = 0;
+    for (const char c : text) {
+        if (is_decimal_digit(c))
+            ++digits;
+        else if (kOthers.find(c) == std::string_view::npos)
+            return false;
+        else
+            others += static_cast<std::size_t>(std::isspace(static_cast<unsigned char>(c)) == 0);
+    }
+    return digits > others;
+}
+
+constexpr std::size_t kLines_bytes = 512;
+
+std::string advice_on_numbers_in_text(const fs::path& file) {
+    const std::string head = beginning_of(file, kLines_bytes);
+    if (!is_of_numbers(head)) return {};
+    return filled(head.find(',') == std::string::npos ? kNumbersInText : kTable, file);
+}
+
+std::string advice_on_headerless(const fs::path& file) {
+    const std::uint64_t bytes = size_of(file);
+    if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file);
+    return advice_of(kHeaderlessEndings, file, {});
 }
 
 /// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
 /// would have the decoder open other files. A video of plain pictures has a header in text.
 bool begins_like_text(const fs::path& file) {
-    constexpr std::size_t kLines_bytes = 512;
     const std::string head = beginning_of(file, kLines_bytes);
     if (head.starts_with("YUV4MPEG2 ")) return false;
     return std::all_of(head.begin(), head.end(), [](char c) {
@@ -244,9 +409,18 @@ void require_readable(const fs::path& file) {
         throw InputError(shown(file) + advice);
 }
 
+std::string advice_on_form(const fs::path& file) {
+    std::string advice = advice_on_unsupported(file);
+    if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_on_headerless(file);
+    return advice;
+}
+
 void require_no_other_form(const fs::path& file) {
-    if (const std::string advice = advice_of(kUnsupportedEndings, file, {}); !advice.empty())
-        throw InputError(shown(file) + advice);
+    std::string advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_on_numbers_in_text(file);
+    if (advice.empty()) advice = advice_on_headerless(file);
+    if (!advice.empty()) throw InputError(shown(file) + advice);
     if (begins_like_text(file))
         throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
 }

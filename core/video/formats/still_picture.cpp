@@ -5,11 +5,14 @@
 #include <cctype>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include "core/error.hpp"
@@ -55,6 +58,17 @@ bool is_plausible_picture(std::span<const std::uint8_t> bytes) {
     return claimed && can_hold(bytes.size(), claimed->columns, claimed->rows, claimed->pixel_bytes);
 }
 
+/// P1, P2 and P3 have their levels as text. OpenCV needs a blank after the last one, which writers
+/// leave out.
+cv::Mat decoded_text_picture(const fs::path& file, int flags) {
+    const std::string head = head_of(file);
+    const bool is_text = head.size() > 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '3';
+    const std::string text =
+        is_text ? beginning_of(file, std::size_t{kMostPictureBytes}) + '\n' : std::string();
+    return decoded_picture({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
+                           flags);
+}
+
 cv::Mat decoded(const fs::path& file, int flags) {
     require_plausible_claim(file);
     cv::Mat picture;
@@ -64,6 +78,7 @@ cv::Mat decoded(const fs::path& file, int flags) {
     } catch (const cv::Exception&) {
         picture.release();  // refused, for example as too large: reported below
     }
+    if (picture.empty()) picture = decoded_text_picture(file, flags);
     if (picture.empty())
         throw InputError(shown(file) +
                          " cannot be decoded as a picture: it may be damaged, export it again" +

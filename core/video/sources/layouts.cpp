@@ -15,6 +15,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -265,6 +266,72 @@ std::unique_ptr<PictureSource> sequence(const PlacedRow& row, const PictureRow& 
         timing_of(row.pictures, other, row.said.list));
 }
 
+/// Whether a folder has files that are read, or are of a form that has to be converted.
+bool holds_media(const fs::path& folder) {
+    constexpr int kMostRead = 20;  // files whose bytes are looked at
+    int read = 0;
+    for (const fs::path& entry : entries_of(folder)) {
+        if (is_picture(entry) || (named_video(entry) && is_file(entry))) return true;
+        if (is_file(entry) && read++ < kMostRead && !advice_on_form(entry).empty()) return true;
+    }
+    return false;
+}
+
+/// The folders below that hold media, all at the first level that has any.
+std::vector<fs::path> folders_of_media(const fs::path& folder) {
+    constexpr int kMostLevels = 3;
+    constexpr std::size_t kMostFolders = 200;
+    std::vector<fs::path> level{folder};
+    std::vector<fs::path> found;
+    for (int k = 0; k < kMostLevels && found.empty(); ++k) {
+        std::vector<fs::path> below;
+        for (const fs::path& above : level) {
+            try {
+                for (const fs::path& entry : entries_of(above)) {
+                    if (!is_folder(entry) || entry.filename().string().starts_with('.')) continue;
+                    if (below.size() == kMostFolders) break;
+                    below.push_back(entry);
+                    if (holds_media(entry)) found.push_back(entry);
+                }
+            } catch (const InputError&) {
+                continue;  // it may not be read
+            }
+        }
+        level = std::move(below);
+    }
+    return found;
+}
+
+/// What a folder without pictures holds instead, and what to do, after the words "is a folder
+/// without pictures".
+std::string advice_without_pictures(const fs::path& folder) {
+    const std::vector<fs::path> entries = entries_of(folder);
+    for (const fs::path& entry : entries) {
+        const bool may_be_depth = is_file(entry) && !named_picture(entry) && !named_video(entry) &&
+                                  !entry.filename().string().starts_with('.');
+        const std::string advice = may_be_depth ? advice_on_form(entry) : std::string();
+        if (advice.empty()) continue;
+        const auto alike = std::count_if(
+            entries.begin(), entries.end(),
+            [&](const fs::path& other) { return other.extension() == entry.extension(); });
+        return " that are read: " + shown(entry.filename()) + " in it" + advice +
+               (alike > 1 ? " (likewise the others, each under a name of its own)" : "");
+    }
+    constexpr std::size_t kMostNamed = 4;
+    const std::vector<fs::path> folders = folders_of_media(folder);
+    if (folders.empty()) return ": give the folder or the file that holds them";
+    if (folders.size() == 1)
+        return " of its own: give " + shown(folders.front()) + ", which is in it";
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < std::min(folders.size(), kMostNamed); ++k)
+        names.push_back(shown(folders[k].lexically_relative(folder)));
+    if (folders.size() > kMostNamed)
+        names.push_back(std::to_string(folders.size() - kMostNamed) + " more");
+    return " of its own, and its folders " + listed(names) +
+           " are not named colour and depth: give the one of the colour first and then the one of "
+           "the depth";
+}
+
 /// The pictures of that role, or those whose names state no role. Throws InputError when there are
 /// none.
 PlacedRow row_of(const fs::path& place, PictureRole role) {
@@ -274,6 +341,9 @@ PlacedRow row_of(const fs::path& place, PictureRole role) {
     PictureRow& row = named.empty() ? found.unnamed : named;
     const bool has_others = !found.colour.empty() || !found.depth.empty();
     const std::string kind = !has_others ? "" : is_depth ? "depth " : "colour ";
+    if (row.empty() && !has_others && is_folder(place))
+        throw InputError(shown(place) + " is a folder without pictures" +
+                         advice_without_pictures(place));
     if (row.empty())
         throw InputError(shown(place) + (is_folder(place) ? " is a folder" : " is a list") +
                          " without " + kind +

@@ -213,6 +213,12 @@ TEST_CASE("colours alone are depth where they are grey, and stay colours where n
     CHECK(colours.at<cv::Vec3f>(5, 7) == cv::Vec3f(3, 2, 1));
 }
 
+TEST_CASE("the only channel of colours that is not empty is depth", "[exr]") {
+    const TemporaryFolder folder;
+    write_exr({{"R", flat(3)}, {"G", flat(0)}, {"B", flat(0)}}, folder / "red.exr");
+    CHECK(different(depth_in(folder / "red.exr"), flat(3)) == 0);
+}
+
 TEST_CASE("a renderer's infinity, and what is no number, is no data", "[exr]") {
     const TemporaryFolder folder;
     cv::Mat depth = flat(2);
