@@ -19,6 +19,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -144,6 +145,8 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     const std::string name = chosen(arrays, role_);
     if (lower_case(name).starts_with("disp"))
         facts_.findings.push_back(finding_in(name, {.unit = DepthUnit::disparity}));
+    else
+        facts_.findings = findings_in_name(name, facts_.bits, "its array's name");
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
     const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
     if (rows.size() < 9) return;
