@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
@@ -563,17 +564,28 @@ Findings SampledLevels::units_of_numbers() const {
     return rows;
 }
 
-Findings SampledLevels::contradictions(const UsualDistances& usual) const {
+Findings SampledLevels::contradictions(const Findings& findings) const {
+    Findings rows;
+    for (const Finding& finding : findings)
+        for (Finding& row : contradiction(finding)) rows.push_back(std::move(row));
+    return rows;
+}
+
+/// One row, or none.
+Findings SampledLevels::contradiction(const Finding& finding) const {
     constexpr double kContradicted = 0.001;
-    if (levels_.empty() || usual.most_m <= 0.0) return {};
-    const double one_m = usual.scale * (usual.unit == DepthUnit::m ? 1.0 : 0.001);
+    const UsualDistances& usual = finding.usual;
+    const DepthStatement& said = finding.statement;
+    if (levels_.empty() || usual.most_m <= 0.0 || !said.unit) return {};
+    const double one_m = said.scale.value_or(1.0) * (said.unit == DepthUnit::m ? 1.0 : 0.001);
     const double nearest_m = one_m * quantile(levels_, kTail);
     const double farthest_m = one_m * quantile(levels_, kNearest);
-    const bool is_usual = nearest_m >= usual.least_m && farthest_m <= usual.most_m;
+    const bool reaches_far = usual.reach_m > 0.0 && farthest_m >= usual.reach_m;
+    const bool is_usual = (nearest_m >= usual.least_m || reaches_far) && farthest_m <= usual.most_m;
     const bool has_holes = holes_share() > kLeastNone;
     if (is_usual && !(usual.is_dense && has_holes)) return {};
     const std::string ends = short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m";
-    return {{{.unit = usual.unit, .scale = usual.scale},
+    return {{{.unit = said.unit, .scale = said.scale},
              Evidence::numbers,
              kContradicted,
              usual.of + " has no " + (is_usual ? "holes" : "depth from " + ends)}};

@@ -21,6 +21,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
@@ -48,19 +49,6 @@ constexpr std::string_view kWordsOfOthers =
     " mask masks valid validity conf confidence certainty uncertainty normal normals seg "
     "segmentation semantic semantics label labels instance instances vis viz ir infrared amplitude "
     "intensity flow ";
-
-/// Words of a depth's name, and what its values are.
-struct UnitWords {
-    std::string_view words;
-    DepthUnit unit;
-    double scale;
-};
-constexpr std::array<UnitWords, 4> kUnitWords{{
-    {" mm millimeter millimeters millimetre millimetres ", DepthUnit::mm, 1.0},
-    {" cm centimeter centimeters centimetre centimetres ", DepthUnit::mm, 10.0},
-    {" m meter meters metre metres ", DepthUnit::m, 1.0},
-    {" inv inverse idepth invdepth ", DepthUnit::disparity, 1.0},
-}};
 
 /// The array with the first of these names, in any case; nothing when there is none.
 std::optional<std::string> named(const NamedArrays& arrays, Words words) {
@@ -224,20 +212,6 @@ Finding finding_in(const std::string& array, const DepthStatement& statement) {
     return finding_of_metadata(statement, "array " + in_quotes(array));
 }
 
-/// What the words of the depth's name say of its unit.
-Findings findings_by_name(const std::string& name) {
-    if (lower_case(name).starts_with("disp"))
-        return {finding_in(name, {.unit = DepthUnit::disparity})};
-    const bool is_distance = names_depth(name) || has_word(name, kWordsOfDistance);
-    for (const UnitWords& unit : kUnitWords)
-        if (is_distance && has_word(name, unit.words))
-            return {{{.unit = unit.unit, .scale = unit.scale},
-                     Evidence::name,
-                     kSurenessOfName,
-                     "the name of the array " + in_quotes(name)}};
-    return {};
-}
-
 /// What an array beside it says that one level is.
 Findings findings_on_scale(const NamedArrays& arrays, bool is_real) {
     const std::vector<double> stated = numbers_of(arrays, depth_scale_names(), 1);
@@ -299,9 +273,12 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.channels = role_ == PictureRole::colour ? 3 : static_cast<int>(shape_.channels);
     facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
     if (role_ == PictureRole::colour || !arrays.zipped()) return;
-    for (const Findings& rows :
-         {findings_by_name(name_), findings_on_scale(arrays, facts_.bits == kRealBits)})
-        facts_.findings.insert(facts_.findings.end(), rows.begin(), rows.end());
+    if (lower_case(name_).starts_with("disp"))
+        facts_.findings.push_back(finding_in(name_, {.unit = DepthUnit::disparity}));
+    else
+        facts_.findings = findings_in_name(name_, facts_.bits, "its array's name");
+    for (Finding& row : findings_on_scale(arrays, facts_.bits == kRealBits))
+        facts_.findings.push_back(std::move(row));
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
     const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
     if (rows.size() < 9) return;

@@ -98,10 +98,12 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     const std::string colour = set.colour.empty() ? "" : folder_name(set.colour);
     if (!camera && colour != "color" && colour != "image") return std::nullopt;
     LayoutFacts facts = millimetres({0.0}, "folders as Open3D has them");
-    if (camera)
+    if (camera) {
         take_camera(*camera, facts);
-    else
+    } else {
         facts.finding.sureness = kSurenessOfFolderNames;
+        facts.finding.usual = {"a room in such folders", 0.02, 20.0};
+    }
     return facts;
 }
 

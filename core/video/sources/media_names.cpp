@@ -25,13 +25,15 @@ namespace {
 using Words = std::span<const std::string_view>;
 
 // Anywhere in a name.
-constexpr std::array<std::string_view, 5> kColourWords{"colour", "color", "rgb", "albedo",
-                                                       "diffuse"};
-constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "displacement",
-                                                      "heightmap"};
+constexpr std::array<std::string_view, 6> kColourWords{"colour", "color",   "rgb",
+                                                       "albedo", "diffuse", "couleur"};
+constexpr std::array<std::string_view, 8> kDepthWords{"depth",        "disparity", "disparities",
+                                                      "displacement", "heightmap", "profondeur",
+                                                      "profundidad",  "profondita"};
 // Between other letters they mean something else: "display", "different".
-constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
-constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
+constexpr std::array<std::string_view, 4> kShortColourWords{"diff", "farbe", "farben", "farbbild"};
+constexpr std::array<std::string_view, 6> kShortDepthWords{"disp",   "height",     "tiefe",
+                                                           "tiefen", "tiefenbild", "tiefenkarte"};
 constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",   "im",
                                                        "left",  "frame",  "frames"};
 // "mono_depth", "depth maps"
@@ -76,35 +78,9 @@ bool is_of_digits(const std::string& word) {
     return std::all_of(word.begin(), word.end(), is_decimal_digit);
 }
 
-/// Whether a new word begins between the two characters.
-bool is_between_words(char before, char after) {
-    const auto is = [](int (*kind)(int), char c) {
-        return kind(static_cast<unsigned char>(c)) != 0;
-    };
-    return is_decimal_digit(before) != is_decimal_digit(after) ||
-           (is(std::islower, before) && is(std::isupper, after));
-}
-
-/// The words of a name in small letters; a run of digits is a word, too.
-std::vector<std::string> words_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    for (std::size_t k = 0; k < name.size(); ++k) {
-        const auto byte = static_cast<unsigned char>(name[k]);
-        const bool counts = byte >= 0x80 || std::isalnum(byte) != 0;
-        if (k > 0 && is_between_words(name[k - 1], name[k])) words.emplace_back();
-        if (counts)
-            words.back().push_back(name[k]);
-        else
-            words.emplace_back();
-    }
-    std::erase(words, "");
-    std::transform(words.begin(), words.end(), words.begin(), lower_case);
-    return words;
-}
-
 bool holds(const fs::path& file, Words anywhere, Words whole) {
     const std::string name = lower_case(file.filename().string());
-    const std::vector<std::string> words = words_of(file.filename().string());
+    const std::vector<std::string> words = words_of_name(file.filename().string());
     return std::any_of(
                anywhere.begin(), anywhere.end(),
                [&](std::string_view word) { return name.find(word) != std::string::npos; }) ||
@@ -279,7 +255,7 @@ bool named_numbers(const fs::path& file) {
 std::string_view named_other(const fs::path& file) {
     // Of a folder the whole name, of a file what is before the ending.
     const bool has_ending = named_media(file) || named_numbers(file);
-    const auto words = words_of((has_ending ? file.stem() : file.filename()).string());
+    const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
     const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
         return !is_of_digits(word) && !is_one_of(word, kPassedWords);
     });
@@ -315,7 +291,7 @@ bool may_name_colour(const fs::path& file) {
 
 std::string subject_of(const fs::path& file) {
     std::string subject;
-    for (std::string word : words_of(file.stem().string())) {
+    for (std::string word : words_of_name(file.stem().string())) {
         for (const Words anywhere : {Words(kColourWords), Words(kDepthWords)}) {
             for (const std::string_view said : anywhere) {
                 const auto at = word.find(said);

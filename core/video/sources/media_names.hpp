@@ -28,7 +28,7 @@ namespace dibhr {
 [[nodiscard]] std::string_view named_other(const std::filesystem::path& file);
 
 /// Whether the name of the file or folder says that it holds colour, and nothing else: color,
-/// colour, rgb, albedo, diffuse.
+/// colour, rgb, albedo, diffuse, also in German, French, Spanish and Italian.
 [[nodiscard]] bool named_colour(const std::filesystem::path& file);
 /// Likewise depth: depth, disparity, displacement, heightmap; disp and height as words of their
 /// own.

@@ -24,6 +24,7 @@
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -347,7 +348,13 @@ void decode_as_told(Sources& sources, DepthCode code) {
         decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
 }
 
+/// Whether metadata, a layout or a name state the unit of the levels as they are.
+bool states_unit(const SourceFacts& facts) {
+    return sure_facts({}, facts.findings).unit || sure_facts({}, findings_by_name(facts)).unit;
+}
+
 /// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+/// That they are turned counts only where nothing states what they are.
 void decode_as_found(Sources& sources) {
     const SourceFacts facts = sources.depth->facts();
     const auto set = data_set_of(facts);
@@ -360,6 +367,7 @@ void decode_as_found(Sources& sources) {
     const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
     if (!may_show) return;
     const auto seen = level_code_in(sources.depth->samples(1));
+    if (seen == DepthCode::turned16 && (set || states_unit(facts))) return;
     if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
 }
 
