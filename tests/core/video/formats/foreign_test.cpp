@@ -21,7 +21,7 @@ using namespace dibhr::test;
 namespace {
 
 template <typename Number>
-std::string bytes_of(const std::vector<Number>& numbers) {
+std::string raw_bytes_of(const std::vector<Number>& numbers) {
     std::string bytes;
     for (const Number number : numbers) append_bytes(bytes, number);
     return bytes;
@@ -149,8 +149,8 @@ TEST_CASE("the command for depth in a form of a data set, or without a header, g
         {{"frame_0001.dpt", sintel(4), "MPI Sintel"},
          {"depth0.dpt", levels, "LINEMOD"},
          {"a.jpg.geometric.bin", "3&2&1&" + bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
-         {"DSC_0286.JPG", bytes_of(reals), "holds 240 real numbers"},
-         {"depth_0001.bin", bytes_of(reals), "without a header"},
+         {"DSC_0286.JPG", raw_bytes_of(reals), "holds 240 real numbers"},
+         {"depth_0001.bin", raw_bytes_of(reals), "without a header"},
          {"scene_00.depth", text, "numbers as text"}}));
     CAPTURE(name);
     write_text(folder / name, bytes);
@@ -167,7 +167,7 @@ TEST_CASE("the command for depth in a form of a data set, or without a header, g
 TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {
     const TemporaryFolder folder;
     // 3111.51 is "'xBE" in bytes.
-    write_text(folder / "depth.bin", bytes_of(std::vector<float>(640, 3111.5095F)));
+    write_text(folder / "depth.bin", raw_bytes_of(std::vector<float>(640, 3111.5095F)));
     const std::string said = refusal([&] { (void)open_depth(folder / "depth.bin"); });
     CHECK(contains(said, "640 real numbers"));
 }
