@@ -27,8 +27,8 @@ using Words = std::span<const std::string_view>;
 // Anywhere in a name.
 constexpr std::array<std::string_view, 5> kColourWords{"colour", "color", "rgb", "albedo",
                                                        "diffuse"};
-constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "displacement",
-                                                      "heightmap"};
+constexpr std::array<std::string_view, 5> kDepthWords{"depth", "disparity", "disparities",
+                                                      "displacement", "heightmap"};
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
 constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
@@ -39,22 +39,26 @@ constexpr std::array<std::string_view, 2> kNeutralWords{"map",
 
 /// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
 struct OtherContent {
-    std::string_view what;   ///< for people
-    std::string_view words;  ///< each between blanks
+    std::string_view what;    ///< for people
+    std::string_view words;   ///< each between blanks
+    bool shows_depth{false};  ///< it may be felt, though something else is better
 };
 constexpr std::array kOtherContents{
     OtherContent{"a mask", " mask masks valid validity "},
     OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
     OtherContent{"normals", " normal normals nor nrm "},
     OtherContent{"infrared", " ir infra infrared "},
-    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster "},
+    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
     OtherContent{"a painting of depth",
                  " vis viz visualization visualisation visualized visualised colored coloured "
-                 "colorized colourised colormap colourmap "},
-    OtherContent{"labels", " semantic semantics seg segmentation label labels "},
+                 "colorized colourised colormap colourmap ",
+                 true},
+    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
+    OtherContent{"optical flow", " flow flows "},
     OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
-// After the word that decides: "normal_gl_2k", "confidence_map".
-constexpr std::array<std::string_view, 6> kPassedWords{"map", "maps", "gl", "dx", "k", "px"};
+// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
+constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
+                                                       "px",  "ids",  "occ", "noc"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
@@ -187,6 +191,22 @@ std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits, bool p
     return found;
 }
 
+/// What the last word of a name that counts says; null: nothing.
+const OtherContent* other_content(const fs::path& file) {
+    // Of a folder the whole name, of a file what is before the ending.
+    const bool has_ending = named_media(file) || named_numbers(file);
+    const auto words = words_of((has_ending ? file.stem() : file.filename()).string());
+    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
+        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    });
+    if (last == words.rend()) return nullptr;
+    const auto* const found = std::find_if(
+        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
+            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
+        });
+    return found == kOtherContents.end() ? nullptr : found;
+}
+
 }  // namespace
 
 std::span<const std::string_view> picture_endings() noexcept {
@@ -210,18 +230,29 @@ bool named_numbers(const fs::path& file) {
 }
 
 std::string_view named_other(const fs::path& file) {
-    // Of a folder the whole name, of a file what is before the ending.
-    const bool has_ending = named_media(file) || named_numbers(file);
-    const auto words = words_of((has_ending ? file.stem() : file.filename()).string());
-    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
-        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    const OtherContent* const found = other_content(file);
+    return found == nullptr ? std::string_view() : found->what;
+}
+
+std::string_view named_no_depth(const fs::path& place) {
+    const OtherContent* const found = other_content(place);
+    return found == nullptr || found->shows_depth ? std::string_view() : found->what;
+}
+
+std::string_view folder_named_no_depth(const fs::path& file) {
+    const auto says_nothing = [](const std::string& word) {
+        return is_of_digits(word) || is_one_of(word, kMayBeColour) || is_one_of(word, kPassedWords);
+    };
+    const std::vector<std::string> own = words_of(file.stem().string());
+    if (!std::all_of(own.begin(), own.end(), says_nothing)) return {};
+    const fs::path folder = file.parent_path().filename();
+    const OtherContent* const found = other_content(folder);
+    if (found == nullptr || found->shows_depth) return {};
+    const std::vector<std::string> words = words_of(folder.string());
+    const bool is_whole = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+        return says_nothing(word) || found->words.find(' ' + word + ' ') != std::string_view::npos;
     });
-    if (last == words.rend()) return {};
-    const auto* const found = std::find_if(
-        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
-            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
-        });
-    return found == kOtherContents.end() ? std::string_view() : found->what;
+    return is_whole ? found->what : std::string_view();
 }
 
 std::optional<fs::path> numbers_beside(const fs::path& file) {
