@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -190,11 +191,41 @@ std::string fact_text(const Json& value) {
     return parts.empty() ? "none" : listed(parts);
 }
 
-/// "near bright, unit levels, no data none"; "nothing" for an empty statement.
-std::string statement_text(const DepthStatement& statement) {
-    const Json stated = json_of(statement);
+/// "millimetres", "a level is 0.2 mm", "disparities"; empty: neither is stated.
+std::string values_text(const std::optional<DepthUnit>& unit, const std::optional<double>& scale) {
+    const double one = scale.value_or(1.0);
+    const std::string factor = short_text(one);
+    if (!unit) return scale ? "scale " + factor : std::string();
+    switch (*unit) {
+        case DepthUnit::levels:
+            return one == 1.0 ? "levels of no unit" : "levels of no unit x " + factor;
+        case DepthUnit::disparity:
+            return one == 1.0 ? "disparities" : "disparities, a level is " + factor;
+        case DepthUnit::mm:
+            return one == 1.0    ? "millimetres"
+                   : one == 10.0 ? "centimetres"
+                                 : "a level is " + factor + " mm";
+        case DepthUnit::m:
+            return one == 1.0 ? "metres" : "a level is " + factor + " m";
+    }
+    return {};
+}
+
+/// "near is bright, levels of no unit, no data is 0"; "nothing" for an empty statement.
+std::string statement_text(DepthStatement statement) {
     std::vector<std::string> facts;
-    for (const auto& [name, value] : stated.items()) {
+    if (statement.near) facts.push_back("near is " + std::string(name_of(*statement.near)));
+    if (std::string values = values_text(statement.unit, statement.scale); !values.empty())
+        facts.push_back(std::move(values));
+    if (statement.no_data)
+        facts.push_back(statement.no_data->empty() ? "all levels are data"
+                                                   : "no data is " + fact_text(*statement.no_data));
+    statement.near.reset();
+    statement.unit.reset();
+    statement.scale.reset();
+    statement.no_data.reset();
+    const Json others = json_of(statement);
+    for (const auto& [name, value] : others.items()) {
         std::string words = name;
         std::ranges::replace(words, '_', ' ');
         facts.push_back(words + ' ' + fact_text(value));
@@ -222,25 +253,48 @@ std::string says_text(const Finding& finding) {
     return finding.about.empty() ? statement_text(finding.statement) : finding.about;
 }
 
-/// The table: a line for each finding, then what is concluded.
+/// Broken behind commas into lines of at most `width` letters, where the parts are not longer.
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+    std::vector<std::string> lines{""};
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t comma = std::min(text.find(", ", begin), text.size() - 1);
+        const std::string part = text.substr(begin, comma + 1 - begin);
+        std::string& line = lines.back();
+        if (!line.empty() && line.size() + 1 + part.size() > width)
+            lines.push_back(part);
+        else
+            line += (line.empty() ? "" : " ") + part;
+        begin = std::min(comma + 2, text.size());
+    }
+    return lines;
+}
+
+/// The table: a row for each finding, then what is concluded.
 void print_why(const MediaDescription& media) {
-    constexpr std::size_t kMostWidth = 48;  // longer ones move the other columns
+    constexpr std::size_t kMostWidth = 40;
     constexpr int kSureWidth = 5;
     constexpr int kFromWidth = 10;
-    std::size_t width = 0;
-    for (const Finding& finding : media.conclusion.findings)
-        width = std::clamp(says_text(finding).size(), width, kMostWidth);
-    const auto print_row = [width](const std::string& says, std::string_view sure,
-                                   std::string_view from, std::string_view reason) {
-        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << one_line(says)
-                  << "  " << std::right << std::setw(kSureWidth) << sure << "  " << std::left
-                  << std::setw(kFromWidth) << from << "  " << one_line(reason) << '\n';
+    struct Row {
+        std::vector<std::string> says;
+        std::string sure, from, reason;
     };
-    std::cout << '\n';
-    print_row("finding", "sure", "from", "because of");
+    std::vector<Row> rows{{{"finding"}, "sure", "from", "because of"}};
     for (const Finding& finding : media.conclusion.findings)
-        print_row(says_text(finding), percent_text(finding.sureness), name_of(finding.evidence),
-                  finding.reason);
+        rows.push_back({wrapped(one_line(says_text(finding)), kMostWidth),
+                        percent_text(finding.sureness), std::string(name_of(finding.evidence)),
+                        one_line(finding.reason)});
+    std::size_t width = 0;
+    for (const Row& row : rows)
+        for (const std::string& line : row.says) width = std::max(width, line.size());
+    std::cout << '\n';
+    for (const Row& row : rows) {
+        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << row.says.front()
+                  << "  " << std::right << std::setw(kSureWidth) << row.sure << "  " << std::left
+                  << std::setw(kFromWidth) << row.from << "  " << row.reason << '\n';
+        for (std::size_t k = 1; k < row.says.size(); ++k)
+            std::cout << "    " << row.says[k] << '\n';
+    }
     const DepthMeaning& meaning = *media.meaning;
     print_fact("so", statement_text({.near = meaning.near.value,
                                      .unit = meaning.unit.value,

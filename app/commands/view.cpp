@@ -261,7 +261,7 @@ bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks
     } else {
         auto media = opened(options.open, tasks, shutdown);
         if (!media) return false;
-        if (options.must_be_sure || options.ends_by_itself())
+        if (options.must_be_sure || options.asks_nobody())
             log.append("warning", report_doubt(media->description(), options.must_be_sure));
         parts.media = std::move(media);
         parts.memory = memory_of(*parts.media);

@@ -158,14 +158,16 @@ void time_rows(ViewerState& state) {
                   "Of pictures without times. counted: 30 a second; own: by stamps in their names "
                   "or beside them; paired: with the frames of the other source (--depth-times)",
                   kDepthTimes, known.times, &DepthStatement::times, state);
-    typed_row(
-        {"Offset", "seconds by which the depth is later than its times say (--depth-offset)",
-         with_origin(short_text(known.time_offset_s.value) + " s", known.time_offset_s.origin)},
-        offset_in, &DepthStatement::time_offset_s, fields.depth_offset, state);
+    typed_row({"Offset", "seconds by which the depth is later than its times say (--depth-offset)",
+               known.time_offset_s.value == 0.0
+                   ? "0 s"
+                   : with_origin(short_text(known.time_offset_s.value) + " s",
+                                 known.time_offset_s.origin)},
+              offset_in, &DepthStatement::time_offset_s, fields.depth_offset, state);
     const double rate = known.frames_per_s.value;
     typed_row({"Rate", "frames of depth a second (--depth-fps)",
-               rate > 0.0 ? with_origin(short_text(rate), known.frames_per_s.origin)
-                          : short_text(state.media.frames_per_s, 4)},
+               rate > 0.0 ? with_origin(short_text(rate) + "/s", known.frames_per_s.origin)
+                          : short_text(state.media.frames_per_s, 4) + "/s"},
               rate_in, &DepthStatement::frames_per_s, fields.depth_rate, state);
 }
 

@@ -69,6 +69,14 @@ void draw_open(ViewerState& state) {
     draw_recent(state);
 }
 
+/// "those of 'a.mp4'; 0.2 s later" in two lines, which break no number.
+std::string clause_by_line(const std::string& clauses) {
+    std::string lines = capitalised(clauses);
+    for (auto at = lines.find("; "); at != std::string::npos; at = lines.find("; ", at))
+        lines.replace(at, 2, "\n");
+    return lines;
+}
+
 void draw_files(const MediaDescription& media) {
     if (media.depth_path.empty()) return;  // nothing is open
     if (media.colour_path.empty()) {
@@ -83,7 +91,8 @@ void draw_files(const MediaDescription& media) {
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
     if (!media.timing.empty() && media.times_from != "file" && !media.live)
-        fact_row("Times", media.timing, "When the frames of depth are shown (--depth-times)");
+        fact_row("Frame times", clause_by_line(media.timing),
+                 "Who says when each frame is; to be changed below: Depth, Times, Offset, Rate");
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 

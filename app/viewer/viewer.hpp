@@ -19,6 +19,7 @@
 #include "app/settings/settings.hpp"
 #include "app/touching/pointer.hpp"
 #include "app/touching/touch_session.hpp"
+#include "app/viewer/asking.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
@@ -74,9 +75,10 @@ struct ViewOptions {
     Settings settings{};    ///< in_file with the command line's values
     PictureHook after_picture{};
 
-    /// Whether the program ends without a person, so that nobody may be there to be asked.
-    [[nodiscard]] bool ends_by_itself() const {
-        return seconds.has_value() || (!clip.empty() && !looping.value_or(true));
+    /// Whether nobody may be there who knows the files: the program ends by itself, or fills the
+    /// screen for visitors.
+    [[nodiscard]] bool asks_nobody() const {
+        return full_screen || seconds.has_value() || (!clip.empty() && !looping.value_or(true));
     }
 };
 
@@ -101,6 +103,12 @@ struct OwnRelief {
     double relief_px{0.0};
 
     bool operator==(const OwnRelief&) const = default;
+};
+
+/// What turning near and far has stated, and the request before.
+struct TurnedDepth {
+    DepthStatement panel{};
+    DepthRequest before{};
 };
 
 class Viewer {
@@ -158,6 +166,10 @@ class Viewer {
     void fit_to_media();
     void keep_panel(const std::filesystem::path& depth_before);
     void open_again(const DepthStatement& panel);
+    void open_again(DepthRequest request);
+    void ask_depth(const OpenRequest& request);
+    void answer_depth(const AnswerDepth& answer);
+    [[nodiscard]] Answer turn_depth();
     std::string save_sidecar();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
@@ -217,6 +229,8 @@ class Viewer {
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;
+    ViewerAsking asking_{};
+    std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;

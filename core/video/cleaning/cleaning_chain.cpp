@@ -115,6 +115,14 @@ void CleaningChain::densify(DepthImage& image, const ColourImage* colour) {
     sparse_.fill(image, colour);
 }
 
+std::span<const HeldLevel> CleaningChain::in_holes(std::span<const HeldLevel> held,
+                                                   const DepthImage& image) {
+    held_in_holes_.clear();
+    for (const HeldLevel& level : held)
+        if (std::isnan(image.levels[level.index])) held_in_holes_.push_back(level);
+    return held_in_holes_;
+}
+
 /// Holes that stay without data become the farthest level.
 void CleaningChain::close_holes(SingleFrameDepth& single_frame, bool fill,
                                 std::span<const HeldLevel> held) {
@@ -140,8 +148,10 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
     SingleFrameDepth single_frame{std::move(image), {}, {}};
     const bool touchable = is_touchable(single_frame.depth);
     interpolated_.clear();
-    if (touchable && plan.steps.densify && has_holes(single_frame.depth))
+    if (touchable && plan.steps.densify && has_holes(single_frame.depth)) {
         densify(single_frame.depth, colour);
+        held = in_holes(held, single_frame.depth);
+    }
     spikes_.forget();
     if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth);
     if (has_holes(single_frame.depth))

@@ -82,10 +82,14 @@ class CleaningChain {
     [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                               std::size_t now, const DepthNoise& noise);
     void densify(DepthImage& image, const ColourImage* colour);
+    /// The held levels of pixels that still have no data.
+    [[nodiscard]] std::span<const HeldLevel> in_holes(std::span<const HeldLevel> held,
+                                                      const DepthImage& image);
     void close_holes(SingleFrameDepth& single_frame, bool fill, std::span<const HeldLevel> held);
 
     SparseInterpolator sparse_{};
     std::vector<std::uint8_t> interpolated_{};  ///< 1: no data before; empty: nothing was done
+    std::vector<HeldLevel> held_in_holes_{};
     SpikeRemover spikes_{};
     DepthImage seen_{};  ///< before holes are filled
     HeldFiller held_{};

@@ -9,6 +9,7 @@
 #include <opencv2/core.hpp>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
@@ -23,10 +24,14 @@ constexpr int kLatticePixels = 12000;  ///< about as many are taken of each pict
 // No data.
 constexpr double kLeastNone = 5e-4;  ///< least share of pixels for a sensor's holes
 constexpr double kGap = 0.05;        ///< part of the levels' range that is too near for sensors
+constexpr double kGapOfZero = 0.02;  ///< likewise of 0: sensors see far behind their nearest
 constexpr double kStandsOut8 = 4.0;  ///< least ratio of zeros to pixels of levels 1 to 3
-constexpr double kGapOfAny = 0.25;   ///< of the span, below values that are no usual mark
-constexpr double kGapAbove = 1.0;    ///< likewise above them, where a back wall may be
+constexpr double kMostBelowWhite = 0.005;  ///< of 8 bits, where white is around a thing
+constexpr double kGapOfAny = 0.25;         ///< of the span, below values that are no usual mark
+constexpr double kGapAbove = 1.0;          ///< likewise above them, where a back wall may be
 constexpr double kMostOfBorder = 0.9;
+constexpr double kMostOfFrame = 0.35;  ///< share of the pixels in a constant border
+constexpr double kFarBeyond = 5.0;     ///< times as far, or as near, as the other values
 constexpr double kTailOfSpan = 0.05;
 constexpr int kMostMarks = 4;             ///< values of no data in one source
 constexpr std::size_t kLeastValues = 16;  ///< different ones, in depth that has marks
@@ -38,7 +43,8 @@ constexpr double kReachesEnd = 0.02;    ///< of 1, for values normalised to 0 to
 constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a scene is as near
 constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
 constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
-constexpr double kFlat = 1.2;           ///< farthest to nearest of what is hardly a scene
+constexpr double kFlat = 1.3;           ///< farthest to nearest of what is hardly a scene
+constexpr double kClose_mm = 1000.0;    ///< numbers below may be centimetres of a room as well
 constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
 
@@ -218,15 +224,16 @@ struct IntegerScale {
     double scale;
     const Sizes& sizes;
     double sureness;
-    double of_flat;  ///< the same for a picture of hardly any depth
-    double of_sky;   ///< the same where the highest level is no data
+    double of_flat;   ///< the same for a picture of hardly any depth
+    double of_sky;    ///< the same where the highest level is no data
+    double of_close;  ///< the same where all is within a metre, without the holes of a sensor
 };
 
 constexpr std::array<IntegerScale, 4> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.78, 0.86},
-    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
-    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1},  // street data sets
-    {DepthUnit::mm, 10.0, kLand, 0.06, 0.06, 0.3},        // simulators: centimetres
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5},
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
+    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1},  // street data sets
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3},         // simulators: centimetres
 }};
 constexpr double kSurenessOfLaser = 0.85;
 
@@ -273,15 +280,21 @@ DepthRange not_empty(DepthRange range, const DepthMeaning& meaning) {
 /// How an end of the levels differs from the others.
 struct EndOfLevels {
     double level;
-    double gap;  ///< to the next value, in spans of the others
+    double next;  ///< the value beside it
+    double gap;   ///< to that, in spans of the others
+    double share;
     bool at_bottom;
     bool is_border;  ///< the picture's border has it
 };
 
+/// A wall behind a thing, or a table below it, is no mark: a mark is far beyond, or a frame.
 bool is_mark(const EndOfLevels& end) {
-    if (end.is_border) return end.gap > kGap;
-    if (!end.at_bottom) return end.gap > kGapAbove;
-    return end.gap > (end.level == 0.0 ? kGap : kGapOfAny);
+    if (end.level == 0.0) return end.gap > kGap;
+    if (end.is_border && end.share < kMostOfFrame) return end.gap > kGap;
+    const double least = kFarBeyond * std::fabs(end.at_bottom ? end.level : end.next);
+    const double most = std::fabs(end.at_bottom ? end.next : end.level);
+    const bool is_beyond = end.level < 0.0 || most > least;
+    return is_beyond && end.gap > (end.at_bottom ? kGapOfAny : kGapAbove);
 }
 
 std::size_t different_values(const std::vector<float>& rising) {
@@ -359,14 +372,19 @@ std::vector<double> SampledLevels::outlying_integers() const {
     const double zeros = share_between(levels_, 0.0, 0.0);
     if (bits_ == 8) {
         const bool stands_out = zeros > kStandsOut8 * share_between(levels_, 1.0, 3.0);
-        return zeros > kLeastNone && stands_out ? std::vector{0.0} : std::vector<double>{};
+        if (zeros > kLeastNone && stands_out) return {0.0};
+        const bool is_around = share_of_border(255.0) >= kMostOfBorder;
+        return is_around && share_between(levels_, 240.0, 254.0) < kMostBelowWhite
+                   ? std::vector{255.0}
+                   : std::vector<double>{};
     }
     const double highest = highest_level(bits_);
     const std::vector<float> others = rising_without({0.0, highest});
     if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
     const double nearest = quantile(others, kTail);
     std::vector<double> none;
-    if (zeros > kLeastNone && nearest > kGap * quantile(others, kNearest)) none.push_back(0.0);
+    if (zeros > kLeastNone && nearest > kGapOfZero * quantile(others, kNearest))
+        none.push_back(0.0);
     const double tops = share_between(levels_, highest, highest);
     if (tops > 0.0 && highest - quantile(others, 1.0 - kTail) > kGap * highest)
         none.push_back(highest);
@@ -406,7 +424,9 @@ std::vector<double> SampledLevels::outlying_numbers() const {
             const double span = quantile(others, 1.0 - kTailOfSpan) - quantile(others, kTailOfSpan);
             const double gap = std::fabs(next - static_cast<double>(level));
             const bool is_border = share_of_border(level) >= kMostOfBorder;
-            if (!is_mark({level, span > 0.0 ? gap / span : 0.0, at_bottom, is_border})) continue;
+            const double share = static_cast<double>(end - begin) / all;
+            if (!is_mark({level, next, span > 0.0 ? gap / span : 0.0, share, at_bottom, is_border}))
+                continue;
             marks.push_back(level);
             rest = std::move(others);
             found = true;
@@ -442,7 +462,7 @@ Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
         return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.94, "by custom 8 bits are near white"}};
+                {{.near = NearLevels::bright}, kNumbers, 0.88, "by custom 8 bits are near white"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
@@ -463,12 +483,14 @@ Findings SampledLevels::units_of_integers() const {
                         is_full ? "the levels reach the highest of their bits"
                                 : "without holes, so few bits are levels"});
     if (!has_holes && bits_ < 16) return rows;
+    const bool is_close = farthest < kClose_mm;
     for (const IntegerScale& scale : kIntegerScales) {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
-        const double sureness = farthest < kFlat * nearest ? scale.of_flat
-                                : has_sky && !has_holes    ? scale.of_sky
-                                                           : scale.sureness;
+        const double sureness = has_sky && !has_holes        ? scale.of_sky
+                                : farthest < kFlat * nearest ? scale.of_flat
+                                : is_close && !has_holes     ? scale.of_close
+                                                             : scale.sureness;
         rows.push_back({{.unit = scale.unit, .scale = scale.scale},
                         kNumbers,
                         sureness * fits,
@@ -486,7 +508,14 @@ Findings SampledLevels::units_of_numbers() const {
     constexpr auto kNumbers = Evidence::numbers;
     const double lowest = quantile(levels_, kTail);
     const double highest = quantile(levels_, 1.0 - kTail);
-    Findings rows{{{.scale = 1.0}, kNumbers, 0.99, "real numbers need no scale"}};
+    Findings rows{{{.scale = 1.0}, kNumbers, 0.97, "real numbers need no scale"}};
+    if (highest <= 0.0) {
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.9,
+                        "all are below 0: distances or disparities with a minus sign"});
+        return rows;
+    }
     if (lowest < 0.0) {
         rows.push_back({{.unit = DepthUnit::levels},
                         kNumbers,
@@ -521,25 +550,42 @@ Findings SampledLevels::units_of_numbers() const {
                                        : 0.02,
                     ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres")});
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
+    const bool in_centimetres = lowest >= 20.0 && highest > 100.0 && highest < kClose_mm;
     rows.push_back(
         {{.unit = DepthUnit::mm, .scale = 1.0},
          kNumbers,
-         in_millimetres ? 0.85 : 0.02,
+         in_millimetres ? (in_centimetres ? 0.5 : 0.85) : 0.02,
          ends + (in_millimetres ? " is a scene in millimetres" : " is no scene in millimetres")});
+    if (in_centimetres)
+        rows.push_back({{.unit = DepthUnit::mm, .scale = 10.0},
+                        kNumbers,
+                        0.4,
+                        ends + " is a room in centimetres"});
     return rows;
 }
 
-Findings SampledLevels::contradictions(const UsualDistances& usual) const {
+Findings SampledLevels::contradictions(const Findings& findings) const {
+    Findings rows;
+    for (const Finding& finding : findings)
+        for (Finding& row : contradiction(finding)) rows.push_back(std::move(row));
+    return rows;
+}
+
+/// One row, or none.
+Findings SampledLevels::contradiction(const Finding& finding) const {
     constexpr double kContradicted = 0.001;
-    if (levels_.empty() || usual.most_m <= 0.0) return {};
-    const double one_m = usual.scale * (usual.unit == DepthUnit::m ? 1.0 : 0.001);
+    const UsualDistances& usual = finding.usual;
+    const DepthStatement& said = finding.statement;
+    if (levels_.empty() || usual.most_m <= 0.0 || !said.unit) return {};
+    const double one_m = said.scale.value_or(1.0) * (said.unit == DepthUnit::m ? 1.0 : 0.001);
     const double nearest_m = one_m * quantile(levels_, kTail);
     const double farthest_m = one_m * quantile(levels_, kNearest);
-    const bool is_usual = nearest_m >= usual.least_m && farthest_m <= usual.most_m;
+    const bool reaches_far = usual.reach_m > 0.0 && farthest_m >= usual.reach_m;
+    const bool is_usual = (nearest_m >= usual.least_m || reaches_far) && farthest_m <= usual.most_m;
     const bool has_holes = holes_share() > kLeastNone;
     if (is_usual && !(usual.is_dense && has_holes)) return {};
     const std::string ends = short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m";
-    return {{{.unit = usual.unit, .scale = usual.scale},
+    return {{{.unit = said.unit, .scale = said.scale},
              Evidence::numbers,
              kContradicted,
              usual.of + " has no " + (is_usual ? "holes" : "depth from " + ends)}};

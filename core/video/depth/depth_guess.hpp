@@ -11,15 +11,6 @@
 
 namespace dibhr {
 
-/// The distances that depth of a unit and scale usually has where it is what a layout says.
-struct UsualDistances {
-    DepthUnit unit{DepthUnit::levels};
-    double scale{1.0};
-    double least_m{0.0}, most_m{0.0};  ///< 0, 0: any
-    bool is_dense{false};              ///< without holes
-    std::string of{};                  ///< "KITTI depth completion"
-};
-
 /// One picture's levels on a lattice of pixels, and those of the pixels to their right.
 struct LevelLattice {
     int columns{0}, rows{0};
@@ -47,9 +38,8 @@ class SampledLevels {
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
 
-    /// The row that contradicts what a layout says, where its distances are not the usual ones;
-    /// else none.
-    [[nodiscard]] Findings contradictions(const UsualDistances& usual) const;
+    /// The rows that contradict statements on the unit whose distances are not the usual ones.
+    [[nodiscard]] Findings contradictions(const Findings& findings) const;
 
     /// Near, by how slopes bend (SlopeShape), and by where the picture is brighter: things are
     /// mostly near in the middle and on the floor. That is weak, and said as sure as it is clear. A
@@ -78,6 +68,7 @@ class SampledLevels {
     [[nodiscard]] std::vector<double> outlying_integers() const;
     [[nodiscard]] std::vector<double> outlying_numbers() const;
     [[nodiscard]] bool is_scattered() const;
+    [[nodiscard]] Findings contradiction(const Finding& finding) const;
     [[nodiscard]] SlopeShape slope_shape() const;
     [[nodiscard]] Findings units_of_integers() const;
     [[nodiscard]] Findings units_of_numbers() const;

@@ -117,10 +117,11 @@ struct DepthStatement {
     void fill_in(const DepthStatement& other);
 };
 
-/// Where a fact of the meaning comes from; later ones have priority over those before.
-enum class Origin { assumed, found, sidecar, panel, command_line, recorded };
+/// Where a fact of the meaning comes from; later ones have priority over those before. `folder`: an
+/// answer of a person for all files of the folder, where the file leaves that fact open.
+enum class Origin { assumed, found, folder, sidecar, panel, command_line, recorded };
 
-/// "assumed", "found", "sidecar", "panel", "command line", "recorded".
+/// "assumed", "found", "folder", "sidecar", "panel", "command line", "recorded".
 [[nodiscard]] std::string_view name_of(Origin value) noexcept;
 
 /// A fact and its origin.
@@ -190,6 +191,14 @@ void merge_by_priority(const RankedStatements& statements, DepthMeaning& meaning
 
 /// The value in the unit at an elevation; `nearness` in [0, 1]: from the farthest to the nearest.
 [[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);
+/// Its inverse: not clamped, from 0 at the farthest value to 1 at the nearest.
+[[nodiscard]] double nearness_at(const DepthMeaning& meaning, double value);
+
+/// What a person states who turns near and far: the same values as levels of the same scale, with
+/// the other end of the range near. That mirrors the relief of levels and distances. One of
+/// disparities becomes that of distances without a unit, which is what they are if they are near
+/// where dark.
+[[nodiscard]] DepthStatement turned_near_and_far(const DepthMeaning& meaning);
 
 /// One line for people: "distance 480 to 4210 mm, near is dark, no data is 0 and 65535".
 [[nodiscard]] std::string in_words(const DepthMeaning& meaning);

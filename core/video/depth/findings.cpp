@@ -44,8 +44,21 @@ bool same_scale(double a, double b) {
     return std::abs(a - b) <= 1e-6 * std::abs(b);
 }
 
+/// The scale in another unit, where both are of distances; else the same.
+double scale_in(DepthUnit unit, DepthUnit stated, double scale) {
+    constexpr double kMillimetres = 1000.0;  // in a metre
+    if (unit == stated || !is_distance(unit) || !is_distance(stated)) return scale;
+    return unit == DepthUnit::mm ? scale * kMillimetres : scale / kMillimetres;
+}
+
+/// Whether values of one unit and scale are those of the other.
+bool same_values(DepthUnit unit, double scale, DepthUnit other, double other_scale) {
+    return (unit == other || (is_distance(unit) && is_distance(other))) &&
+           same_scale(scale_in(other, unit, scale), other_scale);
+}
+
 bool same_kind(const DepthHypothesis& a, const DepthHypothesis& b) {
-    return a.near == b.near && a.unit == b.unit && same_scale(a.scale, b.scale);
+    return a.near == b.near && same_values(a.unit, a.scale, b.unit, b.scale);
 }
 
 std::optional<double> stated_scale(const DepthStatement& statement) {
@@ -54,10 +67,10 @@ std::optional<double> stated_scale(const DepthStatement& statement) {
 }
 
 bool agrees(const DepthHypothesis& kind, const DepthStatement& statement) {
-    const std::optional<double> scale = stated_scale(statement);
+    const double scale = stated_scale(statement).value_or(kind.scale);
     return statement.near.value_or(kind.near) == kind.near &&
-           statement.unit.value_or(kind.unit) == kind.unit &&
-           same_scale(scale.value_or(kind.scale), kind.scale);
+           (statement.unit ? same_values(*statement.unit, scale, kind.unit, kind.scale)
+                           : same_scale(scale, kind.scale));
 }
 
 bool is_on_kind(const DepthStatement& statement) {
@@ -73,9 +86,14 @@ void add_kinds(const DepthStatement& statement, std::vector<DepthHypothesis>& ki
         if (statement.near ? *statement.near != near : !is_natural) continue;
         const DepthHypothesis kind{near, *statement.unit, stated_scale(statement).value_or(1.0),
                                    kShareOfOthers};
-        const bool is_there = std::any_of(
-            kinds.begin(), kinds.end(), [&](const auto& other) { return same_kind(kind, other); });
-        if (!is_there) kinds.push_back(kind);
+        const auto same = std::find_if(kinds.begin(), kinds.end(),
+                                       [&](const auto& other) { return same_kind(kind, other); });
+        if (same == kinds.end()) {
+            kinds.push_back(kind);
+        } else {  // in the unit that is stated
+            same->unit = kind.unit;
+            same->scale = kind.scale;
+        }
     }
 }
 
@@ -130,12 +148,12 @@ DepthStatement merged(const RankedStatements& persons) {
     return all;
 }
 
-/// The scale that metadata, a layout or a name states; else 1.
-double scale_beside_numbers(const Findings& findings) {
+/// The scale that metadata, a layout or a name states, in that unit; else 1.
+double scale_beside_numbers(const Findings& findings, DepthUnit unit) {
     for (const Finding& finding : findings)
         if (finding.evidence != Evidence::numbers && finding.statement.scale &&
             finding.sureness >= kSureEnough)
-            return *finding.statement.scale;
+            return scale_in(unit, finding.statement.unit.value_or(unit), *finding.statement.scale);
     return 1.0;
 }
 
@@ -147,7 +165,7 @@ std::vector<DepthHypothesis> possible_kinds(const DepthStatement& stated, Findin
     if (stated.unit)
         std::erase_if(kinds, [&](const auto& kind) { return kind.unit != *stated.unit; });
     std::optional<double> scale = stated.scale;
-    if (stated.unit && !scale) scale = scale_beside_numbers(findings);
+    if (stated.unit && !scale) scale = scale_beside_numbers(findings, *stated.unit);
     std::vector<DepthHypothesis> possible;
     for (DepthHypothesis kind : kinds) {
         kind.near = stated.near.value_or(kind.near);
@@ -200,6 +218,25 @@ void set_kind(const std::vector<DepthHypothesis>& kinds, const DepthStatement& s
         meaning.near = {best.near, origin_of(probability_of(kinds, same_near))};
 }
 
+/// Where one of the answers is numbers in millimetres or in metres, the other is one, too, if it is
+/// likely enough: in place of the last one.
+void offer_other_unit(const std::vector<DepthHypothesis>& kinds,
+                      std::vector<DepthAlternative>& all) {
+    const auto is_plain = [](DepthUnit unit, double scale) {
+        return is_distance(unit) && same_scale(scale, 1.0);
+    };
+    const auto offered = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end() - 1, [&](const DepthAlternative& answer) {
+            return is_plain(*answer.statement.unit, *answer.statement.scale);
+        }));
+    const auto other =
+        std::find_if(kinds.begin() + static_cast<std::ptrdiff_t>(all.size()), kinds.end(),
+                     [&](const DepthHypothesis& kind) { return is_plain(kind.unit, kind.scale); });
+    if (offered != 1 || other == kinds.end() || other->probability < kLeastLikely) return;
+    all.back() = {{.near = other->near, .unit = other->unit, .scale = other->scale},
+                  other->probability};
+}
+
 std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>& kinds) {
     std::vector<DepthAlternative> all;
     if (kinds.front().probability >= kSureEnough) return all;
@@ -208,6 +245,7 @@ std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>
         all.push_back(
             {{.near = kind.near, .unit = kind.unit, .scale = kind.scale}, kind.probability});
     }
+    if (all.size() == kMostAlternatives) offer_other_unit(kinds, all);
     if (all.size() < 2) all.clear();
     return all;
 }
@@ -220,6 +258,12 @@ std::string_view name_of(Evidence value) noexcept {
 
 Finding finding_of_metadata(const DepthStatement& statement, const std::string& reason) {
     return {statement, Evidence::metadata, kSurenessOfMetadata, reason};
+}
+
+bool state_same_values(const DepthStatement& one, const DepthStatement& other) {
+    if (!one.unit || !other.unit) return false;
+    return same_values(*one.unit, stated_scale(one).value_or(1.0), *other.unit,
+                       stated_scale(other).value_or(1.0));
 }
 
 std::vector<DepthHypothesis> weigh(const Findings& findings) {

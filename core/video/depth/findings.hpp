@@ -28,13 +28,23 @@ inline constexpr double kSurenessOfAppearance = 0.85;
 /// From here on a fact counts as found; below, it is assumed, and a person is asked.
 inline constexpr double kSureEnough = 0.9;
 
+/// The distances that depth usually has where a statement on its unit and scale is right; others
+/// contradict it.
+struct UsualDistances {
+    std::string of{};                  ///< whose they are: "KITTI depth completion"
+    double least_m{0.0}, most_m{0.0};  ///< 0, 0: any
+    double reach_m{0.0};   ///< a scene that reaches as far may begin nearer; 0: none may
+    bool is_dense{false};  ///< without holes
+};
+
 /// One row of the table: facts that one piece of evidence states.
 struct Finding {
     DepthStatement statement{};
     Evidence evidence{Evidence::numbers};
-    double sureness{1.0};  ///< probability in (0, 1) that the statement is right, from this alone
-    std::string reason{};  ///< for people, a few words: "'height' in its name"
-    std::string about{};   ///< what a row without statement is about: "form PNG"; else empty
+    double sureness{1.0};    ///< probability in (0, 1) that the statement is right, from this alone
+    std::string reason{};    ///< for people, a few words: "'height' in its name"
+    std::string about{};     ///< what a row without statement is about: "form PNG"; else empty
+    UsualDistances usual{};  ///< of a statement on the unit
 };
 
 using Findings = std::vector<Finding>;
@@ -42,6 +52,9 @@ using Findings = std::vector<Finding>;
 /// What the metadata of a file state.
 [[nodiscard]] Finding finding_of_metadata(const DepthStatement& statement,
                                           const std::string& reason);
+
+/// Whether both state the same unit and scale; a scale that is not stated is 1.
+[[nodiscard]] bool state_same_values(const DepthStatement& one, const DepthStatement& other);
 
 /// A kind of values, with its probability from all findings; near and unit belong together (a
 /// distance is near where dark, a disparity where bright).
@@ -56,13 +69,15 @@ struct DepthHypothesis {
 /// one gives its statement the probability `sureness`; with several, a hypothesis gains
 /// log(sureness / p) of each finding that it agrees with, and log((1 - sureness) / (1 - p)) of each
 /// that it contradicts, where p is the share of all such hypotheses before any finding. A sureness
-/// below p is evidence against the statement. A distance of no stated scale has scale 1.
+/// below p is evidence against the statement. A distance of no stated scale has scale 1; 0.2 mm and
+/// 0.0002 m are the same.
 [[nodiscard]] std::vector<DepthHypothesis> weigh(const Findings& findings);
 
 /// One of the answers that are possible: near, unit and scale, all stated.
 struct DepthAlternative {
     DepthStatement statement{};
     double probability{0.0};
+    DepthRange range{};  ///< that the depth has by this answer
 };
 
 /// The table, and how sure the meaning concluded from it is.

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <set>
 
 namespace dibhr {
 
@@ -167,6 +168,25 @@ bool looks_like_kinect(const cv::Mat& picture) {
            seen >= kMostOfLevels * (all - none);
 }
 
+/// Whether all levels are multiples of 8, as where three bits are turned away from below, but not
+/// of 16; and many differ, mostly of 256 mm and more: less is of 8 bits.
+bool looks_turned(const cv::Mat& picture) {
+    constexpr std::size_t kLeastDifferent = 64;
+    constexpr double kMostOfLevels = 0.95;
+    constexpr int kNearest_mm = 256;
+    const cv::Mat raw = few_levels_of(picture);
+    const std::set<int> levels(raw.begin<std::uint16_t>(), raw.end<std::uint16_t>());
+    const auto are_multiples = [&levels](int of) {
+        return std::all_of(levels.begin(), levels.end(),
+                           [of](int level) { return level % of == 0; });
+    };
+    if (levels.size() < kLeastDifferent || !are_multiples(8) || are_multiples(16)) return false;
+    const double all = count_levels({&raw, 1}, [](int level) { return level != 0; });
+    const double far =
+        count_levels({&raw, 1}, [](int level) { return turned(level) >= kNearest_mm; });
+    return far >= kMostOfLevels * all;
+}
+
 template <typename Fits>
 bool all_fit(std::span<const cv::Mat> pictures, DepthCode code, const Fits& fits) {
     return !pictures.empty() &&
@@ -238,6 +258,7 @@ bool may_be_of(std::span<const cv::Mat> pictures, DepthCode code) {
 std::optional<DepthCode> level_code_in(std::span<const cv::Mat> pictures) {
     if (all_fit(pictures, DepthCode::kinect11, looks_like_kinect)) return DepthCode::kinect11;
     if (all_fit(pictures, DepthCode::xyz, is_of_points)) return DepthCode::xyz;
+    if (all_fit(pictures, DepthCode::turned16, looks_turned)) return DepthCode::turned16;
     return std::nullopt;
 }
 

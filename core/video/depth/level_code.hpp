@@ -46,7 +46,7 @@ inline constexpr InverseLevels kKinectLevels{-1000.0 / 0.0030711016, -3.33094951
 [[nodiscard]] bool may_be_of(std::span<const cv::Mat> pictures, DepthCode code);
 
 /// The code that levels show by themselves: kinect11, whose no data stands far from its other
-/// levels, or xyz.
+/// levels, xyz, or turned16, whose levels are multiples of 8.
 [[nodiscard]] std::optional<DepthCode> level_code_in(std::span<const cv::Mat> pictures);
 
 }  // namespace dibhr

@@ -40,7 +40,7 @@ enum class TimesFrom { file, names, list, other, stated, assumed };
 /// How it is known when pictures are shown.
 struct Timing {
     TimesFrom from{TimesFrom::file};
-    std::string text{};         ///< for people: "presentation times of the file"; empty: a still
+    std::string text{};         ///< for people: "in the file"; empty: a still
     double nominal_per_s{0.0};  ///< rate at the opening, which reading does not change
     /// Frame numbers in the pictures' names, rising; null: none.
     std::shared_ptr<const std::vector<double>> numbers{};

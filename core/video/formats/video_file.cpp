@@ -98,7 +98,7 @@ void VideoFile::read_facts() {
     if (const double rate = packets.frames_per_s(); rate > 0.0) interval_s_ = 1.0 / rate;
     facts_.frames_per_s = 1.0 / interval_s_;
     facts_.timing.nominal_per_s = facts_.frames_per_s;
-    facts_.timing.text = "presentation times of the file";
+    facts_.timing.text = "in the file";
     facts_.frames = packets.frames();
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
     facts_.codec = decoder_.codec();

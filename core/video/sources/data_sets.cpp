@@ -89,6 +89,8 @@ constexpr Values kOrgan{
 constexpr Values kPoints{"points in millimetres", NearLevels::dark, DepthUnit::mm, 1.0, kNotStated};
 constexpr Values kFarBright{"levels, far is bright", NearLevels::dark, DepthUnit::levels, 1.0,
                             kNotStated};
+constexpr Values kFarBrightOr0{"of no unit, far is bright, 0 is no data", NearLevels::dark,
+                               DepthUnit::levels, 1.0, 0.0};
 constexpr Values kNearBright{"levels, near is bright", NearLevels::bright, DepthUnit::levels, 1.0,
                              kNotStated};
 constexpr Values kDisparity{"disparities", NearLevels::bright, DepthUnit::disparity, 1.0,
@@ -171,6 +173,7 @@ bool read_nyu(const fs::path& /*folder*/, const SourceFacts& /*facts*/, DataSetF
 // durrlab.github.io/C3VD; github.com/anitarau/simcol; github.com/CapsuleEndoscope/EndoSLAM;
 // github.com/UZ-SLAMLab/Endo-Depth-and-Motion (Hamlyn); endovissub2019-scared.grand-challenge.org;
 // microsoft.github.io/AirSim (image APIs); docs.unrealengine.com (SceneDepthWorldUnits);
+// github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from scene to scene);
 // github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold; roboimagedata.compute.dtu.dk.
 constexpr std::array kDataSets{
     // Streets.
@@ -186,6 +189,7 @@ constexpr std::array kDataSets{
     DataSet{"Virtual KITTI 2", "frames/depth/camera_#/depth_#.png", "", 16, kCentimetres, 0.995},
     DataSet{"Virtual KITTI 2", "depth/camera_#/depth_#.png", "", 16, kCentimetres, 0.97},
     DataSet{"Virtual KITTI", "vkitti_*_depthgt/#/*/#.png", "", 16, kCentimetres, 0.995},
+    DataSet{"DDAD", "depth/lidar/camera_#/#.npz", "", kRealBits, kMetresOr0, 0.98},
     // Simulated places.
     DataSet{"TartanAir", "depth_left/#_left_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir", "depth_right/#_right_depth.npy", "", kRealBits, kMetres, 0.995},
@@ -196,6 +200,8 @@ constexpr std::array kDataSets{
     DataSet{"Unreal Engine's scene depth", "*scenedepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
     // Rooms.
     DataSet{"SUN RGB-D", "depth*/*.png", "../depth_bfx ../image ../intrinsics.txt", 16, kTurned,
+            0.99, DepthCode::turned16},
+    DataSet{"SUN RGB-D", "depth*/*.png", "../image ../intrinsics.txt ../scene.txt", 16, kTurned,
             0.99, DepthCode::turned16},
     DataSet{"SUN3D", "depth/#-#.png", "../image ../extrinsics ../intrinsics.txt", 16, kTurned, 0.98,
             DepthCode::turned16},
@@ -221,6 +227,8 @@ constexpr std::array kDataSets{
     DataSet{"Middlebury stereo", "disp#*.pfm", "calib.txt", kRealBits, kByCalibration, 0.98,
             DepthCode::stereo, read_middlebury},
     DataSet{"Middlebury stereo", "disp#.png", "view#.png", 8, kDisparityOr0, 0.97},
+    DataSet{"BlendedMVS", "rendered_depth_maps/#.pfm", "../blended_images", kRealBits,
+            kFarBrightOr0, 0.98},
     DataSet{"DTU", "depth_map_#.pfm", "", kRealBits, kMvs, 0.99},
     // Inside the body.
     DataSet{"C3VD", "#_depth.tiff", "#_color.png #_normals.tiff", 16, kC3vd, 0.97},
@@ -338,9 +346,8 @@ std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
         found.finding = {statement_of(set), Evidence::layout, set.sureness,
                          std::string(set.name) + ": " + std::string(values.words)};
         if (set.read != nullptr && !set.read(picture.parent_path(), facts, found)) continue;
-        const DepthStatement& said = found.finding.statement;
-        found.usual = {*said.unit,    *said.scale,  values.least_m,
-                       values.most_m, set.is_dense, std::string(set.name)};
+        found.finding.usual = {std::string(set.name), values.least_m, values.most_m, 0.0,
+                               set.is_dense};
         return found;
     }
     return std::nullopt;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <string_view>
 
-#include "core/video/depth/depth_guess.hpp"
 #include "core/video/depth/findings.hpp"
 #include "core/video/depth/level_code.hpp"
 #include "core/video/formats/camera_files.hpp"
@@ -18,7 +17,6 @@ namespace dibhr {
 struct DataSetFacts {
     std::string_view name{};             ///< for people: "KITTI depth completion"
     Finding finding{};                   ///< with the code, if it is one of levels
-    UsualDistances usual{};              ///< that contradict it elsewhere
     InverseLevels law{kKinectLevels};    ///< of a code that needs one
     std::optional<CameraFile> camera{};  ///< of the depth pictures
 };

@@ -2,22 +2,23 @@
 #include "core/video/sources/depth_finding.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cstddef>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/media_names.hpp"
 #include "core/video/sources/packed.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
@@ -40,50 +41,6 @@ DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     return said;
 }
 
-/// Whether the name holds the whole word: "clip_disp.png" holds "disp", "displacement" does not.
-bool has_word(const std::string& name, std::string_view word) {
-    const auto is_letter = [&](std::size_t at) {
-        return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at])) != 0;
-    };
-    for (auto at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
-        if (!is_letter(at - 1) && !is_letter(at + word.size())) return true;
-    }
-    return false;
-}
-
-/// A whole word of a name, and the unit of its values, which are near where bright.
-struct UnitWord {
-    std::string_view word;
-    DepthUnit unit;
-    double sureness;
-};
-
-constexpr std::array<UnitWord, 11> kUnitWords{{
-    {"disp", DepthUnit::disparity, 0.97},
-    {"disparity", DepthUnit::disparity, 0.97},
-    // Heights seen from above: high is near, and linear.
-    {"height", DepthUnit::levels, 0.97},
-    {"heightmap", DepthUnit::levels, 0.97},
-    {"displacement", DepthUnit::levels, 0.97},
-    {"elevation", DepthUnit::levels, 0.97},
-    {"bump", DepthUnit::levels, 0.97},
-    {"dem", DepthUnit::levels, 0.92},  // also a German article
-    {"dsm", DepthUnit::levels, 0.92},
-    {"dtm", DepthUnit::levels, 0.92},
-    {"terrain", DepthUnit::levels, 0.92},
-}};
-
-Findings findings_by_name(const fs::path& file) {
-    const std::string name = lower_case(file.filename().string());
-    for (const UnitWord& known : kUnitWords)
-        if (has_word(name, known.word))
-            return {{{.near = NearLevels::bright, .unit = known.unit},
-                     Evidence::name,
-                     known.sureness,
-                     in_quotes(known.word) + " in its name"}};
-    return {};
-}
-
 void append(const Findings& more, Findings& rows) {
     rows.insert(rows.end(), more.begin(), more.end());
 }
@@ -95,8 +52,26 @@ std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
     return set;
 }
 
+bool is_on_kind_by_name(const Finding& row) {
+    return row.evidence == Evidence::name && (row.statement.near || row.statement.unit);
+}
+
+/// What the name of a folder says; short words count alone: "dem" is a German article.
+Findings findings_in_folder(const fs::path& folder, int bits) {
+    constexpr std::size_t kShort = 3;
+    const std::string name = folder.filename().string();
+    const std::vector<std::string> words = words_of_name(name);
+    const bool is_short = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+        return word.size() <= kShort && std::isalpha(static_cast<unsigned char>(word[0])) != 0 &&
+               !findings_in_name(word, bits, "").empty();
+    });
+    if (!named_other(folder).empty() || (is_short && words.size() > 1)) return {};
+    return findings_in_name(name, bits, "its folder's name");
+}
+
 /// The rows of the table but those of the numbers and of times: of the reader that took the file,
-/// of what it and the layout found, of its data set, and of the name.
+/// of what it and the layout found, of its data set, and of the name. Where the unit is sure, a
+/// name that only says "depth" adds nothing.
 Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
@@ -104,7 +79,11 @@ Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& 
     append(facts.findings, rows);
     append(sources.findings, rows);
     if (set) rows.push_back(set->finding);
-    if (!has_decoded_levels(facts)) append(findings_by_name(facts.file), rows);
+    if (has_decoded_levels(facts) || std::any_of(rows.begin(), rows.end(), is_on_kind_by_name))
+        return rows;
+    const Findings by_name = findings_by_name(facts);
+    const bool is_sure = !by_name.empty() && by_name.front().statement.unit;
+    if (is_sure || !sure_facts({}, rows).unit) append(by_name, rows);
     return rows;
 }
 
@@ -120,23 +99,20 @@ std::optional<int> middle_of_colour(const Sources& sources) {
     return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
 }
 
-/// The rows on units, but for those of the unit and scale of a data set: it has distances of its
-/// own.
-Findings units_beside(const SampledLevels& levels, const std::optional<DataSetFacts>& set) {
+/// The rows on units, but for those of values that another row has usual distances for.
+Findings units_beside(const SampledLevels& levels, const Findings& rows) {
     Findings units = levels.units();
-    if (set) {
-        const DepthStatement& said = set->finding.statement;
-        std::erase_if(units, [&said](const Finding& row) {
-            return row.statement.unit == said.unit && row.statement.scale == said.scale;
-        });
-    }
+    for (const Finding& row : rows)
+        if (row.usual.most_m > 0.0)
+            std::erase_if(units, [&row](const Finding& unit) {
+                return state_same_values(unit.statement, row.statement);
+            });
     return units;
 }
 
-/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what a data
-/// set states and they contradict. Returns the levels without those that are no data.
-SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons,
-                          const std::optional<DataSetFacts>& set, Findings& rows) {
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what other
+/// rows state and they contradict. Returns the levels without those that are no data.
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
     SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
     const DepthStatement known = sure_facts(persons, rows);
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
@@ -146,9 +122,9 @@ SampledLevels add_numbers(const Sources& sources, const RankedStatements& person
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
-    const Findings contradictions = set ? levels.contradictions(set->usual) : Findings{};
+    const Findings contradictions = levels.contradictions(rows);
+    if (!known.unit || !contradictions.empty()) append(units_beside(levels, rows), rows);
     append(contradictions, rows);
-    if (!known.unit || !contradictions.empty()) append(units_beside(levels, set), rows);
     // Where distances or disparities are sure, near is too.
     if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
         append(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
@@ -208,7 +184,59 @@ void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) 
                          "; turn --depth-range or --near around");
 }
 
+/// The kept answer for the files of this folder, where the file leaves open what it states, and it
+/// is one of the likely ones; empty: there is none.
+DepthStatement folder_choice(const DepthConclusion& conclusion, const DepthRequest& request,
+                             const fs::path& file) {
+    const std::vector<DepthAlternative>& all = conclusion.alternatives;
+    if (all.empty()) return {};
+    DepthStatement kept = kept_folder_choice(request, file);
+    const bool is_likely = std::any_of(all.begin(), all.end(), [&](const auto& alternative) {
+        return alternative.statement == kept;
+    });
+    return is_likely ? kept : DepthStatement{};
+}
+
+/// Of the answers those that a stated range allows; none, where that leaves no choice.
+void keep_that_fit(const DepthRange& range, std::vector<DepthAlternative>& alternatives) {
+    const NearLevels near = range.near > range.far ? NearLevels::bright : NearLevels::dark;
+    std::erase_if(alternatives, [near](const DepthAlternative& alternative) {
+        return alternative.statement.near != near;
+    });
+    if (alternatives.size() < 2) alternatives.clear();
+}
+
+/// `meaning` by that alternative; its range stays.
+DepthMeaning by_alternative(DepthMeaning meaning, const DepthAlternative& alternative) {
+    merge_by_priority({{Origin::assumed, alternative.statement}}, meaning);
+    return meaning;
+}
+
 }  // namespace
+
+Findings findings_by_name(const SourceFacts& facts) {
+    if (facts.live) return findings_in_name(facts.file.filename().string(), facts.bits, "its name");
+    std::error_code failed;
+    const auto place_of = [&failed](const fs::path& place) {
+        const fs::path whole = fs::absolute(place, failed).lexically_normal();
+        return whole.has_filename() ? whole : whole.parent_path();
+    };
+    const fs::path picture =
+        place_of(facts.first_picture.empty() ? facts.file : facts.first_picture);
+    Findings rows;
+    if (named_other(picture).empty())
+        rows = findings_in_name(picture.stem().string(), facts.bits, "its name");
+    bool is_silent = rows.empty() && !named_depth(picture);
+    const fs::path opened = is_folder(facts.file) ? place_of(facts.file) : fs::path();
+    for (const fs::path& folder : {picture.parent_path(), opened}) {
+        Findings more = findings_in_folder(folder, facts.bits);
+        const bool has_scale = !more.empty() && more.front().statement.scale;
+        const bool is_weak = !rows.empty() && !rows.front().statement.unit;
+        if (is_silent || (is_weak && has_scale)) rows = std::move(more);
+        is_silent = is_silent && rows.empty() && !named_depth(folder);
+    }
+    return rows;
+}
 
 std::vector<cv::Mat> sample_pictures(PictureSource& source) {
     const double pixels = static_cast<double>(source.facts().columns) * source.facts().rows;
@@ -237,28 +265,36 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
                              {Origin::command_line, request.command_line}};
     Findings rows;
     DepthMeaning meaning;
-    std::optional<DataSetFacts> set;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        set = data_set_beside_codes(facts);
-        rows = findings_on(sources, set);
+        rows = findings_on(sources, data_set_beside_codes(facts));
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, set, rows);
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
+    const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
+    if (!(of_folder == DepthStatement{})) {
+        persons.emplace_back(Origin::folder, of_folder);
+        conclusion = conclude(persons, rows, meaning);
+    }
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
     const bool states_range =
         std::any_of(conclusion.findings.begin(), conclusion.findings.end(),
                     [](const Finding& finding) { return finding.statement.range.has_value(); });
     if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
+    if (states_range) keep_that_fit(meaning.range.value, conclusion.alternatives);
+    for (DepthAlternative& alternative : conclusion.alternatives)
+        alternative.range = levels && !states_range
+                                ? levels->range(by_alternative(meaning, alternative))
+                                : meaning.range.value;
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};
 }

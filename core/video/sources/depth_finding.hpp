@@ -19,6 +19,10 @@ namespace dibhr {
                                            const std::filesystem::path& colour,
                                            const DepthRequest& request);
 
+/// The rows of the name of a source, else of the folder that holds its pictures, else of the one
+/// that was opened. A name that only says "depth" leaves the unit to the folders.
+[[nodiscard]] Findings findings_by_name(const SourceFacts& facts);
+
 /// The scale of a depth, and the findings that led to its meaning.
 struct FoundScale {
     DepthScale scale;

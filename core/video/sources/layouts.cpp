@@ -7,6 +7,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -97,10 +98,12 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     const std::string colour = set.colour.empty() ? "" : folder_name(set.colour);
     if (!camera && colour != "color" && colour != "image") return std::nullopt;
     LayoutFacts facts = millimetres({0.0}, "folders as Open3D has them");
-    if (camera)
+    if (camera) {
         take_camera(*camera, facts);
-    else
+    } else {
         facts.finding.sureness = kSurenessOfFolderNames;
+        facts.finding.usual = {"a room in such folders", 0.02, 20.0};
+    }
     return facts;
 }
 
@@ -130,7 +133,7 @@ LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
 
 /// The name that states depth or colour: the file's own, else that of its folder.
 fs::path role_name_of(const fs::path& place) {
-    const fs::path own = place.has_filename() ? place : place.parent_path();
+    const fs::path own = without_slash(place);
     return named_depth(own) || named_colour(own) ? own : own.parent_path();
 }
 
@@ -164,8 +167,33 @@ const fs::path* colour_beside(const fs::path& depth, const std::vector<fs::path>
     return found;
 }
 
+bool holds_both(const PictureSet& pictures) {
+    return !pictures.colour.empty() && !pictures.depth.empty();
+}
+
+/// Videos and the pictures or arrays of the other role that belong to them, in a folder or beside
+/// them; none where the pictures are colour and depth already.
+std::vector<MediaPlaces> pairs_with_pictures(const fs::path& folder,
+                                             const std::vector<fs::path>& videos) {
+    std::vector<MediaPlaces> pairs;
+    if (videos.empty()) return pairs;
+    const PictureSet pictures = find_pictures_in(folder);
+    if (holds_both(pictures)) return pairs;
+    std::string ignored;
+    for (const fs::path& video : videos) {
+        if (!named_other(video).empty()) continue;
+        const bool is_depth = named_depth(video);
+        auto other = is_depth ? find_colour_beside(video) : find_depth_beside(video, ignored);
+        if (!other && !is_depth && videos.size() == 1 && pictures.depth.size() > 1) other = folder;
+        const bool is_row = other && (is_folder(*other) || (!is_depth && named_numbers(*other)));
+        if (!is_row) continue;
+        pairs.push_back(is_depth ? MediaPlaces{*other, video, {}} : MediaPlaces{video, *other, {}});
+    }
+    return pairs;
+}
+
 /// In natural order. A single video named colour and a single one named depth are always a pair.
-std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
+std::vector<MediaPlaces> pairs_of(const fs::path& folder, const std::vector<fs::path>& videos) {
     std::vector<MediaPlaces> pairs;
     std::vector<fs::path> colours;
     std::vector<fs::path> depths;
@@ -181,6 +209,7 @@ std::vector<MediaPlaces> pairs_of(const std::vector<fs::path>& videos) {
     }
     if (pairs.empty() && colours.size() == 1 && depths.size() == 1)
         pairs.push_back({colours.front(), depths.front(), {}});
+    if (pairs.empty()) pairs = pairs_with_pictures(folder, videos);
     std::stable_sort(pairs.begin(), pairs.end(), [](const MediaPlaces& a, const MediaPlaces& b) {
         return in_natural_order(a.colour.filename().string(), b.colour.filename().string());
     });
@@ -201,9 +230,10 @@ std::string others_of(const std::vector<MediaPlaces>& pairs) {
     return said + (unnamed > 0 ? " and " + std::to_string(unnamed) + " more pairs" : "");
 }
 
-/// Whether the folder holds these videos and no pictures but previews and a single cover.
+/// Whether the folder holds these videos and no pictures but previews and a single cover; nor
+/// pictures of both roles in folders of their own.
 bool is_of_videos(const fs::path& folder, const std::vector<fs::path>& videos) {
-    if (videos.empty()) return false;
+    if (videos.empty() || holds_both(find_pictures_in(folder))) return false;
     int covers = 0;
     for (const fs::path& entry : entries_of(folder)) {
         if (!is_picture(entry) || !named_other(entry).empty()) continue;
@@ -323,8 +353,7 @@ PlacedRow row_of(const fs::path& place, PictureRole role) {
     return {place, std::move(row), std::move(found.facts)};
 }
 
-Sources pair_of(PlacedRow colour, const PlacedRow& depth) {
-    colour.pictures = nearest_in_time(colour.pictures, depth.pictures);
+Sources pair_of(const PlacedRow& colour, const PlacedRow& depth) {
     return {sequence(depth, colour.pictures, PictureRole::depth),
             sequence(colour, depth.pictures, PictureRole::colour)};
 }
@@ -341,7 +370,7 @@ PictureSet pictures_at(const fs::path& place) {
     if (auto listed = read_lists_in(place)) return std::move(*listed);
     if (auto scanned = scanner_folder(place)) return std::move(scanned->pictures);
     PictureSet found = find_pictures_in(place);
-    const fs::path folder = place.has_filename() ? place : place.parent_path();
+    const fs::path folder = without_slash(place);
     LayoutFacts facts = facts_of(folder, found);
     add_clause(facts.notice, found.facts.notice);
     found.facts = std::move(facts);
@@ -354,7 +383,7 @@ std::unique_ptr<PictureSource> open_row(const fs::path& place, PictureRole role)
 
 Sources both_rows(const fs::path& place) {
     PictureSet found = pictures_at(place);
-    if (found.colour.empty() || found.depth.empty()) return {};
+    if (!holds_both(found)) return {};
     const LayoutFacts of_colour{.list = found.facts.list};
     return pair_of({place, std::move(found.colour), of_colour},
                    {place, std::move(found.depth), std::move(found.facts)});
@@ -362,6 +391,39 @@ Sources both_rows(const fs::path& place) {
 
 Sources rows_of_two(const fs::path& colour, const fs::path& depth) {
     return pair_of(row_of(colour, PictureRole::colour), row_of(depth, PictureRole::depth));
+}
+
+void add_camera_beside(Sources& sources) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (facts.live || facts.cameras) return;
+    Findings rows = facts.findings;
+    rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
+    if (const auto set = data_set_of(facts)) rows.push_back(set->finding);
+    const DepthStatement known = sure_facts({}, rows);
+    const bool is_row = !facts.first_picture.empty();
+    const fs::path& picture = is_row ? facts.first_picture : facts.file;
+    std::error_code failed;
+    const fs::path folder = fs::absolute(picture, failed).parent_path();
+    constexpr double kMostNumber = 1e9;
+    const int number =
+        static_cast<int>(std::min(numbered(picture).number.value_or(0.0), kMostNumber));
+    const auto beside =
+        read_camera_beside(picture, is_row || named_depth(folder.filename()), number);
+    if (!beside) return;
+    DepthStatement said;
+    const CameraFile& camera = beside->camera;
+    if (beside->has_intrinsics && !known.intrinsics) {
+        const FittedCamera fitted = fit_camera(camera.intrinsics, {camera.columns, camera.rows},
+                                               {facts.columns, facts.rows});
+        said.intrinsics = fitted.camera;
+        add_clause(sources.notice, fitted.notice);
+    }
+    if (camera.levels_per_m && facts.bits == 16 && !known.unit) {
+        said.unit = DepthUnit::mm;
+        said.scale = 1000.0 / *camera.levels_per_m;
+    }
+    if (said == DepthStatement{}) return;
+    sources.findings.push_back(finding_of_metadata(said, shown(beside->file.filename())));
 }
 
 MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
@@ -378,7 +440,7 @@ MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {
         return scanned->film.empty() ? MediaPlaces{colour, depth, {}}
                                      : MediaPlaces{scanned->film, scanned->depth_place, {}};
     const std::vector<fs::path> videos = videos_in(colour);
-    const std::vector<MediaPlaces> pairs = pairs_of(videos);
+    const std::vector<MediaPlaces> pairs = pairs_of(colour, videos);
     if (!pairs.empty()) return {pairs.front().colour, pairs.front().depth, others_of(pairs)};
     if (videos.size() == 1 && is_of_videos(colour, videos)) return {videos.front(), {}, {}};
     return {colour, depth, {}};
@@ -392,7 +454,7 @@ fs::path depth_place_for(const fs::path& place) {
     if (const auto scanned = scanner_folder(place))
         return scanned->film.empty() ? place : scanned->depth_place;
     const std::vector<fs::path> videos = videos_in(place);
-    const std::vector<MediaPlaces> pairs = pairs_of(videos);
+    const std::vector<MediaPlaces> pairs = pairs_of(place, videos);
     if (!pairs.empty()) return pairs.front().depth;
     if (!is_of_videos(place, videos)) return place;
     const auto depth = std::find_if(videos.begin(), videos.end(), named_depth);

@@ -30,6 +30,10 @@ struct Sources;
 [[nodiscard]] Sources rows_of_two(const std::filesystem::path& colour,
                                   const std::filesystem::path& depth);
 
+/// Adds the camera, and what a level is, that a file beside the depth states and nothing else does
+/// yet; a notice where the camera is not that of the pictures.
+void add_camera_beside(Sources& sources);
+
 /// The files or folders to open, and a sentence where they differ from those given.
 struct MediaPlaces {
     std::filesystem::path colour{};

@@ -78,6 +78,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& sta
                                       const std::string& notice) {
     decode_levels(sources, statement, asked.find_out);
     if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
+    if (asked.find_out) add_camera_beside(sources);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
     FoundScale found = find_scale(sources, request);
     const std::optional<double> sparse_share = sparse_share_of(*sources.depth, found.scale);

@@ -13,6 +13,9 @@ namespace dibhr {
 [[nodiscard]] std::span<const std::string_view> picture_endings() noexcept;
 [[nodiscard]] std::span<const std::string_view> video_endings() noexcept;
 
+/// The place by its name: that of a folder may end with a slash.
+[[nodiscard]] std::filesystem::path without_slash(const std::filesystem::path& place);
+
 /// Whether the name ends as a picture's does.
 [[nodiscard]] bool named_picture(const std::filesystem::path& file);
 
@@ -30,7 +33,7 @@ namespace dibhr {
 [[nodiscard]] std::string_view folder_named_no_depth(const std::filesystem::path& file);
 
 /// Whether the name of the file or folder says that it holds colour, and nothing else: color,
-/// colour, rgb, albedo, diffuse.
+/// colour, rgb, albedo, diffuse, also in German, French, Spanish and Italian.
 [[nodiscard]] bool named_colour(const std::filesystem::path& file);
 /// Likewise depth: depth, disparity, disparities, displacement, heightmap; disp and height as words
 /// of their own.
@@ -51,14 +54,15 @@ namespace dibhr {
 /// same subject belong together ("take2_color.mp4" and "Take2-Depth.mkv": "take 2").
 [[nodiscard]] std::string subject_of(const std::filesystem::path& file);
 
-/// The depth file that belongs to a colour file, beside it: `*color*` -> `*depth*` (also colour,
-/// rgb, ...), else a depth file of the same subject, else numbers of the same name; of several the
-/// one of numbers. Nothing when there is none; `looked_for` then
-/// lists the names that were tried, for the message.
+/// The depth that belongs to a colour file or folder, beside it: `*color*` -> `*depth*` (also
+/// colour, rgb, ...), else depth of the same subject, else numbers of the same name; of several the
+/// one of numbers. Beside a video this may be a folder of pictures, and beside a folder a video;
+/// beside the only video it is the folder named depth. Nothing when there is none; `looked_for`
+/// then lists the names that were tried, for the message.
 [[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
     const std::filesystem::path& colour, std::string& looked_for);
 
-/// The colour file that belongs to a depth file, likewise: `*depth*` -> `*color*`, `*colour*`,
+/// The colour that belongs to a depth file or folder, likewise: `*depth*` -> `*color*`, `*colour*`,
 /// `*rgb*`, ...
 [[nodiscard]] std::optional<std::filesystem::path> find_colour_beside(
     const std::filesystem::path& depth);

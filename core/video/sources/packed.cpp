@@ -234,6 +234,7 @@ Finding finding_on_code(DepthCode code, bool is_stated) {
         is_stated                     ? "what " + std::string(name_of(code)) + " means"
         : code == DepthCode::hue      ? "its colours: pure hues alone"
         : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
+        : code == DepthCode::turned16 ? "its levels: multiples of 8, as of bits turned by three"
         : code == DepthCode::xyz      ? "its channels, which are points before one camera"
                                       : "the bytes of its colours, which carry as those of numbers";
     return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
@@ -302,6 +303,9 @@ std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pict
         facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
         facts.channels = 1;
         for (Finding& other : facts.findings) forget_levels(other.statement);
+        std::erase_if(facts.findings, [](const Finding& other) {
+            return other.statement == DepthStatement{} && other.about.empty();
+        });
         facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);

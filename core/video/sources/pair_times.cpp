@@ -13,6 +13,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 
@@ -167,8 +168,7 @@ void add_times(const PictureSource* source, const std::string& whose, Findings& 
 
 /// The name in a sentence: of a folder and of a file.
 std::string source_name(const SourceFacts& facts) {
-    const std::filesystem::path& file = facts.file;
-    return shown((file.has_filename() ? file : file.parent_path()).filename());
+    return shown(without_slash(facts.file).filename());
 }
 
 OwnedSource at_stated_rate(OwnedSource source, const Known<double>& frames_per_s) {
@@ -318,10 +318,28 @@ bool share_clock(const SourceFacts& a, const SourceFacts& b) {
     return a.start_s < b.start_s + b.duration_s && b.start_s < a.start_s + a.duration_s;
 }
 
+/// Whether both have stamps, or times of their files, that never meet.
+bool are_of_two_clocks(const SourceFacts& depth, const SourceFacts& colour) {
+    const auto is_stamped = [](const SourceFacts& facts) {
+        return facts.timing.from == TimesFrom::names || facts.timing.from == TimesFrom::list;
+    };
+    const bool are_comparable =
+        (is_stamped(depth) && is_stamped(colour)) ||
+        (depth.timing.from == TimesFrom::file && colour.timing.from == TimesFrom::file);
+    return are_comparable && std::isfinite(depth.start_s) && std::isfinite(colour.start_s) &&
+           !share_clock(depth, colour);
+}
+
 /// A warning where colour and depth cannot both be right; else empty.
 std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
     if (!(depth.duration_s > 0.0) || !(colour.duration_s > 0.0)) return {};
-    if (last_as_long(depth, colour)) return {};
+    if (are_of_two_clocks(depth, colour))
+        return "the times of colour and depth are of two clocks: both are taken to begin together; "
+               "if they do not, state how much later the depth begins (--depth-offset; on the "
+               "panel: Offset)";
+    const bool is_paired =  // frame with frame
+        depth.timing.from == TimesFrom::other || colour.timing.from == TimesFrom::other;
+    if (is_paired || last_as_long(depth, colour)) return {};
     const bool of_files =
         depth.timing.from == TimesFrom::file && colour.timing.from == TimesFrom::file;
     const bool of_stamps = depth.timing.from != TimesFrom::assumed &&
@@ -331,8 +349,8 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
         return {};
     return "the colour lasts " + short_text(colour.duration_s, 4) + " s and the depth " +
            short_text(depth.duration_s, 4) +
-           " s: they cannot both be right; state the depth's rate (--depth-fps) or whose times "
-           "it has (--depth-times)";
+           " s: they cannot both be right; state the depth's rate (--depth-fps; on the panel: "
+           "Rate) or whose times it has (--depth-times; Times)";
 }
 
 /// Where one source has times and the other has none, or where a person states that they are
@@ -391,10 +409,8 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
         pair.findings.push_back(
             finding_on_times(of_depth ? "depth" : "colour", TimesFrom::other,
                              of_depth ? depth.timing.text : colour.timing.text));
-        pair.notice = of_depth ? "times of the depth: " + depth.timing.text
-                               : "times of the colour: " + colour.timing.text;
     }
-    add_clause(pair.notice, contradiction(depth, colour));
+    pair.notice = contradiction(depth, colour);
     return pair;
 }
 

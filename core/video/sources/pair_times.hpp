@@ -70,7 +70,7 @@ struct PairTimes {
     /// How much later the colour's own beginning is than the depth's, where the times of one are
     /// those of the other; nothing: by the clocks of their files.
     std::optional<double> colour_later_s{};
-    std::string notice{};  ///< what was done, or why both cannot be right; mostly empty
+    std::string notice{};  ///< why both cannot be right; mostly empty
     Findings findings{};   ///< who says when frames are: of each source the surest counts
 };
 

@@ -2,6 +2,7 @@
 #include "core/video/sources/paired_media.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
@@ -20,12 +21,8 @@ namespace dibhr {
 
 namespace {
 
-/// A colour frame later than the depth frame by at most this part of an interval belongs to it:
-/// streams recorded together may be slightly apart. Below one half, so that of two colour frames
-/// at the same distance the earlier one is taken.
-constexpr double kNotLater = 0.4;
-/// Where a person shifts the depth in time, the nearest colour frame belongs to it.
-constexpr double kNearest = 0.499;
+/// Rounding of the distances of two pictures from a third one, whose times are in milliseconds [s].
+constexpr double kSameDistance_s = 4.0 * kTimeTolerance_s;
 constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
 /// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
@@ -42,18 +39,13 @@ ColourImage painted_depth(const DepthImage& depth) {
     levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
     cv::Mat colours;
     cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
-    colours.setTo(cv::Scalar::all(kNoColour), levels != levels);
+    // Not levels != levels: OpenCV with AVX says that no number differs from itself.
+    colours.setTo(cv::Scalar::all(kNoColour), ~(levels == levels));
     return colour_of(colours);
 }
 
 double interval_of(const SourceFacts& facts) {
     return facts.frames_per_s > 0.0 ? 1.0 / facts.frames_per_s : 1.0;
-}
-
-/// Of an interval; none where each depth frame has exactly the time of a colour frame.
-double not_later(const PairTimes& times) {
-    if (times.offset_s != 0.0) return kNearest;
-    return times.colour_later_s ? 0.0 : kNotLater;
 }
 
 }  // namespace
@@ -98,26 +90,38 @@ ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFact
       start_offset_s_(times.colour_later_s.value_or(colour_start_s(source_->facts(), depth)) -
                       times.offset_s),
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))),
-      not_later_s_(not_later(times) * interval_s_) {}
+      half_s_(0.5 * interval_of(source_->facts())) {}
+
+double ColourTrack::go_near(double depth_time_s) {
+    forget();
+    const SourceFacts& facts = source_->facts();
+    const double time_s = depth_time_s - start_offset_s_;
+    const bool has_then = time_s >= 0.0 && time_s < facts.duration_s;
+    if (facts.live || facts.still || !has_then) return depth_time_s;
+    source_->seek_near(time_s);
+    auto near = source_->next();
+    if (!near) return depth_time_s;
+    now_ = std::move(*near);
+    is_near_ = true;
+    return now_.time_s + start_offset_s_;
+}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
     if (source_->facts().live) {  // joined with the depth already
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
-    const double latest_s = depth_time_s - start_offset_s_ + not_later_s_;
-    if (std::exchange(near_, false)) {
-        source_->seek_near(latest_s);
-        now_ = source_->next().value_or(now_);
-        return now_.picture;
-    }
-    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < latest_s)) {
-        source_->seek(latest_s);
+    const double time_s = depth_time_s - start_offset_s_;
+    const bool is_near = std::exchange(is_near_, false);
+    if (is_near && std::fabs(now_.time_s - time_s) <= half_s_) return now_.picture;
+    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < time_s)) {
+        source_->seek(time_s);
         now_ = source_->next().value_or(now_);
         later_ = source_->next();
         placed_ = true;
     }
-    while (later_ && later_->time_s <= latest_s + kTimeTolerance_s) {  // as after a jump
+    // Of two at the same distance the earlier one stays.
+    while (later_ && later_->time_s - time_s < time_s - now_.time_s - kSameDistance_s) {
         now_ = std::move(*later_);
         later_ = source_->next();
     }
@@ -198,10 +202,14 @@ cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour
 void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) {
     if (description_.meaning) description_.meaning->times = times.times;
     const bool colour_takes = colour != nullptr && colour->timing.from == TimesFrom::other;
-    if (colour_takes && !description_.still && !colour->still)
+    if (colour_takes && !description_.still && !colour->still) {
+        description_.times_from = name_of(TimesFrom::other);
         description_.timing += "; of the colour: " + colour->timing.text;
-    if (times.offset_s != 0.0)
+    }
+    if (times.offset_s != 0.0) {
+        description_.times_from = name_of(TimesFrom::stated);
         description_.timing += "; " + short_text(times.offset_s) + " s later";
+    }
     add_notice(times.notice);
 }
 
@@ -290,8 +298,8 @@ void PairedMedia::seek(double media_s) {
 }
 
 void PairedMedia::seek_near(double media_s) {
-    depth_->seek_near(media_s);
-    if (colour_) colour_->forget_near();
+    // The colour first, as its pictures mostly take longest.
+    depth_->seek_near(colour_ ? colour_->go_near(media_s) : media_s);
 }
 
 void PairedMedia::count_frames(std::int64_t most) {

@@ -22,19 +22,17 @@ void describe_time(const SourceFacts& facts, MediaDescription& description);
 /// Where its times are from, as known at the opening.
 void describe_timing(const SourceFacts& facts, MediaDescription& description);
 
-/// Gives the colour of each depth frame: the newest picture at its time.
+/// Gives the colour of each depth frame: the picture nearest to its time, of two the earlier one.
 class ColourTrack {
   public:
     ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
                 const PairTimes& times);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
-    void forget() { placed_ = near_ = false; }
-    /// Only the picture returned next may be any one near the depth's time.
-    void forget_near() {
-        forget();
-        near_ = true;
-    }
+    void forget() { placed_ = is_near_ = false; }
+    /// Goes to a picture near the depth's time that is quick to decode; returns its own time in
+    /// that of the depth. If another picture is nearer to the next depth frame, that one is read.
+    double go_near(double depth_time_s);
     const cv::Mat& shown_at(double depth_time_s);
     /// Mean time to decode a picture; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
@@ -42,12 +40,12 @@ class ColourTrack {
   private:
     std::unique_ptr<PictureSource> source_;
     double start_offset_s_;  ///< start of the colour after that of the depth
-    double interval_s_;      ///< as known at the opening; never updated
-    double not_later_s_;     ///< a colour frame so much later belongs to the depth frame
+    double interval_s_;      ///< the lesser of both, as known at the opening; never updated
+    double half_s_;          ///< likewise half of the colour's
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
-    bool near_{false};
+    bool is_near_{false};  ///< `now_` is near, and nothing is known of the next picture
 };
 
 /// Reads depth, and for each depth picture the colour of its time.

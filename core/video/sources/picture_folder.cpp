@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/colour_maps.hpp"
+#include "core/video/formats/array_file.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/readers.hpp"
@@ -54,7 +56,6 @@ NumberedPicture numbered(const fs::path& file) {
 
 namespace {
 
-constexpr double kSameTime_s = 0.02;  ///< associate.py's own limit
 constexpr double kLongestRow_s = 1e6;
 
 /// The row for a picture, by the words in `name`, the name of the picture or of its folder.
@@ -191,11 +192,26 @@ void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& 
     }
 }
 
+/// Arrays leave the row whose shapes are no pictures': cameras, poses, lists of numbers. Of those
+/// with one name and several numbers the first is examined.
+void drop_matrices(PictureRow& row) {
+    std::map<std::string, bool> may_be_pictures;
+    std::erase_if(row, [&may_be_pictures](const NumberedPicture& picture) {
+        if (lower_case(picture.file.extension().string()) != ".npy") return false;
+        std::string name = stem_of(picture);
+        std::erase_if(name, is_decimal_digit);
+        const auto known = may_be_pictures.find(name);
+        if (known != may_be_pictures.end()) return !known->second;
+        return !(may_be_pictures[name] = may_be_picture(picture.file));
+    });
+}
+
 PictureSet pictures_among(const std::vector<fs::path>& entries) {
     PictureSet found;
     for (const fs::path& entry : entries) {
         if (is_picture(entry)) row_for(found, entry).push_back(numbered(entry));
     }
+    drop_matrices(found.unnamed);
     return found;
 }
 
@@ -264,30 +280,6 @@ PictureSet find_pictures_in(const fs::path& folder) {
     sort_by_number(found.depth);
     sort_by_number(found.unnamed);
     return found;
-}
-
-PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth) {
-    if (colour.empty() || depth.empty() || !has_order(colour, true) || !has_order(depth, true))
-        return colour;
-    const auto time_of = [](const NumberedPicture& picture) { return *picture.number; };
-    const bool overlap = time_of(colour.front()) <= time_of(depth.back()) + kSameTime_s &&
-                         time_of(depth.front()) <= time_of(colour.back()) + kSameTime_s;
-    if (!overlap) return colour;
-    PictureRow nearest;
-    auto later = colour.begin();
-    for (const NumberedPicture& picture : depth) {
-        const double time_s = time_of(picture);
-        while (later != colour.end() && time_of(*later) <= time_s) ++later;
-        const bool has_before = later != colour.begin();
-        const double before_s = has_before ? time_s - time_of(later[-1]) : kLongestRow_s;
-        const double until_s = later != colour.end() ? time_of(*later) - time_s : kLongestRow_s;
-        const bool takes_later = until_s <= kSameTime_s && until_s < before_s;
-        if (!takes_later && !has_before) continue;
-        const NumberedPicture& taken = takes_later ? *later : later[-1];
-        if (nearest.empty() || nearest.back().file != taken.file)
-            nearest.push_back({taken.file, time_s, true});
-    }
-    return nearest.empty() ? colour : nearest;
 }
 
 std::vector<double> times_s(const PictureRow& row, const PictureRow& other, double frames_per_s) {

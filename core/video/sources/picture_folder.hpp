@@ -66,11 +66,6 @@ void sort_by_number(PictureRow& row);
 /// InputError when it cannot be read.
 [[nodiscard]] PictureSet find_pictures_in(const std::filesystem::path& folder);
 
-/// The colour row joined with a depth row by time: for each depth picture the nearest colour within
-/// 0.02 s, as TUM's associate.py does, else the newest before it. Where the rows have no times, or
-/// times of two clocks, the colour row itself.
-[[nodiscard]] PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth);
-
 /// When each picture of a row is shown, by the clock shared with the other row [s]. Decimal numbers
 /// are seconds. Other numbers are put in order at `frames_per_s`, and the same number in both rows
 /// is the same time. Where numbers are missing or repeated, position in the row counts.

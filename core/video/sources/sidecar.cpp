@@ -16,6 +16,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 
@@ -228,11 +229,6 @@ toml::table parsed(const std::string& toml, const std::string& name) {
 std::string content_of(const fs::path& file) {
     if (auto content = small_text_in(file)) return *std::move(content);
     throw InputError(shown(file) + " cannot be read as a sidecar: make it readable or move it");
-}
-
-/// A folder's name may end with a slash.
-fs::path without_slash(const fs::path& media) {
-    return media.has_filename() ? media : media.parent_path();
 }
 
 std::optional<fs::path> find_sidecar(const fs::path& media) {

@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -306,10 +308,12 @@ std::string other_than_depth(const fs::path& place, Sources& sources) {
     return {};
 }
 
-/// Keeps a refusal where the depth that was given beside colour is something else.
+/// Keeps a refusal where the depth that was given beside colour is something else, and no person
+/// says what its levels are.
 void inspect_second_place(const fs::path& place, const DepthStatement& statement,
                           Sources& sources) {
-    if (statement.code || !sources.not_depth.empty()) return;
+    const bool is_stated = statement.code || statement.near || statement.unit;
+    if (is_stated || !sources.not_depth.empty()) return;
     const std::string what = other_than_depth(place, sources);
     if (!what.empty())
         sources.not_depth = shown(place) + what + ": give the file of the depth" + kAllTheSame;
@@ -385,12 +389,23 @@ Sources of_the_same_place(const fs::path& place, const DepthStatement& statement
     return of_two_places(place, place, statement);
 }
 
+/// Throws InputError for an array that is by its name a mask, confidence, ..., unless a person says
+/// what its levels are.
+void require_no_other_content(const Place& place, const DepthStatement& statement) {
+    const std::string_view other = named_other(place.path);
+    if (!place.is(PictureForm::arrays) || other.empty() || statement.near || statement.unit) return;
+    throw InputError(shown(place.path) + " is by its name " + std::string(other) +
+                     " and no depth: give the depth that it belongs to, or say what its levels are "
+                     "(--near, --depth-unit)");
+}
+
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
 Sources of_one_place(const Place& place, const DepthStatement& statement) {
     if (Sources both = both_as_stated(place, statement); both.depth) return both;
     std::string looked_for;
     if (const auto depth = find_depth_beside(place.path, looked_for))
         return of_two_places(place.path, *depth, statement);
+    require_no_other_content(place, statement);
     Sources sources = guessed_content(place, statement);
     if (!sources.depth) refuse_without_depth(place.path, looked_for);
     return sources;
@@ -415,7 +430,13 @@ void decode_as_told(Sources& sources, DepthCode code) {
         decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
 }
 
+/// Whether metadata, a layout or a name state the unit of the levels as they are.
+bool states_unit(const SourceFacts& facts) {
+    return sure_facts({}, facts.findings).unit || sure_facts({}, findings_by_name(facts)).unit;
+}
+
 /// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+/// That they are turned counts only where nothing states what they are.
 void decode_as_found(Sources& sources) {
     const SourceFacts facts = sources.depth->facts();
     const auto set = data_set_of(facts);
@@ -428,6 +449,7 @@ void decode_as_found(Sources& sources) {
     const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
     if (!may_show) return;
     const auto seen = level_code_in(sources.depth->samples(1));
+    if (seen == DepthCode::turned16 && (set || states_unit(facts))) return;
     if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
 }
 
@@ -465,7 +487,10 @@ Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     const fs::path found = depth_place_for(place);
     const Place depth(found);
     Sources sources = both_as_stated(depth, statement);
-    if (!sources.depth) sources = depth_in(depth, statement);
+    if (!sources.depth) {
+        require_no_other_content(depth, statement);
+        sources = depth_in(depth, statement);
+    }
     sources.colour.reset();
     return sources;
 }
@@ -479,7 +504,10 @@ Sources find_content(const fs::path& place, const DepthStatement& statement) {
     } else {
         const Place only(places.colour);
         sources = both_as_stated(only, statement);
-        if (!sources.depth) sources = guessed_content(only, statement);
+        if (!sources.depth) {
+            require_no_other_content(only, statement);
+            sources = guessed_content(only, statement);
+        }
     }
     add_clause(sources.notice, places.notice);
     return sources;

@@ -2,9 +2,11 @@
 #include "tests/core/video/numbered_film.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/forms.hpp"
 
 namespace dibhr::test {
 
@@ -12,9 +14,9 @@ namespace {
 
 constexpr int kBits = 8;
 constexpr int kBlocks = kBits + 2;  ///< two more show a 0 and a 1
-constexpr int kBlock_px = 16;
-constexpr int kColumns = kBlocks * kBlock_px;
-constexpr int kRows = 48;
+constexpr int kBlock_px = kNumberedColumns / kBlocks;
+constexpr int kNear_mm = 1000;
+constexpr int kFar_mm = 3000;
 
 bool shows_one(int column, int number) {
     const int block = column / kBlock_px;
@@ -39,8 +41,8 @@ int number_by(const Level& level) {
 
 void make_numbered_clip(const std::filesystem::path& file, int frames, const std::string& rate,
                         const std::string& encoding, const std::string& filter) {
-    ffmpeg("-f lavfi -i \"color=black:s=" + std::to_string(kColumns) + "x" + std::to_string(kRows) +
-           ":r=" + rate +
+    ffmpeg("-f lavfi -i \"color=black:s=" + std::to_string(kNumberedColumns) + "x" +
+           std::to_string(kNumberedRows) + ":r=" + rate +
            ",format=gray,geq=lum='if(gt(floor(X/16)\\,8)\\,255\\,if(eq(floor(X/16)\\,8)\\,0\\,"
            "255*mod(floor(N/pow(2\\,floor(X/16)))\\,2)))'" +
            (filter.empty() ? "" : "," + filter) + "\" -frames:v " + std::to_string(frames) +
@@ -49,15 +51,30 @@ void make_numbered_clip(const std::filesystem::path& file, int frames, const std
 
 void write_numbered_depth(const std::filesystem::path& file, int number) {
     std::filesystem::create_directories(file.parent_path());
-    write_picture(file, kColumns, kRows, 16, 1, [number](int column, int, int) {
-        return shows_one(column, number) ? 1000 : 3000;
+    write_picture(file, kNumberedColumns, kNumberedRows, 16, 1, [number](int column, int, int) {
+        return shows_one(column, number) ? kNear_mm : kFar_mm;
     });
 }
 
 void write_numbered_colour(const std::filesystem::path& file, int number) {
     std::filesystem::create_directories(file.parent_path());
-    write_picture(file, kColumns, kRows, 8, 3,
+    write_picture(file, kNumberedColumns, kNumberedRows, 8, 3,
                   [number](int column, int, int) { return shows_one(column, number) ? 255 : 0; });
+}
+
+std::string numbered_depth_data(int number) {
+    std::string data;
+    for (int k = 0; k < kNumberedColumns * kNumberedRows; ++k)
+        append_bytes(data, static_cast<std::uint16_t>(
+                               shows_one(k % kNumberedColumns, number) ? kNear_mm : kFar_mm));
+    return data;
+}
+
+std::string numbered_colour_data(int number) {
+    std::string data;
+    for (int k = 0; k < kNumberedColumns * kNumberedRows; ++k)
+        data.append(3, shows_one(k % kNumberedColumns, number) ? '\xff' : '\0');
+    return data;
 }
 
 int number_in(const DepthImage& depth) {

@@ -19,6 +19,12 @@ void make_numbered_clip(const std::filesystem::path& file, int frames, const std
 void write_numbered_depth(const std::filesystem::path& file, int number);
 void write_numbered_colour(const std::filesystem::path& file, int number);
 
+/// The same as the data of a raw picture: levels of 16 bits, and red, green and blue.
+[[nodiscard]] std::string numbered_depth_data(int number);
+[[nodiscard]] std::string numbered_colour_data(int number);
+inline constexpr int kNumberedColumns = 160;
+inline constexpr int kNumberedRows = 48;
+
 /// The number that a picture shows.
 [[nodiscard]] int number_in(const DepthImage& depth);
 [[nodiscard]] int number_in(const ColourImage& colour);

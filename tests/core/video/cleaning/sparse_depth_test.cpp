@@ -41,8 +41,8 @@ struct Sampling {
     Seen seen{};
 };
 
-Seen at_random(double share) {
-    auto random = std::make_shared<std::mt19937>(7);
+Seen at_random(double share, unsigned seed = 7) {
+    auto random = std::make_shared<std::mt19937>(seed);
     return [random, share](int, int) {
         return static_cast<int>((*random)() % 10000) < 10000.0 * share;
     };
@@ -181,7 +181,8 @@ TEST_CASE("without colour an outline lies between seen pixels, and nothing float
         for (int j = 0; j < kHigh; ++j)
             for (int i = 0; i < kWide; ++i) {
                 const double level = filled.at(i, j);
-                const double off = std::min(std::fabs(level - kDisc), std::fabs(level - wall(i, j)));
+                const double off =
+                    std::min(std::fabs(level - kDisc), std::fabs(level - wall(i, j)));
                 floating += off > 0.02 * kNearest_levels ? 1 : 0;
             }
         CHECK(floating == 0);
@@ -259,6 +260,20 @@ TEST_CASE("densifying changes no picture without holes, and always gives the sam
           densified(few, &colour).depth.levels);
 }
 
+TEST_CASE("levels that were held are not needed where sparse depth is interpolated", "[sparse]") {
+    CleaningPlan plan{kGentleSteps};
+    plan.steps.densify = true;
+    DepthMemory memory;
+    CleaningChain chain;
+    for (const unsigned seed : {1U, 2U, 3U}) {
+        CAPTURE(seed);
+        const DepthImage image = seen_of(tilted, at_random(0.1, seed));
+        const auto held = memory.take(image, seed / 30.0);
+        const DepthImage alone = CleaningChain().clean_frame(image, plan).depth;
+        CHECK(chain.clean_frame(image, plan, held).depth.levels == alone.levels);
+    }
+}
+
 TEST_CASE("the work for a picture is bounded, however few pixels are seen", "[sparse]") {
     SparseInterpolator interpolator;
     int before = 0;
@@ -283,9 +298,9 @@ TEST_CASE("a file of sparse depth is opened as such, and its notice says so", "[
                   [&](int i, int j, int) { return seen(i, j) ? mm(i, j) : 0; });
     write_picture(folder / "a_color.png", kWide, kHigh, 8, 3,
                   [](int i, int j, int) { return in_disc(i, j) ? 180 : 90; });
-    auto media = open_media(
-        folder / "a_color.png", folder / "a_depth.png",
-        {.find_out = true, .command_line = {.unit = DepthUnit::mm, .scale = 1.0}});
+    auto media =
+        open_media(folder / "a_color.png", folder / "a_depth.png",
+                   {.find_out = true, .command_line = {.unit = DepthUnit::mm, .scale = 1.0}});
     const MediaDescription description = media->description();
     REQUIRE(description.sparse_share);
     CHECK_THAT(*description.sparse_share, WithinAbs(0.05, 0.005));

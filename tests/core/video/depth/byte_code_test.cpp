@@ -54,7 +54,7 @@ cv::Mat rg16_scene() {
 cv::Mat rgb24_scene() {
     cv::Mat numbers = scene_between(2.0, 80.0);
     numbers.convertTo(numbers, CV_32F, 16777.215);
-    numbers.setTo(16777215.0, numbers != numbers);
+    numbers.setTo(16777215.0, ~(numbers == numbers));
     return in_bytes(numbers, DepthCode::rgb24);
 }
 

@@ -1,6 +1,7 @@
 // The table of findings, and what is concluded from it.
 #include "core/video/depth/findings.hpp"
 
+#include <algorithm>
 #include <vector>
 
 #include "tests/support/catch.hpp"
@@ -97,6 +98,17 @@ TEST_CASE("what is not sure has two to four answers, the likeliest first", "[fin
         last = other.probability;
         CHECK((other.statement.near && other.statement.unit && other.statement.scale));
     }
+}
+
+TEST_CASE("numbers that may be millimetres or metres have both among their answers", "[findings]") {
+    const auto alternatives =
+        concluded({row({.scale = 1.0}, 0.99), row({.unit = DepthUnit::m}, 0.15),
+                   row(kMillimetres, 0.85), row(kDark, 0.74), row(kBright, 0.89)})
+            .conclusion.alternatives;
+    CHECK(alternatives.size() == 4);
+    for (const DepthUnit unit : {DepthUnit::mm, DepthUnit::m})
+        CHECK(std::any_of(alternatives.begin(), alternatives.end(),
+                          [unit](const auto& answer) { return answer.statement.unit == unit; }));
 }
 
 TEST_CASE("near, and unit with scale, are each as sure as all answers that share them",

@@ -134,6 +134,84 @@ TEST_CASE("folders of masks alone are opened, as their owner asks for them", "[b
     CHECK(all_of(*open_depth(folder.path())).size() == 2);
 }
 
+TEST_CASE("an array whose name says confidence or a mask is no depth, unless a person says so",
+          "[beside]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / GENERATE("x_conf.npy", "x_depth_mask.npy", "confidence.npz");
+    write_array(file);
+    CHECK(contains(refusal([&] { (void)open_media(file); }), "is by its name "));
+    CHECK(contains(refusal([&] { (void)open_depth(file); }), "is by its name "));
+    CHECK(contains(refusal([&] { (void)describe_media(file); }), "is by its name "));
+    DepthRequest stated{.find_out = true};
+    stated.command_line.unit = DepthUnit::m;
+    CHECK(open_depth(file, stated)->next());
+}
+
+TEST_CASE("cameras and poses in arrays hide neither folders of pictures nor become frames",
+          "[beside]") {
+    const TemporaryFolder folder;
+    for (const int number : {1, 2, 3}) {
+        const std::string name = std::to_string(number) + ".png";
+        write_depth(folder / "depth" / name, number, kColumns, kRows);
+        write(folder / "rgb" / name, photograph());
+    }
+    std::string poses;
+    for (int k = 0; k < 3 * 16; ++k) append_bytes(poses, k % 5 == 0 ? 1.0 : 0.0);
+    write_text(folder / "camera_poses.npy", npy("<f8", "(3, 4, 4)", poses));
+    std::string camera;
+    for (const double number : {60.0, 0.0, 31.0, 0.0, 61.0, 24.0, 0.0, 0.0, 1.0})
+        append_bytes(camera, number);
+    write_text(folder / "camK.npy", npy("<f8", "(3, 3)", camera));
+    const auto media = open_media(folder.path(), {}, {.find_out = true});
+    CHECK(media->description().frames == 3);
+    CHECK(media->description().meaning->intrinsics.value == Intrinsics{60.0, 61.0, 31.0, 24.0});
+    CHECK(contains(media->description().meaning->found_in, "camK.npy"));
+}
+
+TEST_CASE("a camera file beside a picture says its camera, and what a level is", "[beside]") {
+    const TemporaryFolder folder;
+    cv::Mat levels(kRows, kColumns, CV_16UC1);
+    for (int i = 0; i < kColumns; ++i) levels.col(i) = cv::Scalar(6000 + 20 * i);
+    write(folder / "depth.png", levels);
+    write(folder / "color.png", photograph());
+    const std::string json = GENERATE(
+        R"({"width": 128, "height": 96, "fx": 120, "fy": 120, "ppx": 63.5, "ppy": 47.5,
+            "depth_scale": 0.00025})",
+        R"({"depth_scale": 4000, "depth": {"w": 128, "h": 96, "fx": 120, "cx": 63.5, "cy": 47.5}})",
+        R"({"width": 128, "height": 96, "K": [[120, 0, 63.5], [0, 120, 47.5], [0, 0, 1]],
+            "factor_depth": 0.25})");
+    write_text(folder / "intrinsics.json", json);
+    const auto media = open_media(folder / "color.png", folder / "depth.png", {.find_out = true});
+    const DepthMeaning& meaning = *media->description().meaning;
+    CHECK(meaning.unit.value == DepthUnit::mm);
+    CHECK(std::abs(meaning.scale.value - 0.25) < 1e-12);
+    CHECK(meaning.intrinsics.value == Intrinsics{60.0, 60.0, 31.5, 23.5});
+    CHECK(contains(media->description().notice, "so it is scaled to 64 x 48"));
+}
+
+TEST_CASE("a camera beside that is none of the picture is left out, and said to be", "[beside]") {
+    const TemporaryFolder folder;
+    write(folder / "depth.png", cv::Mat(kRows, kColumns, CV_16UC1, cv::Scalar(900)));
+    write_text(folder / "camera_info.json",
+               GENERATE(R"({"width": 1280, "height": 1280, "fx": 900, "cx": 640, "cy": 360})",
+                        R"({"width": 64, "height": 48, "K": [0, 0, 0, 0, 0, 0, 0, 0, 0]})"));
+    const auto media = open_depth(folder / "depth.png", {.find_out = true});
+    CHECK_FALSE(media->description().meaning->intrinsics.value);
+    CHECK(contains(media->description().notice, "so it is left out"));
+}
+
+TEST_CASE("a folder of depth takes BOP's scale of a scene, whatever its own name is", "[beside]") {
+    const TemporaryFolder folder;
+    write_depth(folder / "frames_d/000000.png", 10, kColumns, kRows);
+    write_depth(folder / "frames_d/000001.png", 11, kColumns, kRows);
+    write_text(folder / "scene_camera.json",
+               R"({"0": {"cam_K": [60, 0, 31, 0, 61, 24, 0, 0, 1], "depth_scale": 0.1}})");
+    const auto media = open_depth(folder / "frames_d", {.find_out = true});
+    CHECK(media->description().meaning->unit.value == DepthUnit::mm);
+    CHECK(std::abs(media->description().meaning->scale.value - 0.1) < 1e-12);
+    CHECK(media->description().meaning->intrinsics.value == Intrinsics{60.0, 61.0, 31.0, 24.0});
+}
+
 TEST_CASE("numbers beat the painting of depth that lies beside them", "[beside]") {
     const TemporaryFolder folder;
     write(folder / "snap_Color.png", photograph());

@@ -19,6 +19,7 @@
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/sidecar.hpp"
+#include "tests/core/video/bag_writers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/numbered_film.hpp"
 #include "tests/support/catch.hpp"
@@ -64,19 +65,47 @@ std::vector<double> decoded_times_s(const fs::path& clip) {
     return times_s;
 }
 
-/// The frame whose number its depth shows: the colour's is the same, and so is the time.
-void check_together(const RawFrame& frame, const std::vector<double>& times_s, double begin_s) {
-    const int number = number_in(frame.depth);
-    CAPTURE(number, frame.media_s);
-    CHECK(number_in(frame.colour) == number);
-    REQUIRE(static_cast<std::size_t>(number) < times_s.size());
-    CHECK_THAT(frame.media_s,
-               WithinAbs(times_s[static_cast<std::size_t>(number)] - begin_s, 0.0006));
+/// When the pictures of each number are, of depth and of colour, by one clock that begins with the
+/// depth's first picture.
+struct Moments {
+    std::vector<double> depth_s{};
+    std::vector<double> colour_s{};
+};
+
+/// Each number is the same moment in colour and depth, which begins at `begin_s` of these times.
+Moments same_moments(std::vector<double> times_s, double begin_s = 0.0) {
+    for (double& time_s : times_s) time_s -= begin_s;
+    return {times_s, times_s};
 }
 
-/// Depth shows the number of the colour frame that is shown at the same time. `begin_s`: when the
-/// depth begins in the colour's time.
-void check_pair(Media& media, const std::vector<double>& times_s, double begin_s = 0.0) {
+/// So many moments, the first one at `begin_s`.
+std::vector<double> even_s(int count, double frames_per_s, double begin_s = 0.0) {
+    std::vector<double> moments_s;
+    for (int k = 0; k < count; ++k) moments_s.push_back(begin_s + k / frames_per_s);
+    return moments_s;
+}
+
+/// The depth is of its time, and no colour picture is nearer to it than the one it is shown with:
+/// they are at most half a frame of the colour apart, while it lasts.
+void check_together(const RawFrame& frame, const Moments& moments) {
+    constexpr double kRounding_s = 0.0006;  // of a time of a container in ms
+    const auto depth = static_cast<std::size_t>(number_in(frame.depth));
+    const auto colour = static_cast<std::size_t>(number_in(frame.colour));
+    CAPTURE(depth, colour, frame.media_s);
+    REQUIRE(depth < moments.depth_s.size());
+    REQUIRE(colour < moments.colour_s.size());
+    const double depth_s = moments.depth_s[depth];
+    CHECK_THAT(frame.media_s, WithinAbs(depth_s, kRounding_s));
+    double nearest_s = std::fabs(moments.colour_s[colour] - depth_s);
+    const double apart_s = nearest_s;
+    for (const double colour_s : moments.colour_s)
+        nearest_s = std::min(nearest_s, std::fabs(colour_s - depth_s));
+    CHECK(apart_s <= nearest_s + 4.0 * kRounding_s);
+}
+
+/// At random times, and where only some frames are read: the depth shown at that time, and the
+/// colour of its moment.
+void check_pair(Media& media, const Moments& moments) {
     const double length_s = media.description().duration_s;
     std::mt19937 random(41);
     for (int trial = 0; trial < kTimes; ++trial) {
@@ -86,20 +115,28 @@ void check_pair(Media& media, const std::vector<double>& times_s, double begin_s
         const auto frame = media.next();
         REQUIRE(frame);
         CHECK(frame->media_s <= wanted_s + kTimeTolerance_s);
-        check_together(*frame, times_s, begin_s);
+        check_together(*frame, moments);
         if (const auto follower = media.next()) {
             CHECK(follower->media_s > wanted_s);
-            check_together(*follower, times_s, begin_s);
+            check_together(*follower, moments);
         }
+        media.seek_near(wanted_s);
+        const auto near = media.next();
+        REQUIRE(near);
+        check_together(*near, moments);
     }
     // A machine that is too slow shows only some frames.
     media.seek(0.0);
     for (double wanted_s = 0.0; wanted_s < length_s;) {
         const auto frame = media.next_from(wanted_s);
         if (!frame) break;
-        check_together(*frame, times_s, begin_s);
+        check_together(*frame, moments);
         wanted_s = frame->media_s + std::uniform_real_distribution(0.02, 0.2)(random);
     }
+}
+
+void check_pair(Media& media, const std::vector<double>& times_s, double begin_s = 0.0) {
+    check_pair(media, same_moments(times_s, begin_s));
 }
 
 /// A colour clip, and a folder of depth pictures beside it.
@@ -158,7 +195,9 @@ TEST_CASE("as many pictures as a video has frames are shown with them, at any ra
         GENERATE(table<std::string, std::string, std::string, std::string>(
             {{"rgb.mp4", "60", kH264, ""},
              {"rgb.mp4", "30000/1001", kH264, ""},
+             {"rgb.mp4", "25", kH264, kUneven},
              {"rgb.mkv", "25", kH264, kUneven},
+             {"rgb.mp4", "25", kRareKeys, kUneven},
              {"rgb.webm", "25", kVp9, kUneven}}));
     const int first = GENERATE(0, 1);
     CAPTURE(name, rate, filter, first);
@@ -168,11 +207,77 @@ TEST_CASE("as many pictures as a video has frames are shown with them, at any ra
     const MediaDescription& told = media->description();
     CHECK(told.times_from == "other");
     CHECK(contains(told.timing, shown(name) + ", frame by frame"));
-    CHECK(contains(told.notice, "times of the depth: those of " + shown(name)));
+    CHECK(told.notice.empty());
     REQUIRE(told.meaning);
     CHECK(told.meaning->times == Known<DepthTimes>{DepthTimes::paired, Origin::found});
     CHECK(told.frames == 60);
     check_pair(*media, pair.times_s);
+}
+
+TEST_CASE("a video and the folder of its depth are found by either, whatever they are called",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    const auto [colour, depth] =
+        GENERATE(table<std::string, std::string>({{"rgb.mp4", "depth/"},
+                                                  {"Color.mp4", "Depth/"},
+                                                  {"video.mp4", "depths/"},
+                                                  {"movie.mp4", "depth_png/"},
+                                                  {"take1_rgb.mp4", "take1_depth/"},
+                                                  {"IMG_1234.mp4", "depth maps/"},
+                                                  {"rgb.mp4", "depth_"},  // in the same folder
+                                                  {"rgb/", "depth.mkv"},
+                                                  {"frames/", "take_depth.mkv"},
+                                                  {"colour/", "clip_depth.mkv"}}));
+    CAPTURE(colour, depth);
+    const fs::path take = folder / "take";
+    fs::create_directory(take);
+    const bool is_depth_video = depth.ends_with(".mkv");
+    const std::string& film = is_depth_video ? depth : colour;
+    make_numbered_clip(take / film, 40, "25", is_depth_video ? kLossless : kH264, kUneven);
+    for (int k = 0; k < 40; ++k) {
+        const std::string name = (is_depth_video ? colour : depth) + digits(k, 4) + ".png";
+        if (is_depth_video)
+            write_numbered_colour(take / name, k);
+        else
+            write_numbered_depth(take / name, k);
+    }
+    write_text(take / "odometry.txt", "nothing\n");
+    fs::create_directory(take / "confidence");
+    write_numbered_depth(take / "confidence" / "0001.png", 3);
+    const bool by_folder = GENERATE(true, false);
+    // Without a word for it nobody knows which video is colour of pictures in the same folder.
+    if (!by_folder && depth == "depth_") return;
+    const auto media = open_media(
+        by_folder ? take : take / fs::path(colour).parent_path() / fs::path(colour).filename(), {},
+        is_depth_video ? as_grey_video() : as_a_person_opens());
+    CHECK_FALSE(media->description().colour_path.empty());
+    check_pair(*media, decoded_times_s(take / film));
+}
+
+TEST_CASE("where pictures are colour and depth already, a video beside them is neither",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    make_numbered_clip(folder / "rgb.mp4", 40, "25", kH264);
+    for (int k = 0; k < 8; ++k) {
+        write_numbered_depth(folder / "depth" / (digits(k, 4) + ".png"), k);
+        write_numbered_colour(folder / "rgb" / (digits(k, 4) + ".png"), k);
+    }
+    const auto media = open_media(folder.path(), {}, as_a_person_opens());
+    CHECK(media->description().colour_path == folder.path());
+    check_pair(*media, even_s(8, 30.0));
+}
+
+TEST_CASE("a folder of depth belongs to no video where it may belong to several", "[pair_times]") {
+    const TemporaryFolder folder;
+    for (const char* const name : {"a.mp4", "b.mp4"})
+        make_numbered_clip(folder / name, 8, "25", kH264);
+    for (const char* const name : {"x_depth", "b_depth"})
+        for (int k = 0; k < 8; ++k)
+            write_numbered_depth(folder / name / (digits(k, 4) + ".png"), k);
+    CHECK(contains(refusal([&] { static_cast<void>(open_media(folder / "a.mp4")); }),
+                   "needs a depth file beside it"));
+    CHECK(open_media(folder / "b.mp4")->description().depth_path == folder / "b_depth");
+    CHECK(open_media(folder.path())->description().colour_path == folder / "b.mp4");
 }
 
 TEST_CASE("fewer pictures than frames go by their numbers, from 0 or from 1, else by the ratio",
@@ -204,15 +309,17 @@ TEST_CASE("numbers with gaps, and a depth that begins later, keep their frames",
 TEST_CASE("stamps in names are times, whatever their unit", "[pair_times]") {
     const Pair pair("rgb.mp4", 50, "25", kH264);
     const auto [unit_per_s, begin] =
-        GENERATE(table<double, double>({{1e9, 1683000000.0},  // since 1970
+        GENERATE(table<double, double>({{1.0, 1683000000.0},  // with a point
+                                        {1e9, 1683000000.0},  // since 1970
                                         {1e6, 1683000000.0},
                                         {1e3, 1683000000.0},
                                         {1e6, 5000.0},  // since the start of the camera
                                         {1e9, 5000.0}}));
     CAPTURE(unit_per_s, begin);
     for (int k = 0; k < 17; ++k) {
-        const auto stamp = std::llround((begin + 0.12 * k) * unit_per_s);
-        pair.depth(std::to_string(stamp), 3 * k);
+        const double stamp = (begin + 0.12 * k) * unit_per_s;
+        pair.depth(unit_per_s == 1.0 ? number_text(stamp, 6) : std::to_string(std::llround(stamp)),
+                   3 * k);
     }
     const auto media = pair.open();
     CHECK(media->description().times_from == "names");
@@ -258,7 +365,7 @@ TEST_CASE("colour pictures without times take those of a depth video", "[pair_ti
     for (int k = 0; k < 40; ++k) write_numbered_colour(folder / "rgb" / (digits(k, 4) + ".png"), k);
     const auto times_s = decoded_times_s(folder / "depth.mkv");
     const auto media = open_media(folder / "rgb", folder / "depth.mkv", as_grey_video());
-    CHECK(contains(media->description().notice, "times of the colour: those of 'depth.mkv'"));
+    CHECK(contains(media->description().timing, "of the colour: those of 'depth.mkv'"));
     check_pair(*media, times_s);
 }
 
@@ -266,19 +373,22 @@ TEST_CASE("a depth that a person shifts or plays faster goes with the colour the
           "[pair_times]") {
     const Pair pair("rgb.mp4", 60, "25", kH264);
     DepthRequest request = as_a_person_opens();
-    request.command_line.time_offset_s = 0.2;
+    const bool on_panel = GENERATE(false, true);
+    CAPTURE(on_panel);
+    DepthStatement& stated = on_panel ? request.panel : request.command_line;
+    stated.time_offset_s = 0.2;
     for (int k = 0; k < 55; ++k) pair.depth(digits(k, 3), k + 5);
     SECTION("later by five frames") {
-        request.command_line.times = DepthTimes::own;
-        request.command_line.frames_per_s = 25.0;
+        stated.times = DepthTimes::own;
+        stated.frames_per_s = 25.0;
         const auto media = pair.open(request);
         CHECK(media->description().times_from == "stated");
         CHECK(contains(media->description().timing, "0.2 s later"));
         check_pair(*media, pair.times_s, pair.times_s[5]);
     }
     SECTION("by the rate alone it is not") {
-        request.command_line.time_offset_s = 0.0;
-        request.command_line.frames_per_s = 25.0;
+        stated.time_offset_s = 0.0;
+        stated.frames_per_s = 25.0;
         const auto frame = pair.open(request)->next();
         REQUIRE(frame);
         CHECK(number_in(frame->depth) == 5);
@@ -317,6 +427,88 @@ TEST_CASE("a depth video at another rate is told, and stated to be paired", "[pa
     request.command_line.times.reset();
     request.command_line.frames_per_s = 25.0;
     check_pair(*open(), times_s);
+}
+
+TEST_CASE("two videos of any rates are shown by their times, the nearest colour with each depth",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    const auto [colour_per_s, depth_per_s] =
+        GENERATE(table<int, int>({{60, 30}, {15, 30}, {10, 30}, {24, 30}, {30, 24}, {50, 48}}));
+    const std::string encoding = GENERATE(kH264, kRareKeys);
+    CAPTURE(colour_per_s, depth_per_s, encoding);
+    make_numbered_clip(folder / "color.mp4", 2 * colour_per_s, std::to_string(colour_per_s),
+                       encoding);
+    make_numbered_clip(folder / "depth.mkv", 2 * depth_per_s, std::to_string(depth_per_s),
+                       kLossless);
+    const auto media = open_media(folder / "color.mp4", folder / "depth.mkv", as_grey_video());
+    CHECK(media->description().times_from == "file");
+    CHECK_FALSE(contains(media->description().notice, "cannot both be right"));
+    check_pair(*media,
+               {even_s(2 * depth_per_s, depth_per_s), even_s(2 * colour_per_s, colour_per_s)});
+}
+
+TEST_CASE("videos that begin at different times of their clock are together by that clock",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    const std::string name = GENERATE("color.mkv", "color.mp4");
+    const auto [colour_begins_s, depth_begins_s] =
+        GENERATE(table<double, double>({{0.4, 0.0}, {0.0, 0.4}, {0.52, 0.2}}));
+    CAPTURE(name, colour_begins_s, depth_begins_s);
+    const auto begins = [](double begin_s) { return " -output_ts_offset " + number_text(begin_s); };
+    make_numbered_clip(folder / name, 50, "25", kH264 + begins(colour_begins_s));
+    make_numbered_clip(folder / "depth.mkv", 50, "25", kLossless + begins(depth_begins_s));
+    const auto media = open_media(folder / name, folder / "depth.mkv", as_grey_video());
+    check_pair(*media, {even_s(50, 25.0), even_s(50, 25.0, colour_begins_s - depth_begins_s)});
+}
+
+TEST_CASE("folders of stamped pictures are together by their clock, by two clocks from the begin",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    const bool is_one_clock = GENERATE(true, false);
+    const double stamps_per_s = GENERATE(1.0, 1e6);  // in seconds with a point, in microseconds
+    CAPTURE(is_one_clock, stamps_per_s);
+    const double begin_s = 1683000000.0;
+    const double other_s = is_one_clock ? begin_s + 0.013 : 5000.0;
+    const auto name = [=](double time_s) {
+        return (stamps_per_s == 1.0 ? number_text(time_s, 6)
+                                    : std::to_string(std::llround(time_s * stamps_per_s))) +
+               ".png";
+    };
+    for (int k = 0; k < 30; ++k)
+        write_numbered_depth(folder / "depth" / name(begin_s + k / 15.0), k);
+    for (int k = 0; k < 60; ++k)
+        write_numbered_colour(folder / "rgb" / name(other_s + k / 30.0), k);
+    const auto media = open_media(folder.path(), {}, as_a_person_opens());
+    CHECK(media->description().times_from == "names");
+    CHECK(contains(media->description().notice, "two clocks") == !is_one_clock);
+    check_pair(*media, {even_s(30, 15.0), even_s(60, 30.0, is_one_clock ? 0.013 : 0.0)});
+}
+
+TEST_CASE("the topics of a bag are together by their stamps", "[pair_times]") {
+    const TemporaryFolder folder;
+    const std::string ending = GENERATE(".db3", ".mcap");
+    const fs::path place = folder / ("take" + ending);
+    {
+        Bag bag(place, {.ending = ending});
+        const int depth = bag.topic("/camera/depth/image_raw", "Image");
+        const int colour = bag.topic("/camera/color/image_raw", "Image");
+        for (int k = 0; k < 40; ++k)
+            bag.add(colour, image(100.0 + k / 20.0 + 0.011, kNumberedColumns, kNumberedRows, "rgb8",
+                                  3 * kNumberedColumns, numbered_colour_data(k)));
+        for (int k = 0; k < 30; ++k)
+            bag.add(depth, image(100.0 + k / 15.0, kNumberedColumns, kNumberedRows, "16UC1",
+                                 2 * kNumberedColumns, numbered_depth_data(k)));
+    }
+    const auto media = open_media(place, {}, as_a_person_opens());
+    check_pair(*media, {even_s(30, 15.0), even_s(40, 20.0, 0.011)});
+}
+
+TEST_CASE("halves of one picture are of one moment", "[pair_times]") {
+    const TemporaryFolder folder;
+    make_numbered_clip(folder / "film_RGBD.mp4", 60, "30", kH264, "split[a][b];[a][b]hstack");
+    DepthRequest request = as_grey_video();
+    request.command_line.packing = DepthPacking::left_right;
+    check_pair(*open_media(folder / "film_RGBD.mp4", {}, request), same_moments(even_s(60, 30.0)));
 }
 
 TEST_CASE("pictures whose times nothing tells are told where they cannot be right",

@@ -28,7 +28,7 @@ cv::Mat scene_between(double nearest, double farthest) {
 
 cv::Mat in_16_bits(double nearest, double farthest) {
     cv::Mat levels = scene_between(nearest, farthest);
-    levels.setTo(0.0F, levels != levels);
+    levels.setTo(0.0F, ~(levels == levels));
     levels.convertTo(levels, CV_16U);
     return levels;
 }
@@ -39,7 +39,7 @@ Write coded(DepthCode code, double nearest, double farthest) {
 
 Write real_tiff() {
     cv::Mat heights = scene_between(200.0, 900.0);
-    heights.setTo(-9999.0F, heights != heights);
+    heights.setTo(-9999.0F, ~(heights == heights));
     return text(tiff(kSceneColumns, kSceneRows, 32, 3, true, bytes_of(heights), "-9999", true));
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -158,7 +159,7 @@ Brought nyu_raw(const fs::path& folder) {
     cv::divide(1.0, with_no_data_as(farness, 1.0), inverse);
     cv::Mat raw;
     inverse.convertTo(raw, CV_16U, -351.3, 1092.5);
-    raw.setTo(2047, farness != farness);
+    raw.setTo(2047, ~(farness == farness));
     const fs::path file = folder / "bedroom_0001/d-1294886360.208451-2996770081.pgm";
     save(file, with_bits_changed(raw, [](int level) { return level << 8 | level >> 8; }));
     return {file, {}, truth_of(farness, Knows::metric)};
@@ -337,7 +338,7 @@ Brought middlebury_2014(const fs::path& folder) {
     cv::Mat disparity;
     cv::divide(0.193001 * 106.7, with_no_data_as(farness, 1.0), disparity);
     disparity -= 2.5;
-    disparity.setTo(std::numeric_limits<double>::infinity(), farness != farness);
+    disparity.setTo(std::numeric_limits<double>::infinity(), ~(farness == farness));
     save_pfm(folder / "disp0.pfm", disparity);
     save_pfm(folder / "disp0-sd.pfm", cv::Mat(kView, CV_32FC1, cv::Scalar(0.2)));
     save(folder / "disp0-n.pgm", cv::Mat(kView, CV_8UC1, cv::Scalar(7)));
@@ -435,7 +436,9 @@ cv::Mat points_of(const cv::Mat& farness) {
 Brought scared(const fs::path& folder) {
     const View view = view_of(Place::organ);
     const cv::Mat farness = with_hole(view.farness);
-    save(folder / "left_depth_map.tiff", points_of(farness));
+    // OpenCV would keep the logarithms of colours.
+    cv::imwrite((folder / "left_depth_map.tiff").string(), points_of(farness),
+                {cv::IMWRITE_TIFF_COMPRESSION, 1});
     save(folder / "Left_Image.png", view.colour);
     return brought_of(folder, farness, view.colour, Knows::metric);
 }

@@ -158,7 +158,7 @@ Brought kinect_raw(const fs::path& folder) {
     cv::divide(1.0, with_no_data_as(farness, 1.0), inverse);
     cv::Mat raw;
     inverse.convertTo(raw, CV_16U, -1.0 / 0.0030711016, 3.3309495161 / 0.0030711016);
-    raw.setTo(2047, farness != farness);
+    raw.setTo(2047, ~(farness == farness));
     save(folder / "depth_raw.png", raw);
     return {folder / "depth_raw.png", {}, truth_of(farness)};
 }

@@ -163,7 +163,7 @@ double order_of(const Compared& all) {
 /// Whether pixels without data are nowhere higher than the farthest.
 bool is_far_without_data(const cv::Mat& truth, const cv::Mat& elevations) {
     const cv::Mat farness = in_size(truth, elevations.size(), cv::INTER_NEAREST);
-    const cv::Mat without = farness != farness;
+    const cv::Mat without = ~(farness == farness);
     const cv::Mat high = elevations > kFarthest;
     return cv::countNonZero(without & high) <= kMostInvented * cv::countNonZero(without);
 }

@@ -50,7 +50,7 @@ std::pair<double, double> ends_of(const cv::Mat& numbers) {
 cv::Mat in_16_bits(const cv::Mat& farness, double per_unit, int none) {
     cv::Mat levels;
     without_nan(farness, 0.0).convertTo(levels, CV_16U, per_unit);
-    levels.setTo(none, farness != farness);
+    levels.setTo(none, ~(farness == farness));
     return levels;
 }
 
@@ -58,7 +58,7 @@ cv::Mat disparity_of(const cv::Mat& farness, double highest) {
     const double nearest = ends_of(farness).first;
     cv::Mat disparity;
     cv::divide(highest * nearest, without_nan(farness, 1e9), disparity);
-    disparity.setTo(0.0, farness != farness);
+    disparity.setTo(0.0, ~(farness == farness));
     return disparity;
 }
 
@@ -219,13 +219,13 @@ void save_gdepth(const fs::path& file, const cv::Mat& colour, const cv::Mat& dep
                  double far_m) {
     constexpr std::size_t kPart_bytes = 40000;  // 4 / 3 of them as text, below a segment's most
     const std::string picture = encoded_as(depth, ".png");
-    save_text(file, gdepth_photo(encoded_as(colour, ".jpg"),
-                                 "GDepth:Format=\"RangeInverse\" GDepth:Near=\"" +
-                                     number_text(near_m, 4) + "\" GDepth:Far=\"" +
-                                     number_text(far_m, 4) +
-                                     "\" GDepth:Units=\"m\" GDepth:MeasureType=\"OpticalAxis\" "
-                                     "GDepth:Mime=\"image/png\" ",
-                                 picture, {}, picture.size() / kPart_bytes + 1));
+    save_text(file,
+              gdepth_photo(encoded_as(colour, ".jpg"),
+                           "GDepth:Format=\"RangeInverse\" GDepth:Near=\"" +
+                               number_text(near_m, 4) + "\" GDepth:Far=\"" + number_text(far_m, 4) +
+                               "\" GDepth:Units=\"m\" GDepth:MeasureType=\"OpticalAxis\" "
+                               "GDepth:Mime=\"image/png\" ",
+                           picture, {}, picture.size() / kPart_bytes + 1));
 }
 
 void save_multi_picture(const fs::path& file, const cv::Mat& colour, const cv::Mat& depth) {
