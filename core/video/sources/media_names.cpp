@@ -41,22 +41,26 @@ constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
 /// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
 struct OtherContent {
-    std::string_view what;   ///< for people
-    std::string_view words;  ///< each between blanks
+    std::string_view what;    ///< for people
+    std::string_view words;   ///< each between blanks
+    bool shows_depth{false};  ///< it may be felt, though something else is better
 };
 constexpr std::array kOtherContents{
     OtherContent{"a mask", " mask masks valid validity "},
     OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
     OtherContent{"normals", " normal normals nor nrm "},
     OtherContent{"infrared", " ir infra infrared "},
-    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster "},
+    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
     OtherContent{"a painting of depth",
                  " vis viz visualization visualisation visualized visualised colored coloured "
-                 "colorized colourised colormap colourmap "},
-    OtherContent{"labels", " semantic semantics seg segmentation label labels "},
+                 "colorized colourised colormap colourmap ",
+                 true},
+    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
+    OtherContent{"optical flow", " flow flows "},
     OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
-// After the word that decides: "normal_gl_2k", "confidence_map".
-constexpr std::array<std::string_view, 6> kPassedWords{"map", "maps", "gl", "dx", "k", "px"};
+// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
+constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
+                                                       "px",  "ids",  "occ", "noc"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
@@ -124,6 +128,22 @@ std::vector<fs::path> neighbours_of(const fs::path& given) {
             found.push_back(folder / name);
     }
     return found;
+}
+
+/// What the last word of a name that counts says; null: nothing.
+const OtherContent* other_content(const fs::path& file) {
+    // Of a folder the whole name, of a file what is before the ending.
+    const bool has_ending = named_media(file) || named_numbers(file);
+    const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
+    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
+        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    });
+    if (last == words.rend()) return nullptr;
+    const auto* const found = std::find_if(
+        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
+            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
+        });
+    return found == kOtherContents.end() ? nullptr : found;
 }
 
 /// The name of the first picture in a folder; empty: it holds none, or is no folder.
@@ -253,18 +273,29 @@ bool named_numbers(const fs::path& file) {
 }
 
 std::string_view named_other(const fs::path& file) {
-    // Of a folder the whole name, of a file what is before the ending.
-    const bool has_ending = named_media(file) || named_numbers(file);
-    const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
-    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
-        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    const OtherContent* const found = other_content(file);
+    return found == nullptr ? std::string_view() : found->what;
+}
+
+std::string_view named_no_depth(const fs::path& place) {
+    const OtherContent* const found = other_content(place);
+    return found == nullptr || found->shows_depth ? std::string_view() : found->what;
+}
+
+std::string_view folder_named_no_depth(const fs::path& file) {
+    const auto says_nothing = [](const std::string& word) {
+        return is_of_digits(word) || is_one_of(word, kMayBeColour) || is_one_of(word, kPassedWords);
+    };
+    const std::vector<std::string> own = words_of_name(file.stem().string());
+    if (!std::all_of(own.begin(), own.end(), says_nothing)) return {};
+    const fs::path folder = file.parent_path().filename();
+    const OtherContent* const found = other_content(folder);
+    if (found == nullptr || found->shows_depth) return {};
+    const std::vector<std::string> words = words_of_name(folder.string());
+    const bool is_whole = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+        return says_nothing(word) || found->words.find(' ' + word + ' ') != std::string_view::npos;
     });
-    if (last == words.rend()) return {};
-    const auto* const found = std::find_if(
-        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
-            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
-        });
-    return found == kOtherContents.end() ? std::string_view() : found->what;
+    return is_whole ? found->what : std::string_view();
 }
 
 std::optional<fs::path> numbers_beside(const fs::path& file) {

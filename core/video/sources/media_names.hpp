@@ -26,12 +26,17 @@ namespace dibhr {
 /// "confidence", "a painting of depth"; empty: nothing else. Its last word decides ("depth_mask",
 /// not "mask_depth"), numbers left out.
 [[nodiscard]] std::string_view named_other(const std::filesystem::path& file);
+/// Likewise what has no depth to feel: all of these but previews and paintings.
+[[nodiscard]] std::string_view named_no_depth(const std::filesystem::path& file);
+/// Likewise by the name of its folder, which has no other words, of a file whose own name has only
+/// numbers and words as frame: "confidence/0000.png".
+[[nodiscard]] std::string_view folder_named_no_depth(const std::filesystem::path& file);
 
 /// Whether the name of the file or folder says that it holds colour, and nothing else: color,
 /// colour, rgb, albedo, diffuse, also in German, French, Spanish and Italian.
 [[nodiscard]] bool named_colour(const std::filesystem::path& file);
-/// Likewise depth: depth, disparity, displacement, heightmap; disp and height as words of their
-/// own.
+/// Likewise depth: depth, disparity, disparities, displacement, heightmap; disp and height as words
+/// of their own.
 [[nodiscard]] bool named_depth(const std::filesystem::path& file);
 /// Whether the name means colour only beside depth: image, img, im, frame, left (the view of a
 /// disparity).

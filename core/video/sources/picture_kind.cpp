@@ -15,6 +15,7 @@
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/shared_texture.hpp"
 #include "core/video/sources/packed.hpp"
 
 namespace dibhr {
@@ -395,6 +396,25 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
 bool is_coloured(const cv::Mat& picture) {
     constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
     return picture_statistics(picture).coloured > kMostColoured;
+}
+
+bool may_be_grey_depth(const cv::Mat& picture) {
+    return is_large_enough(picture) && looks_grey_depth(picture_statistics(picture), kGreyDepth);
+}
+
+bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey) {
+    constexpr double kLeastInside = 0.35;
+    constexpr double kLeastInAll = 0.8;
+    if (!is_large_enough(colour) || !is_large_enough(grey)) return false;
+    // The painting of a depth has the noise of the depth.
+    if (is_colour_mapped(colour)) return false;
+    if (picture_statistics(grey).brightness.texture <= kGreyDepth.texture) return false;
+    cv::Mat luma;
+    cv::Mat levels;
+    cv::cvtColor(colour, luma, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(grey, levels, cv::COLOR_BGR2GRAY);
+    const SharedTexture shared = shared_texture(luma, levels);
+    return shared.inside >= kLeastInside || shared.all >= kLeastInAll;
 }
 
 PictureGuess guess_kind(std::span<const cv::Mat> pictures) {

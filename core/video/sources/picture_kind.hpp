@@ -65,6 +65,14 @@ struct PictureGuess {
 /// Whether a picture, 8-bit BGR, has more coloured pixels than compression gives to a grey one.
 [[nodiscard]] bool is_coloured(const cv::Mat& picture);
 
+/// Whether a picture is smooth, with silhouettes, as grey depth is. 8-bit BGR.
+[[nodiscard]] bool may_be_grey_depth(const cv::Mat& picture);
+
+/// Whether a grey picture is no depth but another photograph of the scene of a colour picture: a
+/// grey copy, the other one of a stereo pair, infrared. It is rougher than depth is, and its fine
+/// structure is that of the colour. Both 8-bit BGR.
+[[nodiscard]] bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey);
+
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.
 [[nodiscard]] PictureGuess guess_kind(std::span<const cv::Mat> pictures);

@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
@@ -226,18 +227,96 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
 }
 
+constexpr const char* kAllTheSame = "; if it is depth all the same, say --depth-code grey";
+
+/// " is named as a mask", by the name of a place or that of the folder of a picture that has only
+/// a number; empty: the names say nothing against depth.
+std::string no_depth_by_name(const fs::path& place) {
+    const std::string own(named_no_depth(place));
+    if (!own.empty()) return " is named as " + own;
+    const std::string folder(folder_named_no_depth(place));
+    return folder.empty() ? folder : " is in a folder named as " + folder;
+}
+
+/// Whether one of the two folders above is named depth or the like, and nothing else.
+bool is_below_depth(const fs::path& place) {
+    const fs::path folder = place.parent_path();
+    return (named_depth(folder.filename()) && subject_of(folder.filename()).empty()) ||
+           (named_depth(folder.parent_path().filename()) &&
+            subject_of(folder.parent_path().filename()).empty());
+}
+
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
-    const std::vector<cv::Mat> first = colour_samples(colour, 1);
-    if (!first.empty() && has_painted_half(first.front()))
+    constexpr const char* kOrEstimate = ", or let an estimator make it (dibhr help depth)";
+    const std::vector<cv::Mat> seen = colour_samples(colour, kKindSamples);
+    if (!seen.empty() && has_painted_half(seen.front()))
         throw InputError(shown(colour) +
                          " is a picture beside a painting of its depth, whose colours are no "
                          "numbers: save the depth itself, in grey or as an array (.npy), and give "
                          "it as the second file");
+    if (const std::string named = no_depth_by_name(colour); !named.empty())
+        throw DepthMissing(shown(colour) + named +
+                           ", neither as colour nor as depth: give the file of the depth, and "
+                           "before it that of the colour" +
+                           kAllTheSame);
+    const bool is_grey = !seen.empty() && std::none_of(seen.begin(), seen.end(), is_coloured);
+    if (is_grey && !named_colour(colour))
+        throw DepthMissing(shown(colour) + " is grey and does not look like depth" + kAllTheSame +
+                           "; if it is the colour, it needs a depth file beside it: give one as "
+                           "the second file" +
+                           kOrEstimate);
+    if (!is_grey && is_below_depth(colour))
+        throw DepthMissing(
+            refusal_of_colours(open_picture_source(colour, PictureRole::colour)->facts()));
     throw DepthMissing(shown(colour) +
                        " needs a depth file beside it: give one as the second file (looked for " +
-                       looked_for +
-                       "), say how the depth is in it with --packing, or let an estimator make it "
-                       "(dibhr help depth)");
+                       looked_for + "), say how the depth is in it with --packing" + kOrEstimate);
+}
+
+cv::Mat grey_picture(const cv::Mat& picture) {
+    cv::Mat grey;
+    cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
+    return grey;
+}
+
+bool is_black_and_white(const cv::Mat& picture) {
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxLoc(picture.reshape(1), &lowest, &highest);
+    return lowest == 0.0 && highest == highest_level(8) && has_two_levels(picture);
+}
+
+/// What a place that is given as the depth of a colour picture is instead, after its name; empty:
+/// nothing says so.
+std::string other_than_depth(const fs::path& place, Sources& sources) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (named_depth(place) || has_decoded_levels(facts)) return {};
+    if (!named_no_depth(place).empty()) return no_depth_by_name(place) + ", not as depth";
+    const bool is_known = named_depth(place.parent_path().filename()) || data_set_of(facts);
+    if (facts.bits > 8 || is_known) return {};
+    const std::vector<cv::Mat> depth = sources.depth->samples(1);
+    const std::vector<cv::Mat> colour = sources.colour->samples(1);
+    if (depth.empty() || colour.empty()) return {};
+    const cv::Mat seen = grey_picture(depth.front());
+    const std::string named = no_depth_by_name(place);
+    if (!named.empty() && !may_be_grey_depth(seen)) return named + ", and does not look like depth";
+    if (is_black_and_white(seen))
+        return " is black and white alone, as a mask is, and not as depth";
+    if (is_photo_of_scene(colour.front(), seen))
+        return " looks like a photograph of what the first file shows (a grey copy, the other "
+               "picture of a stereo pair, infrared), not like its depth";
+    return {};
+}
+
+/// Keeps a refusal where the depth that was given beside colour is something else, and no person
+/// says what its levels are.
+void inspect_second_place(const fs::path& place, const DepthStatement& statement,
+                          Sources& sources) {
+    const bool is_stated = statement.code || statement.near || statement.unit;
+    if (is_stated || !sources.not_depth.empty()) return;
+    const std::string what = other_than_depth(place, sources);
+    if (!what.empty())
+        sources.not_depth = shown(place) + what + ": give the file of the depth" + kAllTheSame;
 }
 
 bool is_row(const fs::path& place) {
@@ -247,12 +326,16 @@ bool is_row(const fs::path& place) {
 /// Opens colour and depth of two places, each a file, a folder, a list or a pattern.
 Sources of_two_places(const fs::path& colour, const fs::path& depth,
                       const DepthStatement& statement) {
-    if (is_row(colour) && is_row(depth))
-        return decoded(Place(depth), rows_of_two(colour, depth), statement);
-    // First, so that an error of the colour file is not reported as one of the depth.
-    auto colour_source = open_picture_source(colour, PictureRole::colour);
-    Sources sources = depth_in(Place(depth), statement);
-    sources.colour = std::move(colour_source);
+    Sources sources;
+    if (is_row(colour) && is_row(depth)) {
+        sources = decoded(Place(depth), rows_of_two(colour, depth), statement);
+    } else {
+        // First, so that an error of the colour file is not reported as one of the depth.
+        auto colour_source = open_picture_source(colour, PictureRole::colour);
+        sources = depth_in(Place(depth), statement);
+        sources.colour = std::move(colour_source);
+    }
+    if (colour != depth) inspect_second_place(depth, statement, sources);
     return sources;
 }
 
@@ -294,8 +377,7 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
     if (!statement.packing) {
         if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
     }
-    const bool is_coded = statement.code.value_or(DepthCode::grey) != DepthCode::grey;
-    if (is_depth(place, guess) || is_coded) return depth_in(place, statement);
+    if (is_depth(place, guess) || statement.code) return depth_in(place, statement);
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 

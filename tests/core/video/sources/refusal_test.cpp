@@ -76,14 +76,14 @@ TEST_CASE("a folder whose folders are not named colour and depth says which they
     const auto grey = [](int i, int j, int) { return 7 * i + j; };
     const std::string above = GENERATE("", "training/", "scene/left/");
     CAPTURE(above);
-    std::filesystem::create_directories(folder / (above + "TIEFE"));
-    write_picture(folder / (above + "TIEFE/0.png"), 8, 8, 16, 1, grey);
+    std::filesystem::create_directories(folder / (above + "SYVYYS"));
+    write_picture(folder / (above + "SYVYYS/0.png"), 8, 8, 16, 1, grey);
     const std::string one = refusal_of(folder.path());
-    CHECK(holds(one, "give '" + (folder / (above + "TIEFE")).string() + "'"));
-    std::filesystem::create_directories(folder / (above + "FARBE"));
-    write_picture(folder / (above + "FARBE/0.png"), 8, 8, 8, 3, grey);
+    CHECK(holds(one, "give '" + (folder / (above + "SYVYYS")).string() + "'"));
+    std::filesystem::create_directories(folder / (above + "KUVA"));
+    write_picture(folder / (above + "KUVA/0.png"), 8, 8, 8, 3, grey);
     const std::string two = refusal_of(folder.path());
-    CHECK(holds(two, "'" + above + "FARBE', '" + above + "TIEFE'"));
+    CHECK(holds(two, "'" + above + "KUVA', '" + above + "SYVYYS'"));
     CHECK(holds(two, "give the one of the colour first"));
 }
 
