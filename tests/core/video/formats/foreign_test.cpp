@@ -29,7 +29,7 @@ std::string raw_bytes_of(const std::vector<Number>& numbers) {
 
 /// Depth of MPI Sintel, 3 x 2 pixels: 1 to 6 m; with more bytes a pixel it is optical flow.
 std::string sintel(std::size_t pixel_bytes) {
-    std::string bytes = "PIEH" + bytes_of<std::int32_t>({3, 2});
+    std::string bytes = "PIEH" + raw_bytes_of<std::int32_t>({3, 2});
     for (std::size_t k = 0; k < 6 * pixel_bytes / 4; ++k)
         append_bytes(bytes, static_cast<float>(k + 1));
     return bytes;
@@ -107,7 +107,7 @@ TEST_CASE("what is no picture of depth is named for what it is, with the command
              {"frame_0001.flo", sintel(8), "optical flow", "dibhr help depth"},
              {"frame_0001.dpt", sintel(4).substr(0, 30), "Sintel", "copy it again"},
              {"a.jpg.geometric.bin", "3&2&3&" + rest.substr(0, 72), "normals", "depth_maps"},
-             {"sweep.pcd.bin", bytes_of<float>({1.5F, 2.0F, 0.25F, 9.0F, 3.0F}), "LiDAR",
+             {"sweep.pcd.bin", raw_bytes_of<float>({1.5F, 2.0F, 0.25F, 9.0F, 3.0F}), "LiDAR",
               "numpy.fromfile('sweep.pcd.bin', '<f4').reshape(-1, 5)"},
              {"my $(frames).h5", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5py.File('FILE')"}}));
     CAPTURE(name);
@@ -144,11 +144,11 @@ TEST_CASE("the command for depth in a form of a data set, or without a header, g
     std::string text;
     for (int k = 0; k < 6 * 40; ++k) text += std::to_string(k % 6 + 1) + ".0 ";
     const std::string levels =
-        bytes_of<std::int32_t>({2, 3}) + bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
+        raw_bytes_of<std::int32_t>({2, 3}) + raw_bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
     const auto [name, bytes, form] = GENERATE_COPY(table<std::string, std::string, std::string>(
         {{"frame_0001.dpt", sintel(4), "MPI Sintel"},
          {"depth0.dpt", levels, "LINEMOD"},
-         {"a.jpg.geometric.bin", "3&2&1&" + bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
+         {"a.jpg.geometric.bin", "3&2&1&" + raw_bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
          {"DSC_0286.JPG", raw_bytes_of(reals), "holds 240 real numbers"},
          {"depth_0001.bin", raw_bytes_of(reals), "without a header"},
          {"scene_00.depth", text, "numbers as text"}}));
