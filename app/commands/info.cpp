@@ -254,7 +254,7 @@ std::string says_text(const Finding& finding) {
 }
 
 /// Broken behind commas into lines of at most `width` letters, where the parts are not longer.
-std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+std::vector<std::string> in_lines(const std::string& text, std::size_t width) {
     std::vector<std::string> lines{""};
     std::size_t begin = 0;
     while (begin < text.size()) {
@@ -281,7 +281,7 @@ void print_why(const MediaDescription& media) {
     };
     std::vector<Row> rows{{{"finding"}, "sure", "from", "because of"}};
     for (const Finding& finding : media.conclusion.findings)
-        rows.push_back({wrapped(one_line(says_text(finding)), kMostWidth),
+        rows.push_back({in_lines(one_line(says_text(finding)), kMostWidth),
                         percent_text(finding.sureness), std::string(name_of(finding.evidence)),
                         one_line(finding.reason)});
     std::size_t width = 0;

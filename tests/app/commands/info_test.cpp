@@ -96,8 +96,9 @@ TEST_CASE("info --why prints what each finding states, how sure it is and where 
     const ProgramResult why = run_dibhr(folder, {"info", "rock_height.png", "--why"});
     INFO(why.output << why.errors);
     CHECK(why.exit_code == 0);
-    CHECK(says(why, "form PNG                   99 %  magic       picture by OpenCV's codecs, by"));
-    CHECK(says(why, "near bright, unit levels   97 %  name        'height' in its name\n"));
+    CHECK(says(why, "99 %  magic       picture by OpenCV's codecs, by"));
+    CHECK(
+        says(why, "near is bright, levels of no unit   97 %  name        'height' in its name\n"));
     CHECK(says(why, "\n  so "));
     CHECK(says(why, "sure              97 %"));
     CHECK(says(why, "found in          'height' in its name"));
@@ -108,6 +109,20 @@ TEST_CASE("info --why prints what each finding states, how sure it is and where 
     CHECK(json["findings"][0]["evidence"] == "magic");
     CHECK(json["findings"][1]["states"]["unit"] == "levels");
     CHECK(json["findings"][1]["evidence"] == "name");
+}
+
+TEST_CASE("a long finding of info --why goes on below, and moves no column", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "a.png", 16, 12, 100, 2);
+    const ProgramResult why =
+        run_dibhr(folder, {"info", "a.png", "--why", "--near", "dark", "--depth-unit", "mm",
+                           "--depth-scale", "0.5", "--no-data", "0,7", "--depth-code", "grey"});
+    INFO(why.output << why.errors);
+    CHECK(says(why,
+               "\n  near is dark, a level is 0.5 mm,  100 %  person      command line\n"
+               "    no data is 0, 7, code grey\n"));
+    CHECK(says(why, "\n  form PNG                           99 %  magic "));
+    CHECK_FALSE(says(why, "nothing  "));
 }
 
 TEST_CASE("info describes a video", "[info]") {

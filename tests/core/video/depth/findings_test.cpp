@@ -73,6 +73,24 @@ TEST_CASE("a kind of values that only a finding states is possible, too", "[find
     CHECK(weigh({row({.unit = DepthUnit::m}, 0.995)}).front().scale == 1.0);
 }
 
+TEST_CASE("millimetres and metres of the same length are the same values", "[findings]") {
+    const DepthStatement in_m{.unit = DepthUnit::m, .scale = 0.0002};
+    const DepthStatement in_mm{.unit = DepthUnit::mm, .scale = 0.2};
+    const Findings both{row(in_m, 0.97, Evidence::layout), row(in_mm, 0.97, Evidence::layout)};
+    CHECK(weigh(both).front().probability > 0.99);
+    const auto [meaning, conclusion] = concluded({row(in_m, 0.97, Evidence::layout)});
+    CHECK(meaning.unit.value == DepthUnit::m);
+    CHECK(meaning.scale.value == 0.0002);
+    const auto [own, ignored] =
+        concluded({row(in_m, 0.97, Evidence::layout)}, {{Origin::panel, {.unit = DepthUnit::mm}}});
+    CHECK_THAT(own.scale.value, WithinAbs(0.2, 1e-12));
+    CHECK(state_same_values(in_m, in_mm));
+    CHECK(state_same_values({.unit = DepthUnit::m}, {.unit = DepthUnit::mm, .scale = 1000.0}));
+    CHECK_FALSE(state_same_values(in_m, {.unit = DepthUnit::m}));
+    CHECK_FALSE(state_same_values({.unit = DepthUnit::levels}, {.unit = DepthUnit::mm}));
+    CHECK_FALSE(state_same_values({.scale = 1.0}, {.scale = 1.0}));
+}
+
 TEST_CASE("a fact is found where it is sure enough, else it is assumed", "[findings]") {
     const double sureness = GENERATE(0.89, 0.91);
     CAPTURE(sureness);

@@ -120,6 +120,25 @@ TEST_CASE("levels show a Kinect by its 2047, and points by the rays of a camera"
     CHECK_FALSE(level_code_in({}).has_value());
 }
 
+TEST_CASE("levels that are all multiples of 8 show bits turned by three", "[levels]") {
+    const cv::Mat far_mm = whole(scene_m() * 1000.0, 0);
+    const cv::Mat turned = far_mm * 8.0;
+    CHECK(found(turned) == DepthCode::turned16);
+    CHECK_FALSE(found(far_mm * 16.0).has_value());
+    CHECK_FALSE(found(whole(scene_m() * 60.0, 0) * 8.0).has_value());  // of 8 bits
+    CHECK_FALSE(found(cv::Mat(40, 40, CV_16UC1, cv::Scalar(8000.0))).has_value());
+    const TemporaryFolder folder;
+    picture(turned)(folder / "a.png");
+    const DepthMeaning meaning =
+        *open_depth(folder / "a.png", {.find_out = true})->description().meaning;
+    CHECK(meaning.code.value == DepthCode::turned16);
+    CHECK_THAT(meaning.range.value.near, WithinRel(1000.0 * kNearest_m, 0.1));
+    picture(turned)(folder / "a_disparity.png");
+    CHECK(open_depth(folder / "a_disparity.png", {.find_out = true})
+              ->description()
+              .meaning->code.value == DepthCode::grey);
+}
+
 TEST_CASE("found levels are felt as distances, unless a person says what they are", "[levels]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.png";

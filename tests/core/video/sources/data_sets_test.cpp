@@ -93,6 +93,15 @@ TEST_CASE("a data set is known by the last parts of a path, and by what lies bes
          DepthUnit::mm,
          200.0 / 65280.0},
         {{"depth_bw/photo_pred.png", 16}, "Marigold", DepthUnit::levels, 1.0},
+        {{"depth/NYU0001.png", 16, {"image/NYU0001.jpg", "intrinsics.txt", "scene.txt"}},
+         "SUN RGB-D",
+         DepthUnit::mm,
+         1.0},
+        {{"depth/lidar/CAMERA_01/1561.npz", kRealBits}, "DDAD", DepthUnit::m, 1.0},
+        {{"rendered_depth_maps/00000003.pfm", kRealBits, {"blended_images/00000003.jpg"}},
+         "BlendedMVS",
+         DepthUnit::levels,
+         1.0},
     }));
     CAPTURE(known.laid.picture);
     const TemporaryFolder folder;
@@ -118,6 +127,8 @@ TEST_CASE("folders that only hold a common word are no data set", "[sets]") {
         {"frames/depth/Camera_1/depth_00007.png", 8},
         {"a/proj_depth/groundtruth/image_02/5.png", kRealBits},
         {"my_depth_pred.npy", kRealBits},
+        {"depth/1.png", 16, {"image/1.jpg", "intrinsics.txt"}},
+        {"rendered_depth_maps/1.pfm", kRealBits},
     }));
     CAPTURE(laid.picture);
     const TemporaryFolder folder;

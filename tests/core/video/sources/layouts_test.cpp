@@ -162,6 +162,10 @@ TEST_CASE("names of colour and depth beside each other are told apart in many wo
                                          {"stone_Color.png", "stone_Height.png"},
                                          {"image/0001.png", "mono_depth/0001.png"},
                                          {"left/0001.png", "disparity/0001.png"},
+                                         {"FARBE/0001.png", "TIEFE/0001.png"},
+                                         {"couleur_1.png", "profondeur_1.png"},
+                                         {"color/1.png", "profundidad/1.png"},
+                                         {"colore/1.png", "profondita/1.png"},
                                          {"0001.png", "0001_depth.png"},
                                          {"img_7.png", "disp_7.png"},
                                          {"im0.png", "disp0.png"},
@@ -185,6 +189,7 @@ TEST_CASE("a stereo pair, and words inside other words, are not taken for colour
     CHECK_FALSE(refusal([&] { (void)open_media(folder.path()); }).empty());
     CHECK_FALSE(named_depth("display.mp4"));
     CHECK_FALSE(named_depth("heights_of_abraham.mp4"));
+    CHECK_FALSE(named_depth("stiefel.mp4"));
     CHECK_FALSE(named_colour("different.mp4"));
     CHECK(named_depth("Rock035_Height.png"));
     CHECK(named_depth("disp0.png"));

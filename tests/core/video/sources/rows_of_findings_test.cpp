@@ -165,6 +165,56 @@ std::vector<Row> rows() {
          Evidence::name,
          {.unit = DepthUnit::disparity},
          "'disp'"},
+        {"depth_cm.png",
+         picture(in_16_bits(90.0, 400.0)),
+         Evidence::name,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .scale = 10.0},
+         "'cm' in its name"},
+        {"depth_m.png",  // whole metres of no scene
+         picture(in_16_bits(900.0, 4000.0)),
+         Evidence::numbers,
+         {.unit = DepthUnit::m, .scale = 1.0},
+         "a scene has no depth from"},
+        {"inv_depth.npy",
+         text(npy("<f4", "(240, 320)", bytes_of(metres))),
+         Evidence::name,
+         {.near = NearLevels::bright, .unit = DepthUnit::disparity},
+         "inverse depth in its name"},
+        {"a_depth.png",
+         picture(in_16_bits(900.0, 4000.0)),
+         Evidence::name,
+         {.near = NearLevels::dark},
+         "'depth' in its name"},
+        {"disp_occ_0/000000_10.png",
+         picture(in_16_bits(900.0, 40000.0)),
+         Evidence::layout,
+         {.unit = DepthUnit::disparity, .scale = 1.0 / 256.0},
+         "KITTI stereo"},
+        {"disp_0/000000.png",
+         picture(in_16_bits(900.0, 40000.0)),
+         Evidence::name,
+         {.near = NearLevels::bright, .unit = DepthUnit::disparity},
+         "'disp' in its folder's name"},
+        {"scan_mm/depth_0001.npy",  // "scan_mm" speaks of no distances
+         text(npy("<f4", "(240, 320)", bytes_of(metres))),
+         Evidence::name,
+         {.near = NearLevels::dark},
+         "'depth' in its name"},
+        {"depth_cm/depth_0001.npy",
+         text(npy("<f4", "(240, 320)", bytes_of(metres * 100.0))),
+         Evidence::name,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .scale = 10.0},
+         "'cm' in its folder's name"},
+        {"a.npz",
+         zip_of("depth.npy", npy("<f4", "(240, 320)", bytes_of(metres))),
+         Evidence::name,
+         {.near = NearLevels::dark},
+         "'depth' in its array's name"},
+        {"a.png",
+         picture(in_16_bits(900.0, 4000.0) * 8.0),
+         Evidence::code,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .code = DepthCode::turned16},
+         "multiples of 8"},
         {"a.png",
          picture(painted(scene_depth(), as_ramp)),
          Evidence::appearance,
@@ -197,6 +247,13 @@ bool has_row(const Findings& table, const Row& expected) {
     });
 }
 
+bool names_unit(const Findings& table, DepthUnit unit) {
+    return std::any_of(table.begin(), table.end(), [unit](const Finding& row) {
+        return row.evidence == Evidence::name && row.statement.unit == unit &&
+               row.sureness >= kSureEnough;
+    });
+}
+
 /// How sure the row is; 0: there is none.
 double sureness_of(const Findings& table, const std::string& about, Evidence evidence,
                    const std::string& reason) {
@@ -212,10 +269,42 @@ TEST_CASE("each kind of evidence gives its row", "[rows]") {
     for (const Row& expected : rows()) {
         const TemporaryFolder folder;
         CAPTURE(expected.file, expected.reason);
+        fs::create_directories((folder / expected.file).parent_path());
         expected.write(folder / expected.file);
         const Findings table = table_of(folder / expected.file);
         CHECK(has_row(table, expected));
     }
+}
+
+TEST_CASE("the folder's name counts where the picture's says nothing, and the opened one's",
+          "[rows]") {
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& file) {
+        fs::create_directories((folder / file).parent_path());
+        picture(in_16_bits(900.0, 4000.0))(folder / file);
+        return folder / file;
+    };
+    CHECK(names_unit(table_of(write("height/0001.png")), DepthUnit::levels));
+    CHECK_FALSE(names_unit(table_of(write("height/a_depth.png")), DepthUnit::levels));
+    CHECK_FALSE(names_unit(table_of(write("disparity/scan/0001.png")), DepthUnit::disparity));
+    const fs::path opened = write("run_depth_mm/depth/0001.png").parent_path().parent_path();
+    CHECK(names_unit(table_of(opened), DepthUnit::mm));
+    CHECK_FALSE(names_unit(table_of(write("aus_dem_labor/0001.png")), DepthUnit::levels));
+    CHECK(names_unit(table_of(write("DEM/0001.png")), DepthUnit::levels));
+}
+
+TEST_CASE("what is said of levels before they are decoded leaves no empty row", "[rows]") {
+    const TemporaryFolder folder;
+    write_text(folder / "calib.txt",
+               "cam0=[1000 0 159; 0 1000 119; 0 0 1]\ndoffs=0\nbaseline=200\nwidth=320\n");
+    text(pfm(scene_between(20.0, 90.0), "-1", true))(folder / "disp0.pfm");
+    const Findings table = table_of(folder / "disp0.pfm");
+    CHECK(std::all_of(table.begin(), table.end(), [](const Finding& row) {
+        return row.statement != DepthStatement{} || !row.about.empty();
+    }));
+    CHECK(std::none_of(table.begin(), table.end(), [](const Finding& row) {
+        return contains(row.reason, "portable float maps");
+    }));
 }
 
 TEST_CASE("the first row says which reader took the file, and by what", "[rows]") {
