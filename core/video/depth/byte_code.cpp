@@ -247,9 +247,15 @@ std::optional<bool> is_continuous(std::span<const cv::Mat> pictures, DepthCode c
 }
 
 std::optional<DepthCode> byte_code_in(std::span<const cv::Mat> pictures) {
+    const auto none_contradicts = [pictures](DepthCode code) {
+        return std::all_of(pictures.begin(), pictures.end(), [code](const cv::Mat& picture) {
+            return is_continuous({&picture, 1}, code).value_or(true);
+        });
+    };
     for (const DepthCode code :
          {DepthCode::float32, DepthCode::terrain, DepthCode::rg16, DepthCode::rgb24}) {
-        if (is_continuous(pictures, code).value_or(false) && is_plausible(pictures, code))
+        if (is_continuous(pictures, code).value_or(false) && none_contradicts(code) &&
+            is_plausible(pictures, code))
             return code;
     }
     return std::nullopt;

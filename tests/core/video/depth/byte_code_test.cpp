@@ -291,7 +291,7 @@ TEST_CASE("halves in bytes are found out, or told", "[bytes]") {
     DepthRequest request = is_told ? told(DepthCode::rg16) : kAsFound;
     request.command_line.packing = DepthPacking::top_bottom;
     const auto media = open_media(file, {}, request);
-    const Origin origin = is_told ? Origin::command_line : Origin::assumed;
+    const Origin origin = is_told ? Origin::command_line : Origin::found;
     CHECK(meaning_of(*media).code == Known<DepthCode>{DepthCode::rg16, origin});
     CHECK(media->description().depth_bits == 16);
     const auto frame = media->next();

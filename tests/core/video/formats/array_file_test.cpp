@@ -339,7 +339,7 @@ TEST_CASE("the name of an array says its unit, and a number beside it what a lev
     const Case named =
         GENERATE(Case{"depth_mm", DepthUnit::mm, 1.0}, Case{"depth_cm", DepthUnit::mm, 10.0},
                  Case{"depth_m", DepthUnit::m, 1.0}, Case{"depth_metres", DepthUnit::m, 1.0},
-                 Case{"inv_depth", DepthUnit::disparity, 1.0},
+                 Case{"inv_depth", DepthUnit::disparity, std::nullopt},
                  Case{"disp_map", DepthUnit::disparity, std::nullopt});
     write_zip(file, {{named.name + ".npy", plane_npy(1)}}, true);
     const SourceFacts by_name = depth_of_file(file)->facts();
