@@ -227,15 +227,15 @@ struct IntegerScale {
     double of_flat;   ///< the same for a picture of hardly any depth
     double of_sky;    ///< the same where the highest level is no data
     double of_close;  ///< the same where all is within a metre, without the holes of a sensor
+    double of_laser;  ///< the same where single pixels have data that fit a street
 };
 
 constexpr std::array<IntegerScale, 4> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5},
-    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
-    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1},  // street data sets
-    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3},         // simulators: centimetres
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4},
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
+    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9},  // street data sets
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06},        // simulators: centimetres
 }};
-constexpr double kSurenessOfLaser = 0.85;
 
 /// "as numbers of 1 mm from 0.5 to 4.2 m: a room".
 std::string sizes_text(const IntegerScale& scale, double nearest_m, double farthest_m, bool fits) {
@@ -484,23 +484,23 @@ Findings SampledLevels::units_of_integers() const {
                                 : "without holes, so few bits are levels"});
     if (!has_holes && bits_ < 16) return rows;
     const bool is_close = farthest < kClose_mm;
+    const bool is_of_laser =
+        kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered();
     for (const IntegerScale& scale : kIntegerScales) {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
         const double sureness = has_sky && !has_holes        ? scale.of_sky
                                 : farthest < kFlat * nearest ? scale.of_flat
                                 : is_close && !has_holes     ? scale.of_close
+                                : is_of_laser                ? scale.of_laser
                                                              : scale.sureness;
-        rows.push_back({{.unit = scale.unit, .scale = scale.scale},
-                        kNumbers,
-                        sureness * fits,
-                        sizes_text(scale, nearest * in_m, farthest * in_m, fits > kImplausible)});
+        rows.push_back(
+            {{.unit = scale.unit, .scale = scale.scale},
+             kNumbers,
+             sureness * fits,
+             (is_of_laser ? "where a laser sees single pixels, " : "") +
+                 sizes_text(scale, nearest * in_m, farthest * in_m, fits > kImplausible)});
     }
-    if (kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered())
-        rows.push_back({{.unit = DepthUnit::m, .scale = 1.0 / 256.0},
-                        kNumbers,
-                        kSurenessOfLaser,
-                        "single pixels have data, as where a laser sees a street"});
     return rows;
 }
 

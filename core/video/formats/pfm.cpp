@@ -21,6 +21,8 @@ namespace dibhr {
 
 namespace {
 
+constexpr double kSurenessOfDisparity = 0.8;  // renderers write distances, too
+
 struct PfmHeader {
     int channels{1};
     int columns{0};
@@ -88,7 +90,7 @@ StillPicture read_pfm(const std::filesystem::path& file, PictureRole role) {
             "PFM",
             {{{.unit = DepthUnit::disparity},
               Evidence::magic,
-              kSurenessOfAppearance,
+              kSurenessOfDisparity,
               "portable float maps mostly hold disparities"}}};
 }
 
