@@ -104,29 +104,29 @@ bool is_lossless(const std::string& codec) {
 
 constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for float32)";
 
-/// Throws InputError where the pictures of a source are not of red, green and blue as the code
-/// needs them, or where their low bytes are lost.
-void require_bytes(PictureSource& pictures, DepthCode code) {
+/// Why a source does not hold the numbers of the code; empty: it may. Either its pictures are not
+/// of red, green and blue as the code needs them, or their low bytes are lost.
+std::string missing_bytes(PictureSource& pictures, DepthCode code) {
     constexpr int kSamples = 6;
     pictures.seek(0.0);  // samples of a video begin where it stands
     const std::vector<cv::Mat> first = pictures.samples(1);
-    if (first.empty()) return;
+    if (first.empty()) return {};
     const SourceFacts& facts = pictures.facts();
     const cv::Mat& picture = first.front();
     const std::string name(name_of(code));
     const bool is_luma = picture.channels() == 1 && facts.channels != 1;
     const bool has_bytes = picture.depth() == CV_8U && picture.channels() >= least_channels(code);
     if (!is_luma && !has_bytes)
-        throw InputError(shown(facts.file) + " does not hold depth as " + name +
-                         ", which is in bytes of red, green, " +
-                         (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
-                         ": give the picture as it was first written, or another --depth-code");
+        return shown(facts.file) + " does not hold depth as " + name +
+               ", which is in bytes of red, green, " +
+               (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
+               ": give the picture as it was first written, or another --depth-code";
     if (!is_luma && (is_lossless(facts.codec) ||
                      is_continuous(pictures.samples(kSamples), code).value_or(true)))
-        return;
-    throw InputError(shown(facts.file) + " does not keep the bytes of red, green and blue (" +
-                     one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
-                     ") are lost: write it without loss, " + kWithoutLoss);
+        return {};
+    return shown(facts.file) + " does not keep the bytes of red, green and blue (" +
+           one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
+           ") are lost: write it without loss, " + kWithoutLoss;
 }
 
 /// Removes what a statement says about levels, which now are others.
@@ -271,9 +271,14 @@ std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colou
     return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, change_facts);
 }
 
+bool may_hold_bytes(PictureSource& pictures, DepthCode code) {
+    return missing_bytes(pictures, code).empty();
+}
+
 std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures, DepthCode code,
                                             Finding coded) {
-    require_bytes(*pictures, code);
+    if (const std::string missing = missing_bytes(*pictures, code); !missing.empty())
+        throw InputError(missing);
     const auto decode = [code](const cv::Mat& picture) { return numbers_in_bytes(picture, code); };
     if (code == DepthCode::rgb24 && names_carla(pictures->facts().file)) {
         constexpr double kCarlaFarthest_m = 1000.0;  // carla.readthedocs.io, "Depth camera"

@@ -49,6 +49,10 @@ struct PackedForm {
 /// Decodes the colours of a source by ramp_levels(), as they look.
 [[nodiscard]] std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours);
 
+/// Whether a source has the bytes of red, green and blue in which the code has its numbers, and has
+/// not lost the low ones by compression. Starts it again.
+[[nodiscard]] bool may_hold_bytes(PictureSource& pictures, DepthCode code);
+
 /// Decodes numbers in the bytes of a source's channels (byte_code.hpp): to levels of 16 bits, or to
 /// real numbers. `pictures`: read as depth, so that every byte and alpha is kept. `coded`: as in
 /// hue_decoded(). Throws InputError where they hold no such numbers, as after compression with

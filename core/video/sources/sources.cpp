@@ -155,8 +155,9 @@ ColoursOfDepth colours_of_depth(const Place& place, Sources& sources,
     if (first.empty() || first.front().channels() < 3 || !is_coloured(seen_colours(first.front())))
         return {};
     const std::vector<cv::Mat> pictures = depth_samples(place, sources, kKindSamples, halves);
-    if (const auto code = byte_code_in(pictures)) return {PictureKind::byte_depth, *code};
-    if (first.front().depth() == CV_32F) return {PictureKind::photo};
+    const auto code = byte_code_in(pictures);
+    if (code && may_hold_bytes(*sources.depth, *code)) return {PictureKind::byte_depth, *code};
+    if (code || first.front().depth() == CV_32F) return {PictureKind::photo};
     std::vector<cv::Mat> seen;
     std::transform(pictures.begin(), pictures.end(), std::back_inserter(seen), seen_colours);
     return {guess_kind(seen).kind};
