@@ -54,7 +54,7 @@ constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearl
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
-constexpr double kSurenessOfTunnel = 0.6;
+constexpr double kSurenessOfTunnel = 0.75;
 constexpr double kSurenessOfLitTunnel = 0.93;
 constexpr std::size_t kLeastSlopes = 400;
 constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
@@ -462,7 +462,7 @@ Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
         return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.93, "by custom 8 bits are near white"}};
+                {{.near = NearLevels::bright}, kNumbers, 0.96, "by custom 8 bits are near white"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
@@ -484,16 +484,17 @@ Findings SampledLevels::units_of_integers() const {
                                 : "without holes, so few bits are levels"});
     if (!has_holes && bits_ < 16) return rows;
     const bool is_close = farthest < kClose_mm;
+    const bool is_flat = farthest < kFlat * nearest;
     const bool is_of_laser =
         kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered();
     for (const IntegerScale& scale : kIntegerScales) {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
-        const double sureness = has_sky && !has_holes        ? scale.of_sky
-                                : farthest < kFlat * nearest ? scale.of_flat
-                                : is_close && !has_holes     ? scale.of_close
-                                : is_of_laser                ? scale.of_laser
-                                                             : scale.sureness;
+        const double sureness = has_sky && !has_holes    ? scale.of_sky
+                                : is_flat && !has_holes  ? scale.of_flat
+                                : is_close && !has_holes ? scale.of_close
+                                : is_of_laser            ? scale.of_laser
+                                                         : scale.sureness;
         rows.push_back(
             {{.unit = scale.unit, .scale = scale.scale},
              kNumbers,

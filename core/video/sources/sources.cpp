@@ -205,7 +205,8 @@ Sources both_in(const Place& place, const DepthStatement& statement) {
     const bool may_be_coded = both.depth != nullptr &&
                               (place.is(PictureForm::video) || both.depth->facts().channels != 1);
     if (!may_be_coded) return both;
-    return decoded(place, std::move(both), statement);
+    both = decoded(place, std::move(both), statement);
+    return both.not_depth.empty() ? std::move(both) : Sources{};
 }
 
 /// The depth of a place that holds no colour.

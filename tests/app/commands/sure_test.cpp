@@ -56,7 +56,7 @@ TEST_CASE("what is likely but not sure is told in a line, settled by a word, and
     for (const std::vector<std::string>& command :
          {std::vector<std::string>{"info", "a.png"},
           {"info", "a.png", "--json"},
-          {"surface", "a.png", "--out", "a.pfm"},
+          {"surface", "a.png", "--out", "out.pfm"},
           {"touch", "--depth", "a.png", "--goals", "goals.csv", "--out", "out.csv"}}) {
         CAPTURE(command[0]);
         const std::vector<std::string> before = names_in(folder.path());

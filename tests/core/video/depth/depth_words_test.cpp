@@ -1,6 +1,7 @@
 // What words in names say about depth.
 #include "core/video/depth/depth_words.hpp"
 
+#include <algorithm>
 #include <string>
 
 #include "core/video/depth/picture_levels.hpp"
@@ -49,7 +50,9 @@ TEST_CASE("sizes, single letters and other words are no units", "[words]") {
     const std::string name = GENERATE("depth_500mm", "table_2m", "shot_10_metres", "a_m", "m", "mm",
                                       "cm_b", "programme", "rgb_m");
     CAPTURE(name);
-    for (const Finding& row : rows_in(name)) CHECK_FALSE(row.statement.scale.has_value());
+    const Findings rows = rows_in(name);
+    CHECK(std::none_of(rows.begin(), rows.end(),
+                       [](const Finding& row) { return row.statement.scale.has_value(); }));
 }
 
 TEST_CASE("inverse depth is disparity, and heights stay heights with their unit", "[words]") {
