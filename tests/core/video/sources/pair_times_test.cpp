@@ -1,5 +1,6 @@
 // Colour and depth of one moment together, whoever says when a frame is: numbers shown in both,
 // read at random times and by a reader that skips frames.
+#include "core/error.hpp"
 #include "core/video/sources/pair_times.hpp"
 
 #include <algorithm>
@@ -246,7 +247,10 @@ TEST_CASE("a video and the folder of its depth are found by either, whatever the
     write_numbered_depth(take / "confidence" / "0001.png", 3);
     const bool by_folder = GENERATE(true, false);
     // Without a word for it nobody knows which video is colour of pictures in the same folder.
-    if (!by_folder && depth == "depth_") return SUCCEED("not found, and not meant to be");
+    if (!by_folder && depth == "depth_") {
+        CHECK_THROWS_AS(open_media(take / film), InputError);
+        return;
+    }
     const auto media = open_media(
         by_folder ? take : take / fs::path(colour).parent_path() / fs::path(colour).filename(), {},
         is_depth_video ? as_grey_video() : as_a_person_opens());
