@@ -49,12 +49,12 @@ constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
 
 // Near.
-constexpr double kClear = 0.25;        ///< deviations by which areas must differ to count
+constexpr double kClear = 0.35;        ///< deviations by which areas must differ to count
 constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearly the highest
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
-constexpr double kSurenessOfTunnel = 0.75;
+constexpr double kSurenessOfTunnel = 0.6;
 constexpr double kSurenessOfLitTunnel = 0.93;
 constexpr std::size_t kLeastSlopes = 400;
 constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
@@ -462,7 +462,7 @@ Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
         return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.96, "by custom 8 bits are near white"}};
+                {{.near = NearLevels::bright}, kNumbers, 0.93, "by custom 8 bits are near white"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
@@ -595,7 +595,8 @@ Findings SampledLevels::contradiction(const Finding& finding) const {
 // Near.
 
 int SampledLevels::middle_brighter_than_sides() const {
-    return places_of(lattices_, no_data_).brighter_than_sides(kClear);
+    constexpr double kLeast = 0.25;  // the light may be faint
+    return places_of(lattices_, no_data_).brighter_than_sides(kLeast);
 }
 
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {

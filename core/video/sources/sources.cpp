@@ -206,7 +206,9 @@ Sources both_in(const Place& place, const DepthStatement& statement) {
                               (place.is(PictureForm::video) || both.depth->facts().channels != 1);
     if (!may_be_coded) return both;
     both = decoded(place, std::move(both), statement);
-    return both.not_depth.empty() ? std::move(both) : Sources{};
+    // Of a film of two angles neither is depth.
+    const bool is_of_angles = place.is(PictureForm::video) && !both.not_depth.empty();
+    return is_of_angles ? Sources{} : std::move(both);
 }
 
 /// The depth of a place that holds no colour.
