@@ -381,7 +381,11 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
     if (!statement.packing) {
         if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
     }
-    if (is_depth(place, guess) || statement.code) return depth_in(place, statement);
+    if (is_depth(place, guess) || statement.code) {
+        Sources depth = depth_in(place, statement);
+        // Bytes that carry as those of numbers, but are lost, are the colours of a photo.
+        if (guess.kind != PictureKind::byte_depth || depth.not_depth.empty()) return depth;
+    }
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 
