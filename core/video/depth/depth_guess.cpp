@@ -44,6 +44,7 @@ constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a sc
 constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
 constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
 constexpr double kFlat = 1.3;           ///< farthest to nearest of what is hardly a scene
+constexpr double kFar_mm = 3000.0;      ///< so far away hardly anything is flat
 constexpr double kClose_mm = 1000.0;    ///< numbers below may be centimetres of a room as well
 constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
@@ -287,13 +288,21 @@ struct EndOfLevels {
     bool is_border;  ///< the picture's border has it
 };
 
+/// 9999, 100000, 65504: nobody measures these.
+bool is_usual_mark(double level) {
+    const double zeros = std::log10(std::max(level, 1.0));
+    const double nines = std::log10(std::max(level, 1.0) + 1.0);
+    return level > 50.0 && (zeros == std::round(zeros) || nines == std::round(nines) ||
+                            level == 65504.0 || level == 65535.0);
+}
+
 /// A wall behind a thing, or a table below it, is no mark: a mark is far beyond, or a frame.
 bool is_mark(const EndOfLevels& end) {
     if (end.level == 0.0) return end.gap > kGap;
     if (end.is_border && end.share < kMostOfFrame) return end.gap > kGap;
     const double least = kFarBeyond * std::fabs(end.at_bottom ? end.level : end.next);
     const double most = std::fabs(end.at_bottom ? end.next : end.level);
-    const bool is_beyond = end.level < 0.0 || most > least;
+    const bool is_beyond = end.level < 0.0 || most > least || is_usual_mark(end.level);
     return is_beyond && end.gap > (end.at_bottom ? kGapOfAny : kGapAbove);
 }
 
@@ -490,11 +499,11 @@ Findings SampledLevels::units_of_integers() const {
     for (const IntegerScale& scale : kIntegerScales) {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
-        const double sureness = has_sky && !has_holes    ? scale.of_sky
-                                : is_flat && !has_holes  ? scale.of_flat
-                                : is_close && !has_holes ? scale.of_close
-                                : is_of_laser            ? scale.of_laser
-                                                         : scale.sureness;
+        const double sureness = has_sky && !has_holes                          ? scale.of_sky
+                                : is_flat && (!has_holes || nearest > kFar_mm) ? scale.of_flat
+                                : is_close && !has_holes                       ? scale.of_close
+                                : is_of_laser                                  ? scale.of_laser
+                                                                               : scale.sureness;
         rows.push_back(
             {{.unit = scale.unit, .scale = scale.scale},
              kNumbers,
@@ -546,9 +555,10 @@ Findings SampledLevels::units_of_numbers() const {
     const bool in_metres = in_room || in_street;
     rows.push_back({{.unit = DepthUnit::m, .scale = 1.0},
                     kNumbers,
-                    in_metres          ? 0.9
-                    : highest <= 100.0 ? 0.4
-                                       : 0.02,
+                    in_metres           ? 0.9
+                    : highest <= 100.0  ? 0.4
+                    : highest <= 1000.0 ? 0.2
+                                        : 0.02,
                     ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres")});
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
     const bool in_centimetres = lowest >= 20.0 && highest > 100.0 && highest < kClose_mm;

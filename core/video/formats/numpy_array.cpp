@@ -23,6 +23,17 @@ namespace dibhr {
 
 namespace {
 
+/// Many rows of few numbers.
+bool is_list(const std::vector<std::int64_t>& sides) {
+    constexpr std::int64_t kMostOfRow = 8;
+    constexpr std::int64_t kLeastRows = 256;
+    return sides.size() == 2 && sides[1] <= kMostOfRow && sides[0] >= kLeastRows;
+}
+
+}  // namespace
+
+namespace {
+
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostHeaderBytes = 65536;
@@ -263,6 +274,10 @@ PictureShape NumpyArray::pictures() {
                          ", the matrix of a camera or a pose, and no picture: give the depth that "
                          "it belongs to");
     std::vector<std::int64_t> sides = header_.shape;
+    if (is_list(sides))
+        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(sides) +
+                         ", a list of points or poses, and no picture: project the points into a "
+                         "picture of their distances, and give that");
     const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
     PictureShape shape;
     // Estimators' batches: [1, frames, ...]

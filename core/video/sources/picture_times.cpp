@@ -29,6 +29,9 @@ constexpr double kEarliest_s = 1.1e9;                  ///< 2004; the time since
 constexpr double kLatest_s = 4.1e9;                    ///< 2099
 constexpr double kMostSpan_s = 1e6;                    ///< of a video
 constexpr std::array kStampUnits_s{1.0, 1e-3, 1e-6, 1e-9};
+/// Of Windows and .NET: 100 ns since the years 1601 and 1.
+constexpr double kTick_s = 1e-7;
+constexpr std::array kTickEpochs_s{11'644'473'600.0, 62'135'596'800.0};
 /// The interval of frames, of a quick camera and of a slow one.
 constexpr double kShortestStep_s = 0.004;
 constexpr double kLongestStep_s = 1.0;
@@ -418,6 +421,9 @@ std::shared_ptr<const std::vector<double>> kept_numbers(std::vector<double> numb
 std::optional<double> stamp_unit_s(double first, double last, std::size_t count, bool are_times) {
     if (count < 2 || !(first < last)) return std::nullopt;
     const double step = (last - first) / static_cast<double>(count - 1);
+    for (const double epoch_s : kTickEpochs_s)
+        if (first * kTick_s - epoch_s > kEarliest_s && last * kTick_s - epoch_s < kLatest_s)
+            return kTick_s;
     for (const double unit_s : kStampUnits_s) {
         const bool of_today = first * unit_s > kEarliest_s && last * unit_s < kLatest_s;
         // Numbers that follow each other count frames, also where they are as large as seconds.

@@ -475,3 +475,10 @@ TEST_CASE("what numpy itself writes is read", "[numpy]") {
     CHECK(different(source->next()->picture, small(12)) == 0);
     CHECK_THAT(source->facts().frames_per_s, WithinAbs(name == "b.npz" ? 24.0 : 30.0, 1e-9));
 }
+
+TEST_CASE("a list of points is no picture", "[numpy]") {
+    const TemporaryFolder folder;
+    const cv::Mat points(3000, 4, CV_32F, cv::Scalar(2.0));
+    write_text(folder / "points.npy", npy("<f4", "(3000, 4)", data_of<float>(points)));
+    CHECK(contains(refusal_of(folder / "points.npy"), "a list of points or poses"));
+}

@@ -1,7 +1,7 @@
 // Colour and depth of one moment together, whoever says when a frame is: numbers shown in both,
 // read at random times and by a reader that skips frames.
-#include "core/error.hpp"
 #include "core/video/sources/pair_times.hpp"
+#include "core/error.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -599,4 +599,13 @@ TEST_CASE("tables and JSON of stamps are read, others are not taken for them", "
         CAPTURE(text);
         CHECK_FALSE(read("b.json", text));
     }
+}
+
+TEST_CASE("stamps in ticks since the year 1601 or 1 are of a tenth of a microsecond",
+          "[pair_times]") {
+    const double first = GENERATE(132697151403874938.0, 638400000000000000.0);
+    CAPTURE(first);
+    const auto unit_s = stamp_unit_s(first, first + 8e6, 5, false);
+    REQUIRE(unit_s);
+    CHECK(*unit_s == 1e-7);
 }
