@@ -23,6 +23,8 @@ namespace dibhr {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Many rows of few numbers.
 bool is_list(const std::vector<std::int64_t>& sides) {
     constexpr std::int64_t kMostOfRow = 8;
@@ -30,11 +32,6 @@ bool is_list(const std::vector<std::int64_t>& sides) {
     return sides.size() == 2 && sides[1] <= kMostOfRow && sides[0] >= kLeastRows;
 }
 
-}  // namespace
-
-namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMostHeaderBytes = 65536;
 constexpr std::int64_t kLeastSide = 16;  ///< shorter sides count channels or frames
