@@ -118,6 +118,13 @@ bool is_of_inverse(NameWords words) {
            (at[1] == "depth" || at[1] == "distance" || at[1] == "z");
 }
 
+/// "rock_wall_disp_4k": a displacement, of as many pixels.
+bool is_of_texture(NameWords words) {
+    constexpr std::array<std::string_view, 5> kSizes{"1k", "2k", "4k", "8k", "16k"};
+    return std::any_of(kSizes.begin(), kSizes.end(),
+                       [words](std::string_view size) { return has_name_word(words, size); });
+}
+
 const DistanceWord* distance_word(NameWords words) {
     const auto* const found = std::find_if(
         kDistanceWords.begin(), kDistanceWords.end(),
@@ -181,7 +188,8 @@ Findings findings_in_name(std::string_view name, int bits, std::string_view whos
                  "inverse depth in " + std::string(whose)}};
     for (const NearnessWord& known : kNearnessWords)
         if (has_name_word(words, known.word))
-            return {{{.near = NearLevels::bright, .unit = known.unit},
+            return {{{.near = NearLevels::bright,
+                      .unit = is_of_texture(words) ? DepthUnit::levels : known.unit},
                      Evidence::name,
                      known.sureness,
                      quoted_word(known.word, whose)}};

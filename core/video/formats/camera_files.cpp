@@ -24,16 +24,26 @@ namespace {
 
 constexpr std::size_t kLongest_bytes = 1 << 20;
 
-constexpr std::array<std::string_view, 5> kScaleNames{"depth_scale", "depth_factor", "factor_depth",
-                                                      "depth_map_factor", "png_depth_scale"};
+constexpr std::array<std::string_view, 6> kScaleNames{"integer_depth_scale", "depth_scale",
+                                                      "depth_factor",        "factor_depth",
+                                                      "depth_map_factor",    "png_depth_scale"};
 constexpr std::array kMatrixNames{"intrinsics",       "K", "k", "cam_K", "camera_matrix",
                                   "camera_intrinsics"};
 constexpr std::array kObjectNames{"depth_intrinsics", "depth", "intrinsics", "camera"};
-constexpr std::array kJsonFiles{
-    "depth_intrinsics.json", "depth_camera.json",      "intrinsics.json",  "intrinsic.json",
-    "camera.json",           "camera_intrinsics.json", "camera_info.json", "camera_intrinsic.json",
-    "camera_params.json",    "cam_params.json",        "calibration.json", "calib.json",
-    "depth_scale.json"};
+constexpr std::array kJsonFiles{"depth_intrinsics.json",
+                                "depth_camera.json",
+                                "intrinsics.json",
+                                "intrinsic.json",
+                                "camera.json",
+                                "transforms.json",
+                                "camera_intrinsics.json",
+                                "camera_info.json",
+                                "camera_intrinsic.json",
+                                "camera_params.json",
+                                "cam_params.json",
+                                "calibration.json",
+                                "calib.json",
+                                "depth_scale.json"};
 constexpr std::array kMatrixFiles{
     "camK.npy", "cam_K.npy", "K.npy", "intrinsics.npy", "intrinsic.npy", "camera_matrix.npy",
     "camK.txt", "cam_K.txt", "K.txt", "intrinsics.txt", "intrinsic.txt", "camera-intrinsics.txt"};

@@ -209,6 +209,9 @@ StillPicture read_colour(Imf::MultiPartInputFile& input, const fs::path& file) {
     return {screen_colours(read_channels(input, *colour, file, 0.0F)), 8, "EXR"};
 }
 
+/// Renderers write metres or other units there, and estimators one over the distance, too.
+constexpr double kSurenessOfZ = 0.9;
+
 StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
     const auto named = find_depth(input);
     const auto chosen = named ? named : find_grey(input);
@@ -221,8 +224,10 @@ StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
     single.setTo(kNothing, ~(single < kRenderersInfinity));
     StillPicture still{only_channel(values), kRealBits, "EXR"};
     if (named && layer_and_name(named->names[0]).second == "Z")
-        still.findings = {
-            finding_of_metadata({.unit = DepthUnit::m}, "EXR channel " + named->names[0])};
+        still.findings = {{{.unit = DepthUnit::m},
+                           Evidence::metadata,
+                           kSurenessOfZ,
+                           "EXR channel " + named->names[0]}};
     return still;
 }
 

@@ -32,7 +32,6 @@ bool is_list(const std::vector<std::int64_t>& sides) {
     return sides.size() == 2 && sides[1] <= kMostOfRow && sides[0] >= kLeastRows;
 }
 
-
 constexpr std::uint64_t kMostHeaderBytes = 65536;
 constexpr std::int64_t kLeastSide = 16;  ///< shorter sides count channels or frames
 
