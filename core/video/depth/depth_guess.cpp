@@ -469,8 +469,6 @@ Findings SampledLevels::units() const {
 
 Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
-    if (bits_ == 8 && different_values(levels_) <= 2)
-        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "two levels, as of a mask"}};
     if (bits_ == 8)
         return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
                 {{.near = NearLevels::bright}, kNumbers, 0.93, "by custom 8 bits are near white"}};
