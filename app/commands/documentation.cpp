@@ -268,7 +268,7 @@ std::vector<std::string> DocumentedOption::values() const {
     const std::size_t colon = help.find(": ");
     if (colon == std::string::npos) return {};
     const std::string listed = help.substr(colon + 2);
-    // "raw (as --raw-depth), gentle"; text after a semicolon describes them.
+    // "raw (nothing), gentle"; text after a semicolon describes them.
     std::vector<std::string> words =
         split(without_parentheses(listed.substr(0, listed.find(';'))), ", ");
     // "relief: the picture plane; true: the shape: auto, relief, true"

@@ -1,5 +1,7 @@
 // `dibhr info`: describes media and session files.
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <initializer_list>
 #include <iomanip>
@@ -9,6 +11,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -30,6 +33,14 @@ namespace dibhr {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// The request of `dibhr info`.
+struct InfoOptions {
+    DepthRequest request{usual_depth_request()};
+    bool json{false};
+    bool why{false};           ///< prints all findings
+    bool must_be_sure{false};  ///< --sure
+};
 
 void print_fact(std::string_view name, std::string_view value) {
     constexpr int kFactWidth = 17;
@@ -139,48 +150,6 @@ std::string cleaning_text(const CleaningChoice& choice) {
                                                 : std::string(name_of(choice.preset));
 }
 
-void print_depth(const MediaDescription& media) {
-    print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
-                            media.depth_codec + ", " + levels_text(media));
-    if (!media.meaning) return;
-    const DepthMeaning& meaning = *media.meaning;
-    print_fact("meaning", in_words(meaning));
-    if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
-    print_fact("assumed", list_text(assumed_facts(meaning)));
-    print_fact("packing", name_of(meaning.packing.value));
-    print_fact("code", name_of(meaning.code.value));
-    if (const std::string colour = registration_text(media); !colour.empty())
-        print_fact("registered", colour);
-    if (meaning.cleaning.value != CleaningChoice{})
-        print_fact("cleaning", cleaning_text(meaning.cleaning.value));
-    if (meaning.finger_mm.value > 0.0)
-        print_fact("finger", short_text(meaning.finger_mm.value) + " mm");
-    print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
-}
-
-void describe_pictures(const fs::path& file, const DepthRequest& request) {
-    const MediaDescription media = describe_media(file, request);
-    const bool is_colour = media.colour_columns > 0;
-    const bool has_depth = media.depth_columns > 0;
-
-    std::cout << one_line(file.string()) << '\n';
-    print_fact("kind", media.still ? "image" : media.live ? "live video" : "video");
-    print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
-                                 : size_text(media.depth_columns, media.depth_rows));
-    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
-    if (!codec.empty()) print_fact("codec", codec);
-    if (has_depth) print_depth(media);
-    if (media.live) {
-        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
-    } else if (!media.still) {
-        print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
-        print_fact("duration", number_text(media.duration_s, 3) + " s");
-        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
-    }
-    if (!media.notice.empty()) print_fact("notice", media.notice);
-    if (is_colour && !has_depth) describe_partner(file);
-}
-
 /// A name, a number or numbers.
 template <typename Fact>
 Json json_of(const Fact& fact) {
@@ -204,6 +173,183 @@ Json json_of(const CleaningChoice& choice) {
     return step_names(choice.own);
 }
 
+/// The facts that it states.
+Json json_of(const DepthStatement& statement) {
+    Json facts = Json::object();
+    visit_facts(statement, statement, [&facts](const char* name, const auto& value, const auto&) {
+        if (value) facts[name] = json_of(*value);
+    });
+    return facts;
+}
+
+std::string fact_text(const Json& value) {
+    constexpr int kDigits = 8;
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number()) return short_text(value.get<double>(), kDigits);
+    std::vector<std::string> parts;
+    for (const Json& part : value) parts.push_back(fact_text(part));
+    return parts.empty() ? "none" : listed(parts);
+}
+
+/// "millimetres", "a level is 0.2 mm", "disparities"; empty: neither is stated.
+std::string values_text(const std::optional<DepthUnit>& unit, const std::optional<double>& scale) {
+    const double one = scale.value_or(1.0);
+    const std::string factor = short_text(one);
+    if (!unit) return scale ? "scale " + factor : std::string();
+    switch (*unit) {
+        case DepthUnit::levels:
+            return one == 1.0 ? "levels of no unit" : "levels of no unit x " + factor;
+        case DepthUnit::disparity:
+            return one == 1.0 ? "disparities" : "disparities, a level is " + factor;
+        case DepthUnit::mm:
+            return one == 1.0    ? "millimetres"
+                   : one == 10.0 ? "centimetres"
+                                 : "a level is " + factor + " mm";
+        case DepthUnit::m:
+            return one == 1.0 ? "metres" : "a level is " + factor + " m";
+    }
+    return {};
+}
+
+/// "near is bright, levels of no unit, no data is 0"; "nothing" for an empty statement.
+std::string statement_text(DepthStatement statement) {
+    std::vector<std::string> facts;
+    if (statement.near) facts.push_back("near is " + std::string(name_of(*statement.near)));
+    if (std::string values = values_text(statement.unit, statement.scale); !values.empty())
+        facts.push_back(std::move(values));
+    if (statement.no_data)
+        facts.push_back(statement.no_data->empty() ? "all levels are data"
+                                                   : "no data is " + fact_text(*statement.no_data));
+    statement.near.reset();
+    statement.unit.reset();
+    statement.scale.reset();
+    statement.no_data.reset();
+    const Json others = json_of(statement);
+    for (const auto& [name, value] : others.items()) {
+        std::string words = name;
+        std::ranges::replace(words, '_', ' ');
+        facts.push_back(words + ' ' + fact_text(value));
+    }
+    return list_text(facts);
+}
+
+/// Never 0 or 100 % of what is not certain.
+std::string percent_text(double probability) {
+    const double percent = 100.0 * probability;
+    const bool is_certain = probability <= 0.0 || probability >= 1.0;
+    return number_text(is_certain ? percent : std::clamp(percent, 1.0, 99.0), 0) + " %";
+}
+
+/// How sure the meaning is, and what else it may be.
+void print_sureness(const DepthConclusion& conclusion) {
+    print_fact("sure", percent_text(conclusion.sure));
+    for (std::size_t k = 1; k < conclusion.alternatives.size(); ++k) {
+        const DepthAlternative& other = conclusion.alternatives[k];
+        print_fact("or", statement_text(other.statement) + ", " + percent_text(other.probability));
+    }
+}
+
+std::string says_text(const Finding& finding) {
+    return finding.about.empty() ? statement_text(finding.statement) : finding.about;
+}
+
+/// Broken behind commas into lines of at most `width` letters, where the parts are not longer.
+std::vector<std::string> in_lines(const std::string& text, std::size_t width) {
+    std::vector<std::string> lines{""};
+    std::size_t begin = 0;
+    while (begin < text.size()) {
+        const std::size_t comma = std::min(text.find(", ", begin), text.size() - 1);
+        const std::string part = text.substr(begin, comma + 1 - begin);
+        std::string& line = lines.back();
+        if (!line.empty() && line.size() + 1 + part.size() > width)
+            lines.push_back(part);
+        else
+            line += (line.empty() ? "" : " ") + part;
+        begin = std::min(comma + 2, text.size());
+    }
+    return lines;
+}
+
+/// The table: a row for each finding, then what is concluded.
+void print_why(const MediaDescription& media) {
+    constexpr std::size_t kMostWidth = 40;
+    constexpr int kSureWidth = 5;
+    constexpr int kFromWidth = 10;
+    struct Row {
+        std::vector<std::string> says;
+        std::string sure, from, reason;
+    };
+    std::vector<Row> rows{{{"finding"}, "sure", "from", "because of"}};
+    for (const Finding& finding : media.conclusion.findings)
+        rows.push_back({in_lines(one_line(says_text(finding)), kMostWidth),
+                        percent_text(finding.sureness), std::string(name_of(finding.evidence)),
+                        one_line(finding.reason)});
+    std::size_t width = 0;
+    for (const Row& row : rows)
+        for (const std::string& line : row.says) width = std::max(width, line.size());
+    std::cout << '\n';
+    for (const Row& row : rows) {
+        std::cout << "  " << std::left << std::setw(static_cast<int>(width)) << row.says.front()
+                  << "  " << std::right << std::setw(kSureWidth) << row.sure << "  " << std::left
+                  << std::setw(kFromWidth) << row.from << "  " << row.reason << '\n';
+        for (std::size_t k = 1; k < row.says.size(); ++k)
+            std::cout << "    " << row.says[k] << '\n';
+    }
+    const DepthMeaning& meaning = *media.meaning;
+    print_fact("so", statement_text({.near = meaning.near.value,
+                                     .unit = meaning.unit.value,
+                                     .scale = meaning.scale.value,
+                                     .no_data = meaning.no_data.value}) +
+                         ": " + percent_text(media.conclusion.sure));
+    if (!media.timing.empty()) print_fact("so", "times: " + media.timing);
+}
+
+void print_depth(const MediaDescription& media) {
+    print_fact("depth", size_text(media.depth_columns, media.depth_rows) + ", " +
+                            media.depth_codec + ", " + levels_text(media));
+    if (!media.meaning) return;
+    const DepthMeaning& meaning = *media.meaning;
+    print_fact("meaning", in_words(meaning));
+    if (!meaning.found_in.empty()) print_fact("found in", meaning.found_in);
+    print_fact("assumed", list_text(assumed_facts(meaning)));
+    print_sureness(media.conclusion);
+    print_fact("packing", name_of(meaning.packing.value));
+    print_fact("code", name_of(meaning.code.value));
+    if (const std::string colour = registration_text(media); !colour.empty())
+        print_fact("registered", colour);
+    if (meaning.cleaning.value != CleaningChoice{})
+        print_fact("cleaning", cleaning_text(meaning.cleaning.value));
+    if (meaning.finger_mm.value > 0.0)
+        print_fact("finger", short_text(meaning.finger_mm.value) + " mm");
+    print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
+}
+
+void describe_pictures(const fs::path& file, const InfoOptions& options) {
+    const MediaDescription media = describe_media(file, options.request);
+    report_doubt(media, options.must_be_sure);
+    const bool is_colour = media.colour_columns > 0;
+    const bool has_depth = media.depth_columns > 0;
+
+    std::cout << one_line(file.string()) << '\n';
+    print_fact("kind", media.still ? "image" : media.live ? "live video" : "video");
+    print_fact("size", is_colour ? size_text(media.colour_columns, media.colour_rows)
+                                 : size_text(media.depth_columns, media.depth_rows));
+    const std::string& codec = is_colour ? media.colour_codec : media.depth_codec;
+    if (!codec.empty()) print_fact("codec", codec);
+    if (has_depth) print_depth(media);
+    if (media.live) {
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s, live");
+    } else if (!media.still) {
+        print_fact("frames", (media.frames_exact ? "" : "about ") + std::to_string(media.frames));
+        print_fact("duration", number_text(media.duration_s, 3) + " s");
+        print_fact("rate", number_text(media.frames_per_s, 2) + " frames/s");
+        print_fact("times", media.timing);
+    }
+    if (!media.notice.empty()) print_fact("notice", media.notice);
+    if (is_colour && !has_depth) describe_partner(file);
+    if (options.why && media.meaning) print_why(media);
+}
+
 /// Each fact and its origin; an unknown fact is null.
 void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     const DepthStatement known = meaning ? meaning->statement() : DepthStatement{};
@@ -218,8 +364,28 @@ void add_meaning(Json& json, const std::optional<DepthMeaning>& meaning) {
     json["origin"] = origins;
 }
 
+/// How sure the meaning is, what else it may be, and all findings where they are asked for.
+void add_conclusion(Json& json, const MediaDescription& media, bool why) {
+    const DepthConclusion& conclusion = media.conclusion;
+    json["sure"] = media.meaning ? Json(conclusion.sure) : Json();
+    json["alternatives"] =
+        json_list(conclusion.alternatives, [](const DepthAlternative& alternative) {
+            Json facts = json_of(alternative.statement);
+            facts["probability"] = alternative.probability;
+            return facts;
+        });
+    if (!why) return;
+    json["findings"] = json_list(conclusion.findings, [](const Finding& finding) {
+        return Json{{"about", finding.about},
+                    {"states", json_of(finding.statement)},
+                    {"sureness", finding.sureness},
+                    {"evidence", name_of(finding.evidence)},
+                    {"reason", finding.reason}};
+    });
+}
+
 /// Unknown values are null.
-Json json_of(const fs::path& file, const MediaDescription& media) {
+Json json_of(const fs::path& file, const MediaDescription& media, bool why) {
     const bool has_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
     const auto known = [](bool is_known, auto value) { return is_known ? Json(value) : Json(); };
@@ -235,7 +401,10 @@ Json json_of(const fs::path& file, const MediaDescription& media) {
               {"frames", known(!media.live, media.frames)},
               {"duration_s", known(!media.live, media.duration_s)}};
     add_meaning(json, media.meaning);
+    add_conclusion(json, media, why);
     json["registered_by"] = media.registered_by;
+    json["timing"] =
+        media.timing.empty() ? Json() : Json{{"from", media.times_from}, {"text", media.timing}};
     json["notice"] = media.notice;
     return json;
 }
@@ -256,17 +425,21 @@ Json json_of_session(const fs::path& file) {
 }
 
 /// One object a line, so that a file that cannot be read does not spoil the next one's.
-void print_json(const fs::path& file, const DepthRequest& request) {
-    const Json json = is_session_file(file) ? json_of_session(file)
-                                            : json_of(file, describe_media(file, request));
-    std::cout << json_line(json) << '\n';
+void print_json(const fs::path& file, const InfoOptions& options) {
+    if (is_session_file(file)) {
+        std::cout << json_line(json_of_session(file)) << '\n';
+        return;
+    }
+    const MediaDescription media = describe_media(file, options.request);
+    report_doubt(media, options.must_be_sure);
+    std::cout << json_line(json_of(file, media, options.why)) << '\n';
 }
 
-void describe(const fs::path& file, const DepthRequest& request) {
+void describe(const fs::path& file, const InfoOptions& options) {
     if (is_session_file(file))
         describe_session(file);
     else
-        describe_pictures(file, request);
+        describe_pictures(file, options);
 }
 
 }  // namespace
@@ -276,20 +449,24 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     app.add_option("FILE", files, "Videos, images, session files, cameras and streams")
         ->type_name("")
         ->required();
-    bool json = false;
-    DepthRequest request = usual_depth_request();
-    app.add_flag("--json", json,
+    InfoOptions options;
+    app.add_flag("--json", options.json,
                  "One JSON object for each file, on a line of its own; null: not known");
-    add_depth_options(app, request.command_line);
+    app.add_flag("--why", options.why,
+                 "Also all that was found out about the depth: what each finding states, how sure "
+                 "it is, and where it comes from");
+    add_depth_options(app, options.request.command_line);
+    add_sure_option(app, options.must_be_sure);
     app.footer(
         "Examples:\n"
         "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
+        "  dibhr info depth.png --why\n"
         "  dibhr info scan/ --json");
     if (!parse(app, arguments)) return 0;
     int exit_code = 0;
     for (const fs::path file : files) {
         try {
-            json ? print_json(file, request) : describe(file, request);
+            options.json ? print_json(file, options) : describe(file, options);
         } catch (const Error& error) {
             std::cout.flush();
             print_error_line(error.what());

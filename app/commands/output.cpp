@@ -52,6 +52,14 @@ std::string size_text(int columns, int rows) {
     return std::to_string(columns) + "x" + std::to_string(rows);
 }
 
+std::string report_doubt(const MediaDescription& media, bool must_be_sure, StatedBy way) {
+    std::string doubt = doubt_about(media, way);
+    if (doubt.empty()) return doubt;
+    if (must_be_sure) throw InputError(doubt);
+    print_error_line(doubt);
+    return doubt;
+}
+
 void refuse_overwriting(const std::filesystem::path& target,
                         const std::vector<std::filesystem::path>& inputs, const std::string& why) {
     for (const std::filesystem::path& input : inputs) {

@@ -13,6 +13,7 @@
 
 #include "core/files/output_file.hpp"
 #include "core/haptics/touch.hpp"
+#include "core/video/sources/media.hpp"
 
 namespace dibhr {
 
@@ -34,6 +35,11 @@ void append_row(std::string& text, const OutputRow& row);
 
 /// "720x486".
 [[nodiscard]] std::string size_text(int columns, int rows);
+
+/// Where the meaning of the depth is likely but not sure: says so in one line on stderr, and
+/// returns it; or, if it must be sure, throws InputError with that line. Empty: it is sure.
+std::string report_doubt(const MediaDescription& media, bool must_be_sure,
+                         StatedBy way = StatedBy::options);
 
 /// Throws InputError, with `why`, when the target is one of the `inputs`.
 void refuse_overwriting(const std::filesystem::path& target,

@@ -60,6 +60,7 @@ struct StudyOptions {
     std::string device{"auto"};
     fs::path firmware{};
     bool mute{false};
+    bool must_be_sure{false};  ///< --sure
     std::optional<std::pair<int, int>> size{};
     AnalysisSettings analysis{};
     PlanSettings plan{};
@@ -70,9 +71,15 @@ struct StudyOptions {
     [[nodiscard]] fs::path folder() const { return out.empty() ? fs::path(".") : out; }
 };
 
+/// Opens media as a trial does. A page cannot state what its depth means.
+void require_media(const fs::path& colour, const fs::path& depth, bool must_be_sure) {
+    const auto media = open_media(colour, depth, usual_depth_request());
+    report_doubt(media->description(), must_be_sure, StatedBy::sidecar);
+}
+
 /// `files`: also opens media, pictures and bump maps, so that errors are reported before a
 /// participant sits down.
-AllowedNames allowed_names(bool files) {
+AllowedNames allowed_names(bool files, bool must_be_sure = false) {
     AllowedNames names;
     const MaterialNames materials = material_names();
     names.materials = materials.shipped;
@@ -81,8 +88,8 @@ AllowedNames allowed_names(bool files) {
     names.thickest_finger_mm = kThickestFinger_mm;
     names.checks.values = validate_values;
     if (!files) return names;
-    names.checks.media = [](const StudyMedia& media) {
-        static_cast<void>(open_media(media.colour, media.depth, usual_depth_request()));
+    names.checks.media = [must_be_sure](const StudyMedia& media) {
+        require_media(media.colour, media.depth, must_be_sure);
     };
     names.checks.picture = [](const fs::path& picture) {
         static_cast<void>(read_colour_picture(picture));
@@ -104,15 +111,15 @@ fs::path protocol_named(const fs::path& name) {
 }
 
 /// Checks the built-in sample, which a page does not list.
-void require_sample() {
+void require_sample(bool must_be_sure) {
     const SampleFiles files = sample_files();
-    static_cast<void>(open_media(files.colour, files.depth, usual_depth_request()));
+    require_media(files.colour, files.depth, must_be_sure);
 }
 
 int check(const StudyOptions& options) {
     const fs::path file = protocol_named(options.file());
-    const Protocol protocol = read_protocol(file, allowed_names(true));
-    require_sample();
+    const Protocol protocol = read_protocol(file, allowed_names(true, options.must_be_sure));
+    require_sample(options.must_be_sure);
     print_protocol(protocol);
     std::cout << "media, materials and pictures are there\n";
     for (const UnsafeSetting& doubt : unsafe_settings_of(protocol, Consent()))
@@ -168,10 +175,10 @@ int run(const StudyOptions& options) {
     require_label(options.participant);
     const fs::path page = protocol_named(options.file());
     const bool with_person = options.pilot.empty();
-    const Protocol protocol = read_protocol(page, allowed_names(with_person));
+    const Protocol protocol = read_protocol(page, allowed_names(with_person, options.must_be_sure));
     std::optional<Pilot> pilot;
     if (with_person)
-        require_sample();
+        require_sample(options.must_be_sure);
     else
         pilot = parse_pilot(options.pilot, protocol);
     std::error_code ignored;
@@ -355,6 +362,7 @@ void add_options(CLI::App& app, StudyOptions& options) {
         ->default_str("399")
         ->type_name("N");
     add_plot_format_option(app, options.plot_formats);
+    add_sure_option(app, options.must_be_sure);
     app.footer(
         "A study file is made for each participant, LABEL.dibhr-study; the same label goes on "
         "where "

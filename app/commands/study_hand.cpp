@@ -107,7 +107,7 @@ const StudyHand::Ground& StudyHand::ground_of(const StudyInterval& interval) {
         std::string(name_of(cleaning)) + ' ' + number_text(parameters.shape.relief_px);
     const auto known = grounds_.find(key);
     if (known != grounds_.end()) return known->second;
-    HumanOptions options{.raw_depth = request.raw_depth};
+    HumanOptions options{.raw_depth = cleaning == CleaningPreset::raw};
     options.shape.relief_px = parameters.shape.relief_px;
     SampleClip sample = read_sample(options, {});
     PathRun path = human_goals({}, sample, parameters.friction.dynamic_coefficient);

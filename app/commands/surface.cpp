@@ -30,6 +30,7 @@ struct SurfaceOptions {
     fs::path depth{};  ///< empty: found beside the colour file, or `colour` is depth itself
     fs::path out{};
     double time_s{0.0};
+    bool must_be_sure{false};  ///< --sure
     TouchRequest touch{};
     TouchParameters parameters{};
 };
@@ -40,6 +41,7 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
     request.paints = false;
     auto media = open_media(options.colour, options.depth, request);
     print_warning(media->description().notice);
+    report_doubt(media->description(), options.must_be_sure);
     options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
     return media;
 }
@@ -136,6 +138,7 @@ int run_surface(CLI::App& app, const Arguments& arguments) {
         ->type_name("S")
         ->default_str("0");
     add_shape_options(app, options.touch);
+    add_sure_option(app, options.must_be_sure);
     app.footer(
         "Examples:\n"
         "  dibhr surface color.mp4 depth.mp4 --time 2.5 --out hand.ply\n"

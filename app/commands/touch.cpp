@@ -17,6 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/loop/tick_runner.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/playing/depth_timeline.hpp"
 #include "device/goal_stream.hpp"
 
@@ -32,6 +33,7 @@ struct TouchOptions {
     std::filesystem::path goals{};
     std::filesystem::path out{"-"};  ///< "-": standard output
     bool video{false};               ///< frames blended in time; false: the first image
+    bool must_be_sure{false};        ///< --sure
     TouchRequest touch{};
     TouchParameters parameters{};
 };
@@ -67,6 +69,7 @@ class TouchRun {
         auto media = options.colour.empty() ? open_depth(options.depth, request)
                                             : open_media(options.colour, options.depth, request);
         print_warning(media->description().notice);
+        report_doubt(media->description(), options.must_be_sure);
         const MotionRequest motion = motion_request(
             parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
         if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
@@ -77,6 +80,12 @@ class TouchRun {
             print_warning(shown(options.depth) +
                           " asks for silhouettes at the colour's edges, but touch looks at no "
                           "colour without --color: its silhouettes are those of the depth alone");
+        const bool densifies =
+            plan_of(cleaning, {}, 0, media->description().sparse_share.has_value()).steps.densify;
+        if (densifies && options.colour.empty())
+            print_warning(shown(options.depth) +
+                          " is sparse, and touch looks at no colour without --color: its edges are "
+                          "those of the depth alone");
         std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
         using Wanted = DepthTimeline::Wanted;
         return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
@@ -140,6 +149,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
              "Colour of the same view: touch finds in it what moves, and where silhouettes are",
              "FILE");
     add_touch_options(app, options.touch);
+    add_sure_option(app, options.must_be_sure);
     add_in_betweens_option(app, options.touch);
     app.footer(
         "Examples:\n"

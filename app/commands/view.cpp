@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/folder.hpp"
@@ -258,8 +259,11 @@ bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks
         warn(parts.session->session.warning(), log);
         warn(parts.session->frames.warning(), log);
     } else {
-        parts.media = opened(options.open, tasks, shutdown);
-        if (!parts.media) return false;
+        auto media = opened(options.open, tasks, shutdown);
+        if (!media) return false;
+        if (options.must_be_sure || options.asks_nobody())
+            log.append("warning", report_doubt(media->description(), options.must_be_sure));
+        parts.media = std::move(media);
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
@@ -378,6 +382,7 @@ void add_view_options(CLI::App& app, ViewCommand& command) {
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
     add_touch_options(app, options.touch);
+    add_sure_option(app, options.must_be_sure);
     add_in_betweens_option(app, options.touch);
     add_on_off_option(app, "--stability",
                       "on: damps as much as the device needs, and takes out the energy that "

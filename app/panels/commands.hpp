@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -42,6 +43,9 @@ struct UseFirmware {
 struct AnswerUnsafeSettings {
     bool agreed{false};  ///< to UiState::unsafe_settings
 };
+struct AnswerDepth {
+    std::optional<std::size_t> alternative{};  ///< of UiState::depth_question; nothing: not sure
+};
 struct RemovePaint {};
 struct MarkMoment {
     std::chrono::steady_clock::time_point at{};
@@ -63,8 +67,8 @@ struct MakeReport {
 using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
                  LoadBump, UseMaterial, KeepMaterial, UseFirmware, AnswerUnsafeSettings,
-                 RemovePaint, MarkMoment, ReplayAsRecorded, LeaveReplay, ReadFolder, CompleteTyped,
-                 MakeReport>;
+                 AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded, LeaveReplay, ReadFolder,
+                 CompleteTyped, MakeReport>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

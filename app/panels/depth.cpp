@@ -150,6 +150,27 @@ void registration_rows(ViewerState& state) {
     push_statement(statement, state);
 }
 
+/// Rows with the times of the depth's frames.
+void time_rows(ViewerState& state) {
+    const DepthMeaning& known = *state.media.meaning;
+    TextFields& fields = state.ui.fields;
+    statement_row("Times",
+                  "Of pictures without times. counted: 30 a second; own: by stamps in their names "
+                  "or beside them; paired: with the frames of the other source (--depth-times)",
+                  kDepthTimes, known.times, &DepthStatement::times, state);
+    typed_row({"Offset", "seconds by which the depth is later than its times say (--depth-offset)",
+               known.time_offset_s.value == 0.0
+                   ? "0 s"
+                   : with_origin(short_text(known.time_offset_s.value) + " s",
+                                 known.time_offset_s.origin)},
+              offset_in, &DepthStatement::time_offset_s, fields.depth_offset, state);
+    const double rate = known.frames_per_s.value;
+    typed_row({"Rate", "frames of depth a second (--depth-fps)",
+               rate > 0.0 ? with_origin(short_text(rate) + "/s", known.frames_per_s.origin)
+                          : short_text(state.media.frames_per_s, 4) + "/s"},
+              rate_in, &DepthStatement::frames_per_s, fields.depth_rate, state);
+}
+
 bool has_assumed(const DepthMeaning& meaning) {
     return meaning.near.origin == Origin::assumed || meaning.unit.origin == Origin::assumed ||
            meaning.packing.origin == Origin::assumed || meaning.code.origin == Origin::assumed;
@@ -213,6 +234,7 @@ void draw_depth_rows(ViewerState& state) {
                camera_text(known.intrinsics)},
               intrinsics_in, &DepthStatement::intrinsics, fields.intrinsics, state);
     if (!state.media.colour_path.empty()) registration_rows(state);
+    if (!state.media.still && !state.media.live) time_rows(state);
     if (ImGui::Button("Save as sidecar")) state.commands.push(SaveSidecar{});
     add_tooltip("Writes what the depth means beside its file, for whoever opens it next");
     ImGui::EndDisabled();
@@ -225,6 +247,8 @@ void fill_depth_fields(ViewerState& state) {
     fill_field(&DepthStatement::range, state, fields.depth_range);
     fill_field(&DepthStatement::no_data, state, fields.no_data);
     fill_field(&DepthStatement::intrinsics, state, fields.intrinsics);
+    fill_field(&DepthStatement::time_offset_s, state, fields.depth_offset);
+    fill_field(&DepthStatement::frames_per_s, state, fields.depth_rate);
     const Registration registration =
         state.media.meaning ? state.media.meaning->registration.value : Registration{};
     fields.colour_shift_px = {registration.right_px, registration.down_px};

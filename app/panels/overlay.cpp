@@ -119,6 +119,7 @@ std::string position_text(const ViewerState& state) {
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
     if (!state.touch.replay && !state.touch.force_enabled) return "Force off";
+    if (state.touch.depth_in_question) return "Force off: which depth is right?";
     if (waits_for_front(state.settings, state.touch)) return "Force off: not in front";
     if (!haptic.touchable) return state.touch.replay ? "No surface" : "No surface yet";
     if (clutched(state.settings, state.touch)) return "Held by the clutch";

@@ -109,6 +109,13 @@ void draw_unsafe_settings(ViewerState& state);
 /// A card over the relief, for a video without depth: depth can be made for it.
 void draw_depth_offer(ViewerState& state);
 
+/// A card over the window that asks which meaning of the depth is right, with a small relief of
+/// each, while asks_depth() is true.
+void draw_depth_question(ViewerState& state);
+/// A few words for each alternative, which tell them apart: "Near is bright", "Millimetres, 0.4 to
+/// 3.1 m".
+[[nodiscard]] std::vector<std::string> labels_of(const std::vector<DepthAlternative>& alternatives);
+
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 

@@ -69,6 +69,14 @@ void draw_open(ViewerState& state) {
     draw_recent(state);
 }
 
+/// "those of 'a.mp4'; 0.2 s later" in two lines, which break no number.
+std::string clause_by_line(const std::string& clauses) {
+    std::string lines = capitalised(clauses);
+    for (auto at = lines.find("; "); at != std::string::npos; at = lines.find("; ", at))
+        lines.replace(at, 2, "\n");
+    return lines;
+}
+
 void draw_files(const MediaDescription& media) {
     if (media.depth_path.empty()) return;  // nothing is open
     if (media.colour_path.empty()) {
@@ -82,6 +90,9 @@ void draw_files(const MediaDescription& media) {
              formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
+    if (!media.timing.empty() && media.times_from != "file" && !media.live)
+        fact_row("Frame times", clause_by_line(media.timing),
+                 "Who says when each frame is; to be changed below: Depth, Times, Offset, Rate");
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 
@@ -175,6 +186,9 @@ void draw_cleaning(ViewerState& state) {
     const auto row = [&changed](const char* label, bool& step, bool usual, const char* help) {
         changed = flag_row(label, step, usual, help) || changed;
     };
+    row("Interpolate sparse depth", steps.densify, standard.densify,
+        "Between seen pixels that lie apart, as a LiDAR's, up to the colour's edges; a replay then "
+        "needs the colour, too");
     row("Remove spikes", steps.remove_spikes, standard.remove_spikes,
         "Single pixels that stand out of all their neighbours");
     row("Fill holes", steps.fill_holes, standard.fill_holes,

@@ -41,6 +41,8 @@ struct TextFields {
     TextField depth_range{};                  ///< "480:4210"
     TextField no_data{};                      ///< "0,65535"
     TextField intrinsics{};                   ///< "525,525,319.5,239.5" or "60deg"
+    TextField depth_offset{};                 ///< "-0.05" [s]
+    TextField depth_rate{};                   ///< "29.97" [1/s]
     std::array<double, 2> colour_shift_px{};  ///< right and down, in depth pixels
     std::array<double, 1> colour_size{1.0};   ///< a factor
 };
@@ -123,6 +125,15 @@ struct DepthOffer {
     std::filesystem::path depth{};  ///< finished while something else was open; empty: not yet
 };
 
+/// The question which meaning of the open depth is right.
+struct DepthQuestion {
+    std::vector<DepthAlternative> alternatives{};  ///< two to four; the first one is in use
+    std::vector<std::uintptr_t> reliefs{};         ///< names of their textures, once they are drawn
+    std::string folder{};    ///< the name of the file's folder; empty: no answer for all its files
+    bool for_folder{false};  ///< the answer holds for the other files of the folder, too
+    bool answered{false};    ///< the files are being opened by the answer
+};
+
 /// A pixel of the drawn depth, and its values.
 struct PixelShown {
     int column{0}, row{0};
@@ -187,10 +198,11 @@ struct UiState {
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};
     std::optional<ExplainedInfo> explained{};
-    bool statistics{false};                       ///< shown over the relief
-    std::optional<ClipInfo> clip{};               ///< nothing: no clip is made
-    std::optional<DepthOffer> depth_offer{};      ///< nothing: no video lacks depth
-    std::optional<StripHistory> paused_strips{};  ///< the values of paused charts
+    bool statistics{false};                         ///< shown over the relief
+    std::optional<ClipInfo> clip{};                 ///< nothing: no clip is made
+    std::optional<DepthOffer> depth_offer{};        ///< nothing: no video lacks depth
+    std::optional<DepthQuestion> depth_question{};  ///< nothing: the depth is sure, or answered
+    std::optional<StripHistory> paused_strips{};    ///< the values of paused charts
     float strips_end_y{0.0F};  ///< the charts' lower end in the last picture [px]
     double pictures_per_s{0.0};
     bool touched{false};  ///< there was a contact: the first hint is not needed any more
@@ -209,6 +221,12 @@ struct UiState {
     float window_width{1.0F};  ///< [px]
     float window_height{1.0F};
 };
+
+/// Whether the question on the depth can be answered: nothing is in front of it.
+[[nodiscard]] inline bool asks_depth(const UiState& ui) {
+    return ui.depth_question && !ui.depth_question->answered && !ui.dialog.shown &&
+           ui.message.empty() && ui.unsafe_settings.empty() && !ui.depth_offer && !ui.help_open;
+}
 
 struct ViewerState {
     Settings settings{};  ///< live: panels write here, the next tick and picture use it

@@ -198,11 +198,10 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                if (!request.preset || request.preset == CleaningPreset::own)
                    throw CLI::ValidationError(
                        "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
-               if (request.preset == CleaningPreset::raw) request.raw_depth = true;
                if (request.preset == CleaningPreset::automatic)
                    request.depth.cleaning.emplace();  // overrides a sidecar
            },
-           "What is done to the depth: raw (as --raw-depth), gentle (holes, spikes, 8-bit steps), "
+           "What is done to the depth: raw (nothing), gentle (holes, spikes, 8-bit steps), "
            "sensor (also silhouettes and noise), auto (chosen by the noise of the clip)")
         ->type_name("NAME")
         ->default_str("auto");
@@ -443,6 +442,21 @@ void add_depth_options(CLI::App& app, DepthStatement& depth) {
                     "is not RIGHT,DOWN,SCALE in depth pixels, the scale 0.01 to 100",
                     "How the colour lies over the depth: moved by RIGHT and DOWN depth pixels, and "
                     "SCALE times as large");
+    add_word_option(app, "--depth-times", kDepthTimes, depth.times,
+                    "When pictures without times are shown: 30 a second, by stamps in their names "
+                    "or beside them, or with the frames of the other source");
+    add_fact_option(app, "--depth-offset", depth.time_offset_s, offset_in, "SECONDS",
+                    "is not a number of seconds, at most a day",
+                    "How much later the depth is than its times say");
+    add_fact_option(app, "--depth-fps", depth.frames_per_s, rate_in, "RATE",
+                    "is not a rate of 0.001 to 10000 frames a second",
+                    "Frames of depth a second, instead of what its source says");
+}
+
+void add_sure_option(CLI::App& app, bool& sure) {
+    app.add_flag("--sure", sure,
+                 "Fails where the meaning of the depth is likely but not sure; without this option "
+                 "one line on stderr says so, where no window asks");
 }
 
 void add_shape_options(CLI::App& app, TouchRequest& request) {

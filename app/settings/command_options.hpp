@@ -63,7 +63,7 @@ struct GivenParameters {
 /// Options of all commands that compute forces.
 struct TouchRequest {
     GivenParameters given{};
-    bool raw_depth{false};                    ///< --raw-depth, or --cleaning raw
+    bool raw_depth{false};                    ///< --raw-depth
     std::optional<CleaningPreset> preset{};   ///< --cleaning
     std::optional<double> finger_mm{};        ///< --finger
     std::optional<InBetweens> in_betweens{};  ///< --in-betweens
@@ -136,9 +136,13 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
 /// `depth` must outlive the parsing of `app`.
 void add_level_options(CLI::App& app, DepthStatement& depth);
 
-/// The same, --packing, --depth-code, --geometry, --intrinsics and --registration. `depth` must
-/// outlive the parsing of `app`.
+/// The same, --packing, --depth-code, --geometry, --intrinsics, --registration, --depth-times,
+/// --depth-offset and --depth-fps. `depth` must outlive the parsing of `app`.
 void add_depth_options(CLI::App& app, DepthStatement& depth);
+
+/// --sure: whether a meaning of depth that is likely but not sure is a failure. `sure` must outlive
+/// the parsing of `app`.
+void add_sure_option(CLI::App& app, bool& sure);
 
 /// --material, --bump, --maps, --raw-depth, --cleaning, --finger, those of add_depth_options and
 /// the entries of the parameter table that shape a surface. `request` must outlive the parsing of

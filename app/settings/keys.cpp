@@ -85,6 +85,7 @@ constexpr KeyJob kJobs[] = {
         "V"),
     while_held(job(Action::show_as_recorded, "show-as-recorded", kView,
                    "Depth as recorded, before cleaning", "B")),
+    job(Action::turn_depth, "turn-depth", kView, "Turn near and far of the depth, and back", "X"),
     job(Action::next_paint, "next-paint", kView, "Show video colour, clay, or depth colours", "D"),
     job(Action::toggle_panes, "toggle-panes", kView,
         "Colour and depth as pictures above the relief", "K"),
@@ -421,6 +422,12 @@ std::optional<Action> KeyTable::action_of_key(int key, bool control, bool typing
     const KeyJob& job = job_of(*action);
     const bool heard = !typing || (job.while_typing && !edits_text(pressed));
     return heard && (job.repeats || !repeated) ? action : std::nullopt;
+}
+
+std::optional<int> digit_of(int key) {
+    if (key >= GLFW_KEY_0 && key <= GLFW_KEY_9) return key - GLFW_KEY_0;
+    if (key >= GLFW_KEY_KP_0 && key <= GLFW_KEY_KP_9) return key - GLFW_KEY_KP_0;
+    return std::nullopt;
 }
 
 std::optional<ListKey> list_key(int key) {

@@ -46,6 +46,7 @@ enum class Action {
     reset_view,
     toggle_straight_view,
     show_as_recorded,
+    turn_depth,
     toggle_panels,
     toggle_statistics,
     next_paint,
@@ -155,6 +156,10 @@ class KeyTable {
 
     std::array<std::vector<Key>, kActions> keys_{};
 };
+
+/// The number on a key, also on the number pad: 0 to 9, wherever the layout types it. Nothing: the
+/// key has none.
+[[nodiscard]] std::optional<int> digit_of(int key);
 
 /// What a key does in a list of choices.
 enum class ListKey { up, down, take };

@@ -79,7 +79,6 @@ TouchRequest request_of(const TouchValues& values) {
         given.material = material_named(material);
     given.bump = word("bump");
     request.preset = named<CleaningPreset>(word("cleaning"));
-    request.raw_depth = request.preset == CleaningPreset::raw;
     return request;
 }
 

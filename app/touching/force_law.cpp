@@ -45,6 +45,7 @@ HapticSettings requested_settings(const Settings& settings, const TouchState& to
         .force_enabled = touch.force_enabled && !waits_for_front(settings, touch),
         .bump = touch.bump,
     };
+    if (touch.depth_in_question) requested.force_enabled = false;
     requested.parameters.coupling = requested_coupling(settings, touch);
     return requested;
 }

@@ -103,6 +103,7 @@ struct DeviceInfo {
 struct TouchState {
     // What a person chooses.
     bool force_enabled{true};
+    bool depth_in_question{false};  ///< what the depth means is being asked: no force
     std::uint32_t centre_count{0};  ///< counts requests to centre the workspace
     std::shared_ptr<const BumpMap> bump{};
     std::filesystem::path bump_file{};

@@ -57,6 +57,8 @@ void close_topmost(ViewerState& state) {
         state.ui.unsafe_settings.clear();  // the next start asks again
     } else if (state.ui.depth_offer && !state.ui.depth_offer->progress) {
         state.commands.push(DepthOfferCommand::close);
+    } else if (asks_depth(state.ui)) {
+        state.commands.push(AnswerDepth{});
     } else {
         state.ui.help_open = false;
     }

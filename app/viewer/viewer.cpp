@@ -291,7 +291,7 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     if (pressed_deeper_) fade(wheel_hint_alpha_);
     const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
     if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
-        !state_.ui.brush.on) {
+        !state_.ui.brush.on && !state_.ui.depth_question) {
         draw_hint(state_, Hint::touch, hint_alpha_);
         const bool may_press_deeper =
             hint_alpha_ <= 0.0F && state_.touch.haptic.touch.proxy.contact;
@@ -302,6 +302,8 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_explained();
     draw_unsafe_settings(state_);
     draw_depth_offer(state_);
+    asking_.draw_reliefs(shown_, touch_.media_number(), state_, scene_);
+    draw_depth_question(state_);
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
@@ -326,6 +328,7 @@ void Viewer::draw_explained() {
 }
 
 void Viewer::publish() {
+    state_.touch.depth_in_question = state_.ui.depth_question.has_value();
     if (!state_.touch.replay) fit_to_media();
     touch_.publish();
 }

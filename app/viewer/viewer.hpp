@@ -19,6 +19,7 @@
 #include "app/settings/settings.hpp"
 #include "app/touching/pointer.hpp"
 #include "app/touching/touch_session.hpp"
+#include "app/viewer/asking.hpp"
 #include "app/viewer/browsing.hpp"
 #include "app/viewer/clip.hpp"
 #include "app/viewer/desktop_dialog.hpp"
@@ -62,16 +63,23 @@ struct ViewOptions {
     std::optional<double> end_s{};             ///< end of playing, from the media's begin
     bool start_given{false};                   ///< by --start: the saved position is not used
     bool full_screen{false};
-    bool stays{false};       ///< also where the named files cannot be opened
-    bool size_given{false};  ///< by --size: the window has exactly this size
-    bool any_media{false};   ///< replay: also over files that have changed
-    TouchRequest touch{};    ///< the command line's; it overrides a session's
+    bool stays{false};         ///< also where the named files cannot be opened
+    bool size_given{false};    ///< by --size: the window has exactly this size
+    bool any_media{false};     ///< replay: also over files that have changed
+    bool must_be_sure{false};  ///< --sure
+    TouchRequest touch{};      ///< the command line's; it overrides a session's
     std::filesystem::path settings_file{settings_path()};  ///< where settings are saved
     Settings in_file{};  ///< as read; the window saves only changes of it
     std::vector<UnsafeSetting>
         unsafe_settings{};  ///< of it: defaults are used until the user agrees
     Settings settings{};    ///< in_file with the command line's values
     PictureHook after_picture{};
+
+    /// Whether nobody may be there who knows the files: the program ends by itself, or fills the
+    /// screen for visitors.
+    [[nodiscard]] bool asks_nobody() const {
+        return full_screen || seconds.has_value() || (!clip.empty() && !looping.value_or(true));
+    }
 };
 
 /// What is opened before the window.
@@ -95,6 +103,12 @@ struct OwnRelief {
     double relief_px{0.0};
 
     bool operator==(const OwnRelief&) const = default;
+};
+
+/// What turning near and far has stated, and the request before.
+struct TurnedDepth {
+    DepthStatement panel{};
+    DepthRequest before{};
 };
 
 class Viewer {
@@ -152,6 +166,10 @@ class Viewer {
     void fit_to_media();
     void keep_panel(const std::filesystem::path& depth_before);
     void open_again(const DepthStatement& panel);
+    void open_again(DepthRequest request);
+    void ask_depth(const OpenRequest& request);
+    void answer_depth(const AnswerDepth& answer);
+    [[nodiscard]] Answer turn_depth();
     std::string save_sidecar();
     void frame_relief();
     void load_bump(const std::filesystem::path& file);
@@ -211,6 +229,8 @@ class Viewer {
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;
+    ViewerAsking asking_{};
+    std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};
     ViewerExplaining explaining_{};
     Browsing browsing_;

@@ -31,6 +31,7 @@ void Viewer::carry_out_commands() {
             attempt([&] { show_notice(touch_.use_firmware(firmware.file)); });
         },
         [this](AnswerUnsafeSettings answer) { answer_unsafe_settings(answer.agreed); },
+        [this](const AnswerDepth& answer) { answer_depth(answer); },
         [this](RemovePaint) { painting_.remove_all(state_, touch_.player()); },
         [this](MarkMoment mark) { show_notice(touch_.recording().mark(state_.keys, mark.at)); },
         [this](ReplayAsRecorded) { replay_.restore_recorded(state_); },

@@ -10,8 +10,10 @@
 namespace dibhr {
 
 void Viewer::take_keys(const WindowInput& input) {
-    // With the dialog open keys are text, even before its field has the keyboard.
-    const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown;
+    // With the dialog open keys are text, even before its field has the keyboard; with a question
+    // on the depth they answer.
+    const bool typing =
+        gui_.wants_keyboard() || state_.ui.dialog.shown || state_.ui.depth_question.has_value();
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
                                                     [this](int key) { return window_.holds(key); });
@@ -26,6 +28,8 @@ void Viewer::take_keys(const WindowInput& input) {
     };
     for (const KeyPress& press : input.keys) {
         if (takes_keys(state_.ui.dialog) && state_.ui.message.empty()) take_dialog_key(press);
+        const std::optional<int> digit = digit_of(press.key);
+        if (digit && !press.repeated && asks_depth(state_.ui)) take_digit(*digit, state_);
         if (const auto action = state_.keys.action_of_key(press.key, press.control, typing,
                                                           press.repeated, press.shift))
             take(*action, press.at);
@@ -58,6 +62,8 @@ std::optional<Answer> Viewer::perform_with_files(Action action) {
             if (browsing_.read_neighbours(action == Action::next_file ? 1 : -1, state_))
                 return Answer{};
             return Answer{"Still looking into the folder"};
+        case Action::turn_depth:
+            return turn_depth();
         default:
             return std::nullopt;
     }
@@ -126,6 +132,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     PointerUse use =
         mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
+    if (state_.touch.depth_in_question) use = {};  // the hand stays where it is
     pointed_at_.reset();
     const Camera::Ray ray = camera_.ray_under(pointer.position_px, viewport);
     const bool measures = state_.ui.ruler && !state_.ui.explained;

@@ -82,6 +82,7 @@ void Viewer::take_opened() {
             state_.ui.message = opened->failure;
             fill_depth_fields(state_);  // the ones in use
         }
+        if (state_.ui.depth_question) state_.ui.depth_question->answered = false;  // by a failure
     }
     state_.media.opening = opening_.running();
 }
@@ -142,6 +143,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
             touch_.recording().stop(request.reconnect ? "the live source changed its form" : "");
         if (waits.empty()) show_notice(ended);  // a waiting recording starts again below
     }
+    if (!request.chosen) turned_.reset();
     if (!request.chosen) keep_memory();
     replay_.end(state_);
     if (!request.chosen) forget_relief();
@@ -155,6 +157,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     fill_depth_fields(state_);
     trace_.clear();
     if (request.chosen) keep_panel(depth_file(before));
+    ask_depth(request);
     fit_to_media();
     // After a change of the depth options the view stays.
     const bool same_size =
@@ -247,6 +250,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     painting_.end(state_);
     keep_memory();
     remembered_.clear();
+    state_.ui.depth_question.reset();
     touch_.stop();  // the force goes to zero; no device is read
     trace_.clear();
     touch_.player().pause();
@@ -287,14 +291,87 @@ void Viewer::keep_panel(const std::filesystem::path& depth_before) {
 
 /// Opens the same files at the same moment, with the panel's new depth choices in place of the old.
 void Viewer::open_again(const DepthStatement& panel) {
+    DepthRequest request = state_.media.opened.request;
+    request.panel = panel;
+    open_again(std::move(request));
+}
+
+/// The same with all statements on the depth; those of the panel are kept.
+void Viewer::open_again(DepthRequest statements) {
     OpenRequest request = state_.media.opened;
+    request.request = std::move(statements);
     request.request.find_out = true;
-    request.request.panel = panel;
-    request.request.kept_in.clear();
+    request.request.panel_is_whole = true;
     request.chosen = true;
     request.at_s = state_.media.playback.media_s;
     request.paused = !state_.media.playback.playing;
     open(request);
+}
+
+/// Asks what the depth of the opened files means, where that is not sure. From now on no force is
+/// sent until a person has answered.
+void Viewer::ask_depth(const OpenRequest& request) {
+    state_.ui.depth_question.reset();
+    const std::string doubt = doubt_about(state_.media);
+    if (doubt.empty() || request.chosen || request.reconnect) return;
+    if (!options_.asks_nobody()) {
+        state_.ui.depth_question = question_on(state_.media);
+        state_.touch.depth_in_question = state_.ui.depth_question.has_value();
+        if (touch_.runs()) touch_.publish();
+    } else if (touch_.runs()) {  // of files of the command line it was said before
+        print_error_line(doubt);
+        log_.append("warning", doubt);
+    }
+}
+
+void Viewer::answer_depth(const AnswerDepth& answer) {
+    std::optional<DepthQuestion>& question = state_.ui.depth_question;
+    if (!question || question->answered) return;
+    if (!answer.alternative) {
+        question.reset();
+        return show_notice("Goes on with 1 and keeps nothing" +
+                           state_.keys.key_hint(Action::turn_depth, " turns near and far") +
+                           "; the Video panel has the rest");
+    }
+    if (opening_.running()) return show_notice("Still opening the last files");
+    const DepthStatement& right = question->alternatives[*answer.alternative].statement;
+    if (question->for_folder)
+        save_queue_.add([folder = depth_choices_path(), file = depth_file(state_.media), right] {
+            keep_folder_choice(folder, file, right);
+        });
+    question->answered = true;
+    DepthStatement panel = right;
+    panel.fill_in(state_.media.opened.request.panel);
+    open_again(panel);
+}
+
+/// Turns near and far of the open depth, and again back to what was before. Also against the
+/// command line, which was there first.
+Answer Viewer::turn_depth() {
+    if (state_.touch.replay) return {"A replay is felt as it was recorded: nothing is turned"};
+    const MediaState& media = state_.media;
+    if (media.depth_path.empty()) return {"Nothing is open"};
+    if (!media.meaning)
+        return {"The depth is as the file has it (--raw-depth): start dibhr without it to turn it"};
+    if (opening_.running()) return {"Still opening the last files"};
+    const DepthRequest& now = media.opened.request;
+    if (turned_ && turned_->panel == now.panel) {
+        open_again(std::exchange(turned_, {})->before);
+        return {"Near and far as before"};
+    }
+    DepthRequest request = now;
+    const DepthStatement turned = turned_near_and_far(*media.meaning);
+    request.panel = turned;
+    request.panel.fill_in(now.panel);
+    const auto forget_turned = [](const char* /*name*/, const auto& fact, auto& given) {
+        if (fact) given.reset();
+    };
+    visit_facts(turned, request.command_line, forget_turned);
+    turned_ = TurnedDepth{request.panel, now};
+    open_again(std::move(request));
+    return {"Near and far turned: near is " + std::string(name_of(*turned.near)) +
+            (media.meaning->unit.value == DepthUnit::levels ? "" : ", no distances") +
+            state_.keys.key_hint(Action::turn_depth, " turns them back")};
 }
 
 /// Reopens a live source that now sends another size or kind of picture.

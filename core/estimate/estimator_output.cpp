@@ -44,7 +44,9 @@ bool names_other_content(const fs::path& relative) {
         const auto in_name = [&name](std::string_view word) {
             return name.find(word) != std::string::npos;
         };
-        if (std::any_of(kOthers.begin(), kOthers.end(), in_name) || named_colour(part)) return true;
+        if (std::any_of(kOthers.begin(), kOthers.end(), in_name) || named_colour(part) ||
+            !named_other(part).empty())
+            return true;
     }
     return false;
 }

@@ -2,6 +2,7 @@
 #include "core/files/names.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <string_view>
 #include <system_error>
@@ -12,6 +13,19 @@
 namespace dibhr {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether a new word begins between the two characters.
+bool is_between_words(char before, char after) {
+    const auto is = [](int (*kind)(int), char c) {
+        return kind(static_cast<unsigned char>(c)) != 0;
+    };
+    return is_decimal_digit(before) != is_decimal_digit(after) ||
+           (is(std::islower, before) && is(std::isupper, after));
+}
+
+}  // namespace
 
 std::string shown(const fs::path& file) {
     return in_quotes(file.string(), std::string::npos);
@@ -41,6 +55,22 @@ std::vector<fs::path> entries_of(const fs::path& folder) {
         return in_natural_order(a.filename().string(), b.filename().string());
     });
     return entries;
+}
+
+std::vector<std::string> words_of_name(std::string_view name) {
+    std::vector<std::string> words(1);
+    for (std::size_t k = 0; k < name.size(); ++k) {
+        const auto byte = static_cast<unsigned char>(name[k]);
+        const bool counts = byte >= 0x80 || std::isalnum(byte) != 0;
+        if (k > 0 && is_between_words(name[k - 1], name[k])) words.emplace_back();
+        if (counts)
+            words.back().push_back(name[k]);
+        else
+            words.emplace_back();
+    }
+    std::erase(words, "");
+    std::transform(words.begin(), words.end(), words.begin(), lower_case);
+    return words;
 }
 
 bool in_natural_order(const std::string& a, const std::string& b) {

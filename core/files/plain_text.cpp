@@ -16,6 +16,7 @@ extern "C" {
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 #include <system_error>
 #include <utility>
 
@@ -204,6 +205,16 @@ std::string base64_text(std::string_view bytes) {
                      reinterpret_cast<const std::uint8_t*>(bytes.data()), size);
     text.pop_back();  // the zero at its end
     return text;
+}
+
+std::string bytes_of_base64(std::string text) {
+    std::erase_if(text, [](unsigned char c) { return std::isspace(c) != 0; });
+    if (text.size() > std::size_t{std::numeric_limits<int>::max()}) return {};
+    std::string bytes(AV_BASE64_DECODE_SIZE(text.size()), '\0');
+    const int written = av_base64_decode(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                         text.c_str(), static_cast<int>(bytes.size()));
+    bytes.resize(static_cast<std::size_t>(std::max(written, 0)));
+    return bytes;
 }
 
 std::string number_text(double value) {

@@ -50,6 +50,9 @@ namespace dibhr {
 /// Bytes as a `data:` address takes them (RFC 4648, section 4).
 [[nodiscard]] std::string base64_text(std::string_view bytes);
 
+/// The inverse, with blanks anywhere in the text. Empty for another text.
+[[nodiscard]] std::string bytes_of_base64(std::string text);
+
 /// The shortest text that reads back to the same number.
 [[nodiscard]] std::string number_text(double value);
 

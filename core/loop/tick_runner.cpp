@@ -20,6 +20,7 @@ FramePair frames_of(const DepthBlend& pair) noexcept {
              .colour_edges = steps.colour_edges,
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
+             .densify = steps.densify,
              .in_betweens = from.in_betweens != nullptr && &from != &to,
              .motion = from.motion != nullptr && &from != &to,
              .finger_px = from.cleaning.finger.radius_px,

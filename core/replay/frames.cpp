@@ -98,7 +98,8 @@ void SessionMediaFinder::warn(const std::string& sentence) {
 }
 
 FrameCleaning cleaning_of(const FrameSource& source) {
-    return {{.remove_spikes = source.remove_spikes,
+    return {{.densify = source.densify,
+             .remove_spikes = source.remove_spikes,
              .fill_holes = source.fill_holes,
              .sharpen_silhouettes = source.sharpen_silhouettes,
              .colour_edges = source.colour_edges,
@@ -126,17 +127,20 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
 void SessionFrames::find_videos(const Session& session) {
     for (const SessionSource& source : session.sources()) {
         Video& video = videos_[source.source.media];
-        const bool edges =
-            source.source.sharpen_silhouettes && source.source.colour_edges && !options_.cleaning;
+        const CleaningSteps steps = cleaning_of(source.source).steps;
+        const bool densifies = steps.densify && options_.cleaning != CleaningPreset::raw;
+        const bool edges = options_.cleaning ? densifies : need_colour(steps);
         const bool moves = source.source.motion || source.source.in_betweens || options_.motion;
-        const bool by_colour = edges || moves;
+        DepthStatement recorded;
+        if (!source.depth_meaning.empty())
+            recorded = statement_in(source.depth_meaning, session.file().string());
+        const bool by_colour = edges || moves || recorded.times == DepthTimes::paired;
         video.in_colour = video.in_colour || options_.colour || by_colour;
         if (video.in_colour && video.colour.empty() && !source.colour.file.empty())
             video.colour = finder_.find(source.colour, "colour video");
         if (!video.depth.empty()) continue;
         video.depth = finder_.find(source.depth, "depth video");
-        if (!source.depth_meaning.empty())
-            video.request.recorded = statement_in(source.depth_meaning, session.file().string());
+        video.request.recorded = std::move(recorded);
     }
 }
 

@@ -66,6 +66,7 @@ std::string cleaning_text(const FrameSource& source) {
     const auto add = [&text](bool on, const char* name) {
         if (on) text += (text.empty() ? "" : ", ") + std::string(name);
     };
+    add(source.densify, "sparse depth interpolated");
     add(source.remove_spikes, "spikes removed");
     add(source.fill_holes, "holes filled");
     add(source.sharpen_silhouettes, "silhouettes sharpened");

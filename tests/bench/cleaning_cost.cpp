@@ -1,7 +1,7 @@
 // Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,gentle]
 // [--size 640x480,1920x1080] [--frames N] [PLACE...]. A place is what `dibhr view` takes, in one
-// word; its frames are stretched to the size, with fresh noise. bad, bad16, clean and clean16 are
-// synthetic.
+// word; its frames are stretched to the size, with fresh noise. bad, bad16, clean, clean16,
+// sparse30 and sparse5 are synthetic; of the last two 30 and 5 % of the pixels are seen.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -22,7 +22,9 @@
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/formats/libraries.hpp"
+#include "core/video/frames/colour_image.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace {
@@ -54,11 +56,14 @@ struct Made {
     const char* name;
     double highest_level;
     bool bad;
+    unsigned seen_thousandths{1000};
 };
-constexpr std::array<Made, 4> kMade{{{"bad", 255.0, true},
+constexpr std::array<Made, 6> kMade{{{"bad", 255.0, true},
                                      {"bad16", 8000.0, true},
                                      {"clean", 255.0, false},
-                                     {"clean16", 8000.0, false}}};
+                                     {"clean16", 8000.0, false},
+                                     {"sparse30", 8000.0, false, 300},
+                                     {"sparse5", 8000.0, false, 50}}};
 
 /// Steps in front of a wavy wall; where it is bad, holes, flickering patches, noise and outliers.
 DepthImage made_frame(Size size, const Made& made, std::size_t number) {
@@ -73,6 +78,7 @@ DepthImage made_frame(Size size, const Made& made, std::size_t number) {
         const bool flips = made.bad && std::fmod(x + 5.0 * time, 1.7) < 0.1;
         const double level = (near != flips ? 0.7 : 0.3) + 0.05 * std::sin(3.0 * x + 2.0 * y);
         const auto dice = random() % 1000;
+        if (dice >= made.seen_thousandths) return std::nan("");
         if (!made.bad) return std::round(highest * level);
         const bool shadow = near && std::fmod(x + time, 2.0) > 0.9;
         if (dice < 30 || (shadow && dice < 900)) return std::nan("");
@@ -99,7 +105,20 @@ struct Clip {
     std::vector<DepthImage> frames{};
     std::vector<std::vector<HeldLevel>> held{};
     DepthNoise noise{};
+    std::optional<ColourImage> colour{};  ///< of sparse depth, which is interpolated with it
 };
+
+/// The shades of the first frame as a colour picture, the worst that colour steps can be.
+ColourImage shades_of(const DepthImage& image) {
+    ColourImage colour{image.columns, image.rows, {}};
+    for (const float level : image.levels) {
+        const float shade = std::isnan(level) ? 0.0F : level;
+        const auto byte =
+            static_cast<std::uint8_t>(255.0 * static_cast<double>(shade) / image.highest_level);
+        colour.rgb.insert(colour.rgb.end(), 3, byte);
+    }
+    return colour;
+}
 
 std::vector<DepthImage> read(const std::string& place, std::size_t count) {
     std::vector<DepthImage> frames;
@@ -134,6 +153,9 @@ Clip clip_of(const std::string& place, Size size, std::size_t count) {
             clip.frames[k] = stretched(clip.frames[k], size, noise, static_cast<unsigned>(k));
     }
     clip.noise = noise_of(clip.frames);
+    SparseMeter meter;
+    meter.add(clip.frames.front());
+    if (meter.sparse_share()) clip.colour = shades_of(clip.frames.front());
     DepthMemory memory;
     for (std::size_t k = 0; k < clip.frames.size(); ++k)
         clip.held.push_back(memory.take(clip.frames[k], static_cast<double>(k) / 30.0));
@@ -169,7 +191,8 @@ Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
     for (std::size_t k = 0; k < clip.frames.size(); ++k) {
         DepthImage frame = clip.frames[k];
         const double begin_ms = cpu_ms();
-        single_frames.push_back(chain.clean_frame(std::move(frame), plan, clip.held[k]));
+        single_frames.push_back(chain.clean_frame(std::move(frame), plan, clip.held[k],
+                                                  clip.colour ? &*clip.colour : nullptr));
         if (k > 1) clean_frame_ms.push_back(cpu_ms() - begin_ms);
     }
     std::vector<const SingleFrameDepth*> all;
@@ -193,11 +216,10 @@ void print_costs(const Clip& clip, const CleaningSteps& wanted) {
     CleaningSteps steps;
     Cleaned before = clean(clip, {steps, {}, clip.noise});
     std::printf(" %7.2f", before.clean_frame.least_ms + before.finish_frame.least_ms);
-    std::array<bool, 6> on{};
-    std::size_t k = 0;
-    visit_steps(wanted, [&](const char*, bool step) { on[k++] = step; });
+    std::vector<bool> on;
+    visit_steps(wanted, [&](const char*, bool step) { on.push_back(step); });
     for (std::size_t step = 0; step < on.size(); ++step) {
-        k = 0;
+        std::size_t k = 0;
         visit_steps(steps, [&](const char*, bool& value) { value = k++ <= step && on[k - 1]; });
         const Cleaned now = on[step] ? clean(clip, {steps, {}, clip.noise}) : before;
         std::printf(" %7.2f", now.clean_frame.least_ms - before.clean_frame.least_ms +
@@ -211,9 +233,10 @@ void print_costs(const Clip& clip, const CleaningSteps& wanted) {
 }
 
 void print_head() {
-    std::printf("%-36s %-9s %-7s %7s %7s %7s %7s %7s %7s %7s | %7s %7s | %7s %7s | [ms of CPU]\n",
-                "recording", "size", "way", "none", "spikes", "holes", "silhou.", "time", "steps",
-                "noise", "alone", "median", "finish", "median");
+    std::printf(
+        "%-36s %-9s %-7s %7s %7s %7s %7s %7s %7s %7s %7s %7s | %7s %7s | %7s %7s | [ms of CPU]\n",
+        "recording", "size", "way", "none", "sparse", "spikes", "holes", "silhou.", "colours",
+        "time", "steps", "noise", "alone", "median", "finish", "median");
 }
 
 }  // namespace
@@ -222,7 +245,8 @@ int main(int count, char** words) {
     std::vector<std::string> places{"bad"}, ways{"sensor"}, sizes{"as recorded"};
     std::size_t frames = 24;
     CLI::App app{"What the cleaning of a frame costs."};
-    app.add_option("PLACE", places, "Recordings; bad, bad16, clean and clean16 are made up")
+    app.add_option("PLACE", places,
+                   "Recordings; bad, bad16, clean, clean16, sparse30 and sparse5 are made up")
         ->capture_default_str();
     app.add_option("--cleaning", ways, "Presets, one after the other")
         ->delimiter(',')
@@ -243,7 +267,9 @@ int main(int count, char** words) {
                     const DepthImage& first = clip.frames.front();
                     std::printf("%-36s %4dx%-4d %-7s", name.c_str(), first.columns, first.rows,
                                 way.c_str());
-                    print_costs(clip, way == "gentle" ? kGentleSteps : kSensorSteps);
+                    CleaningSteps steps = way == "gentle" ? kGentleSteps : kSensorSteps;
+                    steps.densify = clip.colour.has_value();
+                    print_costs(clip, steps);
                 }
             }
         return 0;

@@ -124,7 +124,8 @@ CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
     const MediaDescription& description = media.description();
     return plan_of(cleaning, meter.noise(),
                    static_cast<std::size_t>(description.depth_columns) *
-                       static_cast<std::size_t>(description.depth_rows));
+                       static_cast<std::size_t>(description.depth_rows),
+                   description.sparse_share.has_value());
 }
 
 Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
@@ -136,7 +137,9 @@ Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
         Frame frame;
         frame.time_s = read->media_s;
         stretch.raw.push_back(read->depth);
-        single_frames.push_back(chain.clean_frame(std::move(read->depth), plan, read->held));
+        const ColourImage* const colour = read->colour_of_view ? &read->colour : nullptr;
+        single_frames.push_back(
+            chain.clean_frame(std::move(read->depth), plan, read->held, colour));
         stretch.frames.push_back(std::move(frame));
         if (stretch.frames.back().time_s > begin_s + kTouched_s + kAfter_s) break;
     }

@@ -292,12 +292,21 @@ std::vector<DepthImage> monocular(const TrueFrames& truth, std::uint32_t seed) {
     });
 }
 
+/// One pixel in 20 is seen, exactly, another one in every frame.
+std::vector<DepthImage> sparse(const TrueFrames& truth, std::uint32_t seed) {
+    Chance chance(seed);
+    return each_frame(truth, [&](Sight& sight) {
+        for (float& level : sight.elevation.levels)
+            if (!chance.one_in(0.05)) level = kNoData;
+    });
+}
+
 }  // namespace
 
 std::vector<Sensor> sensors() {
-    return {{"exact", exact},     {"white", white}, {"kinect", kinect},
-            {"stereo", stereo},   {"lidar", lidar}, {"tof", time_of_flight},
-            {"8-bit", eight_bit}, {"h264", h264},   {"mono", monocular}};
+    return {{"exact", exact},    {"white", white},        {"kinect", kinect},   {"stereo", stereo},
+            {"lidar", lidar},    {"tof", time_of_flight}, {"8-bit", eight_bit}, {"h264", h264},
+            {"mono", monocular}, {"sparse", sparse}};
 }
 
 Sensor sensor(const std::string& name) {

@@ -18,7 +18,7 @@ struct Sensor {
 };
 
 /// "exact" (nothing is done but to round to 16 bits), "white", "kinect", "stereo", "lidar", "tof",
-/// "8-bit", "h264" and "mono". The same seed gives the same frames.
+/// "8-bit", "h264", "mono" and "sparse". The same seed gives the same frames.
 [[nodiscard]] std::vector<Sensor> sensors();
 
 /// The sensor of that name, which must exist.

@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 
 #include "core/haptics/facet.hpp"
 #include "core/metrics/force_variation.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "tests/support/listed_media.hpp"
@@ -274,7 +276,11 @@ Nearness NearnessMeter::nearness() const {
 Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
                         CleaningPreset preset) {
     const CleaningOptions options{.preset = preset};
-    FrameReader reader(std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate));
+    auto media = std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate);
+    SparseMeter sparse;
+    sparse.add(recorded.front());
+    media->set_sparse(sparse.sparse_share());
+    FrameReader reader(std::move(media));
     reader.set_cleaning(options);
     NearnessMeter meter(truth);
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s))

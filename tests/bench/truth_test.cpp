@@ -176,6 +176,11 @@ TEST_CASE("a sphere of 8 bits is felt as one, within 5 degrees", "[truth][long]"
     CHECK(seen("sphere", "8-bit", kAuto, 640, 2).normal_deg <= 5.0);
 }
 
+TEST_CASE("a plane of which one pixel in 20 is seen comes within a pixel of the truth",
+          "[truth][long]") {
+    CHECK(seen("plane", "sparse", kAuto).elevation_px <= 1.0);
+}
+
 TEST_CASE("what is exact stays so", "[truth][long]") {
     const std::string scene = GENERATE("plane", "sphere", "face", "chest", "bumps");
     const Nearness before = seen(scene, "exact", kRaw);

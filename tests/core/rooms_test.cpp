@@ -166,6 +166,10 @@ const std::vector<Ownership> kOwnerships{
     {"Imf", {"core/video/formats/"}},
     {"libheif/", {"core/video/formats/"}},
     {"zip.h", {"core/video/formats/"}},
+    {"tiffio.h", {"core/video/modules/"}},
+    {"expat.h", {"core/video/formats/xmp.cpp"}},
+    {"zstd.h", {"core/video/formats/"}},
+    {"lz4frame.h", {"core/video/formats/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},
 };

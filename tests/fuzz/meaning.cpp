@@ -14,8 +14,8 @@
 
 #include "core/files/names.hpp"
 #include "core/video/depth/colour_registration.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 #include "core/video/formats/camera_files.hpp"
-#include "core/video/formats/ros_messages.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/packed.hpp"
@@ -106,10 +106,8 @@ void lay_out(const test::TemporaryFolder& folder, const char* name, const std::s
     write(folder / name, text);
 }
 
-/// A camera's file as ScanNet or Open3D has it; its pictures seen straight on, too.
-void look_at_camera(const char* name, const std::string& text) {
-    const test::TemporaryFolder folder;
-    lay_out(folder, name, text);
+/// A folder with a camera's file; its pictures seen straight on, too.
+void look_at_camera(const test::TemporaryFolder& folder) {
     for (const Geometry geometry : {Geometry::relief, Geometry::true_shape}) {
         DepthRequest request = kAsFound;
         request.command_line.geometry = geometry;
@@ -118,11 +116,24 @@ void look_at_camera(const char* name, const std::string& text) {
 }
 
 void look_at_matrix(const std::string& text) {
-    look_at_camera("intrinsic/intrinsic_depth.txt", text);
+    const test::TemporaryFolder folder;
+    lay_out(folder, "intrinsic/intrinsic_depth.txt", text);
+    look_at_camera(folder);
 }
 
 void look_at_open3d(const std::string& text) {
-    look_at_camera("camera_intrinsic.json", text);
+    const test::TemporaryFolder folder;
+    lay_out(folder, "camera_intrinsic.json", text);
+    look_at_camera(folder);
+}
+
+/// As ARKitScenes has it.
+void look_at_pincam(const std::string& text) {
+    const test::TemporaryFolder folder;
+    write(folder / "lowres_depth/1.pgm", depth_picture());
+    write(folder / "lowres_wide/1.ppm", colour_picture());
+    write(folder / "lowres_wide_intrinsics/1.pincam", text);
+    look_at_camera(folder);
 }
 
 /// TUM's list of depth, or of both.
@@ -133,6 +144,17 @@ void look_at_list(const std::string& text) {
         (void)test::is_taken(
             [&] { test::require_frames(open_media(folder.path(), {}, kAsFound)); });
         (void)test::is_taken([&] { test::require_frames(open_depth(folder.path(), kAsFound)); });
+    }
+}
+
+/// Stamps of pictures, as text and as JSON.
+void look_at_stamps(const std::string& text) {
+    for (const char* const name : {"depth/timestamps.txt", "frames.json"}) {
+        const test::TemporaryFolder folder;
+        for (const char* const picture : {"depth/1.pgm", "depth/2.pgm", "depth/3.pgm"})
+            write(folder / picture, depth_picture());
+        write(folder / name, text);
+        (void)test::is_taken([&] { test::require_frames(open_depth(folder / "depth", kAsFound)); });
     }
 }
 
@@ -211,13 +233,13 @@ void look_at_packed(const fs::path& video) {
     static const std::string bytes = colour_picture();
     const auto form = form_by_recorder(video, {12, 8});
     if (!form) return;
-    const auto& known = form->known.intrinsics;
+    const auto& known = form->finding.statement.intrinsics;
     test::require_rule(!known || is_camera(*known), "a recorder's camera is one");
     static const fs::path packed =
         picture.with({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
     (void)test::is_taken([&form] {
         Sources sources = open_packed(packed, *form);
-        DepthScale scale = find_scale(sources, kAsFound);
+        DepthScale scale = find_scale(sources, kAsFound).scale;
         test::require_frames(std::make_unique<PairedMedia>(
             std::move(sources.depth), std::move(sources.colour), std::move(scale)));
     });
@@ -243,11 +265,13 @@ void look_at_record3d(const std::string& text) {
 }
 
 using Look = void (*)(const std::string&);
-constexpr std::array<std::pair<std::string_view, Look>, 10> kKinds{
+constexpr std::array<std::pair<std::string_view, Look>, 12> kKinds{
     {{"sidecar", look_at_sidecar},
      {"matrix", look_at_matrix},
      {"open3d", look_at_open3d},
+     {"pincam", look_at_pincam},
      {"list", look_at_list},
+     {"stamps", look_at_stamps},
      {"pattern", look_at_pattern},
      {"kinect", look_at_kinect},
      {"message", look_at_message},

@@ -39,6 +39,10 @@ void look_into(const std::filesystem::path& file) {
         (void)test::is_taken(
             [&] { test::require_frames(open_depth(file, {.find_out = find_out})); });
     }
+    for (const DepthCode code : kDepthCodes) {
+        const DepthRequest told{.find_out = true, .command_line = {.code = code}};
+        (void)test::is_taken([&] { test::require_frames(open_depth(file, told)); });
+    }
     (void)test::is_taken([&file] {
         const auto frame = open_media(file, other_picture())->next();
         test::require_rule(frame && frame->colour.columns >= 2 && frame->colour.rows >= 2,

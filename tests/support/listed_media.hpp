@@ -21,6 +21,7 @@ class ListedMedia : public Media {
         description_.frames = static_cast<std::int64_t>(frames_.size());
         description_.frames_per_s = 1.0 / frame_s;
     }
+    void set_sparse(std::optional<double> share) { description_.sparse_share = share; }
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override {
         if (position_ == frames_.size()) return std::nullopt;

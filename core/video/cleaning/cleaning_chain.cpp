@@ -46,6 +46,12 @@ DIBHR_VECTOR_CLONES void make_farthest(float* __restrict levels, std::uint8_t* _
     }
 }
 
+DIBHR_VECTOR_CLONES void add_marks(const std::uint8_t* more, std::uint8_t* __restrict marks,
+                                   std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k)
+        marks[k] = static_cast<std::uint8_t>(marks[k] | more[k]);
+}
+
 CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
                        std::size_t pixels) {
     switch (options.preset) {
@@ -65,6 +71,11 @@ CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
     return shakes && small ? kSensorSteps : kLowNoiseSteps;
 }
 
+/// Whether the steps are a preset's, which sparse depth adds one to.
+bool may_densify(const CleaningOptions& options) {
+    return options.preset != CleaningPreset::raw && options.preset != CleaningPreset::own;
+}
+
 }  // namespace
 
 bool needs_noise(const CleaningOptions& options) {
@@ -75,14 +86,18 @@ bool needs_noise(const CleaningOptions& options) {
             (options.own.steady || options.own.smooth_noise || options.own.sharpen_silhouettes));
 }
 
-CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels) {
-    return {steps_of(options, noise, pixels), options.finger, noise};
+CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels,
+                     bool is_sparse) {
+    CleaningPlan plan{steps_of(options, noise, pixels), options.finger, noise};
+    if (is_sparse && may_densify(options)) plan.steps.densify = true;
+    return plan;
 }
 
 std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     std::string words(name_of(options.preset));
     if (options.preset == CleaningPreset::automatic)
         words += plan.steps.smooth_noise ? ": sensor" : ": gentle, silhouettes";
+    if (plan.steps.densify && may_densify(options)) words += ", densified";
     if (!needs_noise(options)) return words;
     const auto px = [](float noise) {
         return short_text(std::round(kReportedRelief_px * 100.0 * static_cast<double>(noise)) /
@@ -92,6 +107,20 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     const std::string far = px(plan.noise.at(0.0F));
     return words + ", noise " + near + (far == near ? "" : " to " + far) + " px" +
            (plan.noise.per_frame_scale ? ", a scale a frame" : "");
+}
+
+void CleaningChain::densify(DepthImage& image, const ColourImage* colour) {
+    interpolated_.resize(image.levels.size());
+    (void)mark_holes(image.levels.data(), interpolated_.data(), interpolated_.size());
+    sparse_.fill(image, colour);
+}
+
+std::span<const HeldLevel> CleaningChain::in_holes(std::span<const HeldLevel> held,
+                                                   const DepthImage& image) {
+    held_in_holes_.clear();
+    for (const HeldLevel& level : held)
+        if (std::isnan(image.levels[level.index])) held_in_holes_.push_back(level);
+    return held_in_holes_;
 }
 
 /// Holes that stay without data become the farthest level.
@@ -118,12 +147,22 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
                                             const ColourImage* colour) {
     SingleFrameDepth single_frame{std::move(image), {}, {}};
     const bool touchable = is_touchable(single_frame.depth);
+    interpolated_.clear();
+    if (touchable && plan.steps.densify && has_holes(single_frame.depth)) {
+        densify(single_frame.depth, colour);
+        held = in_holes(held, single_frame.depth);
+    }
     spikes_.forget();
     if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth);
     if (has_holes(single_frame.depth))
         close_holes(single_frame, touchable && plan.steps.fill_holes, held);
+    if (!interpolated_.empty()) {
+        single_frame.filled.resize(interpolated_.size());
+        add_marks(interpolated_.data(), single_frame.filled.data(), interpolated_.size());
+    }
     const std::size_t pixels = single_frame.depth.levels.size();
-    free_if_large(pixels, spikes_, seen_, held_, small_holes_, large_holes_);
+    free_if_large(pixels, sparse_, interpolated_, spikes_, seen_, held_, small_holes_,
+                  large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
         const float noise =
             plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/cleaning/depth_memory.hpp"
@@ -14,6 +16,7 @@
 #include "core/video/cleaning/noise_smoothing.hpp"
 #include "core/video/cleaning/silhouettes.hpp"
 #include "core/video/cleaning/small_holes.hpp"
+#include "core/video/cleaning/sparse_interpolation.hpp"
 #include "core/video/cleaning/spikes.hpp"
 #include "core/video/cleaning/step_smoothing.hpp"
 #include "core/video/cleaning/temporal_filter.hpp"
@@ -35,9 +38,9 @@ struct CleaningPlan {
 inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 
 /// The steps for a clip of this noise and size. `automatic` chooses the steps that the clip needs
-/// and that there is time for.
+/// and that there is time for. Sparse depth is densified, except with `raw` and `own`.
 [[nodiscard]] CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise,
-                                   std::size_t pixels = 0);
+                                   std::size_t pixels = 0, bool is_sparse = false);
 
 /// Whether the clip's noise must be measured before its steps are known.
 [[nodiscard]] bool needs_noise(const CleaningOptions& options);
@@ -45,7 +48,8 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 /// Whether the steps that need one frame only are the same in both.
 [[nodiscard]] inline bool same_single_frame_steps(const CleaningSteps& a,
                                                   const CleaningSteps& b) noexcept {
-    return a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
+    return a.densify == b.densify && a.remove_spikes == b.remove_spikes &&
+           a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
            a.colour_edges == b.colour_edges;
 }
@@ -59,8 +63,8 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 /// at a time may call clean_frame(), and the same or another one finish_frame().
 class CleaningChain {
   public:
-    /// Spikes, holes and silhouettes of one frame. `held`: the last levels of pixels without data;
-    /// `colour`: the picture of the same view, null: none.
+    /// Sparse depth, spikes, holes and silhouettes of one frame. `held`: the last levels of pixels
+    /// without data; `colour`: the picture of the same view, null: none.
     [[nodiscard]] SingleFrameDepth clean_frame(DepthImage image, const CleaningPlan& plan,
                                                std::span<const HeldLevel> held = {},
                                                const ColourImage* colour = nullptr);
@@ -77,8 +81,15 @@ class CleaningChain {
   private:
     [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                               std::size_t now, const DepthNoise& noise);
+    void densify(DepthImage& image, const ColourImage* colour);
+    /// The held levels of pixels that still have no data.
+    [[nodiscard]] std::span<const HeldLevel> in_holes(std::span<const HeldLevel> held,
+                                                      const DepthImage& image);
     void close_holes(SingleFrameDepth& single_frame, bool fill, std::span<const HeldLevel> held);
 
+    SparseInterpolator sparse_{};
+    std::vector<std::uint8_t> interpolated_{};  ///< 1: no data before; empty: nothing was done
+    std::vector<HeldLevel> held_in_holes_{};
     SpikeRemover spikes_{};
     DepthImage seen_{};  ///< before holes are filled
     HeldFiller held_{};

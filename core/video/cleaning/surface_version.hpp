@@ -3,9 +3,9 @@
 
 namespace dibhr {
 
-/// Raised whenever the same file gives another surface than before, as when holes, spikes, steps or
-/// the true shape are computed differently. A replay of an older session then reports it.
-/// 1: version 0.1 and earlier. 2: pits, holes that keep their level, lenses. 3:
+/// Raised whenever the same file and steps give another surface than before, as when holes, spikes,
+/// terraces or the true shape are computed differently. A replay of an older session then reports
+/// it. 1: version 0.1 and earlier. 2: pits, holes that keep their level, lenses. 3:
 /// silhouettes, time and noise; 8-bit steps in 128ths of a level. 4: silhouettes stay within the
 /// levels, and there are none in a picture of more than 3 million ramps.
 inline constexpr int kSurfaceVersion = 4;

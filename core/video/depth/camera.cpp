@@ -1,9 +1,16 @@
 // From rays to pixels and back.
 #include "core/video/depth/camera.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
@@ -40,6 +47,40 @@ cv::Point2d undistorted(const Lens& lens, cv::Point2d seen) {
     constexpr double kHit = 1e-6;  // of a ray: a thousandth of a pixel
     const bool hit = cv::norm(distorted(lens, ray) - seen) < kHit && cv::norm(ray) <= lens.widest;
     return hit ? ray : cv::Point2d{kNothing, kNothing};
+}
+
+// A camera for pictures of another size.
+
+constexpr std::string_view kGiveCamera =
+    ": give the camera of the depth pictures, --intrinsics FX,FY,CX,CY, or its field of view "
+    "(60deg)";
+
+std::string text_of(cv::Size size) {
+    return std::to_string(size.width) + " x " + std::to_string(size.height);
+}
+
+Intrinsics scaled_camera(const Intrinsics& camera, cv::Size2d from, cv::Size2d to) {
+    return {camera.fx * to.width / from.width, camera.fy * to.height / from.height,
+            (camera.cx + 0.5) * to.width / from.width - 0.5,
+            (camera.cy + 0.5) * to.height / from.height - 0.5};
+}
+
+bool sees_centre(const Intrinsics& camera, cv::Size picture) {
+    return camera.cx > -0.5 && camera.cy > -0.5 && camera.cx < picture.width - 0.5 &&
+           camera.cy < picture.height - 0.5;
+}
+
+/// How many times as large the camera's picture is, where both coordinates of the centre say the
+/// same of a usual factor; they are near the middle of most pictures.
+std::optional<double> factor_by_centre(const Intrinsics& camera, cv::Size picture) {
+    constexpr std::array kUsual{0.25, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.5, 2.0, 3.0, 4.0};
+    constexpr double kMiddle = 0.08;  // centres are off the middle by up to this part
+    const double across = 2.0 * (camera.cx + 0.5) / picture.width;
+    const double down = 2.0 * (camera.cy + 0.5) / picture.height;
+    const auto* const found = std::find_if(kUsual.begin(), kUsual.end(), [&](double factor) {
+        return std::abs(across / factor - 1.0) < kMiddle && std::abs(down / factor - 1.0) < kMiddle;
+    });
+    return found == kUsual.end() ? std::nullopt : std::optional(*found);
 }
 
 }  // namespace
@@ -97,6 +138,39 @@ CameraModel camera_for(cv::Size picture, const CameraModel& camera, cv::Size cal
     return {Intrinsics{c.fx * scale, c.fy * scale, (c.cx + 0.5) * scale - 0.5,
                        (c.cy + 0.5) * scale - 0.5 - cut},
             camera.lens()};
+}
+
+FittedCamera fit_camera(const Intrinsics& stated, cv::Size calibrated, cv::Size picture) {
+    constexpr double kAlike = 0.01;        // proportions of a picture with rounded sides
+    constexpr double kLargestFactor = 16;  // beyond, it is a camera of other pictures
+    const std::string left_out = ", so it is left out" + std::string(kGiveCamera);
+    if (!is_camera(stated))
+        return {{},
+                "the camera has focal lengths of " + short_text(stated.fx) + " and " +
+                    short_text(stated.fy) + " pixels" + left_out};
+    if (calibrated.empty()) {
+        if (const auto factor = factor_by_centre(stated, picture))
+            return {scaled_camera(stated, {*factor, *factor}, {1.0, 1.0}),
+                    "the camera is by its centre that of a picture " + short_text(*factor, 3) +
+                        " times as large, so it is scaled to " + text_of(picture)};
+        if (sees_centre(stated, picture)) return {stated, {}};
+        return {{},
+                "the camera's centre, " + short_text(stated.cx) + ", " + short_text(stated.cy) +
+                    ", is outside the picture of " + text_of(picture) + left_out};
+    }
+    const double across = 1.0 * picture.width / calibrated.width;
+    const double down = 1.0 * picture.height / calibrated.height;
+    const std::string its_picture = "the camera is of a picture of " + text_of(calibrated);
+    const bool is_scaled =
+        std::abs(across / down - 1.0) < kAlike && std::max(across, 1.0 / across) <= kLargestFactor;
+    if (!is_scaled) return {{}, its_picture + ", not of " + text_of(picture) + left_out};
+    if (!sees_centre(stated, calibrated))
+        return {{},
+                "the camera's centre, " + short_text(stated.cx) + ", " + short_text(stated.cy) +
+                    ", is outside its picture of " + text_of(calibrated) + left_out};
+    if (calibrated == picture) return {stated, {}};
+    return {scaled_camera(stated, calibrated, picture),
+            its_picture + ", so it is scaled to " + text_of(picture)};
 }
 
 }  // namespace dibhr

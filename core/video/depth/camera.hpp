@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/core/matx.hpp>
 #include <opencv2/core/types.hpp>
+#include <optional>
 #include <string>
 
 #include "core/video/depth/depth_meaning.hpp"
@@ -99,5 +100,18 @@ struct CameraPair {
 /// The same camera for pictures of another size: as wide a view, cut equally above and below.
 [[nodiscard]] CameraModel camera_for(cv::Size picture, const CameraModel& camera,
                                      cv::Size calibrated);
+
+/// A stated camera for pictures of a size, or why it cannot be theirs.
+struct FittedCamera {
+    std::optional<Intrinsics> camera{};
+    std::string notice{};  ///< a clause on what was changed or left out; empty: as stated
+};
+
+/// Fits intrinsics to pictures. `calibrated`: the size of the picture that they are stated for;
+/// empty: not stated, then their centre tells it. Pictures that were made smaller or larger as a
+/// whole get a scaled camera; none where focal lengths are no numbers above 0, where the
+/// proportions differ, or where the centre is outside the picture.
+[[nodiscard]] FittedCamera fit_camera(const Intrinsics& stated, cv::Size calibrated,
+                                      cv::Size picture);
 
 }  // namespace dibhr

@@ -1,15 +1,19 @@
-// Measures pictures on a lattice of pixels, and decides fact by fact.
+// Measures pictures on a lattice of pixels; each piece of evidence is a row of findings.
 #include "core/video/depth/depth_guess.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
-#include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
-#include "core/video/depth/depth_scale.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
+#include "core/video/depth/slope_shape.hpp"
 
 namespace dibhr {
 
@@ -20,15 +24,48 @@ constexpr int kLatticePixels = 12000;  ///< about as many are taken of each pict
 // No data.
 constexpr double kLeastNone = 5e-4;  ///< least share of pixels for a sensor's holes
 constexpr double kGap = 0.05;        ///< part of the levels' range that is too near for sensors
+constexpr double kGapOfZero = 0.02;  ///< likewise of 0: sensors see far behind their nearest
 constexpr double kStandsOut8 = 4.0;  ///< least ratio of zeros to pixels of levels 1 to 3
+constexpr double kMostBelowWhite = 0.005;  ///< of 8 bits, where white is around a thing
+constexpr double kGapOfAny = 0.25;         ///< of the span, below values that are no usual mark
+constexpr double kGapAbove = 1.0;          ///< likewise above them, where a back wall may be
+constexpr double kMostOfBorder = 0.9;
+constexpr double kMostOfFrame = 0.35;  ///< share of the pixels in a constant border
+constexpr double kFarBeyond = 5.0;     ///< times as far, or as near, as the other values
+constexpr double kTailOfSpan = 0.05;
+constexpr int kMostMarks = 4;             ///< values of no data in one source
+constexpr std::size_t kLeastValues = 16;  ///< different ones, in depth that has marks
+constexpr double kSurenessOfMark = 0.95;
+constexpr double kSurenessOfNoMark = 0.8;  ///< holes may look like data
 
 // Unit.
-constexpr double kFarthest_mm = 20000.0;
-constexpr double kUsualFarthest_mm = 12000.0;
-constexpr double kFifthsOfMillimetre = 0.2;
-constexpr double kMostMetres = 100.0;
+constexpr double kReachesEnd = 0.02;    ///< of 1, for values normalised to 0 to 1
+constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a scene is as near
+constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
+constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
+constexpr double kFlat = 1.3;           ///< farthest to nearest of what is hardly a scene
+constexpr double kFar_mm = 3000.0;      ///< so far away hardly anything is flat
+constexpr double kClose_mm = 1000.0;    ///< numbers below may be centimetres of a room as well
+constexpr double kImplausible = 0.05;
+constexpr double kHardlyPlausible = 0.35;
 
-constexpr double kClear = 0.25;  ///< deviations by which middle and floor must differ
+// Near.
+constexpr double kClear = 0.35;        ///< deviations by which areas must differ to count
+constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearly the highest
+constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
+constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
+constexpr double kSurestFloor = 0.9;
+constexpr double kSurenessOfTunnel = 0.6;
+constexpr double kSurenessOfLitTunnel = 0.93;
+constexpr std::size_t kLeastSlopes = 400;
+constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
+constexpr double kSurestBend = 0.98;          ///< insides of bowls bend the other way
+constexpr double kLeastStraight = 0.78;       ///< share of slopes; others are no planes
+constexpr double kSurenessOfStraight = 0.93;  ///< a shallow scene has straight distances, too
+constexpr double kLeastPerspective = 0.05;
+constexpr double kLeastProportional = 0.6;
+constexpr double kLevelsInProportion = 0.2;  ///< their 0 seldom is the camera's place
+constexpr std::size_t kMostForSlopes = 6;    ///< pictures
 
 // Range.
 constexpr double kTail = 0.005;
@@ -38,42 +75,8 @@ constexpr double kBeyondVeryTail = 0.02;
 constexpr double kNearest = 0.9;
 constexpr double kOutlier = 1.0;  ///< of the span of the nearest kNearest: beyond are outliers
 
-/// One picture's levels on a lattice.
-struct Lattice {
-    int columns{0}, rows{0};
-    std::vector<float> levels{};
-};
-
-Lattice lattice_of(const cv::Mat& picture) {
-    const int step = std::max(
-        1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
-    cv::Mat all;
-    grey_of(picture).convertTo(all, CV_32F);
-    Lattice lattice;
-    lattice.columns = (all.cols + step - 1) / step;
-    for (int j = 0; j < all.rows; j += step) {
-        const float* row = all.ptr<float>(j);
-        for (int i = 0; i < all.cols; i += step) lattice.levels.push_back(row[i]);
-        ++lattice.rows;
-    }
-    return lattice;
-}
-
 bool holds(const std::vector<double>& levels, double level) {
     return std::find(levels.begin(), levels.end(), level) != levels.end();
-}
-
-/// The levels of all lattices without no data, in rising order.
-std::vector<float> sorted_levels(const std::vector<Lattice>& lattices,
-                                 const std::vector<double>& no_data) {
-    std::vector<float> levels;
-    for (const Lattice& lattice : lattices) {
-        for (const float level : lattice.levels) {
-            if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
-        }
-    }
-    std::sort(levels.begin(), levels.end());
-    return levels;
 }
 
 /// Quantile of values in rising order; `share` in [0, 1].
@@ -87,26 +90,6 @@ double share_between(const std::vector<float>& rising, double lowest, double hig
     const auto begin = std::lower_bound(rising.begin(), rising.end(), lowest);
     const auto end = std::upper_bound(begin, rising.end(), highest);
     return static_cast<double>(end - begin) / static_cast<double>(rising.size());
-}
-
-std::vector<double> guess_no_data(const std::vector<Lattice>& lattices, int bits) {
-    const std::vector<float> levels = sorted_levels(lattices, {});
-    if (levels.empty() || bits == kRealBits) return {};
-    const double zeros = share_between(levels, 0.0, 0.0);
-    if (bits == 8) {
-        const bool stands_out = zeros > kStandsOut8 * share_between(levels, 1.0, 3.0);
-        return zeros > kLeastNone && stands_out ? std::vector{0.0} : std::vector<double>{};
-    }
-    const double highest = highest_level(bits);
-    const std::vector<float> others = sorted_levels(lattices, {0.0, highest});
-    if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
-    const double nearest = quantile(others, kTail);
-    std::vector<double> none;
-    if (zeros > kLeastNone && nearest > kGap * quantile(others, kNearest)) none.push_back(0.0);
-    const double tops = share_between(levels, highest, highest);
-    if (tops > 0.0 && highest - quantile(others, 1.0 - kTail) > kGap * highest)
-        none.push_back(highest);
-    return none;
 }
 
 struct Mean {
@@ -127,7 +110,8 @@ struct Mean {
 
 /// Mean levels of areas of the picture.
 struct Places {
-    Mean all{}, middle{}, border{}, floor{}, top{};
+    Mean all{}, middle{}, border{}, floor{}, ceiling{};
+    std::array<Mean, 4> sides{};  ///< narrow: left, right, upper, lower
 
     /// `x` and `y`: from the middle, in [-0.5, 0.5].
     void add(double x, double y, double level) {
@@ -135,16 +119,35 @@ struct Places {
         if (std::fabs(x) < 0.25 && std::fabs(y) < 0.25) middle.add(level);
         if (std::fabs(x) > 0.4 || y < -0.4) border.add(level);
         if (y > 0.3) floor.add(level);
-        if (y < -0.3) top.add(level);
+        if (y < -0.3) ceiling.add(level);
+        if (x < -0.4) sides[0].add(level);
+        if (x > 0.4) sides[1].add(level);
+        if (y < -0.4) sides[2].add(level);
+        if (y > 0.4) sides[3].add(level);
+    }
+
+    /// By how many standard deviations one area is brighter than the other; 0: not known.
+    [[nodiscard]] double brighter(const Mean& here, const Mean& there) const {
+        const double deviation = all.count > 0.0 ? all.deviation() : 0.0;
+        const bool both = here.count > 0.0 && there.count > 0.0 && deviation > 0.0;
+        return both ? (here.value() - there.value()) / deviation : 0.0;
+    }
+
+    /// 1: the middle is brighter than each side, by `least` deviations, -1: it is darker than
+    /// each, 0: neither.
+    [[nodiscard]] int brighter_than_sides(double least) const {
+        const auto all_are = [&](double sign) {
+            return std::all_of(sides.begin(), sides.end(), [&](const Mean& side) {
+                return sign * brighter(middle, side) > least;
+            });
+        };
+        return all_are(1.0) ? 1 : all_are(-1.0) ? -1 : 0;
     }
 };
 
-/// How many standard deviations brighter the picture's middle is than its border, plus its floor
-/// than its top; negative: darker. Near objects are mostly in the middle, and on a floor.
-double brighter_where_near(const std::vector<Lattice>& lattices,
-                           const std::vector<double>& no_data) {
+Places places_of(const std::vector<LevelLattice>& lattices, const std::vector<double>& no_data) {
     Places places;
-    for (const Lattice& lattice : lattices) {
+    for (const LevelLattice& lattice : lattices) {
         auto level = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j) {
             for (int i = 0; i < lattice.columns; ++i, ++level) {
@@ -154,37 +157,92 @@ double brighter_where_near(const std::vector<Lattice>& lattices,
             }
         }
     }
-    const double deviation = places.all.count > 0.0 ? places.all.deviation() : 0.0;
-    const auto brighter = [deviation](const Mean& here, const Mean& there) {
-        const bool both = here.count > 0.0 && there.count > 0.0 && deviation > 0.0;
-        return both ? (here.value() - there.value()) / deviation : 0.0;
-    };
-    return brighter(places.middle, places.border) + brighter(places.floor, places.top);
+    return places;
 }
 
-/// A unit, and the size of one level in it.
-struct Scaled {
-    DepthUnit unit;
-    double scale;
+/// The row on an area that is brighter or darker than another by so many standard deviations.
+void add_row_on_area(double deviations, double surest, const std::string& areas, Findings& rows) {
+    if (std::fabs(deviations) < kClear) return;
+    const bool brighter = deviations > 0.0;
+    const double clear = 1.0 - std::exp(-std::fabs(deviations) / kFullyClear);
+    rows.push_back({{.near = brighter ? NearLevels::bright : NearLevels::dark},
+                    Evidence::numbers,
+                    0.5 + (surest - 0.5) * clear,
+                    areas + " by " + short_text(std::fabs(deviations), 2) +
+                        " standard deviations, " + (brighter ? "brighter" : "darker")});
+}
+
+/// The rows on how slopes bend, where they do.
+void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
+    if (shape.slopes < kLeastSlopes) return;
+    const auto percent = [](double share) { return short_text(100.0 * share, 2) + " %"; };
+    const bool has_perspective = shape.perspective > kLeastPerspective;
+    if (shape.straight > kLeastStraight && has_perspective)
+        return rows.push_back({{.near = NearLevels::bright},
+                               Evidence::numbers,
+                               kSurenessOfStraight,
+                               percent(shape.straight) +
+                                   " of the slopes are straight, as where levels are one over the "
+                                   "distance"});
+    const bool is_convex = shape.convex > 0.5;
+    const double bent = is_convex ? shape.convex : 1.0 - shape.convex;
+    if (bent < kLeastBent) return;
+    rows.push_back({{.near = is_convex ? NearLevels::dark : NearLevels::bright},
+                    Evidence::numbers,
+                    0.5 + (kSurestBend - 0.5) * (2.0 * bent - 1.0),
+                    percent(bent) + " of the slopes bend as " +
+                        (is_convex ? "distances" : "nearness") +
+                        " of planes and of convex things"});
+    if (bits > 8 && shape.proportional > kLeastProportional && has_perspective)
+        rows.push_back(
+            {{.unit = DepthUnit::levels},
+             Evidence::numbers,
+             kLevelsInProportion,
+             percent(shape.proportional) + " of the slopes bend as distances from the camera"});
+}
+
+/// The sizes of scenes, as distances of the nearest and of nine tenths of the pixels [m].
+struct Sizes {
+    double nearest_from, nearest_to, farthest_from, farthest_to;
+    double hardly_to;  ///< a farthest distance that still happens
+    const char* name;
+
+    [[nodiscard]] double plausibility(double nearest_m, double farthest_m) const {
+        if (nearest_m < nearest_from || nearest_m > nearest_to || farthest_m < farthest_from)
+            return kImplausible;
+        if (farthest_m <= farthest_to) return 1.0;
+        return farthest_m <= hardly_to ? kHardlyPlausible : kImplausible;
+    }
 };
 
-Scaled guess_integers(const std::vector<float>& levels, const std::vector<double>& no_data,
-                      int bits) {
-    if (bits == 8 || levels.empty()) return {DepthUnit::levels, 1.0};
-    const double farthest = quantile(levels, kNearest);
-    const bool has_holes = holds(no_data, 0.0);
-    if (bits == 16 && farthest <= kUsualFarthest_mm) return {DepthUnit::mm, 1.0};
-    if (!has_holes) return {DepthUnit::levels, 1.0};
-    if (farthest > kFarthest_mm) return {DepthUnit::mm, kFifthsOfMillimetre};
-    return {DepthUnit::mm, 1.0};
-}
+constexpr Sizes kRoom{0.02, 10.0, 0.15, 12.0, 20.0, "a room"};
+constexpr Sizes kStreet{2.0, 20.0, 20.0, 90.0, 90.0, "a street"};
+constexpr Sizes kLand{0.5, 50.0, 10.0, 400.0, 400.0, "open land"};
 
-DepthUnit guess_real_numbers(const std::vector<float>& levels, double brighter) {
-    if (levels.empty()) return DepthUnit::levels;
-    const double highest = quantile(levels, 1.0 - kTail);
-    if (brighter > kClear) return highest <= 1.0 ? DepthUnit::levels : DepthUnit::disparity;
-    if (highest > kMostMetres) return DepthUnit::mm;
-    return brighter < -kClear || highest > 1.0 ? DepthUnit::m : DepthUnit::levels;
+/// A way in which 16-bit integers hold distances, and how sure it is where the sizes fit.
+struct IntegerScale {
+    DepthUnit unit;
+    double scale;
+    const Sizes& sizes;
+    double sureness;
+    double of_flat;   ///< the same for a picture of hardly any depth
+    double of_sky;    ///< the same where the highest level is no data
+    double of_close;  ///< the same where all is within a metre, without the holes of a sensor
+    double of_laser;  ///< the same where single pixels have data that fit a street
+};
+
+constexpr std::array<IntegerScale, 4> kIntegerScales{{
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4},
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
+    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9},  // street data sets
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06},        // simulators: centimetres
+}};
+
+/// "as numbers of 1 mm from 0.5 to 4.2 m: a room".
+std::string sizes_text(const IntegerScale& scale, double nearest_m, double farthest_m, bool fits) {
+    return "as numbers of " + short_text(scale.scale, 3) + ' ' + std::string(name_of(scale.unit)) +
+           " from " + short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) +
+           " m: " + (fits ? "" : "not ") + scale.sizes.name;
 }
 
 /// Values in which elevation is linear, with the sign that makes the nearest the highest, in rising
@@ -220,10 +278,382 @@ DepthRange not_empty(DepthRange range, const DepthMeaning& meaning) {
     return range;
 }
 
-DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& meaning) {
+/// How an end of the levels differs from the others.
+struct EndOfLevels {
+    double level;
+    double next;  ///< the value beside it
+    double gap;   ///< to that, in spans of the others
+    double share;
+    bool at_bottom;
+    bool is_border;  ///< the picture's border has it
+};
+
+/// 9999, 100000, 65504: nobody measures these.
+bool is_usual_mark(double level) {
+    const double zeros = std::log10(std::max(level, 1.0));
+    const double nines = std::log10(std::max(level, 1.0) + 1.0);
+    return level > 50.0 && (zeros == std::round(zeros) || nines == std::round(nines) ||
+                            level == 65504.0 || level == 65535.0);
+}
+
+/// A wall behind a thing, or a table below it, is no mark: a mark is far beyond, or a frame.
+bool is_mark(const EndOfLevels& end) {
+    if (end.level == 0.0) return end.gap > kGap;
+    if (end.is_border && end.share < kMostOfFrame) return end.gap > kGap;
+    const double least = kFarBeyond * std::fabs(end.at_bottom ? end.level : end.next);
+    const double most = std::fabs(end.at_bottom ? end.next : end.level);
+    const bool is_beyond = end.level < 0.0 || most > least || is_usual_mark(end.level);
+    return is_beyond && end.gap > (end.at_bottom ? kGapOfAny : kGapAbove);
+}
+
+std::size_t different_values(const std::vector<float>& rising) {
+    std::size_t count = rising.empty() ? 0 : 1;
+    for (std::size_t k = 1; k < rising.size(); ++k)
+        count += static_cast<std::size_t>(rising[k] != rising[k - 1]);
+    return count;
+}
+
+}  // namespace
+
+SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : bits_(bits) {
+    lattices_.reserve(pictures.size());
+    for (const cv::Mat& picture : pictures) lattices_.push_back(lattice_of(picture));
+    levels_ = rising_without({});
+}
+
+LevelLattice SampledLevels::lattice_of(const cv::Mat& picture) {
+    const int step = std::max(
+        1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
+    cv::Mat all;
+    grey_of(picture).convertTo(all, CV_32F);
+    LevelLattice lattice;
+    lattice.columns = (all.cols + step - 1) / step;
+    for (int j = 0; j < all.rows; j += step) {
+        const float* row = all.ptr<float>(j);
+        for (int i = 0; i < all.cols; i += step) {
+            lattice.levels.push_back(row[i]);
+            lattice.beside.push_back(row[std::min(i + 1, all.cols - 1)]);
+        }
+        ++lattice.rows;
+    }
+    return lattice;
+}
+
+bool SampledLevels::is_data(float level) const {
+    return std::isfinite(level) && !holds(no_data_, level);
+}
+
+std::vector<float> SampledLevels::rising_without(const std::vector<double>& no_data) const {
+    std::vector<float> levels;
+    for (const LevelLattice& lattice : lattices_) {
+        for (const float level : lattice.levels) {
+            if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
+        }
+    }
+    std::sort(levels.begin(), levels.end());
+    return levels;
+}
+
+void SampledLevels::leave_out(const std::vector<double>& no_data) {
+    no_data_ = no_data;
+    levels_ = rising_without(no_data);
+}
+
+// No data.
+
+Findings SampledLevels::no_data() const {
+    const std::vector<double> marks = bits_ == kRealBits ? outlying_numbers() : outlying_integers();
+    if (marks.empty())
+        return {{{.no_data = marks},
+                 Evidence::numbers,
+                 kSurenessOfNoMark,
+                 "no level stands out from the others"}};
+    std::string reason;
+    for (const double mark : marks) reason += (reason.empty() ? "" : " and ") + short_text(mark);
+    return {{{.no_data = marks},
+             Evidence::numbers,
+             kSurenessOfMark,
+             reason + (marks.size() == 1 ? " stands" : " stand") + " out from the other levels"}};
+}
+
+std::vector<double> SampledLevels::outlying_integers() const {
+    if (levels_.empty()) return {};
+    const double zeros = share_between(levels_, 0.0, 0.0);
+    if (bits_ == 8) {
+        const bool stands_out = zeros > kStandsOut8 * share_between(levels_, 1.0, 3.0);
+        if (zeros > kLeastNone && stands_out) return {0.0};
+        const bool is_around = share_of_border(255.0) >= kMostOfBorder;
+        return is_around && share_between(levels_, 240.0, 254.0) < kMostBelowWhite
+                   ? std::vector{255.0}
+                   : std::vector<double>{};
+    }
+    const double highest = highest_level(bits_);
+    const std::vector<float> others = rising_without({0.0, highest});
+    if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
+    const double nearest = quantile(others, kTail);
+    std::vector<double> none;
+    if (zeros > kLeastNone && nearest > kGapOfZero * quantile(others, kNearest))
+        none.push_back(0.0);
+    const double tops = share_between(levels_, highest, highest);
+    if (tops > 0.0 && highest - quantile(others, 1.0 - kTail) > kGap * highest)
+        none.push_back(highest);
+    return none;
+}
+
+double SampledLevels::share_of_border(double level) const {
+    Mean border;
+    for (const LevelLattice& lattice : lattices_) {
+        auto here = lattice.levels.begin();
+        for (int j = 0; j < lattice.rows; ++j)
+            for (int i = 0; i < lattice.columns; ++i, ++here) {
+                const bool inside =
+                    j > 0 && i > 0 && j + 1 < lattice.rows && i + 1 < lattice.columns;
+                if (!inside) border.add(static_cast<double>(*here) == level ? 1.0 : 0.0);
+            }
+    }
+    return border.count > 0.0 ? border.value() : 0.0;
+}
+
+/// Takes marks from either end until none is left: a mark below may hide behind one above.
+std::vector<double> SampledLevels::outlying_numbers() const {
+    std::vector<double> marks;
+    std::vector<float> rest = levels_;
+    const auto all = static_cast<double>(levels_.size());
+    for (int k = 0; k < kMostMarks; ++k) {
+        bool found = false;
+        for (const bool at_bottom : {true, false}) {
+            if (rest.empty()) return marks;
+            const float level = at_bottom ? rest.front() : rest.back();
+            const auto [begin, end] = std::equal_range(rest.begin(), rest.end(), level);
+            if (static_cast<double>(end - begin) < kLeastNone * all) continue;
+            std::vector<float> others(rest.begin(), begin);
+            others.insert(others.end(), end, rest.end());
+            if (different_values(others) < kLeastValues) continue;
+            const double next = at_bottom ? others.front() : others.back();
+            const double span = quantile(others, 1.0 - kTailOfSpan) - quantile(others, kTailOfSpan);
+            const double gap = std::fabs(next - static_cast<double>(level));
+            const bool is_border = share_of_border(level) >= kMostOfBorder;
+            const double share = static_cast<double>(end - begin) / all;
+            if (!is_mark({level, next, span > 0.0 ? gap / span : 0.0, share, at_bottom, is_border}))
+                continue;
+            marks.push_back(level);
+            rest = std::move(others);
+            found = true;
+        }
+        if (!found) break;
+    }
+    std::sort(marks.begin(), marks.end());
+    return marks;
+}
+
+// Unit and scale.
+
+/// Whether few pixels have data, most of them without a neighbour, as a laser sees a scene.
+bool SampledLevels::is_scattered() const {
+    constexpr double kMostSeen = 0.6;
+    Mean seen;
+    Mean single;
+    for (const LevelLattice& lattice : lattices_)
+        for (std::size_t k = 0; k < lattice.levels.size(); ++k) {
+            const bool here = is_data(lattice.levels[k]);
+            seen.add(here ? 1.0 : 0.0);
+            if (here) single.add(is_data(lattice.beside[k]) ? 0.0 : 1.0);
+        }
+    return single.count > 0.0 && seen.value() < kMostSeen && single.value() > kMostScattered;
+}
+
+Findings SampledLevels::units() const {
+    if (levels_.empty()) return {};
+    return bits_ == kRealBits ? units_of_numbers() : units_of_integers();
+}
+
+Findings SampledLevels::units_of_integers() const {
+    constexpr auto kNumbers = Evidence::numbers;
+    if (bits_ == 8)
+        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
+                {{.near = NearLevels::bright}, kNumbers, 0.93, "by custom 8 bits are near white"}};
+    Findings rows{
+        {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
+        {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
+    const double nearest = quantile(levels_, kTail);
+    const double farthest = quantile(levels_, kNearest);
+    const bool has_holes = holds(no_data_, 0.0);
+    const bool has_sky = holds(no_data_, highest_level(bits_));
+    if (has_holes)
+        rows.push_back({{.near = NearLevels::dark},
+                        kNumbers,
+                        0.8,
+                        "0 stands for no data, as sensors of distances have it"});
+    const bool is_full = quantile(levels_, 1.0 - kTail) >= kReachesTop * highest_level(bits_);
+    if (!has_holes && (bits_ < 16 || is_full))
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.93,
+                        is_full ? "the levels reach the highest of their bits"
+                                : "without holes, so few bits are levels"});
+    if (!has_holes && bits_ < 16) return rows;
+    const bool is_close = farthest < kClose_mm;
+    const bool is_flat = farthest < kFlat * nearest;
+    const bool is_of_laser =
+        kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered();
+    for (const IntegerScale& scale : kIntegerScales) {
+        const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
+        const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
+        const double sureness = has_sky && !has_holes                          ? scale.of_sky
+                                : is_flat && (!has_holes || nearest > kFar_mm) ? scale.of_flat
+                                : is_close && !has_holes                       ? scale.of_close
+                                : is_of_laser                                  ? scale.of_laser
+                                                                               : scale.sureness;
+        rows.push_back(
+            {{.unit = scale.unit, .scale = scale.scale},
+             kNumbers,
+             sureness * fits,
+             (is_of_laser ? "where a laser sees single pixels, " : "") +
+                 sizes_text(scale, nearest * in_m, farthest * in_m, fits > kImplausible)});
+    }
+    return rows;
+}
+
+Findings SampledLevels::units_of_numbers() const {
+    constexpr auto kNumbers = Evidence::numbers;
+    const double lowest = quantile(levels_, kTail);
+    const double highest = quantile(levels_, 1.0 - kTail);
+    Findings rows{{{.scale = 1.0}, kNumbers, 0.97, "real numbers need no scale"}};
+    if (highest <= 0.0) {
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.9,
+                        "all are below 0: distances or disparities with a minus sign"});
+        return rows;
+    }
+    if (lowest < 0.0) {
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.97,
+                        "some are below 0: no distances, and not one over them"});
+        rows.push_back({{.near = NearLevels::bright},
+                        kNumbers,
+                        0.75,
+                        "relative values mostly rise towards the viewer"});
+        return rows;
+    }
+    const std::string ends = short_text(lowest, 3) + " to " + short_text(highest, 3);
+    if (lowest < kReachesZero * highest)
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        0.85,
+                        "they reach 0: no distance is as near, and no disparity has one over it"});
+    if (highest <= 1.0) {
+        const bool is_normalised = lowest < kReachesEnd && highest > 1.0 - kReachesEnd;
+        rows.push_back({{.unit = DepthUnit::levels},
+                        kNumbers,
+                        is_normalised ? 0.93 : 0.55,
+                        is_normalised ? "they go from 0 to 1" : "they lie between 0 and 1"});
+    }
+    const bool in_room = lowest >= 0.05 && highest > 1.0 && highest <= 30.0;
+    const bool in_street = lowest >= 1.5 && lowest <= 15.0 && highest <= 100.0;
+    const bool in_metres = in_room || in_street;
+    rows.push_back({{.unit = DepthUnit::m, .scale = 1.0},
+                    kNumbers,
+                    in_metres           ? 0.9
+                    : highest <= 100.0  ? 0.4
+                    : highest <= 1000.0 ? 0.2
+                                        : 0.02,
+                    ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres")});
+    const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
+    const bool in_centimetres = lowest >= 20.0 && highest > 100.0 && highest < kClose_mm;
+    rows.push_back(
+        {{.unit = DepthUnit::mm, .scale = 1.0},
+         kNumbers,
+         in_millimetres ? (in_centimetres ? 0.5 : 0.85) : 0.02,
+         ends + (in_millimetres ? " is a scene in millimetres" : " is no scene in millimetres")});
+    if (in_centimetres)
+        rows.push_back({{.unit = DepthUnit::mm, .scale = 10.0},
+                        kNumbers,
+                        0.4,
+                        ends + " is a room in centimetres"});
+    return rows;
+}
+
+Findings SampledLevels::contradictions(const Findings& findings) const {
+    Findings rows;
+    for (const Finding& finding : findings)
+        for (Finding& row : contradiction(finding)) rows.push_back(std::move(row));
+    return rows;
+}
+
+/// One row, or none.
+Findings SampledLevels::contradiction(const Finding& finding) const {
+    constexpr double kContradicted = 0.001;
+    const UsualDistances& usual = finding.usual;
+    const DepthStatement& said = finding.statement;
+    if (levels_.empty() || usual.most_m <= 0.0 || !said.unit) return {};
+    const double one_m = said.scale.value_or(1.0) * (said.unit == DepthUnit::m ? 1.0 : 0.001);
+    const double nearest_m = one_m * quantile(levels_, kTail);
+    const double farthest_m = one_m * quantile(levels_, kNearest);
+    const bool reaches_far = usual.reach_m > 0.0 && farthest_m >= usual.reach_m;
+    const bool is_usual = (nearest_m >= usual.least_m || reaches_far) && farthest_m <= usual.most_m;
+    const bool has_holes = holes_share() > kLeastNone;
+    if (is_usual && !(usual.is_dense && has_holes)) return {};
+    const std::string ends = short_text(nearest_m, 3) + " to " + short_text(farthest_m, 3) + " m";
+    return {{{.unit = said.unit, .scale = said.scale},
+             Evidence::numbers,
+             kContradicted,
+             usual.of + " has no " + (is_usual ? "holes" : "depth from " + ends)}};
+}
+
+// Near.
+
+int SampledLevels::middle_brighter_than_sides() const {
+    constexpr double kLeast = 0.25;  // the light may be faint
+    return places_of(lattices_, no_data_).brighter_than_sides(kLeast);
+}
+
+Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
+    Findings rows;
+    add_rows_on_slopes(slope_shape(), bits_, rows);
+    const Places places = places_of(lattices_, no_data_);
+    const int than_sides = places.brighter_than_sides(kAllSides);
+    const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
+    if (than_sides != 0 && middle_of_colour.value_or(0) < 0)
+        rows.push_back(
+            {{.near = of_tunnel},
+             Evidence::numbers,
+             kSurenessOfLitTunnel,
+             "the middle of the colour picture is darker than all four sides, as the end "
+             "of a tunnel that is lit from the camera"});
+    if (than_sides > 0 && !middle_of_colour)
+        rows.push_back({{.near = of_tunnel},
+                        Evidence::numbers,
+                        kSurenessOfTunnel,
+                        "the middle is brighter than all four sides, as the end of a tunnel"});
+    if (than_sides != 0) return rows;  // neither floor nor things in the middle are seen
+    add_row_on_area(places.brighter(places.middle, places.border), kSurestMiddle,
+                    "the middle differs from the border", rows);
+    add_row_on_area(places.brighter(places.floor, places.ceiling), kSurestFloor,
+                    "the lower part differs from the upper", rows);
+    return rows;
+}
+
+SlopeShape SampledLevels::slope_shape() const {
+    SlopeMeter meter;
+    const std::size_t step = 1 + lattices_.size() / kMostForSlopes;
+    for (std::size_t k = 0; k < lattices_.size(); k += step) {
+        const LevelLattice& lattice = lattices_[k];
+        std::vector<float> levels = lattice.levels;
+        for (float& level : levels)
+            if (!is_data(level)) level = std::numeric_limits<float>::quiet_NaN();
+        meter.add(lattice.columns, lattice.rows, levels);
+    }
+    return meter.shape();
+}
+
+// Range.
+
+DepthRange SampledLevels::range(const DepthMeaning& meaning) const {
     const double sign = meaning.near.value == NearLevels::bright ? 1.0 : -1.0;
     const bool disparity = meaning.unit.value == DepthUnit::disparity;
-    const std::vector<double> nearness = nearness_of(levels, meaning);
+    const std::vector<double> nearness = nearness_of(levels_, meaning);
     const auto value = [&](double of) { return disparity ? -sign / of : sign * of; };
     if (nearness.empty()) return sign > 0.0 ? DepthRange{1.0, 0.0} : DepthRange{0.0, 1.0};
     const double most = quantile(nearness, 1.0 - kTail);
@@ -241,65 +671,10 @@ DepthRange guess_range(const std::vector<float>& levels, const DepthMeaning& mea
     return not_empty({value(near), value(far)}, meaning);
 }
 
-/// A function that tells whether any statement has a fact of DepthStatement.
-auto stated_by_any(const RankedStatements& statements) {
-    return [&statements](auto fact) {
-        return std::any_of(statements.begin(), statements.end(),
-                           [&](const auto& ranked) { return (ranked.second.*fact).has_value(); });
-    };
-}
-
-}  // namespace
-
-bool is_all_stated(const RankedStatements& statements) {
-    const auto states = stated_by_any(statements);
-    return states(&DepthStatement::no_data) && states(&DepthStatement::unit) &&
-           states(&DepthStatement::scale) && states(&DepthStatement::near) &&
-           states(&DepthStatement::range);
-}
-
-void guess(const std::vector<cv::Mat>& pictures, int bits, DepthMeaning& meaning,
-           const RankedStatements& statements) {
-    std::vector<Lattice> lattices;
-    lattices.reserve(pictures.size());
-    for (const cv::Mat& picture : pictures) lattices.push_back(lattice_of(picture));
-    const auto states = stated_by_any(statements);
-    if (!states(&DepthStatement::no_data)) meaning.no_data.value = guess_no_data(lattices, bits);
-    const std::vector<double>& no_data = meaning.no_data.value;
-    const std::vector<float> levels = sorted_levels(lattices, no_data);
-    const double brighter = brighter_where_near(lattices, no_data);
-    if (!states(&DepthStatement::unit)) {
-        const Scaled scaled = bits == kRealBits ? Scaled{guess_real_numbers(levels, brighter), 1.0}
-                                                : guess_integers(levels, no_data, bits);
-        meaning.unit.value = scaled.unit;
-        if (!states(&DepthStatement::scale)) meaning.scale.value = scaled.scale;
-    } else if (!states(&DepthStatement::scale)) {
-        meaning.scale = {1.0, meaning.unit.origin};
-    }
-    if (!states(&DepthStatement::near)) {
-        const bool by_unit = meaning.unit.value != DepthUnit::levels;
-        const bool dark = by_unit ? meaning.is_metric() : brighter < -kClear;
-        meaning.near = {dark ? NearLevels::dark : NearLevels::bright,
-                        by_unit ? meaning.unit.origin : Origin::assumed};
-        if (states(&DepthStatement::range) && !by_unit) {
-            const bool falls = meaning.range.value.near > meaning.range.value.far;
-            meaning.near = {falls ? NearLevels::bright : NearLevels::dark, meaning.range.origin};
-        }
-    }
-    if (!states(&DepthStatement::range))
-        meaning.range = {guess_range(levels, meaning), Origin::found};
-}
-
-double holes_share(const std::vector<cv::Mat>& pictures, const DepthMeaning& meaning) {
+double SampledLevels::holes_share() const {
     std::size_t all = 0;
-    std::size_t seen = 0;
-    for (const cv::Mat& picture : pictures) {
-        const Lattice lattice = lattice_of(picture);
-        all += lattice.levels.size();
-        seen += sorted_levels({lattice}, meaning.no_data.value).size();
-    }
-    if (all == 0) return 0.0;
-    return static_cast<double>(all - seen) / static_cast<double>(all);
+    for (const LevelLattice& lattice : lattices_) all += lattice.levels.size();
+    return all == 0 ? 0.0 : static_cast<double>(all - levels_.size()) / static_cast<double>(all);
 }
 
 int levels_used(const std::vector<cv::Mat>& pictures) {

@@ -17,7 +17,10 @@ using Name = std::string_view;
 constexpr std::array<Name, kDepthUnits.size()> kUnitNames{"levels", "disparity", "mm", "m"};
 constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
     "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
-constexpr std::array<Name, 6> kOriginNames{"assumed", "found",        "sidecar",
+constexpr std::array<Name, kDepthCodes.size()> kCodeNames{
+    "grey", "hue", "rg16", "rgb24", "float32", "terrain", "turned16", "kinect11", "stereo", "xyz"};
+constexpr std::array<Name, kDepthTimes.size()> kTimesNames{"counted", "own", "paired"};
+constexpr std::array<Name, 7> kOriginNames{"assumed", "found",        "folder",  "sidecar",
                                            "panel",   "command line", "recorded"};
 
 }  // namespace
@@ -35,11 +38,15 @@ std::string_view name_of(DepthPacking value) noexcept {
 }
 
 std::string_view name_of(DepthCode value) noexcept {
-    return value == DepthCode::grey ? "grey" : "hue";
+    return kCodeNames[static_cast<std::size_t>(value)];
 }
 
 std::string_view name_of(Geometry value) noexcept {
     return value == Geometry::relief ? "relief" : "true";
+}
+
+std::string_view name_of(DepthTimes value) noexcept {
+    return kTimesNames[static_cast<std::size_t>(value)];
 }
 
 bool is_camera(const Intrinsics& intrinsics) {
@@ -94,6 +101,24 @@ double value_at(const DepthMeaning& meaning, double nearness) {
     const double far = linear_value(unit, meaning.range.value.far);
     const double near = linear_value(unit, meaning.range.value.near);
     return linear_value(unit, far + nearness * (near - far));  // its own inverse
+}
+
+double nearness_at(const DepthMeaning& meaning, double value) {
+    const DepthUnit unit = meaning.unit.value;
+    const double far = linear_value(unit, meaning.range.value.far);
+    const double near = linear_value(unit, meaning.range.value.near);
+    return (linear_value(unit, value) - far) / (near - far);
+}
+
+DepthStatement turned_near_and_far(const DepthMeaning& meaning) {
+    const DepthRange& range = meaning.range.value;
+    DepthStatement other;
+    other.near = meaning.near.value == NearLevels::bright ? NearLevels::dark : NearLevels::bright;
+    other.unit = DepthUnit::levels;
+    other.scale = meaning.scale.value;
+    other.range = DepthRange{range.far, range.near};
+    if (meaning.geometry.value == Geometry::true_shape) other.geometry = Geometry::relief;
+    return other;
 }
 
 namespace {

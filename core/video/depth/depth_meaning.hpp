@@ -24,18 +24,25 @@ enum class DepthUnit { levels, disparity, mm, m };
 /// in tracks of one file.
 enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_top, tracks };
 
-/// How a picture holds depth: by its brightness, or by its hue.
-enum class DepthCode { grey, hue };
+/// How a picture holds depth: by its brightness, by its hue, as a number in the bytes of its
+/// channels (byte_code.hpp), or in levels that are no distances (level_code.hpp).
+enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain, turned16, kinect11, stereo, xyz };
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
 /// millimetres, in orthographic view.
 enum class Geometry { relief, true_shape };
+
+/// When pictures without presentation times are shown. `counted`: 1/30 s apart, in the order of
+/// their numbers. `own`: by the stamps in their names or in a file beside them, else counted.
+/// `paired`: colour or depth takes the times of the other's frames.
+enum class DepthTimes { counted, own, paired };
 
 [[nodiscard]] std::string_view name_of(NearLevels value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthUnit value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthPacking value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthCode value) noexcept;
 [[nodiscard]] std::string_view name_of(Geometry value) noexcept;
+[[nodiscard]] std::string_view name_of(DepthTimes value) noexcept;
 
 inline constexpr std::array kNearLevels{NearLevels::bright, NearLevels::dark};
 inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm,
@@ -43,8 +50,12 @@ inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity,
 inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPacking::left_right,
                                            DepthPacking::right_left, DepthPacking::top_bottom,
                                            DepthPacking::bottom_top, DepthPacking::tracks};
-inline constexpr std::array kDepthCodes{DepthCode::grey, DepthCode::hue};
+inline constexpr std::array kDepthCodes{
+    DepthCode::grey,    DepthCode::hue,     DepthCode::rg16,     DepthCode::rgb24,
+    DepthCode::float32, DepthCode::terrain, DepthCode::turned16, DepthCode::kinect11,
+    DepthCode::stereo,  DepthCode::xyz};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
+inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 
 /// The nearest and the farthest value that are not clamped, in the unit (level times scale).
 struct DepthRange {
@@ -97,16 +108,20 @@ struct DepthStatement {
     std::optional<Registration> registration{};
     std::optional<CleaningChoice> cleaning{};
     std::optional<double> finger_mm{};  ///< radius of the fingertip
+    std::optional<DepthTimes> times{};
+    std::optional<double> time_offset_s{};  ///< how much later the depth is than its times say
+    std::optional<double> frames_per_s{};   ///< of the depth; 0: as its source has it
 
     bool operator==(const DepthStatement&) const = default;
     /// Takes from `other` the facts that this does not state.
     void fill_in(const DepthStatement& other);
 };
 
-/// Where a fact of the meaning comes from; later ones have priority over those before.
-enum class Origin { assumed, found, sidecar, panel, command_line, recorded };
+/// Where a fact of the meaning comes from; later ones have priority over those before. `folder`: an
+/// answer of a person for all files of the folder, where the file leaves that fact open.
+enum class Origin { assumed, found, folder, sidecar, panel, command_line, recorded };
 
-/// "assumed", "found", "sidecar", "panel", "command line", "recorded".
+/// "assumed", "found", "folder", "sidecar", "panel", "command line", "recorded".
 [[nodiscard]] std::string_view name_of(Origin value) noexcept;
 
 /// A fact and its origin.
@@ -132,7 +147,10 @@ struct DepthMeaning {
     Known<Registration> registration{};             ///< in addition to the file's calibration
     Known<CleaningChoice> cleaning{};               ///< automatic: not stated
     Known<double> finger_mm{0.0};                   ///< 0: a point
-    std::string found_in{};  ///< where `found` facts are from: "TUM lists"; empty: none
+    Known<DepthTimes> times{DepthTimes::counted};
+    Known<double> time_offset_s{0.0};
+    Known<double> frames_per_s{0.0};  ///< 0: not stated
+    std::string found_in{};           ///< where `found` facts are from: "TUM lists"; empty: none
 
     [[nodiscard]] bool is_metric() const {
         return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
@@ -157,6 +175,9 @@ void visit_facts(One& one, Other& other, const Visit& visit) {
     visit("registration", one.registration, other.registration);
     visit("cleaning", one.cleaning, other.cleaning);
     visit("finger_mm", one.finger_mm, other.finger_mm);
+    visit("times", one.times, other.times);
+    visit("time_offset_s", one.time_offset_s, other.time_offset_s);
+    visit("stated_frames_per_s", one.frames_per_s, other.frames_per_s);
 }
 
 /// Statements with their origins, the one of highest priority first.
@@ -170,6 +191,14 @@ void merge_by_priority(const RankedStatements& statements, DepthMeaning& meaning
 
 /// The value in the unit at an elevation; `nearness` in [0, 1]: from the farthest to the nearest.
 [[nodiscard]] double value_at(const DepthMeaning& meaning, double nearness);
+/// Its inverse: not clamped, from 0 at the farthest value to 1 at the nearest.
+[[nodiscard]] double nearness_at(const DepthMeaning& meaning, double value);
+
+/// What a person states who turns near and far: the same values as levels of the same scale, with
+/// the other end of the range near. That mirrors the relief of levels and distances. One of
+/// disparities becomes that of distances without a unit, which is what they are if they are near
+/// where dark.
+[[nodiscard]] DepthStatement turned_near_and_far(const DepthMeaning& meaning);
 
 /// One line for people: "distance 480 to 4210 mm, near is dark, no data is 0 and 65535".
 [[nodiscard]] std::string in_words(const DepthMeaning& meaning);

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <iterator>
+#include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <span>
@@ -18,6 +21,8 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_words.hpp"
+#include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -32,7 +37,18 @@ constexpr std::array<std::string_view, 7> kColourNames{"images", "image",  "rgb"
                                                        "colour", "colors", "colours"};
 constexpr std::array<std::string_view, 2> kTimeNames{"times", "timestamps"};
 constexpr std::array<std::string_view, 1> kRateNames{"fps"};
-constexpr std::array<std::string_view, 3> kCameraNames{"k", "intrinsics", "intrinsic"};
+constexpr std::array<std::string_view, 5> kCameraNames{"k", "intrinsics", "intrinsic", "cam_k",
+                                                       "camk"};
+constexpr std::size_t kMostExamined = 256;  ///< arrays whose headers are read
+
+// Words of the names of arrays, each between blanks.
+constexpr std::string_view kWordsOfDepth = " depths disp disps disparities idepth ";
+constexpr std::string_view kWordsOfDistance =
+    " z zbuffer range distance distances dist pred prediction predictions predicted ";
+constexpr std::string_view kWordsOfOthers =
+    " mask masks valid validity conf confidence certainty uncertainty normal normals seg "
+    "segmentation semantic semantics label labels instance instances vis viz ir infrared amplitude "
+    "intensity flow ";
 
 /// The array with the first of these names, in any case; nothing when there is none.
 std::optional<std::string> named(const NamedArrays& arrays, Words words) {
@@ -46,11 +62,105 @@ bool is_one_of(const std::string& name, Words words) {
     return std::find(words.begin(), words.end(), lower_case(name)) != words.end();
 }
 
+/// Whether one of the words of a name, which letters and digits make, is in a list.
+bool has_word(const std::string& name, std::string_view words) {
+    std::string word = " ";
+    for (const char c : lower_case(name) + '_') {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            word += c;
+            continue;
+        }
+        if (word.size() > 1 && words.find(word + ' ') != std::string_view::npos) return true;
+        word = " ";
+    }
+    return false;
+}
+
+bool names_depth(const std::string& name) {
+    const std::string small = lower_case(name);
+    return small.find("depth") != std::string::npos ||
+           small.find("disparity") != std::string::npos || has_word(name, kWordsOfDepth);
+}
+
+/// Arrays that can be pictures of a role.
+struct Candidates {
+    std::vector<std::string> named{};   ///< whose names say so
+    std::vector<std::string> likely{};  ///< whose names are usual for it
+    std::vector<std::string> others{};
+
+    /// The surest that are there.
+    [[nodiscard]] const std::vector<std::string>& surest() const {
+        return !named.empty() ? named : !likely.empty() ? likely : others;
+    }
+};
+
+/// What the header of an array says; nothing where its shape is not that of pictures.
+std::optional<NumpyHeader> picture_header_of(const NamedArrays& arrays, const std::string& name) {
+    try {
+        const NumpyArray array(arrays.file(), name, arrays.open(name));
+        return array.has_sides_of_pictures() ? std::optional(array.header()) : std::nullopt;
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+bool is_of_coloured_bytes(const NumpyHeader& header) {
+    const std::vector<std::int64_t>& sides = header.shape;
+    const bool has_channels = sides.size() > 2 && (sides.back() == 3 || sides.back() == 4 ||
+                                                   (sides.size() > 3 && *(sides.end() - 3) == 3));
+    return header.kind == 'u' && header.number_bytes == 1 && has_channels;
+}
+
+Candidates candidates_in(const NamedArrays& arrays, PictureRole role) {
+    Candidates found;
+    if (!arrays.zipped() || arrays.names().size() > kMostExamined) return found;
+    for (const std::string& name : arrays.names()) {
+        const auto header = picture_header_of(arrays, name);
+        if (!header || has_word(name, kWordsOfOthers)) continue;
+        const bool is_colour = is_of_coloured_bytes(*header);
+        if (role == PictureRole::colour) {
+            if (is_colour && !names_depth(name)) found.others.push_back(name);
+        } else if (!is_colour && !is_one_of(name, kColourNames)) {
+            (names_depth(name)                  ? found.named
+             : has_word(name, kWordsOfDistance) ? found.likely
+                                                : found.others)
+                .push_back(name);
+        }
+    }
+    return found;
+}
+
+/// The array of that role by its name, or as the only one that can be; nothing else.
+std::optional<std::string> found_array(const NamedArrays& arrays, PictureRole role) {
+    const bool is_depth = role == PictureRole::depth;
+    auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
+    if (called) return called;
+    const Candidates candidates = candidates_in(arrays, role);
+    if (candidates.surest().size() != 1) return std::nullopt;
+    return candidates.surest().front();
+}
+
+[[noreturn]] void refuse_several(const NamedArrays& arrays, const std::vector<std::string>& names) {
+    constexpr std::size_t kMostNamed = 4;
+    std::vector<std::string> quoted;
+    for (const std::string& name : names)
+        if (quoted.size() < kMostNamed) quoted.push_back(in_quotes(name));
+    if (names.size() > kMostNamed) quoted.emplace_back("...");
+    throw InputError(shown(arrays.file()) + " holds " + std::to_string(names.size()) +
+                     " arrays that may be the depth, " + listed(quoted) +
+                     ": save the one to touch: python3 -c \"import numpy; "
+                     "numpy.save('depth.npy', " +
+                     loading_of(arrays.file(), names.front()) + ")\"");
+}
+
 /// The array of that role. Throws InputError when none, or more than one, is possible.
 std::string chosen(const NamedArrays& arrays, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
-    const auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
-    if (called) return *called;
+    if (const auto found = found_array(arrays, role)) return *found;
+    if (is_depth) {
+        const Candidates candidates = candidates_in(arrays, role);
+        if (candidates.surest().size() > 1) refuse_several(arrays, candidates.surest());
+    }
     std::vector<std::string> left;
     std::copy_if(arrays.names().begin(), arrays.names().end(), std::back_inserter(left),
                  [](const std::string& name) {
@@ -65,7 +175,7 @@ std::string chosen(const NamedArrays& arrays, PictureRole role) {
 }
 
 NumpyArray opened(const NamedArrays& arrays, const std::string& name) {
-    return {arrays.file(), arrays.open(name)};
+    return {arrays.file(), name, arrays.open(name)};
 }
 
 /// The numbers of the array with one of these names; empty when it is missing, has more than
@@ -86,19 +196,29 @@ bool rises(const std::vector<double>& times) {
            std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
-/// The first nine numbers as a matrix, row by row; nothing when that is no camera in pixels.
-std::optional<Intrinsics> intrinsics_of(const std::vector<double>& rows) {
-    if (rows.size() < 9) return std::nullopt;
+/// The first nine numbers as a matrix, row by row. Estimators also state it in parts of the picture
+/// (MoGe): then the centre is below 1.
+Intrinsics intrinsics_of(const std::vector<double>& rows, const PictureShape& shape) {
     const Intrinsics camera{rows[0], rows[4], rows[2], rows[5]};
-    const bool finite = std::isfinite(camera.fx) && std::isfinite(camera.fy) &&
-                        std::isfinite(camera.cx) && std::isfinite(camera.cy);
-    if (!finite || camera.fx <= 1.0 || camera.fy <= 1.0) return std::nullopt;
-    return camera;
+    const auto is_part = [](double value) { return value > 0.0 && value < 1.0; };
+    if (!is_part(camera.cx) || !is_part(camera.cy) || !(camera.fx < 10.0)) return camera;
+    const auto columns = static_cast<double>(shape.columns);
+    const auto height = static_cast<double>(shape.rows);
+    return {camera.fx * columns, camera.fy * height, camera.cx * columns - 0.5,
+            camera.cy * height - 0.5};
 }
 
-void add_origin(SourceFacts& facts, const std::string& array) {
-    if (!facts.known_from.empty()) facts.known_from += ", ";
-    facts.known_from += "array " + in_quotes(array);
+Finding finding_in(const std::string& array, const DepthStatement& statement) {
+    return finding_of_metadata(statement, "array " + in_quotes(array));
+}
+
+/// What an array beside it says that one level is.
+Findings findings_on_scale(const NamedArrays& arrays, bool is_real) {
+    const std::vector<double> stated = numbers_of(arrays, depth_scale_names(), 1);
+    const auto level_mm = stated.empty() ? std::nullopt : level_mm_of(stated.front(), is_real);
+    if (!level_mm) return {};
+    return {finding_in(*named(arrays, depth_scale_names()),
+                       {.unit = DepthUnit::mm, .scale = *level_mm})};
 }
 
 }  // namespace
@@ -110,20 +230,37 @@ bool is_array_file(const fs::path& file, std::string_view head) {
 bool arrays_have_colour_and_depth(const fs::path& file) {
     if (!is_npz(file, head_of(file))) return false;
     const NamedArrays arrays(file);
-    return named(arrays, kColourNames) && named(arrays, kDepthNames);
+    return found_array(arrays, PictureRole::colour) && found_array(arrays, PictureRole::depth);
+}
+
+bool may_be_picture(const fs::path& file) {
+    if (!is_npy(head_of(file))) return true;
+    try {
+        return NumpyArray(file, {}, NamedArrays(file).open({})).has_sides_of_pictures();
+    } catch (const InputError&) {
+        return true;  // the refusal says why it cannot be read
+    }
 }
 
 ArrayFile::ArrayFile(const fs::path& file, PictureRole role) : ArrayFile(NamedArrays(file), role) {}
 
 ArrayFile::ArrayFile(const NamedArrays& arrays, PictureRole role)
-    : role_(role), array_(opened(arrays, chosen(arrays, role))), shape_(array_.pictures()) {
-    if (role == PictureRole::colour &&
-        (array_.header().kind != 'u' || array_.header().number_bytes != 1))
+    : role_(role),
+      name_(chosen(arrays, role)),
+      array_(opened(arrays, name_)),
+      shape_(array_.pictures()) {
+    const NumpyHeader& header = array_.header();
+    const bool is_of_bytes = header.kind == 'u' && header.number_bytes == 1;
+    const bool may_be_colours = is_of_bytes || (header.kind == 'f' && shape_.channels == 3);
+    if (role == PictureRole::colour && !may_be_colours)
         throw InputError(shown(arrays.file()) +
                          " holds depth and no colours (uint8): give it as the depth file");
     read_facts(arrays);
-    read_times(arrays);
     require_size(facts_.file, facts_.columns, facts_.rows);
+    first_ = array_.picture(shape_, 0);
+    if (role == PictureRole::depth) require_no_mask();
+    if (role == PictureRole::colour && !is_of_bytes) find_white();
+    read_times(arrays);
 }
 
 void ArrayFile::read_facts(const NamedArrays& arrays) {
@@ -136,14 +273,21 @@ void ArrayFile::read_facts(const NamedArrays& arrays) {
     facts_.channels = role_ == PictureRole::colour ? 3 : static_cast<int>(shape_.channels);
     facts_.codec = arrays.zipped() ? "NPZ" : "NPY";
     if (role_ == PictureRole::colour || !arrays.zipped()) return;
-    const std::string name = chosen(arrays, role_);
-    if (lower_case(name).starts_with("disp")) {
-        facts_.known.unit = DepthUnit::disparity;
-        add_origin(facts_, name);
-    }
+    if (lower_case(name_).starts_with("disp"))
+        facts_.findings.push_back(finding_in(name_, {.unit = DepthUnit::disparity}));
+    else
+        facts_.findings = findings_in_name(name_, facts_.bits, "its array's name");
+    for (Finding& row : findings_on_scale(arrays, facts_.bits == kRealBits))
+        facts_.findings.push_back(std::move(row));
     constexpr std::int64_t kMostOfCamera = std::int64_t{9} << 20;  // one a frame
-    facts_.known.intrinsics = intrinsics_of(numbers_of(arrays, kCameraNames, kMostOfCamera));
-    if (facts_.known.intrinsics) add_origin(facts_, *named(arrays, kCameraNames));
+    const std::vector<double> rows = numbers_of(arrays, kCameraNames, kMostOfCamera);
+    if (rows.size() < 9) return;
+    const Intrinsics camera = intrinsics_of(rows, shape_);
+    if (is_camera(camera))
+        facts_.findings.push_back(finding_in(*named(arrays, kCameraNames), {.intrinsics = camera}));
+    else
+        add_clause(facts_.notice,  // why it is none
+                   fit_camera(camera, {}, {facts_.columns, facts_.rows}).notice);
 }
 
 void ArrayFile::read_times(const NamedArrays& arrays) {
@@ -151,16 +295,51 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     const bool usable = !rate.empty() && rate[0] >= 0.001 && rate[0] <= 10000.0;
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
     std::vector<double> times_s = numbers_of(arrays, kTimeNames, shape_.frames);
+    facts_.timing = {.from = TimesFrom::list, .text = "in the file"};
     if (std::cmp_not_equal(times_s.size(), shape_.frames) || !rises(times_s)) {
         times_s.clear();
+        facts_.timing = assumed_timing();
+        if (usable) facts_.timing = {.from = TimesFrom::stated, .text = "by the rate in the file"};
         for (std::int64_t k = 0; k < shape_.frames; ++k)
             times_s.push_back(static_cast<double>(k) / frames_per_s);
     }
     take_times(std::move(times_s));
 }
 
+/// Networks have colours from 0 to 1, or from -1 to 1; others from 0 to 255.
+void ArrayFile::find_white() {
+    constexpr double kMostOfParts = 1.5;
+    constexpr double kLeastBelow = -0.01;
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxIdx(first_.reshape(1), &lowest, &highest);
+    if (!(lowest >= -kMostOfParts && highest <= highest_level(8)))
+        throw InputError(shown(facts_.file) +
+                         " holds points or normals and no colours: save the colours as uint8");
+    black_ = lowest < kLeastBelow ? -1.0 : 0.0;
+    white_ = highest <= kMostOfParts ? 1.0 : highest_level(8);
+}
+
+/// Throws InputError where the first frame has both 0 and 1, and nothing else.
+void ArrayFile::require_no_mask() const {
+    const cv::Mat numbers = first_.reshape(1);
+    const int zeros = cv::countNonZero(numbers == 0.0);
+    if (zeros == 0) return;
+    const int ones = cv::countNonZero(numbers == 1.0);
+    if (ones == 0 || zeros + ones != static_cast<int>(numbers.total())) return;
+    throw InputError(shown(facts_.file) +
+                     " holds 0 and 1 alone, as a mask does, and no depth: give the depth that it "
+                     "belongs to, or save it as a picture (PNG) to touch its two levels");
+}
+
 cv::Mat ArrayFile::picture(std::size_t at) {
-    cv::Mat frame = array_.picture(shape_, static_cast<std::int64_t>(at));
+    cv::Mat frame = at == 0 && !first_.empty()
+                        ? std::exchange(first_, cv::Mat())
+                        : array_.picture(shape_, static_cast<std::int64_t>(at));
+    if (role_ == PictureRole::colour && frame.depth() != CV_8U) {
+        const double scale = highest_level(8) / (white_ - black_);
+        frame.convertTo(frame, CV_8U, scale, -black_ * scale);
+    }
     if (role_ == PictureRole::colour && frame.channels() == 1)
         cv::cvtColor(frame, frame, cv::COLOR_GRAY2BGR);
     if (role_ == PictureRole::colour && frame.channels() == 4)
@@ -171,7 +350,7 @@ cv::Mat ArrayFile::picture(std::size_t at) {
 StillPicture read_array(const fs::path& file, PictureRole role) {
     ArrayFile array(file, role);
     const SourceFacts& facts = array.facts();
-    return {array.next()->picture, facts.bits, facts.codec, facts.known, facts.known_from};
+    return {array.next()->picture, facts.bits, facts.codec, facts.findings};
 }
 
 }  // namespace dibhr

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <opencv2/core/mat.hpp>
+#include <string>
 #include <string_view>
 
 #include "core/video/formats/numpy_array.hpp"
@@ -14,13 +16,19 @@ namespace dibhr {
 /// Whether the file is a .npy or .npz; `head`: its first bytes.
 [[nodiscard]] bool is_array_file(const std::filesystem::path& file, std::string_view head);
 
-/// Whether a .npz has an array with a name for colour (images, rgb) and one with a name for depth
-/// (depths, disp). False when it cannot be read.
+/// Whether a .npz has an array that is surely its colour and one that is its depth, by their names
+/// or as the only ones that can be. False when it cannot be read.
 [[nodiscard]] bool arrays_have_colour_and_depth(const std::filesystem::path& file);
 
-/// Reads the frames of one array in order. Of a .npz the array called `depths`, `depth`,
-/// `disparity` or `disp` (colour: `images`, `rgb`), else the only one. Times come from `times` or
-/// `timestamps` [s], else from `fps`, else 30 a second; `K` or `intrinsics` is the camera.
+/// Whether a .npy can be a picture by its shape; else it is a camera, poses, a list of numbers.
+/// True for other files.
+[[nodiscard]] bool may_be_picture(const std::filesystem::path& file);
+
+/// Reads the frames of one array in order; colours of bytes, or of real numbers in three channels.
+/// Of a .npz the array called `depths`, `depth`, `disparity` or `disp` (colour: `images`, `rgb`),
+/// else the only one whose name says depth, else the only one that can be a picture of it. Times
+/// come from `times` or `timestamps` [s], else from `fps`, else 30 a second; `K` or `intrinsics` is
+/// the camera, `depth_scale` what a level is, and words of the depth's name are its unit.
 class ArrayFile : public IndexedPictures {
   public:
     /// Throws InputError.
@@ -31,10 +39,15 @@ class ArrayFile : public IndexedPictures {
     [[nodiscard]] cv::Mat picture(std::size_t at) override;
     void read_facts(const NamedArrays& arrays);
     void read_times(const NamedArrays& arrays);
+    void find_white();
+    void require_no_mask() const;
 
     PictureRole role_;
+    std::string name_;
     NumpyArray array_;
     PictureShape shape_{};
+    cv::Mat first_{};                   ///< the first frame, until it is taken
+    double black_{0.0}, white_{255.0};  ///< of colours
 };
 
 /// The first picture of a file of arrays. Throws InputError.

@@ -149,8 +149,10 @@ cv::Mat FramePictures::levels(const AVFrame& frame) {
     const AVPixFmtDescriptor* const kind = kind_of(frame);
     if (kind == nullptr) return {};
     if (!has_luma(*kind)) {
-        return bits_of(frame) > 8 ? converted(frame, AV_PIX_FMT_BGR48, CV_16UC3)
-                                  : converted(frame, AV_PIX_FMT_BGR24, CV_8UC3);
+        if (bits_of(frame) > 8) return converted(frame, AV_PIX_FMT_BGR48, CV_16UC3);
+        const bool has_alpha = has(*kind, AV_PIX_FMT_FLAG_RGB) && has(*kind, AV_PIX_FMT_FLAG_ALPHA);
+        return has_alpha ? converted(frame, AV_PIX_FMT_BGRA, CV_8UC4)
+                         : converted(frame, AV_PIX_FMT_BGR24, CV_8UC3);
     }
     cv::Mat levels = luma_of(frame, *kind);
     if (!limited_) limited_ = is_limited(frame, *kind, levels);

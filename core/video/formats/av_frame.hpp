@@ -29,8 +29,8 @@ class FramePictures {
     [[nodiscard]] cv::Mat colour(const AVFrame& frame);
     /// Every coded level. Of grey pictures, and of the luma of others, one channel of 8 or 16 bits,
     /// or float where a limited ("TV") range is stretched to the full one without rounding. Of
-    /// pictures coded in red, green and blue these three, blue first, of 8 or 16 bits. Empty when
-    /// it cannot be converted.
+    /// pictures coded in red, green and blue these three, blue first, of 8 or 16 bits, and of 8
+    /// bits also alpha where it is coded. Empty when it cannot be converted.
     [[nodiscard]] cv::Mat levels(const AVFrame& frame);
 
   private:

@@ -183,14 +183,21 @@ cv::Mat read_channels(Imf::MultiPartInputFile& input, const Channels& channels,
     return in_display(values, data, display, nothing);
 }
 
-cv::Mat first_if_equal(const cv::Mat& values) {
+/// One channel of several that are equal, or of which the others are empty: simulators write depth
+/// into R alone.
+cv::Mat only_channel(const cv::Mat& values) {
     if (values.channels() == 1) return values;
     std::vector<cv::Mat> planes;
     cv::split(values, planes);
     const bool equal = std::all_of(planes.begin(), planes.end(), [&](const cv::Mat& plane) {
         return cv::countNonZero((plane != planes[0]) & (plane == plane)) == 0;
     });
-    return equal ? planes[0] : values;
+    if (equal) return planes[0];
+    const auto is_used = [](const cv::Mat& plane) {
+        return cv::countNonZero((plane != 0.0) & (plane == plane)) > 0;
+    };
+    const bool has_one = std::count_if(planes.begin(), planes.end(), is_used) == 1;
+    return has_one ? *std::find_if(planes.begin(), planes.end(), is_used) : values;
 }
 
 StillPicture read_colour(Imf::MultiPartInputFile& input, const fs::path& file) {
@@ -199,8 +206,11 @@ StillPicture read_colour(Imf::MultiPartInputFile& input, const fs::path& file) {
         throw InputError(shown(file) +
                          " has no channels R, G and B: give it as the depth file, and the colour "
                          "file first");
-    return {screen_colours(read_channels(input, *colour, file, 0.0F)), 8, "EXR", {}, {}};
+    return {screen_colours(read_channels(input, *colour, file, 0.0F)), 8, "EXR"};
 }
+
+/// Renderers write metres or other units there, and estimators one over the distance, too.
+constexpr double kSurenessOfZ = 0.9;
 
 StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
     const auto named = find_depth(input);
@@ -212,11 +222,12 @@ StillPicture read_depth(Imf::MultiPartInputFile& input, const fs::path& file) {
     cv::Mat values = read_channels(input, *chosen, file, kNothing);
     cv::Mat single = values.reshape(1);
     single.setTo(kNothing, ~(single < kRenderersInfinity));
-    StillPicture still{first_if_equal(values), kRealBits, "EXR", {}, {}};
-    if (named && layer_and_name(named->names[0]).second == "Z") {
-        still.known.unit = DepthUnit::m;
-        still.known_from = "EXR channel " + named->names[0];
-    }
+    StillPicture still{only_channel(values), kRealBits, "EXR"};
+    if (named && layer_and_name(named->names[0]).second == "Z")
+        still.findings = {{{.unit = DepthUnit::m},
+                           Evidence::metadata,
+                           kSurenessOfZ,
+                           "EXR channel " + named->names[0]}};
     return still;
 }
 

@@ -26,9 +26,17 @@ namespace dibhr {
 [[nodiscard]] std::uint64_t size_of(const std::filesystem::path& file);
 
 /// Throws InputError for a file that no reader can read: missing, a directory, a pipe or device, no
-/// permission, empty, text, a recording that only its maker's programs read. The message says
+/// permission, empty, or with the magic bytes of a form that has to be converted. The message says
 /// what, which file, and what to do next.
 void require_readable(const std::filesystem::path& file);
+
+/// Likewise for a file whose magic bytes no reader knows: throws where its ending is that of
+/// another form, for numbers without a header or as text, and for other text.
+void require_no_other_form(const std::filesystem::path& file);
+
+/// What a file is that no reader reads, and what to do, as the rest of a sentence that begins with
+/// its name; empty where neither its bytes nor its ending tell a form. Does not judge text.
+[[nodiscard]] std::string advice_on_form(const std::filesystem::path& file);
 
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);

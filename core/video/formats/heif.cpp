@@ -114,7 +114,7 @@ StillPicture read_colour(const heif_image_handle& primary, const fs::path& file)
     const Image image = decoded(primary, heif_colorspace_RGB, heif_chroma_interleaved_RGB, file);
     cv::Mat picture = plane_of(*image, heif_channel_interleaved, CV_8UC3, file);
     cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);
-    return {picture, 8, "HEIC", {}, {}};
+    return {picture, 8, "HEIC"};
 }
 
 StillPicture read_depth(const heif_image_handle& primary, const fs::path& file) {
@@ -129,7 +129,10 @@ StillPicture read_depth(const heif_image_handle& primary, const fs::path& file) 
     const Image image = decoded(*depth, heif_colorspace_undefined, heif_chroma_undefined, file);
     const int bits = heif_image_get_bits_per_pixel_range(image.get(), heif_channel_Y);
     cv::Mat levels = plane_of(*image, heif_channel_Y, bits > 8 ? CV_16UC1 : CV_8UC1, file);
-    return {levels, bits, "HEIC", statement_of(primary, *id, bits), "HEIC depth picture"};
+    return {levels,
+            bits,
+            "HEIC",
+            {finding_of_metadata(statement_of(primary, *id, bits), "HEIC depth picture")}};
 }
 
 }  // namespace

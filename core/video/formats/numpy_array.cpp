@@ -5,7 +5,9 @@
 #include <array>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -14,6 +16,7 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -22,7 +25,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Many rows of few numbers.
+bool is_list(const std::vector<std::int64_t>& sides) {
+    constexpr std::int64_t kMostOfRow = 8;
+    constexpr std::int64_t kLeastRows = 256;
+    return sides.size() == 2 && sides[1] <= kMostOfRow && sides[0] >= kLeastRows;
+}
+
 constexpr std::uint64_t kMostHeaderBytes = 65536;
+constexpr std::int64_t kLeastSide = 16;  ///< shorter sides count channels or frames
 
 /// The text behind "'name':" in the header's dictionary; empty when it has no such key.
 std::string_view value_of(std::string_view dictionary, const std::string& name) {
@@ -103,6 +114,37 @@ std::string text_of(const std::vector<std::int64_t>& shape) {
     return "[" + text + "]";
 }
 
+/// Whether two pictures of one channel look like frames of one recording, and not like two
+/// quantities: values of the same size, high where the other's are high.
+bool are_alike(const cv::Mat& a, const cv::Mat& b) {
+    constexpr double kLeastCorrelation = 0.5;
+    constexpr double kMostRatio = 3.0;  // of the standard deviations
+    constexpr double kMostShift = 1.0;  // of the means, in standard deviations
+    const cv::Mat finite = (cv::abs(a) <= std::numeric_limits<float>::max()) &
+                           (cv::abs(b) <= std::numeric_limits<float>::max());
+    std::array<cv::Scalar, 2> means;
+    std::array<cv::Scalar, 2> deviations;
+    cv::meanStdDev(a, means[0], deviations[0], finite);
+    cv::meanStdDev(b, means[1], deviations[1], finite);
+    const auto [least, most] = std::minmax(deviations[0][0], deviations[1][0]);
+    if (!(least > 0.0) || most > kMostRatio * least ||
+        std::abs(means[0][0] - means[1][0]) > kMostShift * most)
+        return false;
+    cv::Mat product;
+    cv::multiply(a - means[0], b - means[1], product, 1.0, CV_64F);
+    return cv::mean(product, finite)[0] >= kLeastCorrelation * least * most;
+}
+
+/// Every so many pixels of a large picture, as real numbers.
+cv::Mat thinned(const cv::Mat& picture) {
+    constexpr int kMostSide = 256;
+    cv::Mat few;
+    cv::resize(picture, few, {std::min(picture.cols, kMostSide), std::min(picture.rows, kMostSide)},
+               0.0, 0.0, cv::INTER_NEAREST);
+    few.convertTo(few, CV_32F);
+    return few;
+}
+
 /// The number of elements; nothing when they take more than `most_bytes`.
 std::optional<std::int64_t> count_of(const NumpyHeader& header, std::uint64_t most_bytes) {
     const auto bytes = static_cast<std::uint64_t>(header.number_bytes);
@@ -146,8 +188,16 @@ void restore_unsigned(cv::Mat& numbers) {
 
 }  // namespace
 
-NumpyArray::NumpyArray(fs::path file, std::unique_ptr<ArrayBytes> bytes)
-    : file_(std::move(file)), bytes_(std::move(bytes)), header_(read_header(file_, *bytes_)) {
+std::string loading_of(const fs::path& file, const std::string& name) {
+    return "numpy.load(" + shown(file.filename()) + ")" +
+           (name.empty() ? std::string() : "['" + one_line(name) + "']");
+}
+
+NumpyArray::NumpyArray(fs::path file, const std::string& name, std::unique_ptr<ArrayBytes> bytes)
+    : file_(std::move(file)),
+      loaded_(loading_of(file_, name)),
+      bytes_(std::move(bytes)),
+      header_(read_header(file_, *bytes_)) {
     const auto count = count_of(header_, bytes_->size() - header_.data_at);
     if (!count)
         throw InputError(shown(file_) + " is shorter than its header says (" +
@@ -162,33 +212,99 @@ std::vector<double> NumpyArray::numbers(std::int64_t most) {
     return {real.begin<double>(), real.end<double>()};
 }
 
-PictureShape NumpyArray::pictures() const {
-    std::vector<std::int64_t> sides = header_.shape;
-    const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
-    PictureShape shape;
-    if (sides.size() > 2) {
-        const std::int64_t last = sides.back();
-        if (last == 1 || (of_colours && (last == 3 || last == 4))) {
-            shape.channels = last;
-            sides.pop_back();
-        } else if (sides.size() == 4 && sides[1] == 1) {  // [frames, 1, rows, columns]
-            sides.erase(sides.begin() + 1);
-        }
+bool NumpyArray::has_sides_of_pictures() const {
+    return std::count_if(header_.shape.begin(), header_.shape.end(),
+                         [](std::int64_t side) { return side >= kLeastSide; }) >= 2;
+}
+
+/// Whether it holds one or more matrices of 3 x 3 or 4 x 4 numbers whose last row is 0, 0, ..., 1,
+/// as cameras and poses have.
+bool NumpyArray::is_matrix() {
+    const std::vector<std::int64_t>& sides = header_.shape;
+    const bool is_row = sides.size() == 3 && !header_.fortran;
+    if ((sides.size() != 2 && !is_row) || count_ == 0) return false;
+    const std::int64_t side = sides.back();
+    if (sides[sides.size() - 2] != side || (side != 3 && side != 4)) return false;
+    cv::Mat real;
+    read(0, side * side).convertTo(real, CV_64F);
+    const cv::Mat matrix = real.reshape(1, static_cast<int>(side));
+    const cv::Mat last =
+        header_.fortran ? cv::Mat(matrix.col(matrix.cols - 1).t()) : matrix.row(matrix.rows - 1);
+    return last.at<double>(static_cast<int>(side) - 1) == 1.0 && cv::countNonZero(last) == 1;
+}
+
+/// Throws InputError where the last axis does not count frames, but numbers of each pixel.
+void NumpyArray::require_frames(const PictureShape& shape) {
+    cv::Mat before = thinned(picture(shape, 0));
+    for (std::int64_t k = 1; k < shape.frames; ++k) {
+        const cv::Mat next = thinned(picture(shape, k));
+        if (!are_alike(before, next))
+            throw InputError(
+                shown(file_) + " holds " + std::to_string(shape.frames) +
+                " different numbers of each pixel, in the shape " + text_of(header_.shape) +
+                ", and none is named depth: save the one that is, as the first, [..., 0]: python3 "
+                "-c \"import numpy; numpy.save('depth.npy', " +
+                loaded_ + "[..., 0])\"");
+        before = next;
     }
-    if (sides.size() == 2) sides.insert(sides.begin(), 1);
-    if (sides.size() != 3 || count_ == 0)
-        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(header_.shape) +
-                         ": save depth as [rows, columns] or [frames, rows, columns]");
-    shape.frames = sides[0];
-    shape.rows = sides[1];
-    shape.columns = sides[2];
+}
+
+/// Throws InputError when the pictures are larger than the bounds.
+void NumpyArray::require_bounded_size(const PictureShape& shape) const {
     require_plausible_size(file_, shape.columns, shape.rows, shape.channels * header_.number_bytes);
     if (shape.frames > kMostPictures)
         throw InputError(shown(file_) + " holds " + std::to_string(shape.frames) +
                          " pictures: save at most 10 million in one array");
-    if (header_.fortran && count_ > kMostPictureBytes / header_.number_bytes)
-        throw InputError(shown(file_) +
-                         " is too large in Fortran order: save numpy.ascontiguousarray of it");
+    const bool is_scattered = header_.fortran != shape.frames_last;
+    if (!is_scattered || count_ <= kMostPictureBytes / header_.number_bytes) return;
+    throw InputError(shown(file_) +
+                     (shape.frames_last
+                          ? " is too large with its frames in the last axis: save "
+                            "numpy.ascontiguousarray(numpy.moveaxis(a, -1, 0)) of it"
+                          : " is too large in Fortran order: save numpy.ascontiguousarray of it"));
+}
+
+PictureShape NumpyArray::pictures() {
+    if (is_matrix())
+        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(header_.shape) +
+                         ", the matrix of a camera or a pose, and no picture: give the depth that "
+                         "it belongs to");
+    std::vector<std::int64_t> sides = header_.shape;
+    if (is_list(sides))
+        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(sides) +
+                         ", a list of points or poses, and no picture: project the points into a "
+                         "picture of their distances, and give that");
+    const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
+    PictureShape shape;
+    // Estimators' batches: [1, frames, ...]
+    while (sides.size() > 4 && sides.front() == 1) sides.erase(sides.begin());
+    if (sides.size() > 2) {
+        const std::int64_t last = sides.back();
+        const bool may_be_planar =
+            sides.size() == 4 && (sides[1] == 1 || (sides[1] == 3 && !header_.fortran));
+        if (last == 1 || last == 3 || (of_colours && last == 4)) {
+            shape.channels = last;
+            sides.pop_back();
+        } else if (may_be_planar) {  // [frames, channels, rows, columns]
+            shape.channels = sides[1];
+            shape.is_planar = shape.channels > 1;
+            sides.erase(sides.begin() + 1);
+        }
+    }
+    if (sides.size() == 4 && sides.front() == 1) sides.erase(sides.begin());
+    if (sides.size() == 2) sides.insert(sides.begin(), 1);
+    if (sides.size() != 3 || count_ == 0)
+        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(header_.shape) +
+                         ": save depth as [rows, columns] or [frames, rows, columns], and colours "
+                         "as the same with 3 at the end");
+    shape.frames_last =
+        sides[2] < kLeastSide && std::min(sides[0], sides[1]) >= kLeastSide && shape.channels == 1;
+    if (shape.frames_last) std::rotate(sides.begin(), sides.begin() + 2, sides.end());
+    shape.frames = sides[0];
+    shape.rows = sides[1];
+    shape.columns = sides[2];
+    require_bounded_size(shape);
+    if (shape.frames_last) require_frames(shape);
     return shape;
 }
 
@@ -222,12 +338,39 @@ cv::Mat NumpyArray::fortran_picture(const PictureShape& shape, std::int64_t fram
     return picture;
 }
 
-cv::Mat NumpyArray::picture(const PictureShape& shape, std::int64_t frame) {
+/// In C order.
+cv::Mat NumpyArray::plain_picture(const PictureShape& shape, std::int64_t frame) {
     const std::int64_t count = shape.rows * shape.columns * shape.channels;
-    cv::Mat picture = header_.fortran ? fortran_picture(shape, frame)
-                                      : read(static_cast<std::uint64_t>(frame * count), count)
-                                            .reshape(static_cast<int>(shape.channels),
-                                                     static_cast<int>(shape.rows));
+    const auto rows = static_cast<int>(shape.rows);
+    const auto channels = static_cast<int>(shape.channels);
+    const cv::Mat numbers = read(static_cast<std::uint64_t>(frame * count), count);
+    if (!shape.is_planar) return numbers.reshape(channels, rows);
+    const cv::Mat stacked = numbers.reshape(1, channels * rows);
+    std::vector<cv::Mat> planes;
+    planes.reserve(static_cast<std::size_t>(channels));
+    for (int k = 0; k < channels; ++k) planes.push_back(stacked.rowRange(k * rows, (k + 1) * rows));
+    cv::Mat picture;
+    cv::merge(planes, picture);
+    return picture;
+}
+
+/// In C order all frames of a pixel follow each other; in Fortran order each frame lies in one
+/// piece, column by column.
+cv::Mat NumpyArray::last_axis_picture(const PictureShape& shape, std::int64_t frame) {
+    const std::int64_t count = shape.rows * shape.columns;
+    if (header_.fortran)
+        return read(static_cast<std::uint64_t>(frame * count), count)
+            .reshape(1, static_cast<int>(shape.columns))
+            .t();
+    if (whole_.empty()) whole_ = read(0, count_);
+    const cv::Mat by_pixel = whole_.reshape(1, static_cast<int>(count));
+    return by_pixel.col(static_cast<int>(frame)).clone().reshape(1, static_cast<int>(shape.rows));
+}
+
+cv::Mat NumpyArray::picture(const PictureShape& shape, std::int64_t frame) {
+    cv::Mat picture = shape.frames_last ? last_axis_picture(shape, frame)
+                      : header_.fortran ? fortran_picture(shape, frame)
+                                        : plain_picture(shape, frame);
     const bool keeps = picture.depth() == CV_8U || picture.depth() == CV_16U;
     if (!keeps) picture.convertTo(picture, CV_32F);
     if (picture.channels() == 3) cv::cvtColor(picture, picture, cv::COLOR_RGB2BGR);

@@ -21,6 +21,8 @@ namespace dibhr {
 
 namespace {
 
+constexpr double kSurenessOfDisparity = 0.8;  // renderers write distances, too
+
 struct PfmHeader {
     int channels{1};
     int columns{0};
@@ -82,8 +84,14 @@ StillPicture read_pfm(const std::filesystem::path& file, PictureRole role) {
         swap_bytes({values.ptr<std::uint8_t>(), row_bytes * static_cast<std::size_t>(header.rows)},
                    4);
     if (header.channels == 3) cv::cvtColor(values, values, cv::COLOR_RGB2BGR);
-    if (role == PictureRole::colour) return {screen_colours(values), 8, "PFM", {}, {}};
-    return {values, kRealBits, "PFM", {}, {}};
+    if (role == PictureRole::colour) return {screen_colours(values), 8, "PFM"};
+    return {values,
+            kRealBits,
+            "PFM",
+            {{{.unit = DepthUnit::disparity},
+              Evidence::magic,
+              kSurenessOfDisparity,
+              "portable float maps mostly hold disparities"}}};
 }
 
 }  // namespace dibhr

@@ -2,12 +2,30 @@
 #include "core/video/formats/picture_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
+
+void add_clause(std::string& notice, const std::string& clause) {
+    if (clause.empty() || notice.find(clause) != std::string::npos) return;
+    notice += (notice.empty() ? "" : "; ") + clause;
+}
+
+std::string_view name_of(TimesFrom value) noexcept {
+    constexpr std::array<std::string_view, 6> kNames{"file",  "names",  "list",
+                                                     "other", "stated", "assumed"};
+    return kNames[static_cast<std::size_t>(value)];
+}
+
+Timing assumed_timing() {
+    return {.from = TimesFrom::assumed,
+            .text = "assumed: " + short_text(kPicturesPerSecond) + " frames a second"};
+}
 
 std::optional<TimedPicture> PictureSource::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &TimedPicture::time_s);
@@ -100,6 +118,7 @@ void IndexedPictures::take_times(std::vector<double> times_s) {
     const double interval_s = times_s_.back() / static_cast<double>(facts_.frames - 1);
     facts_.frames_per_s = 1.0 / interval_s;
     facts_.duration_s = times_s_.back() + interval_s;
+    facts_.timing.nominal_per_s = facts_.frames_per_s;
 }
 
 void IndexedPictures::report_trouble(const std::string& what) {

@@ -10,11 +10,12 @@
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/depth/camera.hpp"
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 
 namespace dibhr {
 
@@ -30,9 +31,29 @@ struct TimedPicture {
     std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
 };
 
+/// Where the times of pictures are from.
+enum class TimesFrom { file, names, list, other, stated, assumed };
+
+/// "file", "names", "list", "other", "stated", "assumed".
+[[nodiscard]] std::string_view name_of(TimesFrom value) noexcept;
+
+/// How it is known when pictures are shown.
+struct Timing {
+    TimesFrom from{TimesFrom::file};
+    std::string text{};         ///< for people: "in the file"; empty: a still
+    double nominal_per_s{0.0};  ///< rate at the opening, which reading does not change
+    /// Frame numbers in the pictures' names, rising; null: none.
+    std::shared_ptr<const std::vector<double>> numbers{};
+    /// Stamps that were found for pictures without times [s], rising, and where; null: none.
+    std::shared_ptr<const std::vector<double>> stamps_s{};
+    TimesFrom stamps_from{TimesFrom::names};
+    std::string stamps_text{};
+};
+
 /// The facts about a source known so far; more as frames are read.
 struct SourceFacts {
     std::filesystem::path file{};
+    std::filesystem::path first_picture{};  ///< of a folder, a list or a pattern; empty: `file`
     int columns{0};
     int rows{0};
     int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers
@@ -43,17 +64,20 @@ struct SourceFacts {
     double frames_per_s{0.0};
     std::int64_t frames{0};
     bool frames_exact{false};
+    Timing timing{};
     bool still{false};
     bool live{false};                   ///< a live source: no length, no end
     std::string trouble{};              ///< why less is readable than at the opening; empty: all is
     std::string notice{};               ///< what the opening ignored or chose; mostly empty
-    DepthStatement known{};             ///< stated by the file's metadata or its format
-    std::string known_from{};           ///< the source of `known`: "EXR channel Z"; empty: none
+    Findings findings{};                ///< what its reader and its layout state about depth
     std::optional<DepthNoise> noise{};  ///< used for cleaning when it was recorded live
-    Lens lens{};                        ///< of the camera of `known.intrinsics`
+    Lens lens{};                        ///< of the camera that the findings state
     bool other_camera{false};           ///< its colour is from another camera at another place
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 };
+
+/// Adds a clause to a notice, unless that has it or it is empty.
+void add_clause(std::string& notice, const std::string& clause);
 
 class PictureSource {
   public:
@@ -74,6 +98,9 @@ class PictureSource {
     /// At most `most` pictures from all over the source, with the first one, chosen to be cheap to
     /// decode. The next picture returned is the first.
     virtual std::vector<cv::Mat> samples(int most);
+    /// The times of all pictures as next() gives them, rising [s]; may read the whole file, but
+    /// decodes nothing. Empty: not known without decoding.
+    [[nodiscard]] virtual std::vector<double> picture_times_s() const { return {}; }
 };
 
 /// The pictures of another source, each changed in the same way: cropped, decoded, stretched.
@@ -94,6 +121,9 @@ class ChangedPictures : public PictureSource {
     void seek_near(double time_s) override;
     void count_frames(std::int64_t most) override;
     std::vector<cv::Mat> samples(int most) override;
+    [[nodiscard]] std::vector<double> picture_times_s() const override {
+        return source_->picture_times_s();
+    }
 
   private:
     void update_facts();
@@ -108,6 +138,8 @@ class ChangedPictures : public PictureSource {
 
 /// Rate of pictures without times [1/s].
 inline constexpr double kPicturesPerSecond = 30.0;
+/// Their timing.
+[[nodiscard]] Timing assumed_timing();
 
 /// Pictures that are read by index, from 0, and whose times are known at the opening.
 class IndexedPictures : public PictureSource {
@@ -115,6 +147,7 @@ class IndexedPictures : public PictureSource {
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
     void seek(double time_s) override;
+    [[nodiscard]] std::vector<double> picture_times_s() const override { return times_s_; }
 
   protected:
     /// Sets the times, increasing, one for each picture and at least one, and the facts about time.

@@ -1,9 +1,14 @@
-// Refuses unsupported files by their first bytes, and by their names where these are not enough.
+// Refuses unsupported files: by magic bytes, and where there are none by the size that the file
+// claims, the ending, as numbers without a header, or as text.
 #include "core/video/formats/file_bytes.hpp"
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cctype>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <fstream>
 #include <string>
 #include <string_view>
@@ -12,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/array_bytes.hpp"
 
 namespace dibhr {
 
@@ -21,9 +27,18 @@ namespace {
 
 using namespace std::string_view_literals;
 
+/// A form that no reader reads, and what to do about it; "{}" stands for the file's name.
 struct UnsupportedForm {
-    std::string_view begins;  ///< first bytes; empty: any
-    std::string_view ending;  ///< of the name; empty: any
+    std::string_view begins;  ///< magic bytes; empty: none, then the ending decides
+    std::string_view ending;  ///< of the name, in small letters; empty: any
+    std::string_view advice;
+    std::size_t at{0};  ///< where the magic bytes are
+};
+
+/// Such a form that its first bytes and the size of the file tell together.
+struct SizedForm {
+    bool (*fits)(std::string_view head, std::uint64_t bytes);
+    std::string_view ending;
     std::string_view advice;
 };
 
@@ -38,6 +53,82 @@ constexpr std::string_view kRecord3d =
 constexpr std::string_view kZed =
     " is a recording of a ZED camera, which only the ZED SDK reads: export its left view and its "
     "depth as 16-bit PNG with the ZED SDK's SVO Export";
+constexpr std::string_view kZipArchive =
+    " is a zip archive: unpack it (unzip {}) and give the folder or the files in it";
+constexpr std::string_view kTar =
+    " is an archive of files: unpack it (tar -xf {}) and give the folder or the files in it";
+constexpr std::string_view kHdf5 =
+    " is an HDF5 file: list its arrays with h5ls -r {} (package hdf5-tools), and save that of the "
+    "depth: python3 -c \"import h5py, numpy; numpy.save('depth.npy', h5py.File('{}')['depth'])\"";
+constexpr std::string_view kMatlab73 =
+    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import h5py, "
+    "numpy; numpy.save('depth.npy', numpy.swapaxes(h5py.File('{}')['depth'], -1, -2))\"";
+constexpr std::string_view kMatlab5 =
+    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import "
+    "scipy.io, numpy; numpy.save('depth.npy', scipy.io.loadmat('{}')['depth'])\"";
+constexpr std::string_view kTrueMap =
+    " is a height map of TrueMap or GelSight: convert it: python3 -c \"import numpy, struct; b = "
+    "open('{}', 'rb').read(); o = b.index(b'\\0', 32) + 1; c, r = struct.unpack_from('<2I', b, o); "
+    "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
+constexpr std::string_view kPointCloud =
+    " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare, choose Tools, "
+    "Projection, Rasterize, save the heights as GeoTIFF (height.tif), and give that";
+constexpr std::string_view kLas =
+    " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
+    "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
+constexpr std::string_view kTerrain =
+    " is a map of heights: convert it with gdal_translate {} height.tif (package gdal-bin), and "
+    "give that";
+constexpr std::string_view kPacked7z =
+    " is an archive: unpack it (7z x {}) and give the folder or the files in it";
+constexpr std::string_view kPyTorch =
+    " is a file of PyTorch: save its depth, if you trust the file: python3 -c \"import torch, "
+    "numpy; numpy.save('depth.npy', torch.load('{}', map_location='cpu').numpy())\"";
+constexpr std::string_view kLayers =
+    " is a drawing in layers: export the layer of the depth as a PNG picture of 16 bits, and that "
+    "of the colours beside it";
+constexpr std::string_view kNoHeader =
+    " holds numbers without a header, so their size and type are not known: convert it: python3 -c "
+    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape(ROWS, "
+    "COLUMNS))\", "
+    "with its own rows and columns ('<f4' for real numbers)";
+constexpr std::string_view kReals =
+    " real numbers of 32 bits without a header, so its size is not known: convert it: python3 -c "
+    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape(ROWS, "
+    "COLUMNS))\", with its own rows and columns";
+constexpr std::string_view kNumbersInText =
+    " holds numbers as text: if they are depth, convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.loadtxt('{}').reshape(ROWS, COLUMNS))\", with its own rows and "
+    "columns";
+constexpr std::string_view kSintel =
+    " is a depth picture of MPI Sintel: convert it: python3 -c \"import numpy; b = open('{}', "
+    "'rb').read(); c, r = numpy.frombuffer(b, '<i4', 2, 4); numpy.save('depth.npy', "
+    "numpy.frombuffer(b, '<f4', -1, 12).reshape(r, c))\", and give that with --depth-unit m";
+constexpr std::string_view kFlow =
+    " holds optical flow, where each pixel moves to, and no depth: give the depth of the same "
+    "pictures, or let an estimator make it (dibhr help depth)";
+constexpr std::string_view kSintelCutOff =
+    " begins as depth of MPI Sintel or optical flow (.flo), but is not as long as it claims: copy "
+    "it again";
+constexpr std::string_view kLinemod =
+    " is a depth picture of LINEMOD: convert it: python3 -c \"import numpy; b = open('{}', "
+    "'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, '<u2', -1, "
+    "8).reshape(numpy.frombuffer(b, '<i4', 2)))\", and give that with --depth-unit mm";
+constexpr std::string_view kColmap =
+    " is a depth map of COLMAP: convert it: python3 -c \"import numpy; c, r, n, d = open('{}', "
+    "'rb').read().split(b'&', 3); numpy.save('depth.npy', numpy.frombuffer(d, "
+    "'<f4').reshape(int(r), int(c)))\", and give that";
+constexpr std::string_view kColmapNormals =
+    " is a map of normals of COLMAP, not of depth: give the file of the same name in the folder "
+    "depth_maps";
+constexpr std::string_view kSweep =
+    " is a sweep of a LiDAR: points, not a picture of depth: save them as text with python3 -c "
+    "\"import numpy; numpy.savetxt('points.xyz', numpy.fromfile('{}', '<f4').reshape(-1, 5)[:, "
+    ":3])\", open that in CloudCompare, choose Tools, Projection, Rasterize, save the heights as "
+    "GeoTIFF (height.tif), and give that";
+constexpr std::string_view kTable =
+    " is a table in text: if its cells are depth, convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.loadtxt('{}', delimiter=','))\"";
 
 // The first entry that fits counts.
 constexpr std::array kUnsupportedForms{
@@ -46,25 +137,122 @@ constexpr std::array kUnsupportedForms{
         kZip, ".depthviewer",
         " is an archive of DepthViewer: unpack it with unzip and give the folder of its depth "
         "pictures"},
-    UnsupportedForm{kZip, ".zip",
-                    " is a zip archive: unpack it and give the folder or the files in it"},
-    UnsupportedForm{{}, ".svo", kZed},
-    UnsupportedForm{{}, ".svo2", kZed},
+    UnsupportedForm{kZip, ".pt", kPyTorch},
+    UnsupportedForm{kZip, ".pth", kPyTorch},
+    UnsupportedForm{kZip, ".zip", kZipArchive},
+    UnsupportedForm{"\x89MCAP0\r\n"sv, ".svo2", kZed},
     UnsupportedForm{
         "#ROSBAG V"sv,
         {},
         " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
         "bag of ROS 2 (.db3) of it with rosbags-convert"},
-    UnsupportedForm{
-        "\x89MCAP0\r\n"sv,
-        {},
-        " is an MCAP recording: make a bag in SQLite (.db3) of it with ros2 bag convert"},
-    UnsupportedForm{
-        "NI10"sv,
-        {},
-        " is a recording of OpenNI: export its colour and its depth as PNG pictures with "
-        "OpenNI's tools"},
-    UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"}};
+    UnsupportedForm{"NI10"sv,
+                    {},
+                    " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
+                    "and save each picture of depth as a PNG of 16 bits and each of colour as PNG"},
+    UnsupportedForm{"\x28\xb5\x2f\xfd"sv, {}, " is packed with zstd: unpack it with zstd -d"},
+    UnsupportedForm{"EVENTS1"sv,
+                    {},
+                    " is a recording of Kinect Studio: export its colour and its depth as PNG "
+                    "pictures with the tool xefextract of KinectXEFTools"},
+    UnsupportedForm{"\x89HDF\r\n\x1a\n"sv, {}, kHdf5},
+    UnsupportedForm{"MATLAB 7.3 MAT-file"sv, {}, kMatlab73},
+    UnsupportedForm{"MATLAB 5.0 MAT-file"sv, {}, kMatlab5},
+    UnsupportedForm{"Binary TrueMap Data File"sv, {}, kTrueMap},
+    UnsupportedForm{"LASF"sv, {}, kLas},
+    UnsupportedForm{"ply\n"sv, {}, kPointCloud},
+    UnsupportedForm{"ply\r"sv, {}, kPointCloud},
+    UnsupportedForm{"# .PCD"sv, {}, kPointCloud},
+    UnsupportedForm{"ASTM-E57"sv, {}, kPointCloud},
+    UnsupportedForm{"glTF"sv, {}, kPointCloud},
+    UnsupportedForm{"CDF\x01"sv, {}, kTerrain},
+    UnsupportedForm{"CDF\x02"sv, {}, kTerrain},
+    UnsupportedForm{"%PDF-"sv,
+                    {},
+                    " is a PDF document: take its pictures out with pdfimages -png {} picture "
+                    "(package poppler-utils), and give the one of depth"},
+    UnsupportedForm{"8BPS"sv, {}, kLayers},
+    UnsupportedForm{"gimp xcf"sv, {}, kLayers},
+    UnsupportedForm{"\x1f\x8b"sv, ".tgz", kTar},
+    UnsupportedForm{"\x1f\x8b"sv, {}, " is packed with gzip: unpack it with gzip -dk {}"},
+    UnsupportedForm{"BZh"sv, {}, " is packed with bzip2: unpack it with bzip2 -dk {}"},
+    UnsupportedForm{"\xfd\x37zXZ"sv, {}, " is packed with xz: unpack it with xz -dk {}"},
+    UnsupportedForm{"7z\xbc\xaf\x27\x1c"sv, {}, kPacked7z},
+    UnsupportedForm{"Rar!\x1a\x07"sv, {}, kPacked7z},
+    UnsupportedForm{"ustar"sv, {}, kTar, 257}};
+
+/// The number of pixels by the two sides, whole numbers of 32 bits, there; 0: of no picture.
+std::uint64_t pixels_at(std::string_view head, std::size_t at) {
+    if (head.size() < at + 8) return 0;
+    const auto side = [&](std::size_t begin) {
+        std::uint64_t number = 0;
+        for (std::size_t k = 4; k-- > 0;)
+            number = number * 256 + static_cast<unsigned char>(head[begin + k]);
+        return static_cast<std::int64_t>(number);
+    };
+    const std::int64_t first = side(at);
+    const std::int64_t second = side(at + 4);
+    return may_be_decoded(first, second, 1) ? static_cast<std::uint64_t>(first * second) : 0;
+}
+
+/// Whether it begins as depth of MPI Sintel (sintel.is.tue.mpg.de/depth) and as optical flow
+/// (vision.middlebury.edu/flow) do: 202021.25 as a real number, columns and rows.
+bool begins_as_sintel(std::string_view head) {
+    return head.starts_with("PIEH");
+}
+
+/// "160&120&1&", then real numbers row by row: colmap.github.io, format of its dense workspace.
+bool begins_as_colmap(std::string_view head, char channels) {
+    std::size_t at = 0;
+    for (int side = 0; side < 2; ++side) {
+        const std::size_t first = at;
+        while (at < head.size() && is_decimal_digit(head[at])) ++at;
+        if (at == first || at == head.size() || head[at++] != '&') return false;
+    }
+    return head.size() >= at + 2 && head[at] == channels && head[at + 1] == '&';
+}
+
+// The first entry that fits counts.
+constexpr std::array kSizedForms{
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return begins_as_sintel(head) && bytes == 12 + 4 * pixels_at(head, 4);
+              },
+              {},
+              kSintel},
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return begins_as_sintel(head) && bytes == 12 + 8 * pixels_at(head, 4);
+              },
+              {},
+              kFlow},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_sintel(head); },
+              {},
+              kSintelCutOff},
+    SizedForm{[](std::string_view head, std::uint64_t bytes) {
+                  return bytes > 8 && bytes == 8 + 2 * pixels_at(head, 0);
+              },
+              ".dpt", kLinemod},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_colmap(head, '1'); },
+              {},
+              kColmap},
+    SizedForm{[](std::string_view head, std::uint64_t) { return begins_as_colmap(head, '3'); },
+              {},
+              kColmapNormals}};
+
+// Of files that no reader accepts.
+constexpr std::array kUnsupportedEndings{
+    UnsupportedForm{{}, ".svo", kZed},        UnsupportedForm{{}, ".svo2", kZed},
+    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".csv", kTable},
+    UnsupportedForm{{}, ".asc", kTerrain},    UnsupportedForm{{}, ".hgt", kTerrain},
+    UnsupportedForm{{}, ".dem", kTerrain},    UnsupportedForm{{}, ".bil", kTerrain},
+    UnsupportedForm{{}, ".flt", kTerrain},    UnsupportedForm{{}, ".grd", kTerrain},
+    UnsupportedForm{{}, ".obj", kPointCloud}, UnsupportedForm{{}, ".stl", kPointCloud},
+    UnsupportedForm{{}, ".xyz", kPointCloud}, UnsupportedForm{{}, ".pts", kPointCloud},
+    UnsupportedForm{{}, ".pkl", kPyTorch}};
+
+// Of such files that do not hold text.
+constexpr std::array kHeaderlessEndings{UnsupportedForm{{}, ".raw", kNoHeader},
+                                        UnsupportedForm{{}, ".z16", kNoHeader},
+                                        UnsupportedForm{{}, ".depth", kNoHeader}};
 
 constexpr std::size_t kInspected_bytes = 1 << 16;
 
@@ -84,27 +272,113 @@ bool is_of_librgbd(const fs::path& file) {
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
-/// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty for a
-/// supported file.
-std::string advice_on_unsupported(const fs::path& file) {
-    const std::string head = head_of(file);
-    const std::string ending = lower_case(file.extension().string());
-    for (const UnsupportedForm& foreign : kUnsupportedForms) {
-        if (head.starts_with(foreign.begins) &&
-            (foreign.ending.empty() || foreign.ending == ending))
-            return std::string(foreign.advice);
+/// The advice for this file: its name where "{}" stands, or FILE where a shell would need quotes.
+std::string filled(std::string_view advice, const fs::path& file) {
+    const std::string name = file.filename().string();
+    const bool is_plain =
+        !name.starts_with('-') && std::all_of(name.begin(), name.end(), [](char c) {
+            return c == '.' || is_bare_name(std::string_view(&c, 1));
+        });
+    std::string text;
+    for (auto at = advice.find("{}"); at != std::string_view::npos; at = advice.find("{}")) {
+        text += std::string(advice.substr(0, at)) + (is_plain ? name : "FILE");
+        advice.remove_prefix(at + 2);
     }
-    if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
-    if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
-    return {};
+    return text + std::string(advice);
 }
 
-/// Whether the file begins like text: no zero and no control bytes. Also refuses playlists, which
-/// would have the decoder open other files. Text pictures (PNM) are allowed.
-bool begins_like_text(const fs::path& file) {
-    constexpr std::size_t kLines_bytes = 512;
+/// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
+/// none of the forms fits.
+template <std::size_t count>
+std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs::path& file,
+                      std::string_view head) {
+    const std::string name = lower_case(file.filename().string());
+    const auto found = std::find_if(forms.begin(), forms.end(), [&](const UnsupportedForm& form) {
+        return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
+               name.ends_with(form.ending);
+    });
+    return found == forms.end() ? std::string() : filled(found->advice, file);
+}
+
+std::string advice_on_unsupported(const fs::path& file) {
+    constexpr std::size_t kMagic_bytes = 512;
+    const std::string head = beginning_of(file, kMagic_bytes);
+    if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
+        return advice;
+    if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
+    if (head.starts_with(kZip) && !is_npz(file, head))
+        return lower_case(file.extension().string()) == ".npz"
+                   ? " is damaged, or holds no array: save it again by numpy.savez"
+                   : filled(kZipArchive, file);
+    if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
+    const std::string name = lower_case(file.filename().string());
+    const auto* const sized =
+        std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
+            return name.ends_with(form.ending) && form.fits(head, size_of(file));
+        });
+    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+}
+
+/// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
+/// of other bytes one in eight would be.
+bool are_reals(std::string_view bytes) {
+    constexpr std::size_t kLeast = 64;
+    constexpr std::size_t kAtBeginning = 16;  // a header would be there
+    constexpr float kSmallest = 1e-4F;
+    constexpr float kLargest = 1e6F;
+    const std::size_t count = bytes.size() / 4;
+    std::size_t usual = 0;
+    std::size_t unusual = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint32_t bits = 0;
+        for (std::size_t b = 4; b-- > 0;)
+            bits = bits * 256 + static_cast<unsigned char>(bytes[4 * k + b]);
+        const float size = std::abs(std::bit_cast<float>(bits));
+        const bool is_nothing = size == 0.0F || (bits & 0x7fbfffffU) == 0x7f800000U;
+        const bool is_usual = size >= kSmallest && size <= kLargest;
+        usual += static_cast<std::size_t>(is_usual);
+        unusual += static_cast<std::size_t>(!is_usual && !is_nothing);
+        if (unusual > 0 && k < kAtBeginning) return false;
+    }
+    return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
+}
+
+/// Whether the text is numbers and what parts them.
+bool is_of_numbers(std::string_view text) {
+    constexpr std::string_view kOthers = "+-.eE, \t\r\nnaifNAIF";
+    std::size_t digits = 0;
+    std::size_t others = 0;
+    for (const char c : text) {
+        if (is_decimal_digit(c))
+            ++digits;
+        else if (kOthers.find(c) == std::string_view::npos)
+            return false;
+        else
+            others += static_cast<std::size_t>(std::isspace(static_cast<unsigned char>(c)) == 0);
+    }
+    return digits > others;
+}
+
+constexpr std::size_t kLines_bytes = 512;
+
+std::string advice_on_numbers_in_text(const fs::path& file) {
     const std::string head = beginning_of(file, kLines_bytes);
-    if (head.size() >= 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '7') return false;
+    if (!is_of_numbers(head)) return {};
+    return filled(head.find(',') == std::string::npos ? kNumbersInText : kTable, file);
+}
+
+std::string advice_on_headerless(const fs::path& file) {
+    const std::uint64_t bytes = size_of(file);
+    if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file);
+    return advice_of(kHeaderlessEndings, file, {});
+}
+
+/// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
+/// would have the decoder open other files. A video of plain pictures has a header in text.
+bool begins_like_text(const fs::path& file) {
+    const std::string head = beginning_of(file, kLines_bytes);
+    if (head.starts_with("YUV4MPEG2 ")) return false;
     return std::all_of(head.begin(), head.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
@@ -133,6 +407,20 @@ void require_readable(const fs::path& file) {
         throw InputError(shown(file) + " is empty: record or copy it again");
     if (const std::string advice = advice_on_unsupported(file); !advice.empty())
         throw InputError(shown(file) + advice);
+}
+
+std::string advice_on_form(const fs::path& file) {
+    std::string advice = advice_on_unsupported(file);
+    if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_on_headerless(file);
+    return advice;
+}
+
+void require_no_other_form(const fs::path& file) {
+    std::string advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_on_numbers_in_text(file);
+    if (advice.empty()) advice = advice_on_headerless(file);
+    if (!advice.empty()) throw InputError(shown(file) + advice);
     if (begins_like_text(file))
         throw InputError(shown(file) + " holds text, not a video or a picture: give another file");
 }

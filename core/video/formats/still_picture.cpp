@@ -3,12 +3,21 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <fstream>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <span>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
@@ -41,6 +50,25 @@ void require_plausible_claim(const fs::path& file) {
     require_plausible_size(file, claimed->columns, claimed->rows, claimed->pixel_bytes);
 }
 
+bool is_plausible_picture(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kHeaderBytes = 1U << 20U;  // metadata come before the size
+    const auto begin = bytes.first(std::min(bytes.size(), kHeaderBytes));
+    std::istringstream in(std::string(begin.begin(), begin.end()));
+    const auto claimed = claimed_size(in);
+    return claimed && can_hold(bytes.size(), claimed->columns, claimed->rows, claimed->pixel_bytes);
+}
+
+/// P1, P2 and P3 have their levels as text. OpenCV needs a blank after the last one, which writers
+/// leave out.
+cv::Mat decoded_text_picture(const fs::path& file, int flags) {
+    const std::string head = head_of(file);
+    const bool is_text = head.size() > 2 && head[0] == 'P' && head[1] >= '1' && head[1] <= '3';
+    const std::string text =
+        is_text ? beginning_of(file, std::size_t{kMostPictureBytes}) + '\n' : std::string();
+    return decoded_picture({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()},
+                           flags);
+}
+
 cv::Mat decoded(const fs::path& file, int flags) {
     require_plausible_claim(file);
     cv::Mat picture;
@@ -50,11 +78,26 @@ cv::Mat decoded(const fs::path& file, int flags) {
     } catch (const cv::Exception&) {
         picture.release();  // refused, for example as too large: reported below
     }
+    if (picture.empty()) picture = decoded_text_picture(file, flags);
     if (picture.empty())
         throw InputError(shown(file) +
                          " cannot be decoded as a picture: it may be damaged, export it again" +
                          (is_tiff(head_of(file)) ? " (with 8 or 16 bits, or 32-bit reals)" : ""));
     return picture;
+}
+
+/// Adds what the tags of a TIFF file of one channel tell: GeoTIFF holds heights seen from above.
+void add_tags(const fs::path& file, StillPicture& still) {
+    const TiffTags tags = picture_codecs().tiff_tags(file.string());
+    if (tags.is_geographic)
+        still.findings.push_back(finding_of_metadata(
+            {.near = NearLevels::bright, .unit = DepthUnit::levels}, "GeoTIFF tags: heights"));
+    const auto mark = number_of_text(tags.gdal_no_data);
+    if (!mark || std::abs(*mark) > std::numeric_limits<float>::max()) return;
+    const bool is_real = still.bits == kRealBits;
+    const double level = is_real ? static_cast<double>(static_cast<float>(*mark)) : *mark;
+    still.findings.push_back(
+        finding_of_metadata({.no_data = std::vector{level}}, "tag GDAL_NODATA"));
 }
 
 }  // namespace
@@ -69,12 +112,27 @@ bool is_opencv_picture(const fs::path& file, std::string_view head) {
     }
 }
 
+cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags) {
+    const bool is_too_large = bytes.size() > std::size_t{std::numeric_limits<int>::max()};
+    if (bytes.empty() || is_too_large || !is_plausible_picture(bytes)) return {};
+    const cv::Mat view(1, static_cast<int>(bytes.size()), CV_8UC1,
+                       const_cast<std::uint8_t*>(bytes.data()));  // only read
+    try {
+        const QuietErrors quiet;
+        return picture_codecs().decode(view, flags);
+    } catch (const cv::Exception&) {
+        return {};
+    }
+}
+
 StillPicture read_by_opencv(const fs::path& file, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
     cv::Mat picture = decoded(file, is_depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR);
     if (picture.depth() != CV_8U && picture.depth() != CV_16U) picture.convertTo(picture, CV_32F);
     const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : kRealBits;
-    return {picture, bits, codec_by_name(file), {}, {}};
+    StillPicture still{picture, bits, codec_by_name(file)};
+    if (is_depth && picture.channels() == 1 && is_tiff(head_of(file))) add_tags(file, still);
+    return still;
 }
 
 }  // namespace dibhr

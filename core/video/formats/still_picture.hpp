@@ -1,12 +1,14 @@
 // The readers of still pictures, one for each form; inside the room.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core/mat.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/depth/picture_levels.hpp"
 
 namespace dibhr {
@@ -15,8 +17,7 @@ struct StillPicture {
     cv::Mat picture{};    ///< as in a TimedPicture
     int bits{8};          ///< of a level; kRealBits: real numbers
     std::string codec{};  ///< "PNG", "EXR"
-    DepthStatement known{};
-    std::string known_from{};  ///< as in SourceFacts
+    Findings findings{};  ///< as in SourceFacts
 };
 
 /// Whether OpenCV's codecs read the file, or it is a WebP picture. OpenCV does not recognise a
@@ -26,6 +27,10 @@ struct StillPicture {
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
+
+/// A picture in memory, in a form that claimed_size() knows; `flags`: OpenCV's for reading. Empty
+/// when it is damaged, or beyond the bound.
+[[nodiscard]] cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags);
 
 /// OpenEXR, as renderers and estimators write it, often with colours. Reads the display window;
 /// outside the data window, and at a renderer's infinity, is no data. Depth is the channel Z, else
@@ -46,11 +51,27 @@ struct StillPicture {
 /// (OpenCV divides by the scale). Throws InputError.
 [[nodiscard]] StillPicture read_pfm(const std::filesystem::path& file, PictureRole role);
 
+/// Whether a file named .raw holds 16-bit levels: as many as the pixels of the picture beside it
+/// that has its name, as RealSense Viewer writes both.
+[[nodiscard]] bool is_raw_levels(const std::filesystem::path& file, std::string_view head);
+
+/// Reads these levels, in little-endian order. Throws InputError.
+[[nodiscard]] StillPicture read_raw_levels(const std::filesystem::path& file, PictureRole role);
+
 /// HEIC photos: the primary picture, or the depth picture of a portrait, each turned as the file
 /// states. Throws InputError, also when depth is requested and there is none.
 [[nodiscard]] StillPicture read_heif(const std::filesystem::path& file, PictureRole role);
 
 /// False when the file cannot be read.
 [[nodiscard]] bool heif_has_depth(const std::filesystem::path& file);
+
+/// JPEG photos with a depth map inside: Google's GDepth and Dynamic Depth, Apple's second picture.
+/// Gives the colour, of a blurred portrait the sharp original; or the depth, upright as the colour:
+/// distances where the photo states near and far, else disparities or levels. Throws InputError,
+/// also when depth is requested and there is none.
+[[nodiscard]] StillPicture read_jpeg_photo(const std::filesystem::path& file, PictureRole role);
+
+/// Reads only the metadata of a plain photo. False when the file cannot be read.
+[[nodiscard]] bool jpeg_has_depth(const std::filesystem::path& file);
 
 }  // namespace dibhr

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -96,6 +97,8 @@ void VideoFile::read_facts() {
     const VideoPackets& packets = decoder_.packets();
     if (const double rate = packets.frames_per_s(); rate > 0.0) interval_s_ = 1.0 / rate;
     facts_.frames_per_s = 1.0 / interval_s_;
+    facts_.timing.nominal_per_s = facts_.frames_per_s;
+    facts_.timing.text = "in the file";
     facts_.frames = packets.frames();
     facts_.duration_s = static_cast<double>(facts_.frames) * interval_s_;
     facts_.codec = decoder_.codec();
@@ -106,19 +109,19 @@ void VideoFile::read_facts() {
 void VideoFile::read_azure_kinect() {
     const VideoPackets& packets = decoder_.packets();
     if (facts_.bits != 16 || packets.tag("K4A_DEPTH_MODE").empty()) return;
-    facts_.known.unit = DepthUnit::mm;
-    facts_.known.scale = 1.0;
-    facts_.known.no_data = std::vector<double>{0.0};
+    Finding finding =
+        finding_of_metadata({.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::vector{0.0}},
+                            "Azure Kinect recording");
     const std::string calibration = packets.attachment("calibration.json");
     const cv::Size size(facts_.columns, facts_.rows);
     if (const auto camera = azure_kinect_depth_camera(calibration, size)) {
-        facts_.known.intrinsics = camera->intrinsics();
+        finding.statement.intrinsics = camera->intrinsics();
+        finding.reason = "Azure Kinect calibration";
         facts_.lens = camera->lens();
     }
     if (auto cameras = azure_kinect_cameras(calibration, size))
         facts_.cameras = std::make_shared<const CameraPair>(std::move(*cameras));
-    facts_.known_from =
-        facts_.known.intrinsics ? "Azure Kinect calibration" : "Azure Kinect recording";
+    facts_.findings.push_back(std::move(finding));
 }
 
 /// Reports an end before the duration that was verified at the opening.
@@ -359,6 +362,25 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
         sample_by_jumps(most, static_cast<int>(frames / most), pictures);
     seek(0.0);
     return pictures;
+}
+
+/// A file without any times has the times that grab() gives: one interval after the other.
+std::vector<double> VideoFile::picture_times_s() const {
+    std::vector<double> times_s = packet_times_s(facts_.file, track_);
+    const auto unknown = std::count_if(times_s.begin(), times_s.end(),
+                                       [](double time_s) { return std::isnan(time_s); });
+    if (std::cmp_equal(unknown, times_s.size())) {
+        for (std::size_t k = 0; k < times_s.size(); ++k)
+            times_s[k] = static_cast<double>(k) * interval_s_;
+    } else if (unknown > 0) {
+        return {};
+    }
+    std::sort(times_s.begin(), times_s.end());
+    if (!times_s.empty()) times_s.front() = std::max(times_s.front(), 0.0);
+    const bool repeats = std::adjacent_find(times_s.begin(), times_s.end(), [](double a, double b) {
+                             return !(a < b);
+                         }) != times_s.end();
+    return repeats ? std::vector<double>{} : times_s;
 }
 
 void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {

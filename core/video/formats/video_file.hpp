@@ -33,6 +33,8 @@ class VideoFile : public PictureSource {
     void count_frames(std::int64_t most) override;
     /// Decodes a short file once; of a longer one some frames after a key frame near each sample.
     std::vector<cv::Mat> samples(int most) override;
+    /// By the file's packets.
+    [[nodiscard]] std::vector<double> picture_times_s() const override;
 
   private:
     enum class RunUp { quick, whole };

@@ -2,6 +2,7 @@
 #include "core/video/formats/video_packets.hpp"
 
 extern "C" {
+#include <libavcodec/codec_id.h>
 #include <libavcodec/packet.h>
 #include <libavformat/avformat.h>
 #include <libavutil/avutil.h>
@@ -177,6 +178,14 @@ std::int64_t VideoPackets::start() const noexcept {
 
 namespace {
 
+/// Whether the packet's picture is shown: an edit list leaves out some, and VP8 has reference
+/// pictures that are never shown (RFC 6386, section 9.1: the bit show_frame).
+bool shows_picture(const AVPacket& packet, AVCodecID codec) {
+    constexpr unsigned kShown = 0x10;
+    if ((packet.flags & AV_PKT_FLAG_DISCARD) != 0) return false;
+    return codec != AV_CODEC_ID_VP8 || packet.size < 1 || (packet.data[0] & kShown) != 0;
+}
+
 /// The end of the following packets; negative without packets, nothing for too many.
 std::optional<double> end_of_packets_s(VideoPackets& packets) {
     double end_s = -1.0;
@@ -204,6 +213,20 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, int track
     }
     if (end_s && *end_s < 0.0) return std::nullopt;
     return end_s;
+}
+
+std::vector<double> packet_times_s(const std::filesystem::path& file, int track) {
+    VideoPackets packets(file, track);
+    std::vector<double> times_s;
+    if (!packets.is_open()) return times_s;
+    const AVCodecID codec = packets.stream()->codecpar->codec_id;
+    for (const AVPacket* packet = packets.next(); packet != nullptr; packet = packets.next()) {
+        if (!shows_picture(*packet, codec)) continue;
+        if (std::cmp_equal(times_s.size(), kMostPictures)) return {};
+        times_s.push_back(
+            packets.seconds(packet->pts != AV_NOPTS_VALUE ? packet->pts : packet->dts));
+    }
+    return times_s;
 }
 
 std::vector<VideoTrack> video_tracks(const std::filesystem::path& file) {

@@ -65,6 +65,11 @@ class VideoPackets {
 [[nodiscard]] std::optional<double> packets_end_s(const std::filesystem::path& file, int track,
                                                   double from_s);
 
+/// When the picture of each packet is shown, from the track's beginning, in the order of decoding
+/// [s]; NaN: no time stamp. Leaves out packets whose picture is not shown. Empty when the file
+/// cannot be opened, or holds too many packets. Reads the file to its end.
+[[nodiscard]] std::vector<double> packet_times_s(const std::filesystem::path& file, int track);
+
 /// What a file states about one of its video tracks.
 struct VideoTrack {
     std::string title{};

@@ -10,6 +10,7 @@ namespace dibhr {
 
 /// The steps of cleaning in their order; each is on or off by itself.
 struct CleaningSteps {
+    bool densify{false};        ///< sparse depth is interpolated, up to the colour's edges
     bool remove_spikes{false};  ///< single pixels that stand out, small patches alone in holes
     bool fill_holes{false};     ///< pixels without data take their last level, or one beside
     bool sharpen_silhouettes{false};  ///< ramps between near and far become steps
@@ -24,6 +25,7 @@ struct CleaningSteps {
 /// Each step of a CleaningSteps and its name: visit(name, step).
 template <typename Steps, typename Visit>
 void visit_steps(Steps& steps, const Visit& visit) {
+    visit("densify", steps.densify);
     visit("remove-spikes", steps.remove_spikes);
     visit("fill-holes", steps.fill_holes);
     visit("sharpen-silhouettes", steps.sharpen_silhouettes);
@@ -33,13 +35,18 @@ void visit_steps(Steps& steps, const Visit& visit) {
     visit("smooth-noise", steps.smooth_noise);
 }
 
+/// Whether these steps depend on the colour picture, too.
+[[nodiscard]] constexpr bool need_colour(const CleaningSteps& steps) noexcept {
+    return steps.densify || (steps.sharpen_silhouettes && steps.colour_edges);
+}
+
 /// No step: levels as they are in the file; no data becomes the farthest level.
 inline constexpr CleaningSteps kRawSteps{};
 /// The steps that need one frame only, and no measured noise.
 inline constexpr CleaningSteps kGentleSteps{
     .remove_spikes = true, .fill_holes = true, .smooth_steps = true};
-/// For the depth of cameras and estimators: all steps but colour_edges, so that the surface depends
-/// on depth only.
+/// For the depth of cameras and estimators: all steps but those that need the colour. (Of presets,
+/// sparse depth alone is densified: plan_of.)
 inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .fill_holes = true,
                                             .sharpen_silhouettes = true,

@@ -123,9 +123,9 @@ struct DepthBlend {
         return {*pair.from->drawn(),         *pair.to->drawn(), pair.blend, shape, bump,
                 pair.nearest().unseen.get(), from->maps.get()};
     }
-    /// The frame whose colour is drawn.
+    /// The frame whose colour is drawn: the one that most of the depth is of.
     [[nodiscard]] const Frame& colour_frame() const noexcept {
-        return from->in_betweens ? with_in_betweens().nearest() : *from;
+        return with_in_betweens().nearest();
     }
 };
 

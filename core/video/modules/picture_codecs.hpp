@@ -1,4 +1,4 @@
-// Reads and writes pictures in files and memory, by OpenCV's codecs.
+// Reads and writes pictures in files and memory, by OpenCV's codecs, and tags of TIFF files.
 #pragma once
 
 #include <opencv2/core.hpp>
@@ -6,6 +6,12 @@
 #include <vector>
 
 namespace dibhr {
+
+/// Tags of the first page of a TIFF file.
+struct TiffTags {
+    std::string gdal_no_data{};  ///< GDAL_NODATA as written: "-9999"; empty: none
+    bool is_geographic{false};   ///< GeoTIFF: it has a place on the earth
+};
 
 /// Functions of OpenCV's imgcodecs, with its arguments, results and errors.
 struct PictureCodecs {
@@ -15,6 +21,7 @@ struct PictureCodecs {
     bool (*encode)(const std::string& extension, const cv::Mat& picture,
                    std::vector<unsigned char>& bytes);
     bool (*write)(const std::string& file, const cv::Mat& picture, const std::vector<int>& options);
+    TiffTags (*tiff_tags)(const std::string& file);  ///< by libtiff; no tags where it cannot read
 };
 
 /// Loads the codecs at the first call. Throws InputError if their module is missing.

@@ -139,9 +139,7 @@ void FrameReader::update_timing(const RawFrame& raw, std::int64_t frames, double
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     evict();
     Kept& kept = kept_[raw.media_s];
-    const CleaningSteps& steps = plan().steps;
-    const bool needs_colour = steps.sharpen_silhouettes && steps.colour_edges;
-    if (needs_colour && !raw.single_frame && !kept.can_be_cleaned())
+    if (need_colour(plan().steps) && !raw.single_frame && !kept.can_be_cleaned())
         assembly_.clean_frame(raw, plan());
     // The frame is new, or its colour was dropped to save memory.
     if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
@@ -247,7 +245,8 @@ void FrameReader::make_plan() {
         waited_s_ += seconds_since(begin);
     }
     const CleaningPlan plan =
-        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
+        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
+                description().sparse_share.has_value());
     if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);

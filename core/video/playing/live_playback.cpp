@@ -196,7 +196,8 @@ bool LivePlayback::measure_noise(const RawFrame& raw) {
 
 void LivePlayback::make_plan() {
     CleaningPlan plan =
-        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels());
+        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
+                description().sparse_share.has_value());
     plan.steps.steady = false;  // needs frames that are still to come
     assembly_.set_plan(plan);
 }
@@ -305,7 +306,9 @@ LiveStatus LivePlayback::status(Time now) const {
 }
 
 std::string LivePlayback::cleaning_in_words() const {
-    CleaningPlan whole = plan_of(options_, assembly_.plan().noise, description().depth_pixels());
+    const CleaningPlan whole =
+        plan_of(options_, assembly_.plan().noise, description().depth_pixels(),
+                description().sparse_share.has_value());
     return in_words(options_, whole) + (whole.steps.steady ? "; live: no filter in time" : "");
 }
 

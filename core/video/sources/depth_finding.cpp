@@ -1,19 +1,26 @@
-// Collects all statements on a source's depth, the strongest first, and guesses open facts.
+// Collects all findings on a source's depth, and concludes from them once.
 #include "core/video/sources/depth_finding.hpp"
 
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/media_names.hpp"
+#include "core/video/sources/packed.hpp"
+#include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {
@@ -34,22 +41,96 @@ DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     return said;
 }
 
-/// Whether the name holds the whole word: "clip_disp.png" holds "disp", "displacement" does not.
-bool has_word(const std::string& name, std::string_view word) {
-    const auto is_letter = [&](std::size_t at) {
-        return at < name.size() && std::isalpha(static_cast<unsigned char>(name[at])) != 0;
-    };
-    for (auto at = name.find(word); at != std::string::npos; at = name.find(word, at + 1)) {
-        if (!is_letter(at - 1) && !is_letter(at + word.size())) return true;
-    }
-    return false;
+void append(const Findings& more, Findings& rows) {
+    rows.insert(rows.end(), more.begin(), more.end());
 }
 
-DepthStatement statement_by_name(const fs::path& file) {
-    DepthStatement said;
-    const std::string name = lower_case(file.filename().string());
-    if (has_word(name, "disp") || has_word(name, "disparity")) said.unit = DepthUnit::disparity;
-    return said;
+/// The data set of a source, but for one whose levels are decoded, and say it themselves.
+std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
+    auto set = data_set_of(facts);
+    if (set && set->finding.statement.code) set.reset();
+    return set;
+}
+
+bool is_on_kind_by_name(const Finding& row) {
+    return row.evidence == Evidence::name && (row.statement.near || row.statement.unit);
+}
+
+/// What the name of a folder says; short words count alone: "dem" is a German article.
+Findings findings_in_folder(const fs::path& folder, int bits) {
+    constexpr std::size_t kShort = 3;
+    const std::string name = folder.filename().string();
+    const std::vector<std::string> words = words_of_name(name);
+    const bool is_short = std::any_of(words.begin(), words.end(), [&](const std::string& word) {
+        return word.size() <= kShort && std::isalpha(static_cast<unsigned char>(word[0])) != 0 &&
+               !findings_in_name(word, bits, "").empty();
+    });
+    if (!named_other(folder).empty() || (is_short && words.size() > 1)) return {};
+    return findings_in_name(name, bits, "its folder's name");
+}
+
+/// The rows of the table but those of the numbers and of times: of the reader that took the file,
+/// of what it and the layout found, of its data set, and of the name. Where the unit is sure, a
+/// name that only says "depth" adds nothing.
+Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
+    const SourceFacts& facts = sources.depth->facts();
+    Findings rows;
+    if (!facts.live) rows.push_back(finding_on_form(facts));
+    append(facts.findings, rows);
+    append(sources.findings, rows);
+    if (set) rows.push_back(set->finding);
+    if (has_decoded_levels(facts) || std::any_of(rows.begin(), rows.end(), is_on_kind_by_name))
+        return rows;
+    const Findings by_name = findings_by_name(facts);
+    const bool is_sure = !by_name.empty() && by_name.front().statement.unit;
+    if (is_sure || !sure_facts({}, rows).unit) append(by_name, rows);
+    return rows;
+}
+
+/// Whether a person or a sure finding states all that the numbers could tell.
+bool is_complete(const DepthStatement& known) {
+    return known.no_data && known.unit && known.scale && known.near && known.range;
+}
+
+/// Whether the middle of the colour pictures is brighter than their sides; nothing: no colour.
+std::optional<int> middle_of_colour(const Sources& sources) {
+    if (!sources.colour) return {};
+    constexpr int kMostColours = 3;
+    return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
+}
+
+/// The rows on units, but for those of values that another row has usual distances for.
+Findings units_beside(const SampledLevels& levels, const Findings& rows) {
+    Findings units = levels.units();
+    for (const Finding& row : rows)
+        if (row.usual.most_m > 0.0)
+            std::erase_if(units, [&row](const Finding& unit) {
+                return state_same_values(unit.statement, row.statement);
+            });
+    return units;
+}
+
+/// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what other
+/// rows state and they contradict. Returns the levels without those that are no data.
+SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
+    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
+    const DepthStatement known = sure_facts(persons, rows);
+    const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
+        return row.statement.no_data.has_value();
+    });
+    if (!known.no_data && !names_no_data) append(levels.no_data(), rows);
+    DepthMeaning meaning;
+    static_cast<void>(conclude(persons, rows, meaning));
+    levels.leave_out(meaning.no_data.value);
+    const Findings contradictions = levels.contradictions(rows);
+    if (!known.unit || !contradictions.empty()) append(units_beside(levels, rows), rows);
+    append(contradictions, rows);
+    // Where distances or disparities are sure, near is too.
+    if (!known.near && known.unit.value_or(DepthUnit::levels) == DepthUnit::levels)
+        append(levels.near(levels.middle_brighter_than_sides() == 0 ? std::nullopt
+                                                                    : middle_of_colour(sources)),
+               rows);
+    return levels;
 }
 
 /// Levels unchanged, as far as the request does not state otherwise.
@@ -68,14 +149,17 @@ DepthStatement as_in_file(const DepthRequest& request, int bits) {
     return file;
 }
 
-/// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point.
+/// The defaults: two files, grey, a relief, aligned, automatic cleaning, touched by a point, at the
+/// times of its source.
 DepthStatement default_statement() {
     return {.packing = DepthPacking::separate,
             .code = DepthCode::grey,
             .geometry = Geometry::relief,
             .registration = Registration{},
             .cleaning = CleaningChoice{},
-            .finger_mm = 0.0};
+            .finger_mm = 0.0,
+            .time_offset_s = 0.0,
+            .frames_per_s = 0.0};
 }
 
 /// Throws InputError for a range that is impossible in its unit, or for 32-bit floats.
@@ -100,7 +184,59 @@ void require_range(const DepthMeaning& meaning, int bits, const fs::path& file) 
                          "; turn --depth-range or --near around");
 }
 
+/// The kept answer for the files of this folder, where the file leaves open what it states, and it
+/// is one of the likely ones; empty: there is none.
+DepthStatement folder_choice(const DepthConclusion& conclusion, const DepthRequest& request,
+                             const fs::path& file) {
+    const std::vector<DepthAlternative>& all = conclusion.alternatives;
+    if (all.empty()) return {};
+    DepthStatement kept = kept_folder_choice(request, file);
+    const bool is_likely = std::any_of(all.begin(), all.end(), [&](const auto& alternative) {
+        return alternative.statement == kept;
+    });
+    return is_likely ? kept : DepthStatement{};
+}
+
+/// Of the answers those that a stated range allows; none, where that leaves no choice.
+void keep_that_fit(const DepthRange& range, std::vector<DepthAlternative>& alternatives) {
+    const NearLevels near = range.near > range.far ? NearLevels::bright : NearLevels::dark;
+    std::erase_if(alternatives, [near](const DepthAlternative& alternative) {
+        return alternative.statement.near != near;
+    });
+    if (alternatives.size() < 2) alternatives.clear();
+}
+
+/// `meaning` by that alternative; its range stays.
+DepthMeaning by_alternative(DepthMeaning meaning, const DepthAlternative& alternative) {
+    merge_by_priority({{Origin::assumed, alternative.statement}}, meaning);
+    return meaning;
+}
+
 }  // namespace
+
+Findings findings_by_name(const SourceFacts& facts) {
+    if (facts.live) return findings_in_name(facts.file.filename().string(), facts.bits, "its name");
+    std::error_code failed;
+    const auto place_of = [&failed](const fs::path& place) {
+        const fs::path whole = fs::absolute(place, failed).lexically_normal();
+        return whole.has_filename() ? whole : whole.parent_path();
+    };
+    const fs::path picture =
+        place_of(facts.first_picture.empty() ? facts.file : facts.first_picture);
+    Findings rows;
+    if (named_other(picture).empty())
+        rows = findings_in_name(picture.stem().string(), facts.bits, "its name");
+    bool is_silent = rows.empty() && !named_depth(picture);
+    const fs::path opened = is_folder(facts.file) ? place_of(facts.file) : fs::path();
+    for (const fs::path& folder : {picture.parent_path(), opened}) {
+        Findings more = findings_in_folder(folder, facts.bits);
+        const bool has_scale = !more.empty() && more.front().statement.scale;
+        const bool is_weak = !rows.empty() && !rows.front().statement.unit;
+        if (is_silent || (is_weak && has_scale)) rows = std::move(more);
+        is_silent = is_silent && rows.empty() && !named_depth(folder);
+    }
+    return rows;
+}
 
 std::vector<cv::Mat> sample_pictures(PictureSource& source) {
     const double pixels = static_cast<double>(source.facts().columns) * source.facts().rows;
@@ -119,37 +255,48 @@ DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
     return said;
 }
 
-DepthScale find_scale(const Sources& sources, const DepthRequest& request) {
+FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
         request.command_line != DepthStatement{} || request.recorded != DepthStatement{};
-    if (!request.find_out && !said) return DepthScale::as_recorded(facts.bits);
-    RankedStatements statements{{Origin::recorded, request.recorded},
-                                {Origin::command_line, request.command_line}};
+    if (!request.find_out && !said) return {DepthScale::as_recorded(facts.bits)};
+    RankedStatements persons{{Origin::recorded, request.recorded},
+                             {Origin::command_line, request.command_line}};
+    Findings rows;
+    DepthMeaning meaning;
     if (request.find_out) {
         std::vector<fs::path> places{facts.file};
         if (sources.colour) places.push_back(sources.colour->facts().file);
-        statements.insert(statements.end(),
-                          {{Origin::panel, request.panel},
-                           {Origin::sidecar, sidecars_of(places)},
-                           {Origin::assumed, sources.assumed},
-                           {sources.by_appearance ? Origin::assumed : Origin::found, facts.known},
-                           {Origin::found, statement_by_name(facts.file)},
-                           {Origin::found, sources.found},
-                           {Origin::found, default_statement()}});
+        persons.insert(persons.end(),
+                       {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
+        rows = findings_on(sources, data_set_beside_codes(facts));
+        merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
-        statements.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
+        persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
-    DepthMeaning meaning;
-    meaning.found_in = facts.known_from;
-    merge_by_priority(statements, meaning);
+    // Sampling a video takes long: only where something is left to find out.
+    std::optional<SampledLevels> levels;
+    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
+    DepthConclusion conclusion = conclude(persons, rows, meaning);
+    const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
+    if (!(of_folder == DepthStatement{})) {
+        persons.emplace_back(Origin::folder, of_folder);
+        conclusion = conclude(persons, rows, meaning);
+    }
     if (auto& camera = meaning.intrinsics.value)
         camera = in_pixels(*camera, facts.columns, facts.rows);
-    // Sampling a video takes long: only where something is left to guess.
-    if (!is_all_stated(statements)) guess(sample_pictures(depth), facts.bits, meaning, statements);
+    const bool states_range =
+        std::any_of(conclusion.findings.begin(), conclusion.findings.end(),
+                    [](const Finding& finding) { return finding.statement.range.has_value(); });
+    if (levels && !states_range) meaning.range = {levels->range(meaning), Origin::found};
+    if (states_range) keep_that_fit(meaning.range.value, conclusion.alternatives);
+    for (DepthAlternative& alternative : conclusion.alternatives)
+        alternative.range = levels && !states_range
+                                ? levels->range(by_alternative(meaning, alternative))
+                                : meaning.range.value;
     require_range(meaning, facts.bits, facts.file);
-    return {meaning, facts.bits};
+    return {DepthScale(meaning, facts.bits), std::move(conclusion)};
 }
 
 }  // namespace dibhr

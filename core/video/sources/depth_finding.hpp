@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/video/depth/depth_scale.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/sources.hpp"
@@ -18,10 +19,20 @@ namespace dibhr {
                                            const std::filesystem::path& colour,
                                            const DepthRequest& request);
 
-/// The meaning of the levels, found before the first frame is shown. Reads pictures from all over
-/// the depth, then starts it again. Throws InputError for a sidecar that cannot be parsed, and for
-/// an impossible range.
-[[nodiscard]] DepthScale find_scale(const Sources& sources, const DepthRequest& request);
+/// The rows of the name of a source, else of the folder that holds its pictures, else of the one
+/// that was opened. A name that only says "depth" leaves the unit to the folders.
+[[nodiscard]] Findings findings_by_name(const SourceFacts& facts);
+
+/// The scale of a depth, and the findings that led to its meaning.
+struct FoundScale {
+    DepthScale scale;
+    DepthConclusion conclusion{};
+};
+
+/// The meaning of the levels, found before the first frame is shown: the one place where all
+/// findings are collected and concluded from. Reads pictures from all over the depth, then starts
+/// it again. Throws InputError for a sidecar that cannot be parsed, and for an impossible range.
+[[nodiscard]] FoundScale find_scale(const Sources& sources, const DepthRequest& request);
 
 /// As many sample pictures of a source as can be decoded within about half a second.
 [[nodiscard]] std::vector<cv::Mat> sample_pictures(PictureSource& source);

@@ -10,6 +10,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
@@ -131,31 +132,36 @@ std::unique_ptr<PictureSource> pictures_of(const std::shared_ptr<LiveCursor>& cu
     return std::make_unique<LivePictures>(cursor, which);
 }
 
+/// The code that a statement or the pictures tell; grey: none, or stated.
+DepthCode code_of(const PictureGuess& guess, const DepthStatement& statement) {
+    if (statement.code) return *statement.code;
+    if (guess.kind == PictureKind::hue_depth) return DepthCode::hue;
+    return guess.kind == PictureKind::byte_depth ? guess.code : DepthCode::grey;
+}
+
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
-Sources decoded(const std::shared_ptr<LiveCursor>& cursor, PictureKind kind,
+Sources decoded(const std::shared_ptr<LiveCursor>& cursor, const PictureGuess& guess,
                 const DepthStatement& statement) {
     Sources sources;
-    const bool says_grey = statement.code == DepthCode::grey;
-    const bool hue =
-        statement.code == DepthCode::hue || (!says_grey && kind == PictureKind::hue_depth);
-    if (hue) {
-        sources.depth =
-            hue_decoded(pictures_of(cursor, Which::depth_as_seen), HueCode{}, "its hues");
-        sources.assumed.code = DepthCode::hue;
-        sources.by_appearance = true;
-    } else if (!says_grey && kind == PictureKind::ramp_depth) {
-        sources.depth = ramp_decoded(pictures_of(cursor, Which::depth_as_seen), "its colours");
-        sources.by_appearance = true;
-    } else {
-        sources.depth = pictures_of(cursor, Which::depth);
-    }
+    const DepthCode code = code_of(guess, statement);
+    const bool is_ramp = !statement.code && guess.kind == PictureKind::ramp_depth;
+    const bool is_coded = code != DepthCode::grey || is_ramp;
+    sources.depth = pictures_of(cursor, is_coded ? Which::depth_as_seen : Which::depth);
+    const Finding coded = finding_on_code(code, statement.code.has_value());
+    if (code == DepthCode::hue)
+        sources.depth = hue_decoded(std::move(sources.depth), HueCode{}, coded);
+    else if (is_of_bytes(code))
+        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
+    else if (is_ramp)
+        sources.depth = ramp_decoded(std::move(sources.depth));
     return sources;
 }
 
 Sources halves(const std::shared_ptr<LiveCursor>& cursor, const PackedForm& form) {
     auto colour = pictures_of(cursor, Which::colour);
+    const bool is_coded = form.hue || form.bytes;
     return unpack(std::move(colour),
-                  pictures_of(cursor, form.hue ? Which::depth_as_seen : Which::depth), form);
+                  pictures_of(cursor, is_coded ? Which::depth_as_seen : Which::depth), form);
 }
 
 PictureGuess guess_kind_of(const std::shared_ptr<LiveCursor>& cursor) {
@@ -167,27 +173,38 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     const bool says_halves = statement.packing && is_of_halves(*statement.packing);
     const PictureGuess guess = guess_kind_of(cursor);
     if (says_halves || (!statement.packing && guess.kind == PictureKind::packed)) {
-        PackedForm form{.packing = says_halves ? *statement.packing : guess.packing,
-                        .known_from = says_halves ? "" : "its pictures"};
+        PackedForm form =
+            says_halves ? PackedForm{.packing = *statement.packing} : form_by_appearance(guess);
         const bool looks_hue = guess.kind == PictureKind::packed && guess.code == DepthCode::hue;
-        if (statement.code ? *statement.code == DepthCode::hue : looks_hue) form.hue.emplace();
-        Sources sources = halves(cursor, form);
-        if (!says_halves) {
-            sources.assumed = std::exchange(sources.found, {});
-            sources.by_appearance = true;
-        }
-        return sources;
+        const bool is_hue = statement.code ? *statement.code == DepthCode::hue : looks_hue;
+        form.hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
+        if (statement.code && is_of_bytes(*statement.code)) form.bytes = *statement.code;
+        form.coded =
+            finding_on_code(statement.code.value_or(DepthCode::hue), statement.code.has_value());
+        return halves(cursor, form);
     }
     const LivePicture& first = cursor->pair->depth;
     const bool is_depth = guess.kind != PictureKind::photo || (first.grey && first.bits > 8) ||
-                          statement.code == DepthCode::hue ||
+                          statement.code.value_or(DepthCode::grey) != DepthCode::grey ||
                           statement.packing == DepthPacking::separate;
     if (!is_depth) {
         throw InputError(shown(cursor->feed->depth()) +
                          " shows colour: give the source of its depth as the second name, or say "
                          "how the depth is in it with --packing (separate: it is all depth)");
     }
-    return decoded(cursor, guess.kind, statement);
+    return decoded(cursor, guess, statement);
+}
+
+/// The depth of two connections, told by the statement alone: looking at its pictures would take
+/// time.
+Sources of_two(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& statement) {
+    Sources sources = decoded(cursor, {.kind = PictureKind::grey_depth}, statement);
+    sources.colour = pictures_of(cursor, Which::colour);
+    const LivePicture& first = cursor->pair->depth;
+    const bool is_told = statement.code || statement.packing == DepthPacking::separate;
+    if (!is_told && !first.grey && !first.colour.empty() && is_coloured(first.colour))
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
+    return sources;
 }
 
 }  // namespace
@@ -208,15 +225,16 @@ Sources find_live_sources(const fs::path& colour, const fs::path& depth,
     feed->set_outputs(true, true);
     const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
     cursor->advance();
+    const bool is_coded = statement.code.value_or(DepthCode::grey) != DepthCode::grey;
     Sources sources;
     if (two) {
-        sources = decoded(cursor, PictureKind::grey_depth, statement);
-        sources.colour = pictures_of(cursor, Which::colour);
-        feed->set_outputs(statement.code == DepthCode::hue, statement.code != DepthCode::hue);
+        sources = of_two(cursor, statement);
+        feed->set_outputs(is_coded, !is_coded);
     } else {
         sources = of_one(cursor, statement);
-        const bool as_seen = sources.colour != nullptr ||
-                             sources.depth->facts().bits == kRealBits || sources.by_appearance;
+        const Findings& rows = sources.depth->facts().findings;  // only those of colours
+        const bool as_seen = sources.colour != nullptr || is_coded || !rows.empty() ||
+                             sources.depth->facts().bits == kRealBits;
         feed->set_outputs(as_seen, true);
     }
     sources.live = std::move(feed);

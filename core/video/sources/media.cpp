@@ -3,23 +3,28 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/live_source.hpp"
 #include "core/video/sources/media_names.hpp"
+#include "core/video/sources/pair_times.hpp"
 #include "core/video/sources/paired_media.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {
@@ -47,14 +52,46 @@ auto opened(const DepthRequest& request, const Open& open) {
     }
 }
 
-std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthRequest& asked, bool seen,
+/// The share of the pixels with data where they are sparse, by the first picture; where that has
+/// hardly any data, by some from all over the source.
+std::optional<double> sparse_share_of(PictureSource& depth, const DepthScale& scale) {
+    constexpr int kMeasuredSide_px = 2048;  // the middle of a larger picture is enough
+    const int side_px = std::min(depth.facts().columns, depth.facts().rows);
+    if (scale.is_always_data() || !scale.meaning() || side_px < SparseMeter::kLeastSide_px)
+        return std::nullopt;
+    SparseMeter meter;
+    for (const int count : {1, 8}) {
+        if (meter.has_measured()) break;
+        for (const cv::Mat& picture : depth.samples(count)) {
+            const cv::Size size(std::min(picture.cols, kMeasuredSide_px),
+                                std::min(picture.rows, kMeasuredSide_px));
+            const cv::Point corner((picture.cols - size.width) / 2,
+                                   (picture.rows - size.height) / 2);
+            meter.add(scale.image_of(picture(cv::Rect(corner, size))));
+        }
+    }
+    return meter.sparse_share();
+}
+
+std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& statement,
+                                      const DepthRequest& asked, bool seen,
                                       const std::string& notice) {
+    decode_levels(sources, statement, asked.find_out);
+    if (asked.find_out && !sources.not_depth.empty()) throw InputError(sources.not_depth);
+    if (asked.find_out) add_camera_beside(sources);
     const DepthRequest request = with_kept_choice(asked, sources.depth->facts().file);
-    DepthScale scale = find_scale(sources, request);
+    FoundScale found = find_scale(sources, request);
+    const std::optional<double> sparse_share = sparse_share_of(*sources.depth, found.scale);
     const bool painted = seen && request.paints && sources.colour == nullptr;
+    const PairTimes times =
+        pair_times(sources, found.scale.meaning().value_or(DepthMeaning{}), request.find_out);
     auto media = std::make_unique<PairedMedia>(std::move(sources.depth), std::move(sources.colour),
-                                               std::move(scale), painted);
+                                               std::move(found.scale), painted, times);
+    if (request.find_out)
+        std::ranges::copy(times.findings, std::back_inserter(found.conclusion.findings));
+    media->set_conclusion(std::move(found.conclusion));
     media->add_notice(sources.notice);
+    if (sparse_share) media->set_sparse(*sparse_share);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
     media->set_live_feed(std::move(sources.live));
@@ -91,22 +128,77 @@ MediaDescription described(const fs::path& place, const DepthRequest& request,
         MediaDescription description;
         describe_colour(sources.colour->facts(), description);
         describe_time(sources.colour->facts(), description);
+        describe_timing(sources.colour->facts(), description);
         description.notice = sources.colour->facts().notice;
         return description;
     }
+    decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
-    const auto media = media_of(std::move(sources), request, false, notice);
+    const auto media = media_of(std::move(sources), statement, request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
     description.levels_used = levels_used(pictures);
-    if (description.meaning) description.holes_share = holes_share(pictures, *description.meaning);
+    if (description.meaning) {
+        SampledLevels levels(pictures, description.depth_bits);
+        levels.leave_out(description.meaning->no_data.value);
+        description.holes_share = levels.holes_share();
+    }
     return description;
+}
+
+bool has_scale(const DepthStatement& answer) {
+    return answer.scale.value_or(1.0) != 1.0;
+}
+
+std::string scale_text(const DepthStatement& answer) {
+    constexpr int kDigits = 7;
+    return short_text(answer.scale.value_or(1.0), kDigits);
+}
+
+/// How a person states near, or unit and scale, of an answer: "--near dark", "near = \"dark\"".
+std::string stated_text(const DepthStatement& answer, bool is_near, StatedBy way) {
+    const auto fact = [way](const char* option, const char* key, const std::string& value) {
+        return way == StatedBy::options ? std::string(option) + ' ' + value
+                                        : std::string(key) + " = " + value;
+    };
+    const auto word = [way](std::string_view name) {
+        return way == StatedBy::options ? std::string(name) : '"' + std::string(name) + '"';
+    };
+    if (is_near) return fact("--near", "near", word(name_of(*answer.near)));
+    const std::string unit = fact("--depth-unit", "unit", word(name_of(*answer.unit)));
+    if (!has_scale(answer)) return unit;
+    return unit + (way == StatedBy::options ? " " : ", ") +
+           fact("--depth-scale", "scale", scale_text(answer));
 }
 
 }  // namespace
 
 std::optional<RawFrame> Media::next_from(double earliest_s) {
     return first_from(earliest_s, *this, &RawFrame::media_s);
+}
+
+std::string doubt_about(const MediaDescription& media, StatedBy way) {
+    const DepthConclusion& conclusion = media.conclusion;
+    if (conclusion.alternatives.empty()) return {};
+    const bool is_near =
+        conclusion.near_sure < kSureEnough || conclusion.near_sure <= conclusion.unit_sure;
+    const double sure = is_near ? conclusion.near_sure : conclusion.unit_sure;
+    std::vector<std::string> ways;
+    for (const DepthAlternative& answer : conclusion.alternatives) {
+        std::string text = stated_text(answer.statement, is_near, way);
+        if (std::find(ways.begin(), ways.end(), text) == ways.end())
+            ways.push_back(std::move(text));
+    }
+    const DepthStatement& best = conclusion.alternatives.front().statement;
+    std::string assumed = is_near ? "near is assumed to be " + std::string(name_of(*best.near))
+                                  : "the unit is assumed to be " + std::string(name_of(*best.unit));
+    if (!is_near && has_scale(best)) assumed += " and the scale " + scale_text(best);
+    constexpr double kPercent = 100.0;
+    return shown(media.depth_path) + ": " + assumed + " (" + number_text(kPercent * sure, 0) +
+           " % sure): look at it, or " +
+           (way == StatedBy::options ? "say " + listed(ways, " or ")
+                                     : "state " + listed(ways, " or ") + " in its sidecar " +
+                                           shown(sidecar_of(media.depth_path)));
 }
 
 std::string motion_trouble(const MediaDescription& media) {
@@ -150,16 +242,18 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const DepthStatement statement =
             statement_for(depth_of_pair(colour, depth), colour, request);
-        return media_of(sources_of(colour, depth, statement, request), request, true, notice);
+        return media_of(sources_of(colour, depth, statement, request), statement, request, true,
+                        notice);
     });
 }
 
 std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& asked) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const fs::path depth = is_live(place) ? place : depth_place_for(place);
-        Sources sources = sources_of({}, place, statement_for(depth, place, request), request);
+        const DepthStatement statement = statement_for(depth, place, request);
+        Sources sources = sources_of({}, place, statement, request);
         sources.colour.reset();
-        return media_of(std::move(sources), request, false, notice);
+        return media_of(std::move(sources), statement, request, false, notice);
     });
 }
 

@@ -13,7 +13,7 @@
 #include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/frames/frame_window.hpp"
 
 namespace dibhr {
@@ -50,9 +50,10 @@ struct DepthRequest {
     bool find_out{false};
     DepthStatement command_line{};
     DepthStatement panel{};
-    /// The folder of earlier choices on the panel, a file for each media; they complete `panel`.
-    /// Empty: not used.
+    /// The folder of earlier choices, a file for each media, which complete `panel`, and for each
+    /// folder of media. Empty: not used.
     std::filesystem::path kept_in{};
+    bool panel_is_whole{false};  ///< earlier choices for this media do not complete `panel`
     DepthStatement recorded{};  ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
     std::shared_ptr<LiveFeed> live{};
@@ -75,16 +76,22 @@ struct MediaDescription {
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< different levels in the sample pictures (`dibhr info`)
     double holes_share{0.0};  ///< share of their pixels without data, in [0, 1] (`dibhr info`)
+    /// The share of the pixels with data where the depth is sparse; nothing: it is not.
+    std::optional<double> sparse_share{};
     std::optional<DepthNoise> noise{};      ///< used for cleaning when it was recorded live
     std::optional<Fit> true_fit{};          ///< of a true shape, whose pixels are millimetres
     std::optional<DepthMeaning> meaning{};  ///< nothing: levels as in the file
-    DepthStatement panel{};                 ///< chosen on the panel, now or kept
+    /// What the meaning was concluded from, how sure it is, and what else it may be: a window asks.
+    DepthConclusion conclusion{};
+    DepthStatement panel{};       ///< chosen on the panel, now or kept
     std::string registered_by{};  ///< the calibration that puts colour over depth; empty: none
     double duration_s{0.0};
     double frames_per_s{0.0};  ///< mean of the intervals known so far; 0 for a still
     std::int64_t frames{0};    ///< an estimate until the end was read
     bool frames_exact{false};  ///< the end was read: frames and duration are exact
     bool still{false};
+    std::string times_from{};         ///< what decides them (TimesFrom); empty: a still
+    std::string timing{};             ///< the same for people: "those of 'rgb.mp4', frame by frame"
     double colour_frames_per_s{0.0};  ///< of a colour file of its own; 0: a still, or not known
     double colour_duration_s{0.0};    ///< likewise
     bool colour_still{false};
@@ -100,6 +107,15 @@ struct MediaDescription {
     }
     [[nodiscard]] bool has_real_numbers() const noexcept { return depth_bits > 16; }
 };
+
+/// Where a person can state what depth means: by options, or only in a sidecar.
+enum class StatedBy { options, sidecar };
+
+/// A sentence for people where the meaning is likely but not sure: what near is assumed to be or,
+/// where that is sure, the unit and the scale; how sure that is, and what settles it. Empty: the
+/// meaning is sure, or a person stated it.
+[[nodiscard]] std::string doubt_about(const MediaDescription& media,
+                                      StatedBy way = StatedBy::options);
 
 /// The paper's proportions at any picture size: the height from farthest to nearest is 255/720 of
 /// the width, and the width is a Falcon's reach, 101.6 mm. A true shape keeps its millimetres.

@@ -13,6 +13,7 @@
 
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
@@ -24,17 +25,44 @@ namespace {
 using Words = std::span<const std::string_view>;
 
 // Anywhere in a name.
-constexpr std::array<std::string_view, 5> kColourWords{"colour", "color", "rgb", "albedo",
-                                                       "diffuse"};
-constexpr std::array<std::string_view, 4> kDepthWords{"depth", "disparity", "displacement",
-                                                      "heightmap"};
+constexpr std::array<std::string_view, 6> kColourWords{"colour", "color",   "rgb",
+                                                       "albedo", "diffuse", "couleur"};
+constexpr std::array<std::string_view, 8> kDepthWords{"depth",        "disparity", "disparities",
+                                                      "displacement", "heightmap", "profondeur",
+                                                      "profundidad",  "profondita"};
 // Between other letters they mean something else: "display", "different".
-constexpr std::array<std::string_view, 1> kShortColourWords{"diff"};
-constexpr std::array<std::string_view, 2> kShortDepthWords{"disp", "height"};
-constexpr std::array<std::string_view, 4> kMayBeColour{"image", "images", "img", "left"};
-constexpr std::array<std::string_view, 2> kNeutralWords{"map",
-                                                        "mono"};  // "mono_depth", "depth map"
+constexpr std::array<std::string_view, 4> kShortColourWords{"diff", "farbe", "farben", "farbbild"};
+constexpr std::array<std::string_view, 6> kShortDepthWords{"disp",   "height",     "tiefe",
+                                                           "tiefen", "tiefenbild", "tiefenkarte"};
+constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",   "im",
+                                                       "left",  "frame",  "frames"};
+// "mono_depth", "depth maps"
+constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
+/// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
+struct OtherContent {
+    std::string_view what;    ///< for people
+    std::string_view words;   ///< each between blanks
+    bool shows_depth{false};  ///< it may be felt, though something else is better
+};
+constexpr std::array kOtherContents{
+    OtherContent{"a mask", " mask masks valid validity "},
+    OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
+    OtherContent{"normals", " normal normals nor nrm "},
+    OtherContent{"infrared", " ir infra infrared "},
+    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
+    OtherContent{"a painting of depth",
+                 " vis viz visualization visualisation visualized visualised colored coloured "
+                 "colorized colourised colormap colourmap ",
+                 true},
+    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
+    OtherContent{"optical flow", " flow flows "},
+    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
+// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
+constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
+                                                       "px",  "ids",  "occ", "noc"};
+
+constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
     ".bmp", ".exr", ".heic", ".heif", ".hif", ".jpeg", ".jpg", ".npy",  ".npz",
     ".pfm", ".pgm", ".png",  ".pnm",  ".ppm", ".tga",  ".tif", ".tiff", ".webp"};
@@ -50,35 +78,13 @@ bool is_one_of(std::string_view word, Words words) {
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-/// Whether a new word begins between the two characters.
-bool is_between_words(char before, char after) {
-    const auto is = [](int (*kind)(int), char c) {
-        return kind(static_cast<unsigned char>(c)) != 0;
-    };
-    return is_decimal_digit(before) != is_decimal_digit(after) ||
-           (is(std::islower, before) && is(std::isupper, after));
-}
-
-/// The words of a name in small letters; a run of digits is a word, too.
-std::vector<std::string> words_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    for (std::size_t k = 0; k < name.size(); ++k) {
-        const auto byte = static_cast<unsigned char>(name[k]);
-        const bool counts = byte >= 0x80 || std::isalnum(byte) != 0;
-        if (k > 0 && is_between_words(name[k - 1], name[k])) words.emplace_back();
-        if (counts)
-            words.back().push_back(name[k]);
-        else
-            words.emplace_back();
-    }
-    std::erase(words, "");
-    std::transform(words.begin(), words.end(), words.begin(), lower_case);
-    return words;
+bool is_of_digits(const std::string& word) {
+    return std::all_of(word.begin(), word.end(), is_decimal_digit);
 }
 
 bool holds(const fs::path& file, Words anywhere, Words whole) {
     const std::string name = lower_case(file.filename().string());
-    const std::vector<std::string> words = words_of(file.filename().string());
+    const std::vector<std::string> words = words_of_name(file.filename().string());
     return std::any_of(
                anywhere.begin(), anywhere.end(),
                [&](std::string_view word) { return name.find(word) != std::string::npos; }) ||
@@ -109,52 +115,142 @@ bool named_media(const fs::path& file) {
     return named_picture(file) || named_video(file);
 }
 
-/// The first file of that stem in that folder, with any extension. Nothing when there is none.
-std::optional<fs::path> with_any_extension(const fs::path& folder, const std::string& stem) {
-    std::set<fs::path> found;
-    std::error_code failed;
-    for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
-         !failed && entry != end; entry.increment(failed)) {
-        const auto& file = entry->path();
-        if (file.stem() == stem && named_media(file) && is_file(file))
-            found.insert(folder / file.filename());
-    }
-    if (found.empty()) return std::nullopt;
-    return *found.begin();
-}
-
-/// The file beside `given` of that stem: of the same extension, else of another; the folder beside
-/// a folder.
-std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem) {
-    const auto folder = given.parent_path();
-    const auto same = folder / (stem + given.extension().string());
-    if (is_folder(given)) return is_folder(same) ? std::optional(same) : std::nullopt;
-    return is_file(same) ? same : with_any_extension(folder, stem);
-}
-
-/// The first file beside `given`, or folder beside a folder, that is of the same subject and that
-/// `fits`.
-template <typename Fits>
-std::optional<fs::path> of_same_subject(const fs::path& given, Fits fits) {
-    std::optional<fs::path> found;
-    const std::string subject = subject_of(given);
+/// The entries of a file's or folder's own folder whose name is not hidden, the place itself left
+/// out; none where it cannot be read.
+std::vector<fs::path> neighbours_of(const fs::path& given) {
+    std::vector<fs::path> found;
     const fs::path folder = given.parent_path();
     std::error_code failed;
     for (fs::directory_iterator entry(folder.empty() ? "." : folder, failed), end;
          !failed && entry != end; entry.increment(failed)) {
         const fs::path name = entry->path().filename();
-        const bool of_kind =
-            is_folder(given) ? is_folder(*entry) : named_media(name) && is_file(*entry);
-        if (!of_kind || name == given.filename() || name.string().starts_with('.') || !fits(name) ||
-            names_touch_map(folder / name) || subject_of(name) != subject)
-            continue;
-        if (!found || in_natural_order(name.string(), found->filename().string()))
-            found = folder / name;
+        if (name != given.filename() && !name.string().starts_with('.'))
+            found.push_back(folder / name);
     }
     return found;
 }
 
+/// What the last word of a name that counts says; null: nothing.
+const OtherContent* other_content(const fs::path& file) {
+    // Of a folder the whole name, of a file what is before the ending.
+    const bool has_ending = named_media(file) || named_numbers(file);
+    const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
+    const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
+        return !is_of_digits(word) && !is_one_of(word, kPassedWords);
+    });
+    if (last == words.rend()) return nullptr;
+    const auto* const found = std::find_if(
+        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
+            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
+        });
+    return found == kOtherContents.end() ? nullptr : found;
+}
+
+/// The name of the first picture in a folder; empty: it holds none, or is no folder.
+fs::path first_picture_in(const fs::path& folder) {
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
+         entry.increment(failed)) {
+        const fs::path name = entry->path().filename();
+        if (named_picture(name) && !name.string().starts_with('.') && is_file(*entry)) return name;
+    }
+    return {};
+}
+
+/// Whether the two may be colour and depth of one recording, by what they are: two files, two
+/// folders, or a video and a folder of pictures.
+bool may_be_pair(const fs::path& given, const fs::path& other) {
+    if (!is_folder(other))
+        return is_file(other) && (is_folder(given) ? named_video(other) : named_media(other));
+    return is_folder(given) || (named_video(given) && !first_picture_in(other).empty());
+}
+
+/// The first file beside `given` of that stem, with any extension, or for a video the folder.
+/// Nothing when there is none.
+std::optional<fs::path> with_any_extension(const fs::path& given, const std::string& stem) {
+    std::set<fs::path> files;
+    std::optional<fs::path> folder;
+    for (const fs::path& other : neighbours_of(given)) {
+        const bool may_be_folder = other.filename() == stem;
+        if ((!may_be_folder && other.stem() != stem) || !may_be_pair(given, other)) continue;
+        if (!is_folder(other))
+            files.insert(other);
+        else if (may_be_folder)
+            folder = other;
+    }
+    return files.empty() ? folder : *files.begin();
+}
+
+/// The place beside `given` of that stem: of numbers where they are searched, else of the same
+/// extension, else of another; the folder beside a folder.
+std::optional<fs::path> with_stem(const fs::path& given, const std::string& stem, bool numbers) {
+    const auto same = given.parent_path() / (stem + given.extension().string());
+    if (is_folder(given) && is_folder(same)) return same;
+    if (numbers && named_picture(given) && !is_folder(given)) {
+        if (auto found = numbers_beside(same)) return found;
+    }
+    return !is_folder(given) && is_file(same) ? same : with_any_extension(given, stem);
+}
+
+/// The place beside `given` that may belong to it and that `fits`: preferably a file beside a file
+/// and a folder beside a folder, then one of numbers where they are preferred, then the first.
+template <typename Fits>
+std::optional<fs::path> best_beside(const fs::path& given, Fits fits, bool prefers_numbers) {
+    std::optional<fs::path> found;
+    const auto is_of_other_kind = [&](const fs::path& place) {
+        return is_folder(place) != is_folder(given);
+    };
+    const auto has_numbers = [&](const fs::path& place) {
+        return prefers_numbers && named_numbers(is_folder(place) ? first_picture_in(place) : place);
+    };
+    const auto is_better = [&](const fs::path& a, const fs::path& b) {
+        if (is_of_other_kind(a) != is_of_other_kind(b)) return is_of_other_kind(b);
+        if (has_numbers(a) != has_numbers(b)) return has_numbers(a);
+        return in_natural_order(a.filename().string(), b.filename().string());
+    };
+    for (const fs::path& other : neighbours_of(given)) {
+        if (!fits(other) || !may_be_pair(given, other) || names_touch_map(other)) continue;
+        if (!found || is_better(other, *found)) found = other;
+    }
+    return found;
+}
+
+/// The best place beside `given` whose name `fits` and that is of the same subject; else, beside
+/// the only video of its kind, a folder of pictures that is `named`.
+template <typename Fits, typename Named>
+std::optional<fs::path> belonging_to(const fs::path& given, Fits fits, Named named,
+                                     bool prefers_numbers) {
+    const std::string subject = subject_of(given);
+    const auto is_of_subject = [&](const fs::path& other) {
+        return fits(other.filename()) && subject_of(other.filename()) == subject;
+    };
+    if (auto found = best_beside(given, is_of_subject, prefers_numbers)) return found;
+    if (!named_video(given) || is_folder(given)) return std::nullopt;
+    const std::vector<fs::path> others = neighbours_of(given);
+    const bool is_only = std::none_of(others.begin(), others.end(), [&](const fs::path& other) {
+        return named_video(other) && named_depth(other) == named_depth(given) &&
+               named_other(other).empty();
+    });
+    if (!is_only) return std::nullopt;
+    const auto is_row = [&](const fs::path& other) {
+        return is_folder(other) && named(other.filename());
+    };
+    return best_beside(given, is_row, prefers_numbers);
+}
+
+/// The video beside a folder of pictures that `partner` says belongs to it.
+template <typename Partner>
+std::optional<fs::path> video_of_folder(const fs::path& folder, Partner partner) {
+    for (const fs::path& other : neighbours_of(folder))
+        if (named_video(other) && !is_folder(other) && partner(other) == folder) return other;
+    return std::nullopt;
+}
+
 }  // namespace
+
+fs::path without_slash(const fs::path& place) {
+    return place.has_filename() ? place : place.parent_path();
+}
 
 std::span<const std::string_view> picture_endings() noexcept {
     return kPictureEndings;
@@ -172,12 +268,52 @@ bool named_video(const fs::path& file) {
     return ends_as(file, kVideoEndings);
 }
 
+bool named_numbers(const fs::path& file) {
+    return ends_as(file, kNumberEndings);
+}
+
+std::string_view named_other(const fs::path& file) {
+    const OtherContent* const found = other_content(file);
+    return found == nullptr ? std::string_view() : found->what;
+}
+
+std::string_view named_no_depth(const fs::path& place) {
+    const OtherContent* const found = other_content(place);
+    return found == nullptr || found->shows_depth ? std::string_view() : found->what;
+}
+
+std::string_view folder_named_no_depth(const fs::path& file) {
+    const auto says_nothing = [](const std::string& word) {
+        return is_of_digits(word) || is_one_of(word, kMayBeColour) || is_one_of(word, kPassedWords);
+    };
+    const std::vector<std::string> own = words_of_name(file.stem().string());
+    if (!std::all_of(own.begin(), own.end(), says_nothing)) return {};
+    const fs::path folder = file.parent_path().filename();
+    const OtherContent* const found = other_content(folder);
+    if (found == nullptr || found->shows_depth) return {};
+    const std::vector<std::string> words = words_of_name(folder.string());
+    const bool is_whole = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
+        return says_nothing(word) || found->words.find(' ' + word + ' ') != std::string_view::npos;
+    });
+    return is_whole ? found->what : std::string_view();
+}
+
+std::optional<fs::path> numbers_beside(const fs::path& file) {
+    for (const std::string_view ending : kNumberEndings) {
+        fs::path numbers = file;
+        numbers.replace_extension(ending);
+        if (numbers == file || !is_file(numbers)) continue;
+        if (ending != ".raw" || is_raw_levels(numbers, {})) return numbers;
+    }
+    return std::nullopt;
+}
+
 bool named_colour(const fs::path& file) {
-    return holds(file, kColourWords, kShortColourWords);
+    return holds(file, kColourWords, kShortColourWords) && named_other(file).empty();
 }
 
 bool named_depth(const fs::path& file) {
-    return holds(file, kDepthWords, kShortDepthWords);
+    return holds(file, kDepthWords, kShortDepthWords) && named_other(file).empty();
 }
 
 bool may_name_colour(const fs::path& file) {
@@ -186,11 +322,13 @@ bool may_name_colour(const fs::path& file) {
 
 std::string subject_of(const fs::path& file) {
     std::string subject;
-    for (std::string word : words_of(file.stem().string())) {
+    for (std::string word : words_of_name(file.stem().string())) {
         for (const Words anywhere : {Words(kColourWords), Words(kDepthWords)}) {
             for (const std::string_view said : anywhere) {
-                if (const auto at = word.find(said); at != std::string::npos)
-                    word.erase(at, said.size());
+                const auto at = word.find(said);
+                if (at == std::string::npos) continue;
+                word.erase(at, said.size());
+                if (word == "s") word.clear();  // "depths"
             }
         }
         if (word.empty() || is_one_of(word, kShortColourWords) ||
@@ -203,30 +341,53 @@ std::string subject_of(const fs::path& file) {
     return subject;
 }
 
-std::optional<fs::path> find_depth_beside(const fs::path& colour, std::string& looked_for) {
+std::optional<fs::path> find_depth_beside(const fs::path& given, std::string& looked_for) {
+    const fs::path colour = without_slash(given);
     looked_for.clear();
     for (const auto word : kColourWords) {
         const auto stem = renamed(colour.stem().string(), word, "depth");
         if (!stem) continue;
         const auto same = colour.parent_path() / (*stem + colour.extension().string());
         if (!looked_for.empty()) looked_for += ", ";
-        looked_for += shown(same) + " (or another extension)";
-        if (auto found = with_stem(colour, *stem)) return found;
+        looked_for += shown(same) + (named_video(colour) && !is_folder(colour)
+                                         ? " (or another extension, or a folder of pictures)"
+                                         : " (or another extension)");
+        if (auto found = with_stem(colour, *stem, true)) return found;
     }
     if (looked_for.empty())
         looked_for = "nothing, because the name holds neither color, colour nor rgb";
     if (named_depth(colour)) return std::nullopt;
-    return of_same_subject(colour, named_depth);
+    if (auto found = belonging_to(colour, named_depth, named_depth, true)) return found;
+    if (is_folder(colour))
+        return video_of_folder(colour, [](const fs::path& video) {
+            return named_depth(video) ? find_colour_beside(video) : std::nullopt;
+        });
+    if (named_numbers(colour)) return std::nullopt;
+    const auto numbers = numbers_beside(colour);
+    // An EXR picture beside a photograph is the same photograph.
+    return numbers && numbers->extension() != ".exr" ? numbers : std::nullopt;
 }
 
-std::optional<fs::path> find_colour_beside(const fs::path& depth) {
+std::optional<fs::path> find_colour_beside(const fs::path& given) {
+    const fs::path depth = without_slash(given);
     for (const auto word : kColourWords) {
         const auto stem = renamed(depth.stem().string(), "depth", word);
         if (!stem) continue;
-        if (auto found = with_stem(depth, *stem)) return found;
+        if (auto found = with_stem(depth, *stem, false)) return found;
     }
     if (!named_depth(depth)) return std::nullopt;
-    return of_same_subject(depth, [](const fs::path& name) { return !named_depth(name); });
+    const auto may_be_colour = [](const fs::path& name) {
+        return !named_depth(name) && named_other(name).empty();
+    };
+    const auto is_called_colour = [&](const fs::path& name) {
+        return may_be_colour(name) && (named_colour(name) || may_name_colour(name));
+    };
+    if (auto found = belonging_to(depth, may_be_colour, is_called_colour, false)) return found;
+    if (!is_folder(depth)) return std::nullopt;
+    return video_of_folder(depth, [&](const fs::path& video) {
+        std::string ignored;
+        return may_be_colour(video) ? find_depth_beside(video, ignored) : std::nullopt;
+    });
 }
 
 }  // namespace dibhr

@@ -11,7 +11,10 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/byte_code.hpp"
 #include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/picture_kind.hpp"
+#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -35,17 +38,19 @@ std::unique_ptr<PictureSource> open_longest_row(const fs::path& folder, PictureR
             shown(folder) +
             " is a folder without pictures: give the folder or the file that holds them");
     std::vector<double> times = times_s(*longest, {}, kPicturesPerSecond);
-    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role);
+    Timing timing = timing_of(*longest, {}, {});
+    return std::make_unique<PictureSequence>(folder, std::move(*longest), std::move(times), role,
+                                             LayoutFacts{}, std::move(timing));
 }
 
 std::unique_ptr<PictureSource> open_whole(const fs::path& place, PictureRole role) {
     return is_folder(place) ? open_longest_row(place, role) : open_picture_source(place, role);
 }
 
-std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, DepthPacking packing,
+std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, const PackedForm& form,
                                        PictureRole role) {
-    const auto crop = [packing, role](const cv::Mat& picture) {
-        return picture(half_of(picture.size(), packing, role)).clone();
+    const auto crop = [packing = form.packing, gap_px = form.gap_px, role](const cv::Mat& picture) {
+        return picture(half_of(picture.size(), packing, role, gap_px)).clone();
     };
     return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
 }
@@ -57,7 +62,7 @@ Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
     return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
 }
 
-/// Stretches a half to its own size, and adds the known facts.
+/// Stretches a half to its own size, and adds how the packing is known.
 std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
                                           const PackedForm& form, PictureRole role) {
     const double wide = is_side_by_side(form.packing) ? 2.0 : 0.5;
@@ -67,13 +72,13 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
     if (role == PictureRole::colour)
         return std::make_unique<ChangedPictures>(std::move(half), change, [](SourceFacts&) {});
     const auto change_facts = [form](SourceFacts& facts) {
-        DepthStatement known = form.known;
-        const cv::Size size(facts.columns, facts.rows);
-        if (known.intrinsics && !form.intrinsics_size.empty())
-            known.intrinsics = resized(*known.intrinsics, form.intrinsics_size, size);
-        known.fill_in(facts.known);
-        facts.known = std::move(known);
-        if (!form.known_from.empty()) facts.known_from = form.known_from;
+        Finding finding = form.finding;
+        if (finding.reason.empty()) return;
+        finding.statement.packing = form.packing;
+        auto& camera = finding.statement.intrinsics;
+        if (camera && !form.intrinsics_size.empty())
+            camera = resized(*camera, form.intrinsics_size, {facts.columns, facts.rows});
+        facts.findings.push_back(std::move(finding));
     };
     return std::make_unique<ChangedPictures>(std::move(half), change, change_facts);
 }
@@ -88,6 +93,69 @@ DepthStatement meaning_of(const HueCode& code) {
     meaning.range = code.metres;
     meaning.no_data.emplace();  // 0 is a level
     return meaning;
+}
+
+/// Whether a codec is known to keep every byte of red, green and blue. Others may: it is measured.
+bool is_lossless(const std::string& codec) {
+    static constexpr std::array<std::string_view, 9> kLossless{"png", "tiff", "tif",  "bmp", "ppm",
+                                                               "pnm", "pam",  "ffv1", "mpng"};
+    return std::find(kLossless.begin(), kLossless.end(), lower_case(codec)) != kLossless.end();
+}
+
+constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for float32)";
+
+/// Why a source does not hold the numbers of the code; empty: it may. Either its pictures are not
+/// of red, green and blue as the code needs them, or their low bytes are lost.
+std::string missing_bytes(PictureSource& pictures, DepthCode code) {
+    constexpr int kSamples = 6;
+    pictures.seek(0.0);  // samples of a video begin where it stands
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty()) return {};
+    const SourceFacts& facts = pictures.facts();
+    const cv::Mat& picture = first.front();
+    const std::string name(name_of(code));
+    const bool is_luma = picture.channels() == 1 && facts.channels != 1;
+    const bool has_bytes = picture.depth() == CV_8U && picture.channels() >= least_channels(code);
+    if (!is_luma && !has_bytes)
+        return shown(facts.file) + " does not hold depth as " + name +
+               ", which is in bytes of red, green, " +
+               (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
+               ": give the picture as it was first written, or another --depth-code";
+    if (!is_luma && (is_lossless(facts.codec) ||
+                     is_continuous(pictures.samples(kSamples), code).value_or(true)))
+        return {};
+    return shown(facts.file) + " does not keep the bytes of red, green and blue (" +
+           one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
+           ") are lost: write it without loss, " + kWithoutLoss;
+}
+
+/// Removes what a statement says about levels, which now are others.
+void forget_levels(DepthStatement& statement) {
+    statement.near.reset();
+    statement.unit.reset();
+    statement.scale.reset();
+    statement.range.reset();
+    statement.no_data.reset();
+}
+
+/// Throws InputError where the pictures of a source have not the bits and channels of the code.
+void require_levels(PictureSource& pictures, DepthCode code) {
+    const std::vector<cv::Mat> first = pictures.samples(1);
+    if (first.empty() || has_levels(first.front(), code)) return;
+    throw InputError(shown(pictures.facts().file) + " does not hold depth as " +
+                     std::string(name_of(code)) + ", which is in " +
+                     (code == DepthCode::xyz      ? "three channels of real numbers"
+                      : code == DepthCode::stereo ? "one channel"
+                                                  : "one channel of 16 bits") +
+                     ": give the picture as it was first written, or another --depth-code");
+}
+
+/// Whether CARLA is in the file's name or its folder's.
+bool names_carla(const fs::path& file) {
+    const auto holds = [](const fs::path& name) {
+        return lower_case(name.filename().string()).find("carla") != std::string::npos;
+    };
+    return holds(file) || holds(file.parent_path());
 }
 
 /// The runs of letters and digits, in small letters.
@@ -145,8 +213,36 @@ bool is_number(const std::string& word) {
 
 }  // namespace
 
-std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours, HueCode code,
-                                           std::string known_from) {
+PackedForm form_by_appearance(const PictureGuess& guess) {
+    PackedForm form{.packing = guess.packing,
+                    .gap_px = guess.gap_px,
+                    .finding = {{},
+                                Evidence::appearance,
+                                kSurenessOfAppearance,
+                                "its halves, which look like a photo and its depth"}};
+    if (guess.code == DepthCode::hue) {
+        form.hue.emplace();
+        form.coded = finding_on_code(DepthCode::hue, false);
+    } else {
+        form.finding.statement.code = DepthCode::grey;
+    }
+    return form;
+}
+
+Finding finding_on_code(DepthCode code, bool is_stated) {
+    const std::string reason =
+        is_stated                     ? "what " + std::string(name_of(code)) + " means"
+        : code == DepthCode::hue      ? "its colours: pure hues alone"
+        : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
+        : code == DepthCode::turned16 ? "its levels: multiples of 8, as of bits turned by three"
+        : code == DepthCode::xyz      ? "its channels, which are points before one camera"
+                                      : "the bytes of its colours, which carry as those of numbers";
+    return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
+}
+
+std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colours,
+                                           const HueCode& code, Finding coded) {
+    coded.statement.fill_in(meaning_of(code));
     const auto decode = [code](const cv::Mat& picture) {
         cv::Mat depth = hues_of(picture, code);
         if (!code.metres) return depth;
@@ -154,55 +250,116 @@ std::unique_ptr<PictureSource> hue_decoded(std::unique_ptr<PictureSource> colour
         depth.convertTo(depth, CV_32F, code.metres->far - near, near);
         return depth;
     };
-    const auto change_facts = [code, from = std::move(known_from)](SourceFacts& facts) {
+    const auto change_facts = [coded = std::move(coded)](SourceFacts& facts) {
         facts.bits = kRealBits;
         facts.channels = 1;
-        facts.known_from = from;
-        facts.known.fill_in(meaning_of(code));
+        facts.findings.push_back(coded);
     };
     return std::make_unique<ChangedPictures>(std::move(colours), decode, change_facts);
 }
 
-std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours,
-                                            std::string known_from) {
-    const auto change_facts = [from = std::move(known_from)](SourceFacts& facts) {
+std::unique_ptr<PictureSource> ramp_decoded(std::unique_ptr<PictureSource> colours) {
+    const auto change_facts = [](SourceFacts& facts) {
         facts.bits = 8;
         facts.channels = 1;
-        facts.known_from = from;
-        DepthStatement ramp;
-        ramp.near = NearLevels::bright;
-        ramp.unit = DepthUnit::levels;
-        ramp.no_data = {0.0};
-        facts.known.fill_in(ramp);
+        facts.findings.push_back(
+            {{.near = NearLevels::bright, .unit = DepthUnit::levels, .no_data = std::vector{0.0}},
+             Evidence::appearance,
+             kSurenessOfAppearance,
+             "its colours: from white over cyan and blue to black"});
     };
     return std::make_unique<ChangedPictures>(std::move(colours), ramp_levels, change_facts);
+}
+
+bool may_hold_bytes(PictureSource& pictures, DepthCode code) {
+    return missing_bytes(pictures, code).empty();
+}
+
+std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictures, DepthCode code,
+                                            Finding coded) {
+    if (const std::string missing = missing_bytes(*pictures, code); !missing.empty())
+        throw InputError(missing);
+    const auto decode = [code](const cv::Mat& picture) { return numbers_in_bytes(picture, code); };
+    if (code == DepthCode::rgb24 && names_carla(pictures->facts().file)) {
+        constexpr double kCarlaFarthest_m = 1000.0;  // carla.readthedocs.io, "Depth camera"
+        constexpr double kCarlaHighest = 16777215.0;
+        coded.statement.fill_in({.unit = DepthUnit::m, .scale = kCarlaFarthest_m / kCarlaHighest});
+        coded.reason += ", of CARLA by its name";
+    }
+    coded.statement.fill_in(byte_code_meaning(code));
+    const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
+        facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
+        facts.channels = 1;
+        facts.findings.push_back(coded);
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pictures,
+                                             DepthCode code, const InverseLevels& law,
+                                             Finding coded) {
+    require_levels(*pictures, code);
+    const auto decode = [code, law](const cv::Mat& picture) {
+        return numbers_in_levels(picture, code, law);
+    };
+    coded.statement.code = code;
+    coded.statement.fill_in(level_code_meaning(code));
+    const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
+        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.channels = 1;
+        for (Finding& other : facts.findings) forget_levels(other.statement);
+        std::erase_if(facts.findings, [](const Finding& other) {
+            return other.statement == DepthStatement{} && other.about.empty();
+        });
+        facts.findings.push_back(coded);
+    };
+    return std::make_unique<ChangedPictures>(std::move(pictures), decode, change_facts);
+}
+
+bool has_decoded_levels(const SourceFacts& facts) {
+    return std::any_of(facts.findings.begin(), facts.findings.end(), [](const Finding& finding) {
+        return finding.statement.code && is_of_levels(*finding.statement.code);
+    });
+}
+
+std::string refusal_of_colours(const SourceFacts& facts) {
+    const std::string what =
+        shown(facts.file) + " is in colours that are neither grey nor a known code of depth: ";
+    const std::string as_bytes =
+        is_lossless(facts.codec) ? ""
+                                 : "if depth is in their bytes, write them without the losses of " +
+                                       one_line(facts.codec) + ", " + kWithoutLoss + "; else ";
+    return what + as_bytes +
+           "name the code (--depth-code; grey takes the brightness) or the halves (--packing), "
+           "give "
+           "the depth that they were painted from, or let an estimator make it (dibhr help depth)";
 }
 
 bool is_of_halves(DepthPacking packing) noexcept {
     return packing != DepthPacking::separate && packing != DepthPacking::tracks;
 }
 
-cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role) {
+cv::Rect half_of(cv::Size picture, DepthPacking packing, PictureRole role, int gap_px) {
     const bool beside = is_side_by_side(packing);
     const bool colour_first =
         packing == DepthPacking::left_right || packing == DepthPacking::top_bottom;
     const bool first = colour_first == (role == PictureRole::colour);
-    const cv::Size half(beside ? picture.width / 2 : picture.width,
-                        beside ? picture.height : picture.height / 2);
+    const auto part = [gap_px](int side) { return std::max(0, side - gap_px) / 2; };
+    const cv::Size half(beside ? part(picture.width) : picture.width,
+                        beside ? picture.height : part(picture.height));
     const cv::Point last(picture.width - half.width, picture.height - half.height);
     return {first ? cv::Point() : last, half};
 }
 
 Sources unpack(std::unique_ptr<PictureSource> for_colour, std::unique_ptr<PictureSource> for_depth,
                const PackedForm& form) {
-    auto colour = cropped(std::move(for_colour), form.packing, PictureRole::colour);
-    auto depth = cropped(std::move(for_depth), form.packing, PictureRole::depth);
-    if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.known_from);
+    auto colour = cropped(std::move(for_colour), form, PictureRole::colour);
+    auto depth = cropped(std::move(for_depth), form, PictureRole::depth);
+    if (form.hue) depth = hue_decoded(std::move(depth), *form.hue, form.coded);
+    if (form.bytes) depth = byte_decoded(std::move(depth), *form.bytes, form.coded);
     Sources sources;
     sources.colour = unsqueezed(std::move(colour), form, PictureRole::colour);
     sources.depth = unsqueezed(std::move(depth), form, PictureRole::depth);
-    sources.found.packing = form.packing;
-    sources.found.code = form.hue ? DepthCode::hue : DepthCode::grey;
     return sources;
 }
 

@@ -2,6 +2,7 @@
 #include "core/video/sources/paired_media.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <utility>
@@ -9,19 +10,19 @@
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_join.hpp"
 #include "core/video/sources/depth_finding.hpp"
+#include "core/video/sources/packed.hpp"
 
 namespace dibhr {
 
 namespace {
 
-/// A colour frame later than the depth frame by at most this part of an interval belongs to it:
-/// streams recorded together may be slightly apart. Below one half, so that of two colour frames
-/// at the same distance the earlier one is taken.
-constexpr double kNotLater = 0.4;
+/// Rounding of the distances of two pictures from a third one, whose times are in milliseconds [s].
+constexpr double kSameDistance_s = 4.0 * kTimeTolerance_s;
 constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
 /// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
@@ -38,7 +39,8 @@ ColourImage painted_depth(const DepthImage& depth) {
     levels.convertTo(shades, CV_8U, 255.0 / depth.highest_level);
     cv::Mat colours;
     cv::applyColorMap(shades, colours, cv::COLORMAP_CIVIDIS);
-    colours.setTo(cv::Scalar::all(kNoColour), levels != levels);
+    // Not levels != levels: OpenCV with AVX says that no number differs from itself.
+    colours.setTo(cv::Scalar::all(kNoColour), ~(levels == levels));
     return colour_of(colours);
 }
 
@@ -76,29 +78,50 @@ void describe_time(const SourceFacts& facts, MediaDescription& description) {
     description.live = facts.live;
 }
 
-ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth)
+void describe_timing(const SourceFacts& facts, MediaDescription& description) {
+    if (facts.still) return;
+    description.times_from = name_of(facts.timing.from);
+    description.timing = facts.live ? "as frames arrive" : facts.timing.text;
+}
+
+ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
+                         const PairTimes& times)
     : source_(std::move(source)),
-      start_offset_s_(colour_start_s(source_->facts(), depth)),
-      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))) {}
+      start_offset_s_(times.colour_later_s.value_or(colour_start_s(source_->facts(), depth)) -
+                      times.offset_s),
+      interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))),
+      half_s_(0.5 * interval_of(source_->facts())) {}
+
+double ColourTrack::go_near(double depth_time_s) {
+    forget();
+    const SourceFacts& facts = source_->facts();
+    const double time_s = depth_time_s - start_offset_s_;
+    const bool has_then = time_s >= 0.0 && time_s < facts.duration_s;
+    if (facts.live || facts.still || !has_then) return depth_time_s;
+    source_->seek_near(time_s);
+    auto near = source_->next();
+    if (!near) return depth_time_s;
+    now_ = std::move(*near);
+    is_near_ = true;
+    return now_.time_s + start_offset_s_;
+}
 
 const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
     if (source_->facts().live) {  // joined with the depth already
         now_ = source_->next().value_or(now_);
         return now_.picture;
     }
-    const double latest_s = depth_time_s - start_offset_s_ + kNotLater * interval_s_;
-    if (std::exchange(near_, false)) {
-        source_->seek_near(latest_s);
-        now_ = source_->next().value_or(now_);
-        return now_.picture;
-    }
-    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < latest_s)) {
-        source_->seek(latest_s);
+    const double time_s = depth_time_s - start_offset_s_;
+    const bool is_near = std::exchange(is_near_, false);
+    if (is_near && std::fabs(now_.time_s - time_s) <= half_s_) return now_.picture;
+    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < time_s)) {
+        source_->seek(time_s);
         now_ = source_->next().value_or(now_);
         later_ = source_->next();
         placed_ = true;
     }
-    while (later_ && later_->time_s <= latest_s + kTimeTolerance_s) {  // as after a jump
+    // Of two at the same distance the earlier one stays.
+    while (later_ && later_->time_s - time_s < time_s - now_.time_s - kSameDistance_s) {
         now_ = std::move(*later_);
         later_ = source_->next();
     }
@@ -106,14 +129,18 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
 }
 
 PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
-                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted)
+                         std::unique_ptr<PictureSource> colour, DepthScale scale, bool painted,
+                         const PairTimes& times)
     : depth_(std::move(depth)), scale_(std::move(scale)), painted_(painted) {
     describe_depth(depth_->facts(), description_);
     size_ = {description_.depth_columns, description_.depth_rows};
     describe_time(depth_->facts(), description_);
+    describe_timing(depth_->facts(), description_);
     description_.meaning = scale_.meaning();
     if (colour != nullptr) describe_colour(colour->facts(), description_);
+    take_times(times, colour != nullptr ? &colour->facts() : nullptr);
     take_range();
+    take_camera();
     take_true_shape();
     if (painted_ || (shape_ && colour != nullptr)) {
         description_.colour_columns = description_.depth_columns;
@@ -124,7 +151,7 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
     add_notice(colour->facts().notice);
     colour_of_view_ = true;
     take_registration(colour->facts());
-    colour_.emplace(std::move(colour), depth_->facts());
+    colour_.emplace(std::move(colour), depth_->facts(), times);
 }
 
 std::optional<RawFrame> PairedMedia::next() {
@@ -172,6 +199,20 @@ cv::Mat PairedMedia::colour_for(const TimedPicture& depth, const cv::Mat& colour
     return apply_registration(colour, registration_, size_);
 }
 
+void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) {
+    if (description_.meaning) description_.meaning->times = times.times;
+    const bool colour_takes = colour != nullptr && colour->timing.from == TimesFrom::other;
+    if (colour_takes && !description_.still && !colour->still) {
+        description_.times_from = name_of(TimesFrom::other);
+        description_.timing += "; of the colour: " + colour->timing.text;
+    }
+    if (times.offset_s != 0.0) {
+        description_.times_from = name_of(TimesFrom::stated);
+        description_.timing += "; " + short_text(times.offset_s) + " s later";
+    }
+    add_notice(times.notice);
+}
+
 void PairedMedia::take_range() {
     const auto& meaning = description_.meaning;
     if (!meaning || !meaning->is_metric()) return;
@@ -197,6 +238,19 @@ void PairedMedia::take_registration(const SourceFacts& colour) {
     }
 }
 
+/// A packed picture's camera is of the whole picture or of a crop: its metadata say of which.
+void PairedMedia::take_camera() {
+    auto& meaning = description_.meaning;
+    if (!meaning || !meaning->intrinsics.value) return;
+    is_own_camera_ =
+        meaning->intrinsics.value == sure_facts({}, depth_->facts().findings).intrinsics;
+    if (is_of_halves(meaning->packing.value)) return;
+    FittedCamera fitted = fit_camera(*meaning->intrinsics.value, {}, size_);
+    meaning->intrinsics.value = fitted.camera;
+    camera_trouble_ = fitted.camera ? std::string() : fitted.notice;
+    add_notice(fitted.notice);
+}
+
 void PairedMedia::take_true_shape() {
     const auto& meaning = description_.meaning;
     if (!meaning || meaning->geometry.value != Geometry::true_shape) return;
@@ -205,6 +259,7 @@ void PairedMedia::take_true_shape() {
         throw InputError(file +
                          " has no distances, so its true shape is not known: give its unit, mm or "
                          "m, with the scale (--depth-unit), or the relief (--geometry relief)");
+    if (!camera_trouble_.empty()) throw InputError(file + ": " + camera_trouble_);
     if (!meaning->intrinsics.value)
         throw InputError(file +
                          " does not say through which camera it was seen: give the intrinsics "
@@ -214,9 +269,8 @@ void PairedMedia::take_true_shape() {
     const std::vector<cv::Mat> pictures = sample_pictures(*depth_);
     samples_mm.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) samples_mm.push_back(in_mm(scale_.image_of(picture)));
-    const SourceFacts& facts = depth_->facts();
-    const bool is_its_own = meaning->intrinsics.value == facts.known.intrinsics;
-    const CameraModel camera(*meaning->intrinsics.value, is_its_own ? facts.lens : Lens{});
+    const CameraModel camera(*meaning->intrinsics.value,
+                             is_own_camera_ ? depth_->facts().lens : Lens{});
     shape_.emplace(size_, camera, range_mm_,
                    orthographic_grid(size_, camera, range_mm_, samples_mm));
     description_.depth_columns = shape_->grid().columns;
@@ -244,8 +298,8 @@ void PairedMedia::seek(double media_s) {
 }
 
 void PairedMedia::seek_near(double media_s) {
-    depth_->seek_near(media_s);
-    if (colour_) colour_->forget_near();
+    // The colour first, as its pictures mostly take longest.
+    depth_->seek_near(colour_ ? colour_->go_near(media_s) : media_s);
 }
 
 void PairedMedia::count_frames(std::int64_t most) {
@@ -254,9 +308,17 @@ void PairedMedia::count_frames(std::int64_t most) {
 }
 
 void PairedMedia::add_notice(const std::string& sentence) {
-    std::string& notice = description_.notice;
-    if (sentence.empty() || notice.find(sentence) != std::string::npos) return;
-    notice += (notice.empty() ? "" : "; ") + sentence;
+    add_clause(description_.notice, sentence);
+}
+
+void PairedMedia::set_sparse(double seen_share) {
+    constexpr int kDigits = 2;
+    description_.sparse_share = seen_share;
+    add_notice("sparse depth, " + short_text(100.0 * seen_share, kDigits) +
+               " % of the pixels are seen: " +
+               (shape_ ? "a true shape has no surface between them, the relief has "
+                         "(--geometry relief)"
+                       : "cleaning interpolates the surface between them"));
 }
 
 void PairedMedia::report_trouble(const SourceFacts& facts) {

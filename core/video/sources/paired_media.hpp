@@ -11,6 +11,7 @@
 #include "core/video/depth/true_shape.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/sources/media.hpp"
+#include "core/video/sources/pair_times.hpp"
 
 namespace dibhr {
 
@@ -18,19 +19,20 @@ namespace dibhr {
 void describe_depth(const SourceFacts& facts, MediaDescription& description);
 void describe_colour(const SourceFacts& facts, MediaDescription& description);
 void describe_time(const SourceFacts& facts, MediaDescription& description);
+/// Where its times are from, as known at the opening.
+void describe_timing(const SourceFacts& facts, MediaDescription& description);
 
-/// Gives the colour of each depth frame: the newest picture at its time.
+/// Gives the colour of each depth frame: the picture nearest to its time, of two the earlier one.
 class ColourTrack {
   public:
-    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth);
+    ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
+                const PairTimes& times);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
-    void forget() { placed_ = near_ = false; }
-    /// Only the picture returned next may be any one near the depth's time.
-    void forget_near() {
-        forget();
-        near_ = true;
-    }
+    void forget() { placed_ = is_near_ = false; }
+    /// Goes to a picture near the depth's time that is quick to decode; returns its own time in
+    /// that of the depth. If another picture is nearer to the next depth frame, that one is read.
+    double go_near(double depth_time_s);
     const cv::Mat& shown_at(double depth_time_s);
     /// Mean time to decode a picture; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
@@ -38,11 +40,12 @@ class ColourTrack {
   private:
     std::unique_ptr<PictureSource> source_;
     double start_offset_s_;  ///< start of the colour after that of the depth
-    double interval_s_;      ///< as known at the opening; never updated
+    double interval_s_;      ///< the lesser of both, as known at the opening; never updated
+    double half_s_;          ///< likewise half of the colour's
     TimedPicture now_{};
     std::optional<TimedPicture> later_{};
     bool placed_{false};
-    bool near_{false};
+    bool is_near_{false};  ///< `now_` is near, and nothing is known of the next picture
 };
 
 /// Reads depth, and for each depth picture the colour of its time.
@@ -50,7 +53,7 @@ class PairedMedia : public Media {
   public:
     /// `colour` may be null: then frames have none, or, if `painted`, colours of their depth.
     PairedMedia(std::unique_ptr<PictureSource> depth, std::unique_ptr<PictureSource> colour,
-                DepthScale scale, bool painted = false);
+                DepthScale scale, bool painted = false, const PairTimes& times = {});
 
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override;
@@ -64,13 +67,20 @@ class PairedMedia : public Media {
 
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
+    /// Stored in the description; the notice says what becomes of the pixels that are not seen.
+    void set_sparse(double seen_share);
     void set_live_feed(std::shared_ptr<LiveFeed> live) { live_ = std::move(live); }
-    /// Stored in the description.
+    /// Both are stored in the description.
+    void set_conclusion(DepthConclusion conclusion) {
+        description_.conclusion = std::move(conclusion);
+    }
     void set_panel_statement(const DepthStatement& panel) { description_.panel = panel; }
 
   private:
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
     void take_range();
+    void take_camera();
+    void take_times(const PairTimes& times, const SourceFacts* colour);
     void take_true_shape();
     void take_registration(const SourceFacts& colour);
     [[nodiscard]] cv::Mat colour_for(const TimedPicture& depth, const cv::Mat& colour);
@@ -87,6 +97,8 @@ class PairedMedia : public Media {
     std::optional<ColourRegistration> cameras_{};  ///< where the two cameras are calibrated
     Registration registration_{};                  ///< applied after that
     std::optional<TrueShape> shape_{};             ///< for `--geometry true`
+    bool is_own_camera_{false};     ///< the camera is the recording's, which knows its lens
+    std::string camera_trouble_{};  ///< why the stated camera is left out; empty: it is not
     bool painted_;
     bool colour_of_view_{false};  ///< as far as known
     MediaDescription description_{};

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
 
@@ -29,11 +29,11 @@ using PictureRow = std::vector<NumberedPicture>;
 /// Facts about depth that follow from the layout of the pictures. For depth of 16 bits only: the
 /// datasets' conventions are for such pictures.
 struct LayoutFacts {
-    DepthStatement known{};
-    std::string known_from{};
-    int columns{0}, rows{0};   ///< picture size of the intrinsics; 0: any
-    std::string notice{};      ///< a sentence on ignored entries
-    bool other_camera{false};  ///< colour is from another camera at an unknown place
+    Finding finding{.evidence = Evidence::layout, .sureness = kSurenessOfMetadata};
+    int columns{0}, rows{0};       ///< picture size of the intrinsics; 0: not stated
+    std::string notice{};          ///< a sentence on ignored entries
+    bool other_camera{false};      ///< colour is from another camera at an unknown place
+    std::filesystem::path list{};  ///< the file that names the pictures and their times
 };
 
 /// Pictures of one place, sorted by the words in their names (media_names.hpp).
@@ -41,25 +41,30 @@ struct PictureSet {
     PictureRow colour{};
     PictureRow depth{};
     PictureRow unnamed{};
+    PictureRow others{};  ///< masks, confidence, normals, previews
     LayoutFacts facts{};
 };
 
-/// Whether the file exists and is named as a picture; false for hidden files.
+/// Whether the file exists and is named as a picture, or holds raw levels; false for hidden files.
 [[nodiscard]] bool is_picture(const std::filesystem::path& file);
 
+/// Whether a picture file paints numbers, in the colours of a colour map or as a mask; false where
+/// it cannot be read. Reads it.
+[[nodiscard]] bool is_painting(const std::filesystem::path& file);
+
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
+
+/// Whether every number occurs once, and all have a decimal point, or none.
+[[nodiscard]] bool has_order(const PictureRow& row, bool decimal);
 
 /// Sorts by number, where every picture has a different one.
 void sort_by_number(PictureRow& row);
 
-/// The pictures of a folder; where it has none, those of its subfolders named colour or depth.
-/// Throws InputError when it cannot be read.
+/// The pictures of a folder; where it has none, or a cover alone, those of its subfolders named
+/// colour or depth. Masks, confidence, normals and previews count only where nothing else is there;
+/// arrays beside pictures of the same names are their depth, and beat paintings of it. Throws
+/// InputError when it cannot be read.
 [[nodiscard]] PictureSet find_pictures_in(const std::filesystem::path& folder);
-
-/// The colour row joined with a depth row by time: for each depth picture the nearest colour within
-/// 0.02 s, as TUM's associate.py does, else the newest before it. Where the rows have no times, or
-/// times of two clocks, the colour row itself.
-[[nodiscard]] PictureRow nearest_in_time(const PictureRow& colour, const PictureRow& depth);
 
 /// When each picture of a row is shown, by the clock shared with the other row [s]. Decimal numbers
 /// are seconds. Other numbers are put in order at `frames_per_s`, and the same number in both rows
@@ -74,7 +79,7 @@ class PictureSequence : public IndexedPictures {
     /// `times`: one for each picture, increasing. Throws InputError when the first picture cannot
     /// be read, or when the times span more than a million seconds.
     PictureSequence(std::filesystem::path place, PictureRow row, std::vector<double> times,
-                    PictureRole role, const LayoutFacts& layout = {});
+                    PictureRole role, const LayoutFacts& layout = {}, Timing timing = {});
 
   private:
     [[nodiscard]] cv::Mat picture(std::size_t at) override;

@@ -12,7 +12,10 @@
 #include <optional>
 #include <vector>
 
+#include "core/video/depth/byte_code.hpp"
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/shared_texture.hpp"
 #include "core/video/sources/packed.hpp"
 
 namespace dibhr {
@@ -23,10 +26,11 @@ constexpr int kLongSide = 320;  ///< of the reduced pictures [px]
 constexpr std::size_t kMostKindSamples = 24;
 
 // Bounds for single pixels, in levels of 255.
-constexpr int kDark = 40;       ///< the highest channel is below
-constexpr int kGrey = 16;       ///< channels differ by less
-constexpr int kPure = 170;      ///< channels differ by at least
-constexpr float kFlat = 0.15F;  ///< levels a pixel
+constexpr int kDark = 40;        ///< the highest channel is below
+constexpr int kGrey = 16;        ///< channels differ by less
+constexpr int kFullLight = 225;  ///< of a pure hue the highest channel is at least
+constexpr int kNoLight = 40;     ///< and the lowest at most
+constexpr float kFlat = 0.15F;   ///< levels a pixel
 constexpr float kSlope = 4.0F;
 constexpr float kEdge = 8.0F;
 
@@ -161,6 +165,14 @@ bool looks_hue_depth(const PictureStatistics& statistics) {
            is_surface(statistics.hue, kHueDepth);
 }
 
+/// Whether pictures whose hues look like depth are painted in the colours of a map, as jet, which
+/// is pale in its middle and dark at its ends: there hues are not linear.
+bool is_painted(std::span<const cv::Mat> pictures, const PictureStatistics& statistics) {
+    constexpr double kLeastPure = 0.96;  // of hue codes, but for compression
+    return statistics.pure < kLeastPure &&
+           std::all_of(pictures.begin(), pictures.end(), is_colour_mapped);
+}
+
 bool looks_ramp_depth(const PictureStatistics& statistics) {
     return statistics.ramp >= 0.9 && statistics.coloured >= 0.2 &&
            is_surface(statistics.brightness, kGreyDepth);
@@ -225,12 +237,12 @@ double correlation_by_chance(const cv::Mat& a, const cv::Mat& b) {
 
 /// Mean statistics of each picture's depth half; without a packing, of whole pictures.
 PictureStatistics mean_statistics(std::span<const cv::Mat> pictures,
-                                  std::optional<DepthPacking> packing = {}) {
+                                  std::optional<DepthPacking> packing = {}, int gap_px = 0) {
     PictureStatistics mean;
     for (const cv::Mat& picture : pictures) {
         const cv::Rect whole({}, picture.size());
         const cv::Rect part =
-            packing ? half_of(picture.size(), *packing, PictureRole::depth) : whole;
+            packing ? half_of(picture.size(), *packing, PictureRole::depth, gap_px) : whole;
         add(mean, picture_statistics(picture(part)), 1.0 / static_cast<double>(pictures.size()));
     }
     return mean;
@@ -241,8 +253,10 @@ void compare_halves(std::span<const cv::Mat> pictures, PictureGuess& halves) {
     const double weight = 1.0 / static_cast<double>(pictures.size());
     for (const cv::Mat& picture : pictures) {
         const cv::Size size = picture.size();
-        const cv::Mat colour = picture(half_of(size, halves.packing, PictureRole::colour));
-        const cv::Mat depth = picture(half_of(size, halves.packing, PictureRole::depth));
+        const cv::Mat colour =
+            picture(half_of(size, halves.packing, PictureRole::colour, halves.gap_px));
+        const cv::Mat depth =
+            picture(half_of(size, halves.packing, PictureRole::depth, halves.gap_px));
         const cv::Mat colour_edges = edges_of(colour);
         const cv::Mat depth_edges = edges_of(depth);
         halves.brightness_alike += weight * std::abs(correlation(soft(colour), soft(depth)));
@@ -273,18 +287,40 @@ bool belong_together(const PictureGuess& halves) {
            (halves.code == DepthCode::hue || halves.brightness_alike <= kMostAlike);
 }
 
+/// Whether all pixels of a line are white, but for what compression changes.
+bool is_white(const cv::Mat& line) {
+    constexpr int kWhite = 200;
+    double darkest = 0.0;
+    cv::minMaxLoc(line.reshape(1), &darkest, nullptr);
+    return darkest >= kWhite;
+}
+
+/// The gap of pictures of one size that all have it.
+int gap_in_all(std::span<const cv::Mat> pictures, DepthPacking packing) {
+    const int gap_px = gap_between_halves(pictures.front(), packing);
+    const bool all = std::all_of(pictures.begin(), pictures.end(), [&](const cv::Mat& picture) {
+        return picture.size() == pictures.front().size() &&
+               gap_between_halves(picture, packing) >= gap_px;
+    });
+    return all ? gap_px : 0;
+}
+
 /// The packing whose halves agree most; photographs where no packing is possible.
 PictureGuess guess_packing(std::span<const cv::Mat> pictures) {
     // Each packing stands beside the one with exchanged halves: index ^ 1.
     static constexpr std::array kPackings{DepthPacking::left_right, DepthPacking::right_left,
                                           DepthPacking::top_bottom, DepthPacking::bottom_top};
     std::array<PictureStatistics, kPackings.size()> depth_statistics;
-    std::transform(kPackings.begin(), kPackings.end(), depth_statistics.begin(),
-                   [pictures](DepthPacking packing) { return mean_statistics(pictures, packing); });
+    std::array<int, kPackings.size()> gaps_px{};
+    for (std::size_t k = 0; k < kPackings.size(); ++k) {
+        gaps_px[k] = gap_in_all(pictures, kPackings[k]);
+        depth_statistics[k] = mean_statistics(pictures, kPackings[k], gaps_px[k]);
+    }
     PictureGuess best;
     for (std::size_t k = 0; k < kPackings.size(); ++k) {
         PictureGuess halves;
         halves.packing = kPackings[k];
+        halves.gap_px = gaps_px[k];
         halves.depth_half = depth_statistics[k];
         halves.colour_half = depth_statistics[k ^ 1U];
         if (!could_be_packed(halves)) continue;
@@ -303,6 +339,34 @@ bool is_large_enough(const cv::Mat& picture) {
 
 }  // namespace
 
+int gap_between_halves(const cv::Mat& picture, DepthPacking packing) {
+    constexpr int kLeast_px = 4;
+    const bool beside = packing == DepthPacking::left_right || packing == DepthPacking::right_left;
+    const int side = beside ? picture.cols : picture.rows;
+    const auto line = [&](int at) { return (beside ? picture.col(at) : picture.row(at)).clone(); };
+    // Lines at both sides of the middle; a middle line of its own counts once.
+    int pairs = 0;
+    while (pairs < side / 8 && is_white(line((side - 1) / 2 - pairs)) &&
+           is_white(line(side / 2 + pairs)))
+        ++pairs;
+    const int gap_px = 2 * pairs - (pairs > 0 ? side % 2 : 0);
+    const bool has_margins = gap_px > 0 && (is_white(line(0)) || is_white(line(side - 1)));
+    return gap_px >= kLeast_px && pairs < side / 8 && !has_margins ? gap_px : 0;
+}
+
+bool has_painted_half(const cv::Mat& picture) {
+    if (!is_large_enough(picture)) return false;
+    for (const DepthPacking packing : {DepthPacking::left_right, DepthPacking::top_bottom}) {
+        const int gap_px = gap_between_halves(picture, packing);
+        if (gap_px == 0) continue;
+        for (const PictureRole role : {PictureRole::colour, PictureRole::depth}) {
+            if (is_colour_mapped(picture(half_of(picture.size(), packing, role, gap_px))))
+                return true;
+        }
+    }
+    return false;
+}
+
 PictureStatistics picture_statistics(const cv::Mat& picture) {
     const cv::Mat small = reduced(picture, kLongSide, cv::INTER_AREA);
     int lit = 0;
@@ -316,7 +380,7 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
             if (highest < kDark) continue;
             ++lit;
             coloured += static_cast<int>(chroma >= kGrey);
-            pure += static_cast<int>(chroma >= kPure);
+            pure += static_cast<int>(highest >= kFullLight && highest - chroma <= kNoLight);
         }
     }
     PictureStatistics statistics;
@@ -329,6 +393,30 @@ PictureStatistics picture_statistics(const cv::Mat& picture) {
     return statistics;
 }
 
+bool is_coloured(const cv::Mat& picture) {
+    constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
+    return picture_statistics(picture).coloured > kMostColoured;
+}
+
+bool may_be_grey_depth(const cv::Mat& picture) {
+    return is_large_enough(picture) && looks_grey_depth(picture_statistics(picture), kGreyDepth);
+}
+
+bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey) {
+    constexpr double kLeastInside = 0.35;
+    constexpr double kLeastInAll = 0.8;
+    if (!is_large_enough(colour) || !is_large_enough(grey)) return false;
+    // The painting of a depth has the noise of the depth.
+    if (is_colour_mapped(colour)) return false;
+    if (picture_statistics(grey).brightness.texture <= kGreyDepth.texture) return false;
+    cv::Mat luma;
+    cv::Mat levels;
+    cv::cvtColor(colour, luma, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(grey, levels, cv::COLOR_BGR2GRAY);
+    const SharedTexture shared = shared_texture(luma, levels);
+    return shared.inside >= kLeastInside || shared.all >= kLeastInAll;
+}
+
 PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     pictures = pictures.first(std::min(pictures.size(), kMostKindSamples));
     if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))
@@ -337,9 +425,14 @@ PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     guess.whole = mean_statistics(pictures);
     if (guess.kind == PictureKind::packed) return guess;
     if (looks_grey_depth(guess.whole, kGreyDepth)) guess.kind = PictureKind::grey_depth;
-    if (looks_hue_depth(guess.whole)) guess.kind = PictureKind::hue_depth;
+    if (looks_hue_depth(guess.whole) && !is_painted(pictures, guess.whole))
+        guess.kind = PictureKind::hue_depth;
     // Last, because blue hues are on the ramp, too.
     if (looks_ramp_depth(guess.whole)) guess.kind = PictureKind::ramp_depth;
+    if (const auto code = byte_code_in(pictures)) {
+        guess.kind = PictureKind::byte_depth;
+        guess.code = *code;
+    }
     return guess;
 }
 

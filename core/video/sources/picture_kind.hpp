@@ -14,6 +14,7 @@ enum class PictureKind {
     grey_depth,  ///< grey, smooth, with silhouettes; may still be a soft grey photograph
     hue_depth,   ///< smooth in hue, of pure colours, the rest black
     ramp_depth,  ///< white - cyan - blue - black
+    byte_depth,  ///< a number in the bytes of the channels, continuous
     packed       ///< colour and depth in halves
 };
 
@@ -37,12 +38,13 @@ struct PictureStatistics {
     SurfaceStatistics hue{};  ///< only where at least half is pure
 };
 
-/// The kind of pictures, and the statistics that decided it: means over the pictures. `packing`,
-/// `code` and the halves' statistics are for `packed` only.
+/// The kind of pictures, and the statistics that decided it: means over the pictures. `packing` and
+/// the halves' statistics are for `packed` only, `code` for `packed` and `byte_depth`.
 struct PictureGuess {
     PictureKind kind{PictureKind::photo};
     DepthPacking packing{DepthPacking::separate};
     DepthCode code{DepthCode::grey};
+    int gap_px{0};  ///< between the halves
     PictureStatistics whole{};
     PictureStatistics colour_half{};
     PictureStatistics depth_half{};
@@ -52,6 +54,24 @@ struct PictureGuess {
 };
 
 [[nodiscard]] PictureStatistics picture_statistics(const cv::Mat& picture);
+
+/// How wide a white band is that parts a picture (8-bit BGR) in the middle, as estimators and
+/// papers put it between a picture and its depth; 0: none.
+[[nodiscard]] int gap_between_halves(const cv::Mat& picture, DepthPacking packing);
+
+/// Whether such a band parts the picture, and one half is painted in the colours of a colour map.
+[[nodiscard]] bool has_painted_half(const cv::Mat& picture);
+
+/// Whether a picture, 8-bit BGR, has more coloured pixels than compression gives to a grey one.
+[[nodiscard]] bool is_coloured(const cv::Mat& picture);
+
+/// Whether a picture is smooth, with silhouettes, as grey depth is. 8-bit BGR.
+[[nodiscard]] bool may_be_grey_depth(const cv::Mat& picture);
+
+/// Whether a grey picture is no depth but another photograph of the scene of a colour picture: a
+/// grey copy, the other one of a stereo pair, infrared. It is rougher than depth is, and its fine
+/// structure is that of the colour. Both 8-bit BGR.
+[[nodiscard]] bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey);
 
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.

@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::size_t kListBegin_bytes = 1 << 16;  ///< searched for a first line after comments
 constexpr std::size_t kLongestList_bytes = 256 << 20;
-constexpr double kLargestNumber = 1e20;  ///< more than nanoseconds since 1970
+constexpr double kLargestNumber = 1e20;    ///< more than nanoseconds since 1970
+constexpr double kSurenessOfLists = 0.95;  ///< people's own recorders write millimetres
 
 /// A time and a picture's name, of a line.
 struct Entry {
@@ -161,15 +162,17 @@ LayoutFacts facts_of_tum(const fs::path& list) {
                                          Camera{"freiburg2", {520.9, 521.0, 325.1, 249.7}},
                                          Camera{"freiburg3", {535.4, 539.2, 320.1, 247.6}}};
     LayoutFacts facts;
-    facts.known.unit = DepthUnit::m;
-    facts.known.scale = 0.0002;
-    facts.known.no_data = std::vector<double>{0.0};
-    facts.known_from = "TUM lists";
+    facts.finding.statement = {.unit = DepthUnit::m, .scale = 0.0002, .no_data = std::vector{0.0}};
+    facts.finding.sureness = kSurenessOfLists;
+    facts.finding.reason = "TUM lists";
+    // A Kinect in rooms: what is all nearer is in millimetres.
+    facts.finding.usual = {"TUM's camera", 0.4, 14.0, 1.2};
     std::error_code gone;
     const std::string place = lower_case(fs::absolute(list, gone).string());
     for (const Camera& camera : kCameras) {
         if (place.find(camera.name) == std::string::npos) continue;
-        facts.known.intrinsics = camera.intrinsics;
+        facts.finding.sureness = kSurenessOfMetadata;
+        facts.finding.statement.intrinsics = camera.intrinsics;
         facts.columns = 640;
         facts.rows = 480;
     }
@@ -209,6 +212,7 @@ class ListReader {
                              ": put it beside the folders of its pictures");
         set_.facts = facts_of_tum(list_);
         set_.facts.notice = sentence(list_, ignored_);
+        set_.facts.list = list_;
         return std::move(set_);
     }
 
@@ -272,8 +276,7 @@ std::optional<PictureSet> read_lists_in(const fs::path& folder) {
     if (!is_picture_list(folder / "rgb.txt")) return set;
     PictureSet colour = read_picture_list(folder / "rgb.txt");
     set.colour = std::move(colour.colour);
-    if (!colour.facts.notice.empty())
-        set.facts.notice += (set.facts.notice.empty() ? "" : "; ") + colour.facts.notice;
+    add_clause(set.facts.notice, colour.facts.notice);
     return set;
 }
 

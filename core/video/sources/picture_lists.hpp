@@ -17,7 +17,8 @@ namespace dibhr {
 /// names, decide colour or depth. Times are seconds where one has a point, else frame numbers.
 /// Names are relative to the list's folder. Ignores lines without time and picture, missing
 /// pictures and repeated times, and says so in a notice. Depth facts are TUM's: 0.2 mm a level, 0
-/// no data, and intrinsics of the camera in a folder's name. Throws InputError for no picture.
+/// no data, and intrinsics of the camera in a folder's name, which makes them surer. Throws
+/// InputError for no picture.
 [[nodiscard]] PictureSet read_picture_list(const std::filesystem::path& list);
 
 /// The pictures of the lists in a folder, preferably of an associated list; nothing without a list.

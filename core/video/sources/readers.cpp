@@ -7,11 +7,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_file.hpp"
+#include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
-#include "core/video/formats/ros_bag.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/formats/video_packets.hpp"
 #include "core/video/sources/layouts.hpp"
@@ -46,6 +47,10 @@ bool is_heif(const fs::path& /*file*/, std::string_view head) {
            std::find(kBrands.begin(), kBrands.end(), head.substr(8, 4)) != kBrands.end();
 }
 
+bool is_jpeg_with_depth(const fs::path& file, std::string_view head) {
+    return head.starts_with("\xff\xd8\xff") && jpeg_has_depth(file);
+}
+
 template <typename Source>
 std::unique_ptr<PictureSource> open_file(const fs::path& file, PictureRole role) {
     return std::make_unique<Source>(file, role);
@@ -60,6 +65,19 @@ Sources both_if(const fs::path& place) {
     if (!HoldsBoth(place)) return {};
     return {open_picture_source(place, PictureRole::depth),
             open_picture_source(place, PictureRole::colour)};
+}
+
+/// The depth of a file of arrays alone where its colours are in no form that is read.
+Sources both_arrays(const fs::path& file) {
+    if (!arrays_have_colour_and_depth(file)) return {};
+    Sources both;
+    both.depth = open_picture_source(file, PictureRole::depth);
+    try {
+        both.colour = open_picture_source(file, PictureRole::colour);
+    } catch (const InputError& error) {
+        both.notice = std::string("only the depth is opened: ") + error.what();
+    }
+    return both;
 }
 
 /// The colour and depth track of a video. Depth is a track with "depth" in its title, else a grey
@@ -85,7 +103,8 @@ Sources both_tracks(const fs::path& file) {
     both.depth = std::make_unique<VideoFile>(file, PictureRole::depth, both.depth_track);
     both.colour = std::make_unique<VideoFile>(file, PictureRole::colour,
                                               static_cast<int>(colour - tracks.begin()));
-    both.found.packing = DepthPacking::tracks;
+    both.findings = {
+        finding_of_metadata({.packing = DepthPacking::tracks}, "tracks of colour and depth")};
     return both;
 }
 
@@ -95,17 +114,21 @@ constexpr std::array kReaders{
            both_if<bag_has_colour>},
     Reader{"row of pictures", PictureForm::row,
            [](const fs::path& place, std::string_view) { return names_pictures(place); }, nullptr,
-           open_row, both_rows},
+           open_row, both_rows, Evidence::layout},
     Reader{"video in a usual container", PictureForm::video, is_video_container, nullptr,
            open_file<VideoFile>, both_tracks},
     Reader{"numpy arrays", PictureForm::arrays, is_array_file, read_array, open_file<ArrayFile>,
-           both_if<arrays_have_colour_and_depth>},
+           both_arrays},
     Reader{
         "OpenEXR picture", PictureForm::still,
         [](const fs::path&, std::string_view head) { return head.starts_with("\x76\x2f\x31\x01"); },
         read_exr, nullptr, both_if<exr_has_colour_and_depth>},
     Reader{"portable float map", PictureForm::still, is_pfm, read_pfm, nullptr, nullptr},
     Reader{"HEIC photo", PictureForm::still, is_heif, read_heif, nullptr, both_if<heif_has_depth>},
+    Reader{"16-bit levels beside their picture", PictureForm::still, is_raw_levels, read_raw_levels,
+           nullptr, nullptr, Evidence::layout},
+    Reader{"photo with depth (JPEG)", PictureForm::still, is_jpeg_with_depth, read_jpeg_photo,
+           nullptr, both_if<jpeg_has_depth>},
     Reader{"picture by OpenCV's codecs", PictureForm::still, is_opencv_picture, read_by_opencv,
            nullptr, nullptr},
     Reader{"video by libav", PictureForm::video,
@@ -123,9 +146,22 @@ const Reader& reader_of(const fs::path& place) {
     auto found = std::find_if(kReaders.begin(), of_one_file, takes);
     if (found == of_one_file) {
         require_readable(place);
-        found = std::find_if(of_one_file, kReaders.end(), takes);
+        const auto last = kReaders.end() - 1;  // accepts everything
+        found = std::find_if(of_one_file, last, takes);
+        if (found == last) require_no_other_form(place);
     }
     return *found;
+}
+
+Finding finding_on_form(const SourceFacts& facts) {
+    const Reader& reader = reader_of(facts.file);
+    const char* const by =
+        reader.decided_by == Evidence::magic ? ", by its first bytes" : ", by the files there";
+    return {{},
+            reader.decided_by,
+            kSurenessOfMetadata,
+            std::string(reader.name) + by,
+            "form " + facts.codec};
 }
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& place, PictureRole role) {
@@ -145,6 +181,7 @@ StillPicture read_still(const fs::path& file, PictureRole role) {
             return reader.read != nullptr &&
                    (reader.read == read_by_opencv || reader.is_own(file, head));
         });
+    if (found->read == read_by_opencv && !found->is_own(file, head)) require_no_other_form(file);
     return found->read(file, role);
 }
 
@@ -156,8 +193,7 @@ StillFile::StillFile(const fs::path& file, StillPicture still)
     facts_.bits = still.bits;
     facts_.channels = picture_.channels();
     facts_.codec = std::move(still.codec);
-    facts_.known = std::move(still.known);
-    facts_.known_from = std::move(still.known_from);
+    facts_.findings = std::move(still.findings);
     take_times({0.0});
     require_size(file, facts_.columns, facts_.rows);
 }

@@ -33,10 +33,14 @@ struct Reader {
     /// Opens colour and depth of one place; without depth where it does not hold both. Null: the
     /// form never holds both.
     Sources (*open_both)(const std::filesystem::path& place);
+    Evidence decided_by{Evidence::magic};  ///< what is_own() goes by
 };
 
 /// The first reader that accepts the place. Throws InputError for a file that none can read.
 [[nodiscard]] const Reader& reader_of(const std::filesystem::path& place);
+
+/// Which reader takes the file of a source, and by what.
+[[nodiscard]] Finding finding_on_form(const SourceFacts& facts);
 
 /// Opens a still image, a video or a folder of pictures, by content. Throws InputError.
 [[nodiscard]] std::unique_ptr<PictureSource> open_picture_source(const std::filesystem::path& place,

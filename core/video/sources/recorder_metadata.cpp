@@ -131,7 +131,7 @@ void set_camera(const Json& camera, const Crop& crop, PackedForm& form) {
     const Intrinsics intrinsics{focal->x, focal->y, centre->x - crop.corner.x,
                                 centre->y - crop.corner.y};
     if (!is_camera(intrinsics)) return;
-    form.known.intrinsics = intrinsics;
+    form.finding.statement.intrinsics = intrinsics;
     form.intrinsics_size = {static_cast<int>(std::lround(crop.size.x)),
                             static_cast<int>(std::lround(crop.size.y))};
 }
@@ -186,7 +186,7 @@ std::optional<PackedForm> record3d_form(const Json& metadata, cv::Size picture) 
     PackedForm form;
     form.packing = DepthPacking::right_left;
     form.hue = record3d_code(range);
-    form.known.intrinsics = camera;
+    form.finding.statement.intrinsics = camera;
     return form;
 }
 
@@ -251,7 +251,7 @@ std::optional<PackedForm> form_beside(const fs::path& video, cv::Size picture) {
     if (!metadata.is_object()) return std::nullopt;
     auto form = depthkit_form(metadata, picture, beside->of_that_name);
     if (!form) form = record3d_form(metadata, picture);
-    if (form) form->known_from = shown(beside->file.filename());
+    if (form) form->finding.reason = shown(beside->file.filename());
     return form;
 }
 
@@ -261,11 +261,13 @@ std::optional<PackedForm> form_by_recorder(const fs::path& video, cv::Size pictu
     auto form = form_beside(video, picture);
     if (!form) {
         form = form_inside(video, picture);
-        if (form) form->known_from = "Record3D's metadata in the file";
+        if (form) form->finding.reason = "Record3D's metadata in the file";
     }
     if (!form) return std::nullopt;
-    form->known.packing = form->packing;
-    form->known.code = DepthCode::hue;
+    form->finding.evidence = Evidence::metadata;
+    form->finding.sureness = kSurenessOfMetadata;
+    form->coded = form->finding;
+    form->coded.statement = {.code = DepthCode::hue};
     return form;
 }
 

@@ -14,7 +14,7 @@ namespace dibhr {
 /// `*_meta.txt` or `*metadata.json`, or Record3D's `metadata.json`, in the video's folder: the one
 /// with the video's name, or the only one if its proportions fit; else the text at the end of
 /// Record3D's .mp4. Nothing when there is none, when it cannot be parsed, or when it describes
-/// several cameras. `known_from` names the file.
+/// several cameras. The finding names the file.
 [[nodiscard]] std::optional<PackedForm> form_by_recorder(const std::filesystem::path& video,
                                                          cv::Size picture);
 

@@ -16,6 +16,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/text_file.hpp"
+#include "core/video/sources/media_names.hpp"
 
 namespace dibhr {
 
@@ -124,6 +125,22 @@ std::optional<double> finger_of(const std::vector<double>& numbers) {
     return fits ? std::optional(numbers.front()) : std::nullopt;
 }
 
+std::optional<double> offset_of(const std::vector<double>& numbers) {
+    constexpr double kMost_s = 86400.0;
+    const bool fits = numbers.size() == 1 && std::fabs(numbers[0]) <= kMost_s;
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
+/// 0: as the source has it.
+std::optional<double> rate_of(const std::vector<double>& numbers) {
+    constexpr double kLeast_per_s = 0.001;
+    constexpr double kMost_per_s = 10000.0;
+    const bool fits =
+        numbers.size() == 1 &&
+        (numbers[0] == 0.0 || (numbers[0] >= kLeast_per_s && numbers[0] <= kMost_per_s));
+    return fits ? std::optional(numbers.front()) : std::nullopt;
+}
+
 template <typename Values>
 auto word_of(const toml::node& node, const Values& values) {
     std::optional<typename Values::value_type> named;
@@ -157,9 +174,12 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "packing")
         return keep(said.packing, word_of(node, kDepthPackings), "is not the name of a packing");
     if (name == "code")
-        return keep(said.code, word_of(node, kDepthCodes), "is neither grey nor hue");
+        return keep(said.code, word_of(node, kDepthCodes),
+                    "is none of grey, hue, rg16, rgb24, float32, terrain");
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
+    if (name == "times")
+        return keep(said.times, word_of(node, kDepthTimes), "is none of counted, own, paired");
     if (name == "intrinsics")
         return keep(
             said.intrinsics, intrinsics_of(node),
@@ -182,6 +202,12 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (name == "finger")
         return keep(said.finger_mm, numbers ? finger_of(*numbers) : std::nullopt,
                     "is not a radius of 0 to 25 mm");
+    if (name == "offset")
+        return keep(said.time_offset_s, numbers ? offset_of(*numbers) : std::nullopt,
+                    "is not a number of seconds, at most a day");
+    if (name == "fps")
+        return keep(said.frames_per_s, numbers ? rate_of(*numbers) : std::nullopt,
+                    "is not a rate of 0.001 to 10000 frames a second");
     if (name == "no-data")
         return keep(said.no_data,
                     numbers && numbers->size() <= kMostNoData ? numbers : std::nullopt,
@@ -203,11 +229,6 @@ toml::table parsed(const std::string& toml, const std::string& name) {
 std::string content_of(const fs::path& file) {
     if (auto content = small_text_in(file)) return *std::move(content);
     throw InputError(shown(file) + " cannot be read as a sidecar: make it readable or move it");
-}
-
-/// A folder's name may end with a slash.
-fs::path without_slash(const fs::path& media) {
-    return media.has_filename() ? media : media.parent_path();
 }
 
 std::optional<fs::path> find_sidecar(const fs::path& media) {
@@ -285,6 +306,9 @@ std::string toml_of(const DepthStatement& said) {
                                       said.registration->scale}));
     if (said.cleaning) line("cleaning", text_of(*said.cleaning));
     if (said.finger_mm) line("finger", number_text(*said.finger_mm));
+    word("times", said.times);
+    if (said.time_offset_s) line("offset", number_text(*said.time_offset_s));
+    if (said.frames_per_s) line("fps", number_text(*said.frames_per_s));
     return toml;
 }
 
@@ -337,6 +361,16 @@ std::string text_of(const Intrinsics& said) {
     if (said.field_of_view_deg > 0.0) return number_text(said.field_of_view_deg) + "deg";
     return number_text(said.fx) + ',' + number_text(said.fy) + ',' + number_text(said.cx) + ',' +
            number_text(said.cy);
+}
+
+std::optional<double> offset_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? offset_of(*numbers) : std::nullopt;
+}
+
+std::optional<double> rate_in(const std::string& text) {
+    const auto numbers = numbers_in(text, ',');
+    return numbers ? rate_of(*numbers) : std::nullopt;
 }
 
 std::optional<Registration> registration_in(const std::string& text) {

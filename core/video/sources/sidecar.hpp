@@ -43,5 +43,9 @@ void write_sidecar(const std::filesystem::path& media, const DepthStatement& sta
 [[nodiscard]] std::string text_of(const Intrinsics& said);
 /// "RIGHT,DOWN,SCALE": depth pixels, and 0.01 to 100.
 [[nodiscard]] std::optional<Registration> registration_in(const std::string& text);
+/// "-0.05": seconds, at most a day.
+[[nodiscard]] std::optional<double> offset_in(const std::string& text);
+/// "29.97": 0.001 to 10000 frames a second; 0: as the source has it.
+[[nodiscard]] std::optional<double> rate_in(const std::string& text);
 
 }  // namespace dibhr

@@ -1,20 +1,31 @@
 // Chooses tracks, halves, pictures or arrays to read, and which files belong together.
 #include "core/video/sources/sources.hpp"
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <memory>
-#include <opencv2/core/mat.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/video/depth/byte_code.hpp"
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/level_code.hpp"
+#include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
-#include "core/video/formats/ros_bag.hpp"
 #include "core/video/formats/video_file.hpp"
+#include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -69,51 +80,121 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     const auto named = packing_by_name(place.path);
     if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
-            .packing = named->packing, .half_size = named->half_size, .known_from = "its name"};
-    if (!statement.packing) return form;
-    if (!form) form.emplace();
-    form->packing = *statement.packing;
-    if (statement.code == DepthCode::hue && !form->hue) form->hue.emplace();
-    if (statement.code == DepthCode::grey) form->hue.reset();
+            .packing = named->packing,
+            .half_size = named->half_size,
+            .finding = {{}, Evidence::name, kSurenessOfName, "the last words of its name"}};
+    if (!form && statement.packing) {
+        form.emplace();
+        const std::vector<cv::Mat> first = colour_samples(place.path, 1);
+        if (!first.empty()) form->gap_px = gap_between_halves(first.front(), *statement.packing);
+    }
+    if (!form) return form;
+    form->packing = statement.packing.value_or(form->packing);
+    const bool is_hue = statement.code == DepthCode::hue;
+    if (!statement.code || (is_hue && form->hue)) return form;
+    form->hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
+    if (is_of_bytes(*statement.code)) form->bytes = *statement.code;
+    form->coded = finding_on_code(*statement.code, true);
     return form;
 }
 
 /// The halves, where the pictures look packed; else nothing.
 std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
-    PackedForm form{.packing = guess.packing, .known_from = "its pictures"};
-    if (guess.code == DepthCode::hue) form.hue.emplace();
-    Sources sources = open_packed(place, form);
-    sources.assumed = std::exchange(sources.found, {});
-    sources.by_appearance = true;
-    return sources;
+    return open_packed(place, form_by_appearance(guess));
 }
 
-/// Whether the first picture has colours, so that more pictures are worth sampling.
-bool begins_in_colours(const fs::path& place, int track) {
-    constexpr double kMostColoured = 0.01;  // share of pixels that compression colours
-    const std::vector<cv::Mat> first = colour_samples(place, 1, track);
-    return !first.empty() && picture_statistics(first.front()).coloured > kMostColoured;
+/// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
+cv::Mat seen_colours(const cv::Mat& picture) {
+    if (picture.channels() < 3) return {};
+    cv::Mat colours = picture;
+    if (picture.channels() == 4) cv::cvtColor(picture, colours, cv::COLOR_BGRA2BGR);
+    if (colours.depth() == CV_8U) return colours;
+    double highest = highest_level(16);
+    if (colours.depth() != CV_16U) {
+        const cv::Mat numbers = colours.reshape(1);
+        const cv::Mat finite = cv::abs(numbers) <= std::numeric_limits<float>::max();
+        cv::minMaxIdx(numbers, nullptr, &highest, nullptr, nullptr, finite);
+    }
+    cv::Mat seen;
+    colours.convertTo(seen, CV_8U, highest > 0.0 ? highest_level(8) / highest : 0.0);
+    return seen;
+}
+
+/// Samples of the depth with its colours; `halves`: it is a half of the place's pictures, null: it
+/// is all. The depth of a video that is not coded in red, green and blue is its luma: then the
+/// video is read again.
+std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int most,
+                                   const PackedForm* halves) {
+    const bool is_video = place.is(PictureForm::video);
+    if (!is_video || halves == nullptr) {
+        const std::vector<cv::Mat> first = sources.depth->samples(1);
+        const bool is_luma = is_video && !first.empty() && first.front().channels() < 3;
+        if (!is_luma) return most == 1 ? first : sources.depth->samples(most);
+    }
+    std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
+    for (cv::Mat& picture : pictures) {
+        if (halves != nullptr)
+            picture = picture(
+                half_of(picture.size(), halves->packing, PictureRole::depth, halves->gap_px));
+    }
+    return pictures;
+}
+
+/// What the colours of a depth hold; grey where it has none.
+struct ColoursOfDepth {
+    PictureKind kind{PictureKind::grey_depth};
+    DepthCode bytes{DepthCode::grey};  ///< for byte_depth
+};
+
+ColoursOfDepth colours_of_depth(const Place& place, Sources& sources,
+                                const PackedForm* halves = nullptr) {
+    if (sources.depth->facts().channels == 1) return {};
+    // The first picture first, as sampling more takes time.
+    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
+    if (first.empty() || first.front().channels() < 3 || !is_coloured(seen_colours(first.front())))
+        return {};
+    const std::vector<cv::Mat> pictures = depth_samples(place, sources, kKindSamples, halves);
+    const auto code = byte_code_in(pictures);
+    if (code && may_hold_bytes(*sources.depth, *code)) return {PictureKind::byte_depth, *code};
+    if (code || first.front().depth() == CV_32F) return {PictureKind::photo};
+    std::vector<cv::Mat> seen;
+    std::transform(pictures.begin(), pictures.end(), std::back_inserter(seen), seen_colours);
+    return {guess_kind(seen).kind};
+}
+
+/// The pictures of the depth with their colours.
+std::unique_ptr<PictureSource> in_colours(const Place& place, Sources& sources) {
+    if (!place.is(PictureForm::video) && !place.is(PictureForm::still))
+        return std::move(sources.depth);
+    return open_as_colour(place.path, sources.depth_track);
+}
+
+void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources& sources) {
+    const Finding coded = finding_on_code(code, is_stated);
+    if (is_of_bytes(code))
+        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
+    else
+        sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
 }
 
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
-    const int track = sources.depth_track;
-    const bool may_be_coded = statement.code != DepthCode::hue &&
-                              sources.depth->facts().channels != 1 &&
-                              (place.is(PictureForm::video) || place.is(PictureForm::still)) &&
-                              begins_in_colours(place.path, track);
-    PictureKind kind = PictureKind::grey_depth;
-    if (may_be_coded) kind = guess_kind(colour_samples(place.path, kKindSamples, track)).kind;
-    if (statement.code && kind == PictureKind::hue_depth) kind = PictureKind::grey_depth;
-    sources.by_appearance = kind == PictureKind::hue_depth || kind == PictureKind::ramp_depth;
-    const bool is_hue = statement.code == DepthCode::hue || kind == PictureKind::hue_depth;
-    if (is_hue) {
-        sources.depth = hue_decoded(open_as_colour(place.path, track), HueCode{}, "its hues");
-        sources.assumed.code = DepthCode::hue;
-    } else if (kind == PictureKind::ramp_depth) {
-        sources.depth = ramp_decoded(open_as_colour(place.path, track), "its colours");
+    const auto stated = statement.code;
+    if (stated && *stated != DepthCode::grey && !is_of_levels(*stated)) {
+        decode_colours(place, *stated, true, sources);
+        return sources;
     }
+    const ColoursOfDepth colours = colours_of_depth(place, sources);
+    const bool is_ramp = colours.kind == PictureKind::ramp_depth;
+    if (is_ramp) sources.depth = ramp_decoded(in_colours(place, sources));
+    if (stated || is_ramp || colours.kind == PictureKind::grey_depth) return sources;
+    if (colours.kind == PictureKind::hue_depth)
+        decode_colours(place, DepthCode::hue, false, sources);
+    else if (colours.kind == PictureKind::byte_depth)
+        decode_colours(place, colours.bytes, false, sources);
+    else
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
     return sources;
 }
 
@@ -121,8 +202,13 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& state
 Sources both_in(const Place& place, const DepthStatement& statement) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
-    if (both.depth == nullptr || !place.is(PictureForm::video)) return both;
-    return decoded(place, std::move(both), statement);
+    const bool may_be_coded = both.depth != nullptr &&
+                              (place.is(PictureForm::video) || both.depth->facts().channels != 1);
+    if (!may_be_coded) return both;
+    both = decoded(place, std::move(both), statement);
+    // Of a film of two angles neither is depth.
+    const bool is_of_angles = place.is(PictureForm::video) && !both.not_depth.empty();
+    return is_of_angles ? Sources{} : std::move(both);
 }
 
 /// The depth of a place that holds no colour.
@@ -139,19 +225,102 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
         if (!found.depth.empty()) return true;
         if (found.unnamed.empty()) return false;
     }
-    if (guess.kind == PictureKind::grey_depth || guess.kind == PictureKind::hue_depth ||
-        guess.kind == PictureKind::ramp_depth)
-        return true;
+    if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
-    return source->facts().bits > 8 && source->facts().channels == 1;
+    const bool is_deep = source->facts().bits > 8;
+    return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
+}
+
+constexpr const char* kAllTheSame = "; if it is depth all the same, say --depth-code grey";
+
+/// " is named as a mask", by the name of a place or that of the folder of a picture that has only
+/// a number; empty: the names say nothing against depth.
+std::string no_depth_by_name(const fs::path& place) {
+    const std::string own(named_no_depth(place));
+    if (!own.empty()) return " is named as " + own;
+    const std::string folder(folder_named_no_depth(place));
+    return folder.empty() ? folder : " is in a folder named as " + folder;
+}
+
+/// Whether one of the two folders above is named depth or the like, and nothing else.
+bool is_below_depth(const fs::path& place) {
+    const fs::path folder = place.parent_path();
+    return (named_depth(folder.filename()) && subject_of(folder.filename()).empty()) ||
+           (named_depth(folder.parent_path().filename()) &&
+            subject_of(folder.parent_path().filename()).empty());
 }
 
 [[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
+    constexpr const char* kOrEstimate = ", or let an estimator make it (dibhr help depth)";
+    const std::vector<cv::Mat> seen = colour_samples(colour, kKindSamples);
+    if (!seen.empty() && has_painted_half(seen.front()))
+        throw InputError(shown(colour) +
+                         " is a picture beside a painting of its depth, whose colours are no "
+                         "numbers: save the depth itself, in grey or as an array (.npy), and give "
+                         "it as the second file");
+    if (const std::string named = no_depth_by_name(colour); !named.empty())
+        throw DepthMissing(shown(colour) + named +
+                           ", neither as colour nor as depth: give the file of the depth, and "
+                           "before it that of the colour" +
+                           kAllTheSame);
+    const bool is_grey = !seen.empty() && std::none_of(seen.begin(), seen.end(), is_coloured);
+    if (is_grey && !named_colour(colour))
+        throw DepthMissing(shown(colour) + " is grey and does not look like depth" + kAllTheSame +
+                           "; if it is the colour, it needs a depth file beside it: give one as "
+                           "the second file" +
+                           kOrEstimate);
+    if (!is_grey && is_below_depth(colour))
+        throw DepthMissing(
+            refusal_of_colours(open_picture_source(colour, PictureRole::colour)->facts()));
     throw DepthMissing(shown(colour) +
                        " needs a depth file beside it: give one as the second file (looked for " +
-                       looked_for +
-                       "), say how the depth is in it with --packing, or let an estimator make it "
-                       "(dibhr help depth)");
+                       looked_for + "), say how the depth is in it with --packing" + kOrEstimate);
+}
+
+cv::Mat grey_picture(const cv::Mat& picture) {
+    cv::Mat grey;
+    cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
+    return grey;
+}
+
+bool is_black_and_white(const cv::Mat& picture) {
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxLoc(picture.reshape(1), &lowest, &highest);
+    return lowest == 0.0 && highest == highest_level(8) && has_two_levels(picture);
+}
+
+/// What a place that is given as the depth of a colour picture is instead, after its name; empty:
+/// nothing says so.
+std::string other_than_depth(const fs::path& place, Sources& sources) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (named_depth(place) || has_decoded_levels(facts)) return {};
+    if (!named_no_depth(place).empty()) return no_depth_by_name(place) + ", not as depth";
+    const bool is_known = named_depth(place.parent_path().filename()) || data_set_of(facts);
+    if (facts.bits > 8 || is_known) return {};
+    const std::vector<cv::Mat> depth = sources.depth->samples(1);
+    const std::vector<cv::Mat> colour = sources.colour->samples(1);
+    if (depth.empty() || colour.empty()) return {};
+    const cv::Mat seen = grey_picture(depth.front());
+    const std::string named = no_depth_by_name(place);
+    if (!named.empty() && !may_be_grey_depth(seen)) return named + ", and does not look like depth";
+    if (is_black_and_white(seen))
+        return " is black and white alone, as a mask is, and not as depth";
+    if (is_photo_of_scene(colour.front(), seen))
+        return " looks like a photograph of what the first file shows (a grey copy, the other "
+               "picture of a stereo pair, infrared), not like its depth";
+    return {};
+}
+
+/// Keeps a refusal where the depth that was given beside colour is something else, and no person
+/// says what its levels are.
+void inspect_second_place(const fs::path& place, const DepthStatement& statement,
+                          Sources& sources) {
+    const bool is_stated = statement.code || statement.near || statement.unit;
+    if (is_stated || !sources.not_depth.empty()) return;
+    const std::string what = other_than_depth(place, sources);
+    if (!what.empty())
+        sources.not_depth = shown(place) + what + ": give the file of the depth" + kAllTheSame;
 }
 
 bool is_row(const fs::path& place) {
@@ -161,12 +330,37 @@ bool is_row(const fs::path& place) {
 /// Opens colour and depth of two places, each a file, a folder, a list or a pattern.
 Sources of_two_places(const fs::path& colour, const fs::path& depth,
                       const DepthStatement& statement) {
-    if (is_row(colour) && is_row(depth)) return rows_of_two(colour, depth);
-    // First, so that an error of the colour file is not reported as one of the depth.
-    auto colour_source = open_picture_source(colour, PictureRole::colour);
-    Sources sources = depth_in(Place(depth), statement);
-    sources.colour = std::move(colour_source);
+    Sources sources;
+    if (is_row(colour) && is_row(depth)) {
+        sources = decoded(Place(depth), rows_of_two(colour, depth), statement);
+    } else {
+        // First, so that an error of the colour file is not reported as one of the depth.
+        auto colour_source = open_picture_source(colour, PictureRole::colour);
+        sources = depth_in(Place(depth), statement);
+        sources.colour = std::move(colour_source);
+    }
+    if (colour != depth) inspect_second_place(depth, statement, sources);
     return sources;
+}
+
+/// The halves as the form states. Where nothing states how depth is coded, a half in colours is
+/// looked at.
+Sources open_halves(const Place& place, PackedForm form, const DepthStatement& statement) {
+    Sources sources = open_packed(place.path, form);
+    if (form.hue || statement.code) return sources;
+    const ColoursOfDepth colours = colours_of_depth(place, sources, &form);
+    if (colours.kind == PictureKind::grey_depth) return sources;
+    if (colours.kind == PictureKind::hue_depth) {
+        form.hue.emplace();
+        form.coded = finding_on_code(DepthCode::hue, false);
+    } else if (colours.kind == PictureKind::byte_depth) {
+        form.bytes = colours.bytes;
+        form.coded = finding_on_code(colours.bytes, false);
+    } else {
+        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        return sources;
+    }
+    return open_packed(place.path, form);
 }
 
 /// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth
@@ -177,7 +371,7 @@ Sources both_as_stated(const Place& place, const DepthStatement& statement) {
     }
     if (place.is(PictureForm::bag)) return {};
     const auto form = packed_form(place, statement);
-    return form ? open_packed(place.path, *form) : Sources{};
+    return form ? open_halves(place, *form, statement) : Sources{};
 }
 
 /// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
@@ -187,8 +381,11 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
     if (!statement.packing) {
         if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
     }
-    if (is_depth(place, guess) || statement.code == DepthCode::hue)
-        return depth_in(place, statement);
+    if (is_depth(place, guess) || statement.code) {
+        Sources depth = depth_in(place, statement);
+        // Bytes that carry as those of numbers, but are lost, are the colours of a photo.
+        if (guess.kind != PictureKind::byte_depth || depth.not_depth.empty()) return depth;
+    }
     return {nullptr, open_picture_source(place.path, PictureRole::colour)};
 }
 
@@ -200,18 +397,83 @@ Sources of_the_same_place(const fs::path& place, const DepthStatement& statement
     return of_two_places(place, place, statement);
 }
 
+/// Throws InputError for an array that is by its name a mask, confidence, ..., unless a person says
+/// what its levels are.
+void require_no_other_content(const Place& place, const DepthStatement& statement) {
+    const std::string_view other = named_other(place.path);
+    if (!place.is(PictureForm::arrays) || other.empty() || statement.near || statement.unit) return;
+    throw InputError(shown(place.path) + " is by its name " + std::string(other) +
+                     " and no depth: give the depth that it belongs to, or say what its levels are "
+                     "(--near, --depth-unit)");
+}
+
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
 Sources of_one_place(const Place& place, const DepthStatement& statement) {
     if (Sources both = both_as_stated(place, statement); both.depth) return both;
     std::string looked_for;
     if (const auto depth = find_depth_beside(place.path, looked_for))
         return of_two_places(place.path, *depth, statement);
+    require_no_other_content(place, statement);
     Sources sources = guessed_content(place, statement);
     if (!sources.depth) refuse_without_depth(place.path, looked_for);
     return sources;
 }
 
+void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, const Finding& coded) {
+    sources.depth = level_decoded(std::move(sources.depth), code, law, coded);
+    sources.not_depth.clear();
+}
+
+/// As a person says.
+void decode_as_told(Sources& sources, DepthCode code) {
+    const auto set = data_set_of(sources.depth->facts());
+    const bool is_of_set = set && set->finding.statement.code == code;
+    if (code == DepthCode::stereo && !is_of_set)
+        throw InputError(shown(sources.depth->facts().file) +
+                         " has no calib.txt beside it, which --depth-code stereo needs: put that "
+                         "of the data set there, or give --depth-unit disparity");
+    if (is_of_set)
+        decode_as(sources, code, set->law, set->finding);
+    else
+        decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
+}
+
+/// Whether metadata, a layout or a name state the unit of the levels as they are.
+bool states_unit(const SourceFacts& facts) {
+    return sure_facts({}, facts.findings).unit || sure_facts({}, findings_by_name(facts)).unit;
+}
+
+/// As its data set says, where the levels do not contradict it; else as the levels themselves show.
+/// That they are turned counts only where nothing states what they are.
+void decode_as_found(Sources& sources) {
+    const SourceFacts facts = sources.depth->facts();
+    const auto set = data_set_of(facts);
+    const auto code = set ? set->finding.statement.code : std::nullopt;
+    if (code && is_of_levels(*code)) {
+        if (may_be_of(sources.depth->samples(kKindSamples), *code))
+            decode_as(sources, *code, set->law, set->finding);
+        return;
+    }
+    const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
+    if (!may_show) return;
+    const auto seen = level_code_in(sources.depth->samples(1));
+    if (seen == DepthCode::turned16 && (set || states_unit(facts))) return;
+    if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
+}
+
 }  // namespace
+
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
+    const SourceFacts& facts = sources.depth->facts();
+    if (has_decoded_levels(facts)) return;
+    if (statement.code) {
+        if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
+        return;
+    }
+    const bool means_own =
+        statement.unit == DepthUnit::levels || statement.unit == DepthUnit::disparity;
+    if (find_out && !means_own && !facts.live && facts.bits >= 16) decode_as_found(sources);
+}
 
 Sources find_sources(const fs::path& colour, const fs::path& depth,
                      const DepthStatement& statement) {
@@ -224,7 +486,7 @@ Sources find_sources(const fs::path& colour, const fs::path& depth,
         sources = of_the_same_place(places.colour, statement);
     else
         sources = of_two_places(places.colour, places.depth, statement);
-    sources.notice = places.notice;
+    add_clause(sources.notice, places.notice);
     return sources;
 }
 
@@ -233,7 +495,10 @@ Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     const fs::path found = depth_place_for(place);
     const Place depth(found);
     Sources sources = both_as_stated(depth, statement);
-    if (!sources.depth) sources = depth_in(depth, statement);
+    if (!sources.depth) {
+        require_no_other_content(depth, statement);
+        sources = depth_in(depth, statement);
+    }
     sources.colour.reset();
     return sources;
 }
@@ -245,11 +510,14 @@ Sources find_content(const fs::path& place, const DepthStatement& statement) {
     if (!places.depth.empty()) {
         sources = of_two_places(places.colour, places.depth, statement);
     } else {
-        const Place only(place);
+        const Place only(places.colour);
         sources = both_as_stated(only, statement);
-        if (!sources.depth) sources = guessed_content(only, statement);
+        if (!sources.depth) {
+            require_no_other_content(only, statement);
+            sources = guessed_content(only, statement);
+        }
     }
-    sources.notice = places.notice;
+    add_clause(sources.notice, places.notice);
     return sources;
 }
 

@@ -5,23 +5,24 @@
 #include <memory>
 #include <string>
 
-#include "core/video/depth/depth_meaning.hpp"
+#include "core/video/depth/findings.hpp"
 #include "core/video/formats/picture_source.hpp"
 
 namespace dibhr {
 
 class LiveFeed;
 
-/// The sources found, and the statements on depth that follow from how they were found.
+/// The sources found, and what was found out on the way.
 struct Sources {
     std::unique_ptr<PictureSource> depth{};   ///< null: only of find_content(), colour alone
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
-    DepthStatement found{};                   ///< from files, names and metadata
-    DepthStatement assumed{};                 ///< guessed from the pictures
-    bool by_appearance{false};                ///< the depth's own facts are guessed, too
+    Findings findings{};                      ///< beside those of the depth's source
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files
+    /// Why the colours of its depth are no depth, in one line; empty: they are. Levels as in the
+    /// file (DepthRequest::find_out false) are their brightness all the same.
+    std::string not_depth{};
 };
 
 /// Finds colour and depth for the given places. Empty `depth`, or the colour's place again: both in
@@ -34,6 +35,11 @@ struct Sources {
 /// The depth in a place, without the colour.
 [[nodiscard]] Sources find_depth(const std::filesystem::path& place,
                                  const DepthStatement& statement);
+
+/// Decodes depth in levels that are no distances (level_code.hpp): of the code that is stated;
+/// else, if it may `find_out`, of that of its data set or of its numbers, unless the statement says
+/// what the file's own levels mean. Throws InputError where it has no levels of the stated code.
+void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out);
 
 /// The content of a place: colour, depth or both; ignores files beside it.
 [[nodiscard]] Sources find_content(const std::filesystem::path& place,

@@ -1,6 +1,7 @@
 // `dibhr info` and `dibhr devices`: what files hold and what is attached.
 #include <algorithm>
 #include <cstddef>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -73,6 +74,57 @@ TEST_CASE("info, touch and surface hear what was chosen in the window before", "
     CHECK(touch({}) != touch({"--near", "bright"}));
 }
 
+TEST_CASE("info gives the answers that are possible where the meaning is not sure", "[info]") {
+    const TemporaryFolder folder;
+    run_shell(folder,  // far in the middle, without a floor
+              "ffmpeg -v error -f lavfi -i \"color=black:s=64x48,format=gray16le,"
+              "geq=lum='12000+48000*exp(-hypot(X-32,Y-24)/10)'\" -frames:v 1 a.png");
+    const ProgramResult info = run_dibhr(folder, {"info", "a.png", "--json"});
+    INFO(info.output << info.errors);
+    CHECK(info.exit_code == 0);
+    const Json json = parsed_json(info.output);
+    CHECK(json["sure"].get<double>() < 0.9);
+    REQUIRE(json["alternatives"].size() >= 2);
+    CHECK(json["alternatives"][0]["near"] == json["near"]);
+    CHECK(json["alternatives"][0]["probability"] == json["sure"]);
+}
+
+TEST_CASE("info --why prints what each finding states, how sure it is and where it is from",
+          "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "rock_height.png", 16, 12, 100, 2);
+    const ProgramResult why = run_dibhr(folder, {"info", "rock_height.png", "--why"});
+    INFO(why.output << why.errors);
+    CHECK(why.exit_code == 0);
+    CHECK(says(why, "99 %  magic       picture by OpenCV's codecs, by"));
+    CHECK(
+        says(why, "near is bright, levels of no unit   97 %  name        'height' in its name\n"));
+    CHECK(says(why, "\n  so "));
+    CHECK(says(why, "sure              97 %"));
+    CHECK(says(why, "found in          'height' in its name"));
+    CHECK_FALSE(says(run_dibhr(folder, {"info", "rock_height.png"}), "form PNG"));
+    const Json json =
+        parsed_json(run_dibhr(folder, {"info", "rock_height.png", "--json", "--why"}).output);
+    CHECK(json["findings"][0]["about"] == "form PNG");
+    CHECK(json["findings"][0]["evidence"] == "magic");
+    CHECK(json["findings"][1]["states"]["unit"] == "levels");
+    CHECK(json["findings"][1]["evidence"] == "name");
+}
+
+TEST_CASE("a long finding of info --why goes on below, and moves no column", "[info]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "a.png", 16, 12, 100, 2);
+    const ProgramResult why =
+        run_dibhr(folder, {"info", "a.png", "--why", "--near", "dark", "--depth-unit", "mm",
+                           "--depth-scale", "0.5", "--no-data", "0,7", "--depth-code", "grey"});
+    INFO(why.output << why.errors);
+    CHECK(says(why,
+               "\n  near is dark, a level is 0.5 mm,  100 %  person      command line\n"
+               "    no data is 0, 7, code grey\n"));
+    CHECK(says(why, "\n  form PNG                           99 %  magic "));
+    CHECK_FALSE(says(why, "nothing  "));
+}
+
 TEST_CASE("info describes a video", "[info]") {
     const TemporaryFolder folder;
     run_shell(folder,
@@ -88,6 +140,28 @@ TEST_CASE("info describes a video", "[info]") {
     CHECK(says(result, "2.000 s"));
     CHECK(says(result, "25.00 frames/s"));
     CHECK(says(result, "none found"));
+}
+
+TEST_CASE("info says whose times pictures have", "[info]") {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder / "depth");
+    for (const char* const name : {"1.png", "2.png", "3.png"})
+        write_depth_png(folder / "depth" / name, 16, 12, 100, 2);
+    const ProgramResult counted = run_dibhr(folder, {"info", "depth"});
+    INFO(counted.output << counted.errors);
+    CHECK(says(counted, "assumed: 30 frames a second"));
+    write_text(folder / "depth/timestamps.txt", "0.5\n0.75\n1.0\n");
+    CHECK(says(run_dibhr(folder, {"info", "depth"}), "stamps in 'timestamps.txt'"));
+    const Json json = parsed_json(run_dibhr(folder, {"info", "depth", "--json"}).output);
+    CHECK(json["timing"]["from"] == "list");
+    CHECK(json["times"] == "own");
+    CHECK(json["duration_s"] == 0.75);
+    const Json faster = parsed_json(run_dibhr(folder, {"info", "depth", "--json", "--depth-fps",
+                                                       "10", "--depth-offset", "-0.5"})
+                                        .output);
+    CHECK(faster["timing"]["from"] == "stated");
+    CHECK(faster["time_offset_s"] == -0.5);
+    CHECK(faster["origin"]["stated_frames_per_s"] == "command line");
 }
 
 TEST_CASE("info describes a session file", "[info]") {

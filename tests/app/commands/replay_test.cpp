@@ -1,8 +1,12 @@
 // `dibhr replay` as a person runs it, over sessions that the real loop recorded.
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -131,6 +135,39 @@ TEST_CASE("silhouettes at the colour's edges are replayed with the colour, bit f
     CHECK(without.exit_code == 1);
     CHECK(is_one_line(without.errors));
     CHECK(contains(without.errors, "film_color.mkv"));
+}
+
+TEST_CASE("sparse depth is replayed with the colour that it was interpolated with, bit for bit",
+          "[replay]") {
+    const TemporaryFolder folder;
+    std::mt19937 random(3);
+    std::string depth = "Pf\n120 90\n-1.0\n";
+    for (int k = 0; k < 120 * 90; ++k) {
+        const float surface = k % 120 < 63 ? 60.0F : 180.0F;
+        const float level = random() % 10 == 0 ? surface : std::nanf("");
+        const auto bytes = std::bit_cast<std::array<char, sizeof level>>(level);
+        depth.append(bytes.data(), bytes.size());
+    }
+    write_text(folder / "mine_depth.pfm", depth);
+    run_shell(folder,
+              "ffmpeg -v error -f lavfi -i color=size=120x90,format=gray,"
+              "geq=lum='if(gt(X\\,65)\\,200\\,50)' -frames:v 1 mine_color.png");
+    record_session(folder / "mine.dibhr",
+                   {.colour = folder / "mine_color.png",
+                    .depth = folder / "mine_depth.pfm",
+                    .cleaning = {.preset = CleaningPreset::own, .own = {.densify = true}}});
+    const auto replayed = [&](const std::string& file) {
+        return run_dibhr(folder, {"replay", file});
+    };
+    const std::string identical = "all 1000 proxies and forces are identical";
+    CHECK(contains(replayed("mine.dibhr").output, identical));
+    run_shell(folder,
+              "cp mine.dibhr other.dibhr; sqlite3 other.dibhr 'UPDATE source SET densify = 0'");
+    CHECK_FALSE(contains(replayed("other.dibhr").output, identical));  // else no proof
+    fs::remove(folder / "mine_color.png");
+    const ProgramResult without = replayed("mine.dibhr");
+    CHECK(without.exit_code == 1);
+    CHECK(contains(without.errors, "mine_color.png"));
 }
 
 TEST_CASE("several algorithms are compared in one table, the recorded one among them", "[replay]") {

@@ -3,10 +3,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <iomanip>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands/output.hpp"
@@ -18,6 +20,7 @@
 #include "core/video/motion/motion_request.hpp"
 #include "core/video/playing/depth_timeline.hpp"
 #include "core/video/sources/media.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "device/goal_stream.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
@@ -62,9 +65,9 @@ std::string restless_goals() {
 }
 
 /// Looped.dibhr: the goals through the loop, over the frames that `dibhr touch` has.
-void record_loop(const TemporaryFolder& folder, const TouchParameters& parameters) {
-    const auto colour = sliding_square() / "color.mkv";
-    const auto depth = sliding_square() / "depth.mkv";
+void record_loop(const TemporaryFolder& folder, const TouchParameters& parameters,
+                 const std::filesystem::path& colour, const std::filesystem::path& depth,
+                 const DepthRequest& request = {}) {
     const std::vector<TimedGoal> goals = read_goals(folder / "goals.csv");
     GoalStream hand("goals", goals);
     TripleBuffer<FrameWindow> frames;
@@ -74,10 +77,12 @@ void record_loop(const TemporaryFolder& folder, const TouchParameters& parameter
     const auto ticks = std::make_unique<TickRing>();
     HapticTick tick({hand, frames, settings, state, *strips, *ticks});
     Recorder recorder(folder / "looped.dibhr", *ticks, {});
-    recorder.media(1, colour, depth);
+    auto media = open_media(colour, depth, request);
+    const auto meaning = media->description().meaning;
+    recorder.media(1, colour, depth, meaning ? toml_of(meaning->statement()) : std::string());
     recorder.parameters({.version = 1, .touch = parameters, .limits = {}, .bump = {}});
     settings.publish({.parameters = parameters, .recording = true, .version = 1});
-    DepthTimeline video(open_media(colour, depth), DepthTimeline::Wanted::all,
+    DepthTimeline video(std::move(media), DepthTimeline::Wanted::all,
                         {.preset = CleaningPreset::raw},
                         motion_request(parameters.carry, InBetweens::automatic));
     FrameWindow window;
@@ -124,7 +129,7 @@ TEST_CASE("the same goals over the same video give the same bits by touch, by lo
 
     TouchParameters parameters{.algorithm = algorithm, .friction = {0.6, 0.6}, .carry = true};
     parameters.coupling.damping_newton_s_per_m = 3.0;
-    record_loop(folder, parameters);
+    record_loop(folder, parameters, sliding_square() / "color.mkv", sliding_square() / "depth.mkv");
     const Session session(folder / "looped.dibhr");
     SessionFrames frames(session, {});
     SessionReplay replay(session, frames, {{}});
@@ -146,4 +151,29 @@ TEST_CASE("the same goals over the same video give the same bits by touch, by lo
     CHECK(contacts > 100);  // else the test proves little
     CHECK(contacts < 550);
     CHECK(carried > 50);
+}
+
+TEST_CASE("a session over pictures that took a video's times is replayed at these times",
+          "[touch][replay]") {
+    const TemporaryFolder folder;
+    write_text(folder / "goals.csv", restless_goals());
+    run_shell(folder, "mkdir depth && ffmpeg -nostdin -v error -i '" +
+                          (sliding_square() / "depth.mkv").string() +
+                          "' depth/%03d.png && ffmpeg -nostdin -v error -r 60 -i '" +
+                          (sliding_square() / "color.mkv").string() + "' -r 60 -c:v ffv1 rgb.mkv");
+    const auto open = [&] {
+        return open_media(folder / "rgb.mkv", folder / "depth", {.find_out = true});
+    };
+    CHECK(open()->description().meaning->times.value == DepthTimes::paired);
+    CHECK(open()->description().duration_s < 0.2);  // 0.3 s of 30 a second
+    record_loop(folder, {}, folder / "rgb.mkv", folder / "depth", {.find_out = true});
+    const Session session(folder / "looped.dibhr");
+    SessionFrames frames(session, {});
+    SessionReplay replay(session, frames, {{}});
+    int replayed = 0;
+    while (replay.next()) {
+        REQUIRE(same_bits(replay.touch(0), replay.recorded()));
+        ++replayed;
+    }
+    CHECK(replayed == 600);
 }

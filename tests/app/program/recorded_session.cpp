@@ -16,6 +16,7 @@
 #include "core/video/playing/playback.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
+#include "core/video/sources/sidecar.hpp"
 #include "tests/support/catch.hpp"
 
 namespace dibhr::test {
@@ -56,7 +57,7 @@ class ScriptedHand final : public Device {
 }  // namespace
 
 void record_session(const std::filesystem::path& file, const RecordedSession& wanted) {
-    auto media = open_media(wanted.colour, wanted.depth);
+    auto media = open_media(wanted.colour, wanted.depth, {.find_out = wanted.finds_out});
     const MediaDescription description = media->description();
     ScriptedHand hand(description.depth_columns, description.depth_rows, wanted.jumps);
 
@@ -75,7 +76,8 @@ void record_session(const std::filesystem::path& file, const RecordedSession& wa
     SessionFacts facts = library_versions();
     facts["device"] = "a scripted hand";
     Recorder recorder(file, *ticks, facts);
-    recorder.media(1, wanted.colour, wanted.depth);
+    recorder.media(1, wanted.colour, wanted.depth,
+                   description.meaning ? toml_of(description.meaning->statement()) : std::string{});
     HapticSettings handed{.parameters = wanted.parameters, .recording = true};
     if (!wanted.bump.empty()) {
         handed.bump = std::make_shared<const BumpMap>(read_bump_map(wanted.bump));

@@ -18,6 +18,7 @@ struct RecordedSession {
     TouchParameters parameters{};
     std::filesystem::path bump{};
     std::int64_t ticks_without_surface{0};  ///< at the end
+    bool finds_out{false};  ///< what the depth means, as the window does; it is recorded
     bool jumps{false};  ///< from end to end of the picture, under the surface, ten times a second
 };
 

@@ -43,7 +43,8 @@ struct Seen {
     double speed{1.0};
     double media_s{0.0};  ///< the player's time; of a replay since the session's begin [s]
     double duration_s{0.0};
-    double drawn_s{0.0};  ///< presentation time of the frame that is drawn [s]
+    double drawn_middle{0.0};  ///< depth in the middle of what is drawn, from 0, far, to 1, near
+    double drawn_s{0.0};       ///< presentation time of the frame that is drawn [s]
     std::int64_t drawn_frame{-1};
     std::uint32_t drawn_media{0};  ///< another number with all that is opened
     std::int64_t tick{-1};         ///< of a replay, as people count: from 0
@@ -65,6 +66,9 @@ struct Seen {
     std::uint64_t explained_steps{0};  ///< taken
     std::uint64_t unsafe_settings{0};  ///< of the settings, about which a person is asked
     bool asks_command{false};          ///< whether to run it
+    std::uint64_t depth_answers{0};    ///< to the question on the depth; 0: it is not asked
+    std::uint64_t depth_reliefs{0};    ///< of them drawn
+    bool depth_for_folder{false};      ///< the answer holds for other files, too
     bool depth_offered{false};
     bool depth_made{false};                     ///< while something else was opened
     float pointed_column{-1}, pointed_row{-1};  ///< the pixel under the pointer; -1: beside

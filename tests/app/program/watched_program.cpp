@@ -41,6 +41,8 @@ void see_media(const PictureShown& shown, Seen& seen) {
         seen.drawn_s = frame.media_s;
         seen.drawn_frame = frame.index;
         seen.drawn_media = frame.media;
+        const DepthImage& depth = *frame.drawn();
+        seen.drawn_middle = depth.at(depth.columns / 2, depth.rows / 2) / depth.highest_level;
     }
     if (!replay) return;
     const SessionPlayback& playback = replay->playback;
@@ -70,6 +72,11 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.explained_steps = ui.explained ? ui.explained->taken : 0;
     seen.unsafe_settings = ui.unsafe_settings.size();
     seen.asks_command = ui.depth_offer && !ui.depth_offer->unconfirmed_command.empty();
+    if (ui.depth_question) {
+        seen.depth_answers = ui.depth_question->alternatives.size();
+        seen.depth_reliefs = ui.depth_question->reliefs.size();
+        seen.depth_for_folder = ui.depth_question->for_folder;
+    }
     seen.depth_offered = ui.depth_offer.has_value();
     seen.depth_made = ui.depth_offer && !ui.depth_offer->depth.empty();
     if (ui.under_pointer) {

@@ -2,8 +2,10 @@
 #include "app/touching/touch_session.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <vector>
 
@@ -134,4 +136,22 @@ TEST_CASE("the mouse touches only where there is one", "[touching]") {
     window.show_until([&] { return window.touch.haptic.touchable; });
     CHECK(window.session.frames_now().makes_surface());
     CHECK(window.session.frames_now().nearest().media == window.session.media_number());
+}
+
+TEST_CASE("while it is asked which depth is right a hand in the surface gets no force",
+          "[touching]") {
+    Touched window;
+    const auto sent_newton = [&window] {
+        return glm::length(window.touch.haptic.touch.sent_force_newton);
+    };
+    window.show_until([&] { return sent_newton() > 0.0; });
+    window.touch.depth_in_question = true;
+    window.show_until([&] { return sent_newton() == 0.0; });
+    const std::uint64_t ticks = window.touch.haptic.ticks;
+    window.show_until([&] {
+        CHECK(sent_newton() == 0.0);
+        return window.touch.haptic.ticks > ticks + 100;
+    });
+    window.touch.depth_in_question = false;
+    window.show_until([&] { return sent_newton() > 0.0; });
 }

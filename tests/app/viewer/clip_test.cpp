@@ -257,6 +257,29 @@ TEST_CASE("a clip that an option saves ends with what is played", "[clip]") {
     check_one_clip(folder);
 }
 
+TEST_CASE("a run that ends by itself goes on with what is likely of the depth, and says so once",
+          "[clip]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    run_shell(folder,  // far in the middle, without a floor
+              "ffmpeg -v error -f lavfi -i \"color=black:s=64x48,format=gray16le,"
+              "geq=lum='12000+48000*exp(-hypot(X-32,Y-24)/10)'\" -frames:v 1 a.png");
+    const auto errors_of = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"a.png", "--device", "mouse", "--size", kSize};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        CHECK(desk.start_viewer(folder, arguments).wait() == 0);
+        return read_text(folder / "errors.txt");
+    };
+    const std::string errors =
+        errors_of({"--seconds", "1", "--screenshot", "last.png", "--log-file", "log.txt"});
+    CHECK(errors.starts_with("dibhr: 'a.png': near is assumed to be dark ("));
+    CHECK(std::ranges::count(errors, '\n') == 1);
+    CHECK(
+        contains(read_text(folder / "log.txt"), "warning: 'a.png': near is assumed to be dark ("));
+    CHECK(fs::exists(folder / "last.png"));
+    CHECK(errors_of({"--seconds", "1", "--sure", "--near", "dark"}).empty());
+}
+
 TEST_CASE("a clip that cannot be written is told in one line, and the program goes on", "[clip]") {
     const Desk desk;
     const TemporaryFolder folder;

@@ -135,5 +135,5 @@ TEST_CASE("depth that is being made ends with the window, and what is made of it
     REQUIRE(viewer.wait() == 0);
     CHECK(eventually([&] { return !home.runs(); }, kPatience));
     CHECK(home.keeps("000003.png"));
-    CHECK(contains(read_text(home.folder / "errors.txt"), "'clip.mp4' needs a depth file"));
+    CHECK(contains(read_text(home.folder / "errors.txt"), "needs a depth file"));
 }

@@ -17,6 +17,7 @@
 #include "core/error.hpp"
 #include "core/files/csv_table.hpp"
 #include "core/files/json.hpp"
+#include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "tests/support/catch.hpp"
@@ -203,6 +204,14 @@ TEST_CASE("text is quoted short and on one line, and cells lose what stands arou
         CHECK(table.number(1) == 2.0);
         CHECK_FALSE(table.next());
     }
+}
+
+TEST_CASE("words of a name end at signs, at digits and where small letters do", "[files]") {
+    CHECK(words_of_name("depthInMeters_02.png") ==
+          std::vector<std::string>{"depth", "in", "meters", "02", "png"});
+    CHECK(words_of_name("IMG-0412 RGB") == std::vector<std::string>{"img", "0412", "rgb"});
+    CHECK(words_of_name("H\xc3\xb6he") == std::vector<std::string>{"h\xc3\xb6he"});
+    CHECK(words_of_name("").empty());
 }
 
 TEST_CASE("numbers as text read back to the same bits", "[files]") {

@@ -63,6 +63,10 @@ TEST_CASE("base64 gives the standard's own examples", "[files]") {  // RFC 4648,
     CHECK(base64_text("fooba") == "Zm9vYmE=");
     CHECK(base64_text("foobar") == "Zm9vYmFy");
     CHECK(base64_text("\xFF\xFE") == "//4=");
+    for (const char* bytes : {"", "f", "fo", "foo", "foob", "fooba", "foobar", "\xFF\xFE"})
+        CHECK(bytes_of_base64(base64_text(bytes)) == bytes);
+    CHECK(bytes_of_base64(" Zm9v\n YmFy ") == "foobar");
+    CHECK(bytes_of_base64("Zm9v*mFy").empty());
 }
 
 TEST_CASE("nothing that is printed means anything to a terminal", "[files]") {

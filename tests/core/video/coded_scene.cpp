@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -81,6 +82,33 @@ cv::Vec3b as_ramp(float depth) {
     if (!std::isfinite(depth)) return {0, 0, 0};
     const double along = 3.0 * (1.0 - static_cast<double>(depth));
     return {level_of(along), level_of(along - 1.0), level_of(along - 2.0)};
+}
+
+cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code) {
+    const bool is_float = code == DepthCode::float32;
+    cv::Mat picture(numbers.rows, numbers.cols, is_float ? CV_8UC4 : CV_8UC3, cv::Scalar::all(0.0));
+    for (int j = 0; j < picture.rows; ++j) {
+        for (int i = 0; i < picture.cols; ++i) {
+            const float number = numbers.at<float>(j, i);
+            if (!std::isfinite(number)) continue;
+            const double real = static_cast<double>(number);
+            const auto bits =
+                is_float ? std::bit_cast<std::uint32_t>(number)
+                         : static_cast<std::uint32_t>(std::lround(
+                               code == DepthCode::terrain ? 10.0 * (real + 10000.0) : real));
+            std::array<std::uint8_t, 4> bytes{};  // the lowest first
+            for (unsigned k = 0; k < 4; ++k)
+                bytes[k] = static_cast<std::uint8_t>(bits >> (8U * k) & 0xffU);
+            std::uint8_t* const bgra = picture.ptr<std::uint8_t>(j) + i * picture.channels();
+            const bool is_rg = code == DepthCode::rg16;
+            const bool red_is_high = is_rg || code == DepthCode::terrain;
+            bgra[0] = is_rg ? std::uint8_t{0} : bytes[red_is_high ? 0 : 2];
+            bgra[1] = bytes[is_rg ? 0 : 1];
+            bgra[2] = bytes[is_rg ? 1 : red_is_high ? 2 : 0];
+            if (is_float) bgra[3] = bytes[3];
+        }
+    }
+    return picture;
 }
 
 cv::Mat rough(int columns, int rows, int seed) {

@@ -5,6 +5,8 @@
 #include <functional>
 #include <opencv2/core/mat.hpp>
 
+#include "core/video/depth/depth_meaning.hpp"
+
 namespace dibhr::test {
 
 inline constexpr int kSceneColumns = 320;
@@ -20,6 +22,10 @@ inline constexpr int kSceneRows = 240;
 [[nodiscard]] cv::Vec3b as_hue(float depth);   ///< red near, black none
 [[nodiscard]] cv::Vec3b as_grey(float depth);  ///< white near, black none
 [[nodiscard]] cv::Vec3b as_ramp(float depth);  ///< white, cyan, blue, black
+
+/// Numbers in the bytes of the channels, as 8-bit BGR, for float32 BGRA; not finite: all bytes 0.
+/// `numbers`: CV_32F; metres for terrain.
+[[nodiscard]] cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code);
 
 /// Surfaces of other colours with a rough texture, seen from `to_the_right` pixels further right.
 [[nodiscard]] cv::Mat scene_photo(double to_the_right = 0.0);

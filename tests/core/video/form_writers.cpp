@@ -64,4 +64,18 @@ Write video(const cv::Mat& content, const std::string& format, const std::string
     };
 }
 
+Write tracks(const cv::Mat& colour, const cv::Mat& depth, const std::string& format,
+             const std::string& title) {
+    return [=](const fs::path& file) {
+        const fs::path first = file.string() + ".colour";
+        const fs::path second = file.string() + ".depth";
+        ffmpeg(raw_input(colour, "bgr24", first) + raw_input(depth, format, second) +
+               "-map 0 -map 1 -c:v ffv1 -pix_fmt:v:0 bgr0 -pix_fmt:v:1 " +
+               (format == "bgr24" ? "bgr0" : format) + " -metadata:s:v:1 title='" + title + "' '" +
+               file.string() + "'");
+        fs::remove(first);
+        fs::remove(second);
+    };
+}
+
 }  // namespace dibhr::test

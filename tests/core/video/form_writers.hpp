@@ -31,4 +31,8 @@ inline const std::string kFfv1_16 = "-c:v ffv1 -pix_fmt gray16le";
 [[nodiscard]] Write video(const cv::Mat& content, const std::string& format,
                           const std::string& encoding);
 
+/// A video of a track of colour, 8-bit BGR, and one of depth with that title, without loss.
+[[nodiscard]] Write tracks(const cv::Mat& colour, const cv::Mat& depth, const std::string& format,
+                           const std::string& title);
+
 }  // namespace dibhr::test

@@ -72,7 +72,7 @@ std::string pfm(const cv::Mat& picture, const std::string& scale, bool little) {
 }
 
 std::string tiff(int columns, int rows, int bits, int format, bool little,
-                 const std::string& data) {
+                 const std::string& data, const std::string& no_data, bool is_geographic) {
     std::string bytes = little ? "II" : "MM";
     const auto add16 = [&](int number) {
         append_bytes(bytes, static_cast<std::uint16_t>(number), little);
@@ -81,17 +81,34 @@ std::string tiff(int columns, int rows, int bits, int format, bool little,
         append_bytes(bytes, static_cast<std::uint32_t>(number), little);
     };
     add16(42);
-    add32(8 + data.size());
+    struct Tag {
+        int name;
+        std::size_t value;
+        int type{4};  ///< 32 bits
+        std::size_t count{1};
+    };
+    std::vector<Tag> tags{
+        {256, static_cast<std::size_t>(columns)}, {257, static_cast<std::size_t>(rows)},
+        {258, static_cast<std::size_t>(bits)},    {259, 1},
+        {262, 1},                                 {273, 8},
+        {277, 1},                                 {278, static_cast<std::size_t>(rows)},
+        {279, data.size()},                       {339, static_cast<std::size_t>(format)}};
+    constexpr int kText = 2;
+    constexpr int kShort = 3;
+    const std::string mark = no_data + std::string(8 - no_data.size() % 8, '\0');
+    const std::size_t after = 8 + data.size();
+    if (is_geographic) tags.push_back({34735, after, kShort, 4});
+    if (!no_data.empty()) tags.push_back({42113, after + 8, kText, mark.size()});
+    add32(after + 8 + mark.size());
     bytes += data;
-    const std::vector<std::pair<int, std::size_t>> tags{
-        {256, columns}, {257, rows}, {258, bits}, {259, 1},           {262, 1},
-        {273, 8},       {277, 1},    {278, rows}, {279, data.size()}, {339, format}};
+    for (const int key : {1, 1, 0, 0}) add16(key);
+    bytes += mark;
     add16(static_cast<int>(tags.size()));
-    for (const auto& tag : tags) {
-        add16(tag.first);
-        add16(4);  // 32 bits
-        add32(1);
-        add32(tag.second);
+    for (const Tag& tag : tags) {
+        add16(tag.name);
+        add16(tag.type);
+        add32(tag.count);
+        add32(tag.value);
     }
     add32(0);
     return bytes;

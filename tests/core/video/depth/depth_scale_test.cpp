@@ -12,6 +12,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
+using Catch::Matchers::WithinAbs;
 
 namespace {
 
@@ -200,4 +201,49 @@ TEST_CASE("a level beyond those that the bits allow stands as high as the highes
     const cv::Mat picture = (cv::Mat_<std::uint16_t>(1, 3) << 1023, 1024, 65535);
     const DepthImage depth = scale.image_of(picture);
     CHECK(depth.levels == std::vector<float>(3, scale(1023.0)));
+}
+
+TEST_CASE("the value at an elevation has that elevation", "[scale]") {
+    const DepthMeaning meaning =
+        GENERATE(meaning_of(DepthUnit::levels, {20.0, 10.0}, 0.1),
+                 meaning_of(DepthUnit::mm, {500.0, 4500.0}), meaning_of(DepthUnit::m, {0.5, 4.5}),
+                 meaning_of(DepthUnit::disparity, {100.0, 20.0}));
+    const DepthScale scale(meaning, kRealBits);
+    for (const double share : {0.0, 0.25, 1.0}) {
+        const double value = value_at(meaning, share);
+        CHECK_THAT(nearness_at(meaning, value), WithinAbs(share, 1e-9));
+        CHECK_THAT(nearness(scale, value / meaning.scale.value), WithinAbs(share, 1e-6));
+    }
+    CHECK(nearness_at(meaning, 2.0 * meaning.range.value.near) != 1.0);  // not clamped
+}
+
+TEST_CASE("turned near and far mirror the relief, and turned twice they leave it as it was",
+          "[scale]") {
+    const DepthMeaning meaning = GENERATE(meaning_of(DepthUnit::levels, {200.0, 100.0}),
+                                          meaning_of(DepthUnit::levels, {10.0, 20.0}, 0.1),
+                                          meaning_of(DepthUnit::mm, {500.0, 4500.0}, 0.2),
+                                          meaning_of(DepthUnit::m, {0.5, 4.5}, 0.0002));
+    DepthMeaning other = meaning;
+    merge_by_priority({{Origin::panel, turned_near_and_far(meaning)}}, other);
+    DepthMeaning again = other;
+    merge_by_priority({{Origin::panel, turned_near_and_far(other)}}, again);
+    CHECK(other.unit.value == DepthUnit::levels);
+    CHECK(other.near.value != meaning.near.value);
+    for (const double share : {-0.2, 0.0, 0.3, 1.0, 1.2}) {
+        const double level = value_at(meaning, share) / meaning.scale.value;
+        const double before = nearness(DepthScale(meaning, 16), level);
+        CHECK_THAT(nearness(DepthScale(other, 16), level), WithinAbs(1.0 - before, 1e-6));
+        CHECK_THAT(nearness(DepthScale(again, 16), level), WithinAbs(before, 1e-6));
+    }
+}
+
+TEST_CASE("turned disparities are distances without a unit, and a turned true shape is a relief",
+          "[scale]") {
+    DepthMeaning meaning = meaning_of(DepthUnit::disparity, {100.0, 20.0});
+    meaning.geometry.value = Geometry::true_shape;
+    const DepthStatement turned = turned_near_and_far(meaning);
+    CHECK(turned.unit == DepthUnit::levels);
+    CHECK(turned.near == NearLevels::dark);
+    CHECK(turned.range == DepthRange{20.0, 100.0});
+    CHECK(turned.geometry == Geometry::relief);
 }

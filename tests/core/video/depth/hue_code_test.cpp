@@ -15,6 +15,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -183,15 +184,16 @@ TEST_CASE("what is too pale or too dark for a code is no data", "[hue]") {
 
 TEST_CASE("hue between clips becomes metres, and says so", "[hue]") {
     const TemporaryFolder folder;
+    const Finding metadata{{}, Evidence::metadata, kSurenessOfMetadata, "a test"};
     const auto depth = hue_decoded(source_of(folder, cv::Mat(8, 8, CV_8UC3, cv::Scalar(0, 255, 0))),
-                                   HueCode{{{0.5, 2.0}}}, "a test");
+                                   HueCode{{{0.5, 2.0}}}, metadata);
     CHECK(depth->facts().bits == kRealBits);
     CHECK(depth->facts().channels == 1);
-    CHECK(depth->facts().known.unit == DepthUnit::m);
-    CHECK(depth->facts().known.near == NearLevels::dark);
-    CHECK(depth->facts().known.range == DepthRange{0.5, 2.0});
-    CHECK(depth->facts().known.code == DepthCode::hue);
-    CHECK(depth->facts().known_from == "a test");
+    CHECK(stated_by(depth->facts()).unit == DepthUnit::m);
+    CHECK(stated_by(depth->facts()).near == NearLevels::dark);
+    CHECK(stated_by(depth->facts()).range == DepthRange{0.5, 2.0});
+    CHECK(stated_by(depth->facts()).code == DepthCode::hue);
+    CHECK(origins_of(depth->facts().findings) == "a test");
     const auto taken = depth->next();
     REQUIRE(taken);
     REQUIRE(taken->picture.type() == CV_32FC1);
@@ -203,9 +205,10 @@ TEST_CASE("hue between clips becomes metres, and says so", "[hue]") {
 
 TEST_CASE("hue without a range is relative, red near", "[hue]") {
     const TemporaryFolder folder;
-    const auto depth = hue_decoded(source_of(folder, painted(scene_depth(), as_hue)), {}, "");
-    CHECK(depth->facts().known.unit == DepthUnit::levels);
-    CHECK(depth->facts().known.near == NearLevels::dark);
+    const auto depth = hue_decoded(source_of(folder, painted(scene_depth(), as_hue)), {},
+                                   finding_on_code(DepthCode::hue, false));
+    CHECK(stated_by(depth->facts()).unit == DepthUnit::levels);
+    CHECK(stated_by(depth->facts()).near == NearLevels::dark);
     CHECK(loss_of(depth->next()->picture, scene_depth()).worst < 1.0 / 1529.0);
 }
 
@@ -214,7 +217,7 @@ TEST_CASE("Record3D's hue is a distance up to 3 m, and its red is no data", "[hu
     cv::Mat picture(8, 8, CV_8UC3, cv::Scalar(0, 255, 0));
     picture.col(0).setTo(cv::Scalar(0, 0, 255));
     picture.col(7).setTo(cv::Scalar(12, 0, 255));
-    const auto depth = hue_decoded(source_of(folder, picture), record3d_code({}), "Record3D");
+    const auto depth = hue_decoded(source_of(folder, picture), record3d_code({}), {});
     const cv::Mat metres = depth->next()->picture;
     CHECK(with_data(metres) == 48);
     CHECK_THAT(static_cast<double>(metres.at<float>(3, 3)), WithinAbs(1.0, 1e-5));
@@ -229,9 +232,11 @@ TEST_CASE("a ramp from white through cyan and blue to black is linear depth", "[
     CHECK(share_on_ramp(painted(truth, as_grey)) == 0.0);
     CHECK(share_on_ramp(scene_photo()) < 0.3);
     CHECK(share_on_ramp(cv::Mat()) == 0.0);
-    const auto depth = ramp_decoded(source_of(folder, ramp), "");
+    const auto depth = ramp_decoded(source_of(folder, ramp));
     CHECK(depth->facts().bits == 8);
-    CHECK(depth->facts().known.near == NearLevels::bright);
+    REQUIRE(depth->facts().findings.size() == 1);
+    CHECK(depth->facts().findings[0].statement.near == NearLevels::bright);
+    CHECK(depth->facts().findings[0].evidence == Evidence::appearance);  // blue skies are so, too
     const cv::Mat levels = depth->next()->picture;
     for (int j = 0; j < truth.rows; j += 7) {
         for (int i = 0; i < truth.cols; i += 7) {

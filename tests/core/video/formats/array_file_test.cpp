@@ -4,13 +4,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -70,6 +73,52 @@ std::string numbers(const std::string& shape, std::initializer_list<double> valu
 
 std::string scalar(double value) {
     return numbers("()", {value});
+}
+
+constexpr int kSideColumns = 24;
+constexpr int kSideRows = 20;
+
+/// As large as the smallest picture, `first` at its corner.
+cv::Mat plane(float first) {
+    cv::Mat values(kSideRows, kSideColumns, CV_32FC1);
+    for (int j = 0; j < kSideRows; ++j)
+        for (int i = 0; i < kSideColumns; ++i)
+            values.at<float>(j, i) = first + 0.01F * static_cast<float>(2 * j + i);
+    return values;
+}
+
+std::string plane_npy(float first) {
+    return npy("<f4", "(20, 24)", data_of<float>(plane(first)));
+}
+
+/// Bytes of colours of that size.
+std::string colours_npy() {
+    return npy("|u1", "(20, 24, 3)", std::string(3 * kSideRows * kSideColumns, '\x55'));
+}
+
+/// Planes as one array whose last axis counts them.
+std::string stacked(const std::vector<cv::Mat>& planes, bool fortran) {
+    std::string data;
+    const auto count = static_cast<int>(planes.size());
+    const auto append = [&](int k, int j, int i) {
+        append_bytes(data, planes[static_cast<std::size_t>(k)].at<float>(j, i));
+    };
+    if (fortran)
+        for (int k = 0; k < count; ++k)
+            for (int i = 0; i < kSideColumns; ++i)
+                for (int j = 0; j < kSideRows; ++j) append(k, j, i);
+    else
+        for (int j = 0; j < kSideRows; ++j)
+            for (int i = 0; i < kSideColumns; ++i)
+                for (int k = 0; k < count; ++k) append(k, j, i);
+    return npy("<f4", "(20, 24, " + std::to_string(count) + ")", data, fortran);
+}
+
+/// What the command in a refusal, run in the folder, saves as depth.npy.
+cv::Mat saved_by_command(const std::string& refused, const fs::path& folder) {
+    const std::string command = refused.substr(refused.find("python3 -c"));
+    REQUIRE(std::system(("cd '" + folder.string() + "' && /usr/bin/" + command).c_str()) == 0);
+    return read_still(folder / "depth.npy", PictureRole::depth).picture;
 }
 
 std::unique_ptr<PictureSource> depth_of_file(const fs::path& file) {
@@ -198,6 +247,118 @@ TEST_CASE("of a .npz the array whose name says depth is taken, else its only one
     CHECK(contains(refusal_of(file), "none of them called depths"));
 }
 
+TEST_CASE("frames may be counted by a last axis that is too short for a picture", "[numpy]") {
+    const TemporaryFolder folder;
+    std::vector<cv::Mat> planes;
+    for (int k = 0; k < 5; ++k) planes.push_back(plane(1.0F + 0.02F * static_cast<float>(k)));
+    write_text(folder / "a.npy", stacked(planes, GENERATE(false, true)));
+    const auto source = depth_of_file(folder / "a.npy");
+    CHECK(source->facts().frames == 5);
+    for (const cv::Mat& expected : planes) CHECK(different(source->next()->picture, expected) == 0);
+    source->seek(0.0);
+    CHECK(different(source->next()->picture, planes.front()) == 0);
+}
+
+TEST_CASE("different numbers of each pixel are refused with the way to save one of them",
+          "[numpy]") {
+    const TemporaryFolder folder;
+    const cv::Mat confidence(kSideRows, kSideColumns, CV_32FC1, cv::Scalar(0.5));
+    cv::Mat intensity = plane(1.0F);
+    cv::flip(intensity, intensity, -1);
+    const cv::Mat& other = GENERATE(0, 1) == 0 ? confidence : intensity;
+    const std::string array = stacked({plane(1.0F), other}, GENERATE(false, true));
+    const bool packed = GENERATE(false, true);
+    const fs::path file = folder / (packed ? "a.npz" : "a.npy");
+    if (packed)
+        write_zip(file, {{"depth.npy", array}}, true);
+    else
+        write_text(file, array);
+    const std::string refused = refusal_of(file);
+    CHECK(contains(refused, "2 different numbers of each pixel, in the shape [20, 24, 2]"));
+    CHECK(different(saved_by_command(refused, folder.path()), plane(1.0F)) == 0);
+}
+
+TEST_CASE("the matrix of a camera or a pose is no picture", "[numpy]") {
+    const TemporaryFolder folder;
+    write_text(folder / "a.npy",
+               GENERATE(numbers("(3, 3)", {500, 0, 2, 0, 510, 1.5, 0, 0, 1}),
+                        numbers("(1, 3, 3)", {500, 0, 2, 0, 510, 1.5, 0, 0, 1}),
+                        numbers("(4, 4)", {1, 0, 0, 2, 0, 1, 0, 3, 0, 0, 1, 4, 0, 0, 0, 1})));
+    CHECK(contains(refusal_of(folder / "a.npy"), "the matrix of a camera or a pose"));
+}
+
+TEST_CASE("an array of 0 and 1 alone is a mask, and is refused as depth", "[numpy]") {
+    const TemporaryFolder folder;
+    cv::Mat mask(kSideRows, kSideColumns, CV_32FC1, cv::Scalar(1.0));
+    write_text(folder / "a.npy", npy("<f4", "(20, 24)", data_of<float>(mask)));
+    CHECK(refusal_of(folder / "a.npy").empty());
+    mask.row(3) = cv::Scalar(0.0);
+    write_text(folder / "a.npy", npy("<f4", "(20, 24)", data_of<float>(mask)));
+    CHECK(contains(refusal_of(folder / "a.npy"), "as a mask does"));
+    write_text(folder / "a.npy", npy("|u1", "(20, 24)", data_of<std::uint8_t>(mask)));
+    CHECK(contains(refusal_of(folder / "a.npy"), "as a mask does"));
+}
+
+TEST_CASE("of arrays without the usual names the one whose name says depth is taken", "[numpy]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.npz";
+    const std::string name = GENERATE("depth_map", "pred", "z", "depth_mm", "rangeDepth", "arr_1",
+                                      "inverse_depth", "distance");
+    CAPTURE(name);
+    write_zip(file,
+              {{"a_normals.npy", plane_npy(5)},
+               {"valid_mask.npy", plane_npy(6)},
+               {"arr_0.npy", colours_npy()},
+               {"focal.npy", scalar(133)},
+               {"flags.npy", npy("|b1", "(20, 24)", std::string(kSideRows * kSideColumns, '\1'))},
+               {name + ".npy", plane_npy(7)}},
+              true);
+    CHECK(different(depth_of_file(file)->next()->picture, plane(7)) == 0);
+    CHECK(open_media(file)->description().colour_path == file);
+}
+
+TEST_CASE("of several arrays that say depth none is taken, and the refusal names them", "[numpy]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.npz";
+    const auto [first, second] =
+        GENERATE(table<std::string, std::string>({{"depth_gt", "depth_pred"}, {"arr_0", "arr_1"}}));
+    write_zip(file, {{first + ".npy", plane_npy(1)}, {second + ".npy", plane_npy(2)}}, true);
+    const std::string refused = refusal_of(file);
+    CHECK(contains(refused, "2 arrays that may be the depth, '" + first + "', '" + second + "'"));
+    CHECK(different(saved_by_command(refused, folder.path()), plane(1)) == 0);
+}
+
+TEST_CASE("the name of an array says its unit, and a number beside it what a level is", "[numpy]") {
+    const TemporaryFolder folder;
+    const fs::path file = folder / "a.npz";
+    struct Case {
+        std::string name;
+        DepthUnit unit;
+        std::optional<double> scale;
+    };
+    const Case named =
+        GENERATE(Case{"depth_mm", DepthUnit::mm, 1.0}, Case{"depth_cm", DepthUnit::mm, 10.0},
+                 Case{"depth_m", DepthUnit::m, 1.0}, Case{"depth_metres", DepthUnit::m, 1.0},
+                 Case{"inv_depth", DepthUnit::disparity, std::nullopt},
+                 Case{"disp_map", DepthUnit::disparity, std::nullopt});
+    write_zip(file, {{named.name + ".npy", plane_npy(1)}}, true);
+    const SourceFacts by_name = depth_of_file(file)->facts();
+    CHECK(stated_by(by_name).unit == named.unit);
+    CHECK(stated_by(by_name).scale == named.scale);
+
+    const auto [stated, level_mm] = GENERATE(table<double, double>(
+        {{0.00025, 0.25}, {0.001, 1.0}, {0.1, 0.1}, {1.0, 1.0}, {1000.0, 1.0}, {5000.0, 0.2}}));
+    const std::string levels =
+        npy("<u2", "(20, 24)", data_of<std::uint16_t>(cv::Mat(plane(1) * 1000.0)));
+    write_zip(file, {{"depth.npy", levels}, {"depth_scale.npy", scalar(stated)}}, true);
+    const SourceFacts scaled = depth_of_file(file)->facts();
+    CHECK(stated_by(scaled).unit == DepthUnit::mm);
+    CHECK_THAT(stated_by(scaled).scale.value_or(0.0), WithinAbs(level_mm, 1e-12));
+    // Real numbers may be metres, of which 1 says nothing.
+    write_zip(file, {{"depth.npy", plane_npy(1)}, {"depth_scale.npy", scalar(1.0)}}, true);
+    CHECK(stated_by(depth_of_file(file)->facts()) == DepthStatement{});
+}
+
 TEST_CASE("a .npz says when its frames are, how near is high, and what the camera was", "[numpy]") {
     const TemporaryFolder folder;
     const std::string frames =
@@ -206,16 +367,16 @@ TEST_CASE("a .npz says when its frames are, how near is high, and what the camer
     write_zip(folder / "fps.npz", {{"depth.npy", frames}, {"fps.npy", scalar(10)}}, true);
     const auto steady = depth_of_file(folder / "fps.npz");
     CHECK_THAT(steady->facts().frames_per_s, WithinAbs(10.0, 1e-9));
-    CHECK(steady->facts().known == DepthStatement{});
+    CHECK(stated_by(steady->facts()) == DepthStatement{});
     write_zip(folder / "times.npz",
               {{"disparity.npy", frames},
                {"timestamps.npy", numbers("(3,)", {2.0, 2.5, 4.0})},
                {"K.npy", numbers("(3, 3)", {500, 0, 2, 0, 510, 1.5, 0, 0, 1})}},
               true);
     const auto source = depth_of_file(folder / "times.npz");
-    CHECK(source->facts().known.unit == DepthUnit::disparity);
-    CHECK(source->facts().known.intrinsics == Intrinsics{500, 510, 2, 1.5});
-    CHECK(source->facts().known_from == "array 'disparity', array 'K'");
+    CHECK(stated_by(source->facts()).unit == DepthUnit::disparity);
+    CHECK(stated_by(source->facts()).intrinsics == Intrinsics{500, 510, 2, 1.5});
+    CHECK(origins_of(source->facts().findings) == "array 'disparity', array 'K'");
     CHECK(source->facts().start_s == 2.0);
     CHECK(source->next()->time_s == 0.0);
     CHECK(source->next()->time_s == 0.5);
@@ -251,6 +412,23 @@ TEST_CASE("arrays of bytes are colours, and one .npz opens as colour and depth",
           cv::Vec3b(3, 2, 1));
     write_text(folder / "depth.npy", small_npy(1));
     CHECK(contains(refusal_of(folder / "depth.npy", PictureRole::colour), "no colours"));
+}
+
+TEST_CASE("colours of networks are real numbers, whose channels may come first", "[numpy]") {
+    const TemporaryFolder folder;
+    const float black = GENERATE(0.0F, -1.0F);
+    std::string planes;
+    for (const float part : {0.0F, 0.4F, 1.0F})
+        for (int k = 0; k < 12; ++k) append_bytes(planes, black + part * (1.0F - black));
+    write_text(folder / "a.npy", npy("<f4", "(1, 3, 3, 4)", planes));
+    const auto colours_of = [&folder] {
+        return read_still(folder / "a.npy", PictureRole::colour).picture.at<cv::Vec3b>(2, 3);
+    };
+    CHECK(colours_of() == cv::Vec3b(255, 102, 0));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", planes));
+    CHECK(colours_of() == cv::Vec3b(255, 255, 255));
+    write_text(folder / "a.npy", npy("<f4", "(3, 4, 3)", std::string(36 * 4, '\x44')));
+    CHECK(contains(refusal_of(folder / "a.npy", PictureRole::colour), "points or normals"));
 }
 
 TEST_CASE("what is no array of pictures is refused with its shape", "[numpy]") {
@@ -296,4 +474,11 @@ TEST_CASE("what numpy itself writes is read", "[numpy]") {
     CHECK(different(source->next()->picture, small(0)) == 0);
     CHECK(different(source->next()->picture, small(12)) == 0);
     CHECK_THAT(source->facts().frames_per_s, WithinAbs(name == "b.npz" ? 24.0 : 30.0, 1e-9));
+}
+
+TEST_CASE("a list of points is no picture", "[numpy]") {
+    const TemporaryFolder folder;
+    const cv::Mat points(3000, 4, CV_32F, cv::Scalar(2.0));
+    write_text(folder / "points.npy", npy("<f4", "(3000, 4)", data_of<float>(points)));
+    CHECK(contains(refusal_of(folder / "points.npy"), "a list of points or poses"));
 }

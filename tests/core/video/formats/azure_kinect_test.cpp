@@ -7,6 +7,7 @@
 #include "core/video/formats/video_file.hpp"
 #include "core/video/sources/media.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -85,13 +86,13 @@ TEST_CASE("a recording opens as colour and depth, in millimetres, with its depth
     CHECK(media->description().depth_columns == 640);
     const VideoFile depth(folder / "k.mkv", PictureRole::depth, 1);
     CHECK(depth.facts().bits == 16);
-    CHECK(depth.facts().known.unit == DepthUnit::mm);
-    CHECK(depth.facts().known.scale == 1.0);
-    CHECK(depth.facts().known.no_data == std::vector<double>{0.0});
-    CHECK(depth.facts().known.intrinsics == Intrinsics{504.0, 505.0, 323.5, 329.5});
-    CHECK(depth.facts().known_from == "Azure Kinect calibration");
+    CHECK(stated_by(depth.facts()).unit == DepthUnit::mm);
+    CHECK(stated_by(depth.facts()).scale == 1.0);
+    CHECK(stated_by(depth.facts()).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(depth.facts()).intrinsics == Intrinsics{504.0, 505.0, 323.5, 329.5});
+    CHECK(origins_of(depth.facts().findings) == "Azure Kinect calibration");
     const VideoFile colour(folder / "k.mkv", PictureRole::colour, 0);
-    CHECK(colour.facts().known == DepthStatement{});
+    CHECK(stated_by(colour.facts()) == DepthStatement{});
 }
 
 TEST_CASE("a recording whose calibration is not readable is in millimetres all the same",
@@ -100,7 +101,7 @@ TEST_CASE("a recording whose calibration is not readable is in millimetres all t
     write_text(folder / "calibration.json", "{}");
     record(folder / "k.mkv", folder / "calibration.json", "320x288");
     const VideoFile depth(folder / "k.mkv", PictureRole::depth, 1);
-    CHECK(depth.facts().known.unit == DepthUnit::mm);
-    CHECK_FALSE(depth.facts().known.intrinsics);
-    CHECK(depth.facts().known_from == "Azure Kinect recording");
+    CHECK(stated_by(depth.facts()).unit == DepthUnit::mm);
+    CHECK_FALSE(stated_by(depth.facts()).intrinsics);
+    CHECK(origins_of(depth.facts().findings) == "Azure Kinect recording");
 }

@@ -21,6 +21,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -113,8 +114,8 @@ TEST_CASE("every level of an EXR file is kept, however it is packed", "[exr]") {
     const StillPicture still = read_still(folder / "z.exr", PictureRole::depth);
     CHECK(still.bits == kRealBits);
     CHECK(still.codec == "EXR");
-    CHECK(still.known.unit == DepthUnit::m);
-    CHECK(still.known_from == "EXR channel Z");
+    CHECK(stated_by(still).unit == DepthUnit::m);
+    CHECK(origins_of(still.findings) == "EXR channel Z");
     CHECK(different(still.picture, scene()) == 0);
 }
 
@@ -198,8 +199,8 @@ TEST_CASE("depth is the channel that names it, not a coordinate of something els
     write_exr(channels, folder / "named.exr");
     const StillPicture still = read_still(folder / "named.exr", PictureRole::depth);
     CHECK(different(still.picture, flat(static_cast<float>(wanted) + 1)) == 0);
-    CHECK(still.known_from == from);
-    CHECK(still.known.unit.has_value() == !from.empty());
+    CHECK(origins_of(still.findings) == from);
+    CHECK(stated_by(still).unit.has_value() == !from.empty());
 }
 
 TEST_CASE("colours alone are depth where they are grey, and stay colours where not", "[exr]") {
@@ -210,6 +211,12 @@ TEST_CASE("colours alone are depth where they are grey, and stay colours where n
     const cv::Mat colours = depth_in(folder / "colours.exr");
     REQUIRE(colours.type() == CV_32FC3);
     CHECK(colours.at<cv::Vec3f>(5, 7) == cv::Vec3f(3, 2, 1));
+}
+
+TEST_CASE("the only channel of colours that is not empty is depth", "[exr]") {
+    const TemporaryFolder folder;
+    write_exr({{"R", flat(3)}, {"G", flat(0)}, {"B", flat(0)}}, folder / "red.exr");
+    CHECK(different(depth_in(folder / "red.exr"), flat(3)) == 0);
 }
 
 TEST_CASE("a renderer's infinity, and what is no number, is no data", "[exr]") {

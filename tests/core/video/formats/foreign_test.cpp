@@ -1,14 +1,55 @@
 // Recordings that only their maker's programs read are named, and what to do is said.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <opencv2/core.hpp>
 #include <string>
+#include <vector>
 
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/forms.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
+
+namespace {
+
+template <typename Number>
+std::string raw_bytes_of(const std::vector<Number>& numbers) {
+    std::string bytes;
+    for (const Number number : numbers) append_bytes(bytes, number);
+    return bytes;
+}
+
+/// Depth of MPI Sintel, 3 x 2 pixels: 1 to 6 m; with more bytes a pixel it is optical flow.
+std::string sintel(std::size_t pixel_bytes) {
+    std::string bytes = "PIEH" + raw_bytes_of<std::int32_t>({3, 2});
+    for (std::size_t k = 0; k < 6 * pixel_bytes / 4; ++k)
+        append_bytes(bytes, static_cast<float>(k + 1));
+    return bytes;
+}
+
+/// The text with another for each place where it holds the part.
+std::string replaced(std::string text, const std::string& part, const std::string& by) {
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + by.size()))
+        text.replace(at, part.size(), by);
+    return text;
+}
+
+/// Runs the command of a refusal where the file is.
+void convert(const std::string& refused, const TemporaryFolder& folder) {
+    const std::string command = refused.substr(refused.find("python3 -c"));
+    const std::string whole = command.substr(0, command.find('"', command.find('"') + 1) + 1);
+    REQUIRE(std::system(("cd '" + folder.path().string() + "' && /usr/bin/" + whole).c_str()) == 0);
+}
+
+}  // namespace
 
 TEST_CASE("recordings of other makers are known by their content, and told how to convert",
           "[foreign]") {
@@ -23,7 +64,6 @@ TEST_CASE("recordings of other makers are known by their content, and told how t
          {"frames.zip", zip, "unpack"},
          {"zed.svo", std::string(60, '\1'), "ZED"},
          {"zed.svo2", "\x89MCAP0\r\n" + std::string(60, '\0'), "ZED"},
-         {"ros.mcap", "\x89MCAP0\r\n" + std::string(60, '\0'), "ros2 bag convert"},
          {"old.oni", "NI10" + std::string(60, '\0'), "OpenNI"},
          {"telegie.mkv", "\x1a\x45\xdf\xa3" + std::string(60, '\0') + "V_TDC1", "pyrgbd"},
          {"walk.db3.zstd", "\x28\xb5\x2f\xfd" + std::string(60, '\0'), "zstd -d"}}));
@@ -35,6 +75,101 @@ TEST_CASE("recordings of other makers are known by their content, and told how t
     CHECK(said.find('\n') == std::string::npos);
     CHECK(said == refusal([&, file = folder / name] { (void)open_media(file); }));
     CHECK(said == refusal([&, file = folder / name] { (void)describe_media(file); }));
+}
+
+TEST_CASE("what is no picture of depth is named for what it is, with the command that converts it",
+          "[foreign]") {
+    const TemporaryFolder folder;
+    const std::string rest(600, '\0');
+    const auto [name, bytes, form, way] =
+        GENERATE_COPY(table<std::string, std::string, std::string, std::string>(
+            {{"frames.h5", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5py.File('frames.h5')"},
+             {"renamed.mp4", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5ls -r renamed.mp4"},
+             {"nyu.mat", "MATLAB 7.3 MAT-file, Platform" + rest, "MATLAB", "h5py.File('nyu.mat')"},
+             {"old.mat", "MATLAB 5.0 MAT-file, Platform" + rest, "MATLAB", "loadmat('old.mat')"},
+             {"touch.tmd", "Binary TrueMap Data File v2.0\r\n" + rest, "GelSight", "height.npy"},
+             {"scan.ply", "ply\nformat ascii 1.0\n", "point cloud", "CloudCompare"},
+             {"scan.pcd", "# .PCD v0.7\nVERSION 0.7\n", "point cloud", "CloudCompare"},
+             {"field.las", "LASF" + rest, "point cloud", "pdal translate field.las"},
+             {"field.laz", "LASF" + rest, "point cloud", "pdal translate field.laz"},
+             {"room.xyz", "1 2 3\n4 5 6\n", "point cloud", "CloudCompare"},
+             {"hill.asc", "ncols 3\nnrows 2\n", "heights", "gdal_translate hill.asc"},
+             {"N46E007.hgt", std::string(2000, '\1'), "heights", "gdal_translate N46E007.hgt"},
+             {"paper.pdf", "%PDF-1.5\n" + rest, "PDF", "pdfimages -png paper.pdf"},
+             {"frame.raw", std::string(2000, '\2'), "without a header",
+              "numpy.fromfile('frame.raw'"},
+             {"frame.csv", "0.5,0.25\n0.75,1\n", "table", "numpy.loadtxt('frame.csv'"},
+             {"set.tar", std::string(257, 'a') + "ustar" + rest, "archive", "tar -xf set.tar"},
+             {"set.tar.gz", "\x1f\x8b" + rest, "gzip", "gzip -dk set.tar.gz"},
+             {"renamed.bin", "PK\x03\x04" + rest, "zip", "unzip renamed.bin"},
+             {"depth.pt", "PK\x03\x04" + rest, "PyTorch", "torch.load('depth.pt'"},
+             {"k.xef", "EVENTS1" + rest, "Kinect Studio", "xefextract"},
+             {"frame_0001.flo", sintel(8), "optical flow", "dibhr help depth"},
+             {"frame_0001.dpt", sintel(4).substr(0, 30), "Sintel", "copy it again"},
+             {"a.jpg.geometric.bin", "3&2&3&" + rest.substr(0, 72), "normals", "depth_maps"},
+             {"sweep.pcd.bin", raw_bytes_of<float>({1.5F, 2.0F, 0.25F, 9.0F, 3.0F}), "LiDAR",
+              "numpy.fromfile('sweep.pcd.bin', '<f4').reshape(-1, 5)"},
+             {"my $(frames).h5", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5py.File('FILE')"}}));
+    CAPTURE(name);
+    write_text(folder / name, bytes);
+    const std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    CHECK(contains(said, form));
+    CHECK(contains(said, way));
+    CHECK(said.find('\n') == std::string::npos);
+    CHECK(said == refusal([&, file = folder / name] { (void)open_media(file); }));
+    CHECK(said == refusal([&, file = folder / name] { (void)describe_media(file); }));
+}
+
+TEST_CASE("the command for a height map of GelSight gives its heights", "[foreign]") {
+    const TemporaryFolder folder;
+    std::string bytes = std::string("Binary TrueMap Data File v2.0\r\n\0made here\0", 42);
+    for (const std::uint32_t side : {3U, 2U}) append_bytes(bytes, side);
+    for (int k = 0; k < 4; ++k) append_bytes(bytes, 1.0F);
+    for (int k = 0; k < 6; ++k) append_bytes(bytes, 0.5F + static_cast<float>(k));
+    write_text(folder / "a.tmd", bytes);
+    const std::string said = refusal([&] { (void)open_depth(folder / "a.tmd"); });
+    convert(said, folder);
+    const auto depth = open_depth(folder / "height.npy")->next();
+    REQUIRE(depth);
+    CHECK(depth->depth.columns == 3);
+    CHECK(depth->depth.rows == 2);
+    CHECK(depth->depth.at(2, 1) == 5.5F);
+}
+
+TEST_CASE("the command for depth in a form of a data set, or without a header, gives its numbers",
+          "[foreign]") {
+    const TemporaryFolder folder;
+    std::vector<float> reals;
+    for (int k = 0; k < 6 * 40; ++k) reals.push_back(static_cast<float>(k % 6 + 1));
+    std::string text;
+    for (int k = 0; k < 6 * 40; ++k) text += std::to_string(k % 6 + 1) + ".0 ";
+    const std::string levels =
+        raw_bytes_of<std::int32_t>({2, 3}) + raw_bytes_of<std::uint16_t>({1, 2, 3, 4, 5, 6});
+    const auto [name, bytes, form] = GENERATE_COPY(table<std::string, std::string, std::string>(
+        {{"frame_0001.dpt", sintel(4), "MPI Sintel"},
+         {"depth0.dpt", levels, "LINEMOD"},
+         {"a.jpg.geometric.bin", "3&2&1&" + raw_bytes_of<float>({1, 2, 3, 4, 5, 6}), "COLMAP"},
+         {"DSC_0286.JPG", raw_bytes_of(reals), "holds 240 real numbers"},
+         {"depth_0001.bin", raw_bytes_of(reals), "without a header"},
+         {"scene_00.depth", text, "numbers as text"}}));
+    CAPTURE(name);
+    write_text(folder / name, bytes);
+    std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    CHECK(contains(said, form));
+    said = replaced(replaced(said, "ROWS", "80"), "COLUMNS", "3");
+    convert(said, folder);
+    cv::Mat depth;
+    read_still(folder / "depth.npy", PictureRole::depth).picture.convertTo(depth, CV_32F);
+    REQUIRE(depth.cols == 3);
+    for (int k = 0; k < 6; ++k) CHECK(depth.at<float>(k / 3, k % 3) == static_cast<float>(k + 1));
+}
+
+TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {
+    const TemporaryFolder folder;
+    // 3111.51 is "'xBE" in bytes.
+    write_text(folder / "depth.bin", raw_bytes_of(std::vector<float>(640, 3111.5095F)));
+    const std::string said = refusal([&] { (void)open_depth(folder / "depth.bin"); });
+    CHECK(contains(said, "640 real numbers"));
 }
 
 TEST_CASE("a folder of a bag that is packed says how to unpack it", "[foreign]") {

@@ -10,6 +10,7 @@
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/forms.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -40,8 +41,8 @@ TEST_CASE("a portrait photo opens as colour and depth, and keeps the depth's lev
     const StillPicture depth = read_still(folder / "portrait.heic", PictureRole::depth);
     CHECK(depth.bits == 8);
     CHECK(depth.codec == "HEIC");
-    CHECK(depth.known.unit == DepthUnit::disparity);
-    CHECK_FALSE(depth.known_from.empty());
+    CHECK(stated_by(depth).unit == DepthUnit::disparity);
+    CHECK_FALSE(origins_of(depth.findings).empty());
     REQUIRE(depth.picture.size() == cv::Size(32, 24));
     for (int j = 0; j < 24; ++j)
         for (int i = 0; i < 32; ++i) REQUIRE(depth.picture.at<std::uint8_t>(j, i) == 4 * i + j);
@@ -59,9 +60,9 @@ TEST_CASE("the photo says what its levels of depth are", "[heif]") {
                 folder / "portrait.heic");
     if (!is_decoded(folder / "portrait.heic")) return;
     const StillPicture depth = read_still(folder / "portrait.heic", PictureRole::depth);
-    CHECK(depth.known.unit == DepthUnit::disparity);
-    REQUIRE(depth.known.scale);
-    CHECK(*depth.known.scale == 1.0 / 255.0);
+    CHECK(stated_by(depth).unit == DepthUnit::disparity);
+    REQUIRE(stated_by(depth).scale);
+    CHECK(*stated_by(depth).scale == 1.0 / 255.0);
 }
 
 TEST_CASE("a turned photo is upright in colour and in depth", "[heif]") {

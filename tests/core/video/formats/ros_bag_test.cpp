@@ -1,7 +1,5 @@
-// Bags of ROS 2 in SQLite, written here byte by byte as their own programs do.
-#include "core/video/formats/ros_bag.hpp"
-
-#include <sqlite3.h>
+// Bags of ROS 2 in SQLite and MCAP, as their own programs write them.
+#include "core/video/formats/bags/ros_bag.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,13 +9,16 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
+#include "tests/core/video/bag_writers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -28,52 +29,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Little-endian CDR.
-class CdrWriter {
-  public:
-    template <typename Number>
-    CdrWriter& number(Number value) {
-        while ((bytes_.size() - 4) % sizeof value != 0) bytes_.push_back('\0');
-        char raw[sizeof value];
-        std::memcpy(raw, &value, sizeof value);
-        bytes_.append(raw, sizeof value);
-        return *this;
-    }
-    CdrWriter& text(const std::string& letters) {
-        number(static_cast<std::uint32_t>(letters.size() + 1));
-        bytes_ += letters + '\0';
-        return *this;
-    }
-    CdrWriter& sequence(const std::string& data) {
-        number(static_cast<std::uint32_t>(data.size()));
-        bytes_ += data;
-        return *this;
-    }
-    CdrWriter& header(double stamp_s, const std::string& frame = "camera_optical_frame") {
-        const double whole_s = std::floor(stamp_s);
-        number(static_cast<std::int32_t>(whole_s));
-        number(static_cast<std::uint32_t>(std::llround((stamp_s - whole_s) * 1e9)));
-        return text(frame);
-    }
-    [[nodiscard]] const std::string& bytes() const { return bytes_; }
-
-  private:
-    std::string bytes_{"\0\1\0\0", 4};
-};
-
-std::string image(double stamp_s, int columns, int rows, const std::string& encoding, int step,
-                  const std::string& data, bool big_endian = false) {
-    return CdrWriter()
-        .header(stamp_s)
-        .number(static_cast<std::uint32_t>(rows))
-        .number(static_cast<std::uint32_t>(columns))
-        .text(encoding)
-        .number(static_cast<std::uint8_t>(big_endian ? 1 : 0))
-        .number(static_cast<std::uint32_t>(step))
-        .sequence(data)
-        .bytes();
-}
-
 template <typename Level>
 std::string repeated(Level level, int count) {
     std::string bytes;
@@ -83,11 +38,6 @@ std::string repeated(Level level, int count) {
         bytes.append(raw, sizeof level);
     }
     return bytes;
-}
-
-std::string depth_image(double stamp_s, int level, int columns = 8, int rows = 6) {
-    return image(stamp_s, columns, rows, "16UC1", 2 * columns,
-                 repeated(static_cast<std::uint16_t>(level), columns * rows));
 }
 
 std::string colour_image(double stamp_s, const std::string& encoding, const std::string& pixel) {
@@ -106,7 +56,11 @@ std::string encoded(const std::string& ending, const cv::Mat& picture) {
     return {bytes.begin(), bytes.end()};
 }
 
-std::string camera_info(int columns, int rows, const std::string& frame = "camera_optical_frame") {
+/// A camera whose axis goes through the middle of pictures of that size; zeros: not calibrated.
+std::string camera_info(int columns, int rows, const std::string& frame = "camera_optical_frame",
+                        double focal = 600.0) {
+    const double cx = focal > 0.0 ? 0.5 * (columns - 1) : 0.0;
+    const double cy = focal > 0.0 ? 0.5 * (rows - 1) : 0.0;
     CdrWriter info;
     info.header(1.0, frame)
         .number(static_cast<std::uint32_t>(rows))
@@ -114,54 +68,11 @@ std::string camera_info(int columns, int rows, const std::string& frame = "camer
         .text("plumb_bob")
         .number(std::uint32_t{5});
     for (int k = 0; k < 5; ++k) info.number(0.1 * k);
-    for (const double value : {600.0, 0.0, 320.5, 0.0, 601.0, 240.5, 0.0, 0.0, 1.0})
+    for (const double value : {focal, 0.0, cx, 0.0, 1.5 * focal, cy, 0.0, 0.0, 1.0})
         info.number(value);
     for (int k = 0; k < 21; ++k) info.number(1.0);
     return info.bytes();
 }
-
-class Bag {
-  public:
-    explicit Bag(const fs::path& file) {
-        if (sqlite3_open(file.c_str(), &database_) != SQLITE_OK) throw std::runtime_error("open");
-        run("CREATE TABLE topics(id INTEGER PRIMARY KEY, name TEXT NOT NULL, type TEXT NOT NULL, "
-            "serialization_format TEXT NOT NULL, offered_qos_profiles TEXT NOT NULL)");
-        run("CREATE TABLE messages(id INTEGER PRIMARY KEY, topic_id INTEGER NOT NULL, timestamp "
-            "INTEGER NOT NULL, data BLOB NOT NULL)");
-        run("CREATE INDEX timestamp_idx ON messages (timestamp ASC)");
-        run("BEGIN");
-    }
-    ~Bag() {
-        run("COMMIT");
-        sqlite3_close(database_);
-    }
-    Bag(const Bag&) = delete;
-    Bag& operator=(const Bag&) = delete;
-
-    int topic(const std::string& name, const std::string& type,
-              const std::string& package = "sensor_msgs") {
-        run("INSERT INTO topics(name, type, serialization_format, offered_qos_profiles) VALUES('" +
-            name + "', '" + package + "/msg/" + type + "', 'cdr', '')");
-        return static_cast<int>(sqlite3_last_insert_rowid(database_));
-    }
-    void add(int topic, const std::string& data, std::int64_t recorded_ns = 7) {
-        sqlite3_stmt* insert = nullptr;
-        sqlite3_prepare_v2(database_,
-                           "INSERT INTO messages(topic_id, timestamp, data) VALUES(?, ?, ?)", -1,
-                           &insert, nullptr);
-        sqlite3_bind_int(insert, 1, topic);
-        sqlite3_bind_int64(insert, 2, recorded_ns);
-        sqlite3_bind_blob(insert, 3, data.data(), static_cast<int>(data.size()), SQLITE_STATIC);
-        sqlite3_step(insert);
-        sqlite3_finalize(insert);
-    }
-    void run(const std::string& sql) {
-        sqlite3_exec(database_, sql.c_str(), nullptr, nullptr, nullptr);
-    }
-
-  private:
-    sqlite3* database_{nullptr};
-};
 
 /// Column by column, and in metres.
 std::string extrinsics(const std::vector<double>& rotation, const std::vector<double>& shift_m) {
@@ -181,8 +92,11 @@ std::vector<float> depths_of(Media& media) {
 
 TEST_CASE("a bag plays its depth and colour topics by the stamps of their messages", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("walk" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "walk.db3");
+        Bag bag(file, form);
         const int infrared = bag.topic("/camera/infra1/image_rect_raw", "Image");
         const int depth = bag.topic("/camera/depth/image_rect_raw", "Image");
         const int colour = bag.topic("/camera/color/image_raw", "Image");
@@ -194,7 +108,7 @@ TEST_CASE("a bag plays its depth and colour topics by the stamps of their messag
             bag.add(colour, colour_image(100.01 + 0.1 * n, "rgb8", {static_cast<char>(n), 2, 3}));
         }
     }
-    const auto media = open_media(folder / "walk.db3");
+    const auto media = open_media(file);
     CHECK(media->description().colour_columns == 10);
     CHECK(media->description().depth_columns == 8);
     CHECK(media->description().frames == 3);
@@ -209,17 +123,20 @@ TEST_CASE("a bag plays its depth and colour topics by the stamps of their messag
     CHECK_FALSE(media->next());
     media->seek(0.15);
     CHECK(media->next()->depth.at(2, 2) == 1001.0F);
-    const auto source = open_picture_source(folder / "walk.db3", PictureRole::depth);
-    CHECK(source->facts().known.unit == DepthUnit::mm);
-    CHECK(source->facts().known.no_data == std::vector<double>{0.0});
-    CHECK(source->facts().known.intrinsics == Intrinsics{600.0, 601.0, 320.5, 240.5});
-    CHECK(source->facts().known_from == "ROS topic /camera/depth/image_rect_raw");
-    CHECK(describe_media(folder / "walk.db3").depth_bits == 16);
+    const auto source = open_picture_source(file, PictureRole::depth);
+    CHECK(stated_by(source->facts()).unit == DepthUnit::mm);
+    CHECK(stated_by(source->facts()).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(source->facts()).intrinsics == Intrinsics{600.0, 900.0, 3.5, 2.5});
+    CHECK(origins_of(source->facts().findings) == "ROS topic /camera/depth/image_rect_raw");
+    CHECK(describe_media(file).depth_bits == 16);
 }
 
 TEST_CASE("a bag's floats are metres, in either order of bytes, and its rows may be padded",
           "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("f" + form.ending);
+    CAPTURE(form.name());
     const bool big_endian = GENERATE(false, true);
     std::string data;
     for (int row = 0; row < 6; ++row) {
@@ -229,12 +146,12 @@ TEST_CASE("a bag's floats are metres, in either order of bytes, and its rows may
         if (row < 5) data += "pad!";
     }
     {
-        Bag bag(folder / "f.db3");
+        Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
         bag.add(depth, image(5.0, 8, 6, "32FC1", 36, data, big_endian));
     }
-    const auto source = open_picture_source(folder / "f.db3", PictureRole::depth);
-    CHECK(source->facts().known.unit == DepthUnit::m);
+    const auto source = open_picture_source(file, PictureRole::depth);
+    CHECK(stated_by(source->facts()).unit == DepthUnit::m);
     CHECK(source->facts().bits == kRealBits);
     CHECK(source->facts().still);
     const auto picture = source->next();
@@ -244,21 +161,27 @@ TEST_CASE("a bag's floats are metres, in either order of bytes, and its rows may
 
 TEST_CASE("depth that is registered to the colour camera comes before other depth", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("a" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "a.db3");
+        Bag bag(file, form);
         bag.add(bag.topic("/depth/image_raw", "Image"), depth_image(1.0, 1));
         bag.add(bag.topic("/aligned_depth_to_color/image_raw", "Image"), depth_image(1.0, 2));
     }
-    CHECK(depths_of(*open_depth(folder / "a.db3")) == std::vector<float>{2.0F});
+    CHECK(depths_of(*open_depth(file)) == std::vector<float>{2.0F});
 }
 
 TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does not", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("two" + form.ending);
+    CAPTURE(form.name());
     const std::string told = GENERATE(as<std::string>{}, "well", "broken", "not", "one camera");
     CAPTURE(told);
     const double tilt = told == "broken" ? 0.9 : 1.0;
     {
-        Bag bag(folder / "two.db3");
+        Bag bag(file, form);
         bag.add(bag.topic("/cam/depth/image_rect_raw", "Image"), depth_image(1.0, 1000));
         bag.add(bag.topic("/cam/depth/camera_info", "CameraInfo"), camera_info(8, 6, "depth"));
         bag.add(bag.topic("/cam/color/image_raw", "Image"), colour_image(1.0, "rgb8", "abc"));
@@ -269,12 +192,12 @@ TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does
                 bag.topic("/cam/extrinsics/depth_to_color", "Extrinsics", "realsense2_camera_msgs"),
                 extrinsics({0, tilt, 0, -1, 0, 0, 0, 0, 1}, {0.015, 0.0, -0.001}));
     }
-    const auto source = open_picture_source(folder / "two.db3", PictureRole::depth);
+    const auto source = open_picture_source(file, PictureRole::depth);
     const SourceFacts& facts = source->facts();
-    CHECK(facts.known.intrinsics);
+    CHECK(stated_by(facts).intrinsics);
     REQUIRE((facts.cameras != nullptr) == (told == "well"));
     const auto notice = [&](const DepthRequest& request) {
-        return open_media(folder / "two.db3", {}, request)->description().notice;
+        return open_media(file, {}, request)->description().notice;
     };
     const bool is_told = told == "well" || told == "one camera";
     CHECK(contains(notice({.find_out = true}), "shift the colour (--registration)") != is_told);
@@ -287,12 +210,40 @@ TEST_CASE("a bag of two cameras tells how they stand, or it is said that it does
     const Lens& lens = facts.cameras->colour.lens();  // plumb_bob 0, 0.1 .. 0.4
     CHECK(lens.k == std::array<double, 6>{0.0, 0.1, 0.4, 0.0, 0.0, 0.0});
     CHECK(lens.p1 == 0.1 * 2);
-    CHECK(open_media(folder / "two.db3", {}, {.find_out = true})->description().registered_by ==
+    CHECK(open_media(file, {}, {.find_out = true})->description().registered_by ==
           "ROS topic /cam/extrinsics/depth_to_color");
+}
+
+TEST_CASE(
+    "a bag's camera of other pictures is scaled where they were made smaller, else it is said",
+    "[bag]") {
+    const TemporaryFolder folder;
+    const auto [info, camera, said] =
+        GENERATE(table<std::string, std::optional<Intrinsics>, std::string>(
+            {{camera_info(16, 12), Intrinsics{300.0, 450.0, 3.5, 2.5}, "of a picture of 16 x 12"},
+             {camera_info(10, 10), std::nullopt, "of a picture of 10 x 10, not of 8 x 6"},
+             {camera_info(8, 6, "depth", 0.0), std::nullopt, "focal lengths of 0"}}));
+    CAPTURE(said);
+    {
+        Bag bag(folder / "a.db3");
+        bag.add(bag.topic("/depth/image", "Image"), depth_image(1.0, 1000));
+        bag.add(bag.topic("/depth/camera_info", "CameraInfo"), info);
+    }
+    const auto media = open_depth(folder / "a.db3", {.find_out = true});
+    CHECK(media->description().meaning->intrinsics.value == camera);
+    CHECK(contains(media->description().notice, said));
+    if (camera) return;
+    const DepthRequest true_shape{.find_out = true,
+                                  .command_line = {.geometry = Geometry::true_shape}};
+    CHECK(contains(refusal([&, file = folder / "a.db3"] { (void)open_depth(file, true_shape); }),
+                   "--intrinsics"));
 }
 
 TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both kinds", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("c" + form.ending);
+    CAPTURE(form.name());
     const cv::Mat colour(6, 10, CV_8UC3, cv::Scalar(200, 200, 200));
     const cv::Mat depth(6, 8, CV_16UC1, cv::Scalar(1234));
     // v = a / depth + b: here 1234 = 2000 / 2 m + 234.
@@ -300,7 +251,7 @@ TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both k
         repeated(std::uint32_t{0}, 1) + repeated(2000.0F, 1) + repeated(234.0F, 1);
     const bool floats = GENERATE(false, true);
     {
-        Bag bag(folder / "c.db3");
+        Bag bag(file, form);
         bag.add(bag.topic("/color/compressed", "CompressedImage"),
                 compressed(1.0, "rgb8; jpeg compressed bgr8", encoded(".jpg", colour)));
         bag.add(
@@ -309,17 +260,17 @@ TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both k
                        header + encoded(".png", depth)));
         bag.add(bag.topic("/depth/camera_info", "CameraInfo"), camera_info(8, 6));
     }
-    const auto source = open_picture_source(folder / "c.db3", PictureRole::depth);
+    const auto source = open_picture_source(file, PictureRole::depth);
     const auto picture = source->next();
     REQUIRE(picture);
     if (floats)
         CHECK(std::abs(picture->picture.at<float>(2, 2) - 2.0F) < 1e-6F);
     else
         CHECK(picture->picture.at<std::uint16_t>(2, 2) == 1234);
-    CHECK((source->facts().known.unit == DepthUnit::m) == floats);
-    CHECK(source->facts().known.intrinsics);
+    CHECK((stated_by(source->facts()).unit == DepthUnit::m) == floats);
+    CHECK(stated_by(source->facts()).intrinsics);
     if (!floats) {
-        const auto frame = open_media(folder / "c.db3")->next();
+        const auto frame = open_media(file)->next();
         REQUIRE(frame);
         CHECK(frame->colour.rgb[0] == 200);
     }
@@ -327,9 +278,11 @@ TEST_CASE("compressed topics of a bag are read: JPEG colour, PNG depth of both k
 
 TEST_CASE("a bag that goes over several files of a folder plays as one", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    CAPTURE(form.name());
     write_text(folder / "metadata.yaml", "rosbag2_bagfile_information:\n");
     for (const int part : {0, 1}) {
-        Bag bag(folder / ("walk_" + std::to_string(part) + ".db3"));
+        Bag bag(folder / ("walk_" + std::to_string(part) + form.ending), form);
         const int depth = bag.topic("/depth", "Image");
         for (int n = 0; n < 2; ++n)
             bag.add(depth, depth_image(1.0 + 0.1 * (2 * part + n), 2 * part + n));
@@ -339,14 +292,17 @@ TEST_CASE("a bag that goes over several files of a folder plays as one", "[bag]"
 
 TEST_CASE("messages without stamps play by when they were recorded", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("r" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "r.db3");
+        Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
         bag.add(depth, depth_image(0.0, 8), 2'500'000'000);
         bag.add(depth, depth_image(0.0, 7), 2'000'000'000);
         bag.add(depth, depth_image(0.0, 9), 2'500'000'000);  // the same time: passed over
     }
-    const auto media = open_depth(folder / "r.db3");
+    const auto media = open_depth(file);
     CHECK(media->next()->depth.at(1, 1) == 7.0F);
     const auto second = media->next();
     CHECK(second->depth.at(1, 1) == 8.0F);
@@ -356,8 +312,11 @@ TEST_CASE("messages without stamps play by when they were recorded", "[bag]") {
 
 TEST_CASE("a large picture is read, and one that says more than it holds is told", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("l" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "l.db3");
+        Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
         bag.add(depth, depth_image(1.0, 11, 1600, 1200));
         bag.add(depth, image(1.1, 1600, 1200, "16UC1", 3200, "short"));
@@ -365,25 +324,29 @@ TEST_CASE("a large picture is read, and one that says more than it holds is told
         bag.add(depth, depth_image(1.3, 12, 1600, 1200).substr(0, 70));
         bag.add(depth, depth_image(1.4, 13, 1600, 1200));
     }
-    const auto media = open_depth(folder / "l.db3");
+    const auto media = open_depth(file);
     CHECK(depths_of(*media) == std::vector<float>{11.0F, 11.0F, 11.0F, 11.0F, 13.0F});
     CHECK(contains(media->description().trouble, "cannot be decoded"));
 }
 
 TEST_CASE("a bag without a topic that can be read says what it holds", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("none" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "none.db3");
+        Bag bag(file, form);
         bag.add(bag.topic("/camera/ir", "Image"),
                 image(1.0, 8, 6, "mono16", 16, repeated('x', 96)));
         bag.add(bag.topic("/camera/bayer", "Image"),
                 image(1.0, 8, 6, "bayer_rggb8", 8, std::string(48, 'x')));
     }
-    const std::string said = refusal([&] { (void)open_depth(folder / "none.db3"); });
+    const std::string said = refusal([&] { (void)open_depth(file); });
     CHECK(contains(said, "no topic of depth pictures"));
     CHECK(contains(said, "/camera/bayer: bayer_rggb8"));
-    { const Bag empty(folder / "empty.db3"); }
-    CHECK(contains(refusal([&] { (void)open_depth(folder / "empty.db3"); }), "none of pictures"));
+    const fs::path nothing = folder / ("empty" + form.ending);
+    { const Bag empty(nothing, form); }
+    CHECK(contains(refusal([&] { (void)open_depth(nothing); }), "none of pictures"));
 }
 
 TEST_CASE("databases that are no bags, or hostile ones, are refused in a line", "[bag]") {
@@ -410,42 +373,52 @@ TEST_CASE("databases that are no bags, or hostile ones, are refused in a line", 
 
 TEST_CASE("a compressed picture of a bag beyond the bound is refused", "[bag][memory]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("large" + form.ending);
+    CAPTURE(form.name());
     const std::string png = encoded(".png", cv::Mat::zeros(5800, 5800, CV_16UC1));
     CHECK(png.size() < 200'000);
     {
-        Bag bag(folder / "large.db3");
+        Bag bag(file, form);
         bag.add(bag.topic("/depth/image/compressedDepth", "CompressedImage"),
                 compressed(1.0, "16UC1; compressedDepth png", std::string(12, '\0') + png));
     }
-    CHECK(contains(refusal([&] { (void)open_depth(folder / "large.db3"); }), "larger than"));
+    CHECK(contains(refusal([&] { (void)open_depth(file); }), "larger than"));
 }
 
 TEST_CASE("a bag that was cut off or overwritten ends in a line or in what is left", "[bag]") {
     const TemporaryFolder folder;
+    const BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("whole" + form.ending);
+    CAPTURE(form.name());
     {
-        Bag bag(folder / "whole.db3");
+        Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
         for (int n = 0; n < 40; ++n) bag.add(depth, depth_image(1.0 + 0.1 * n, n, 64, 48));
     }
-    const std::string whole = read_text(folder / "whole.db3");
+    const std::string whole = read_text(file);
     for (std::size_t trial = 0; trial < 60; ++trial) {
         std::string broken = whole.substr(0, whole.size() - trial * whole.size() / 70);
         for (std::size_t k = 0; k < 8; ++k)
             broken[(trial * 7919 + k * k * 104729) % broken.size()] = static_cast<char>(trial * k);
-        write_text(folder / "broken.db3", broken);
+        write_text(folder / ("broken" + form.ending), broken);
         CAPTURE(trial);
-        (void)refusal([&] { (void)depths_of(*open_depth(folder / "broken.db3")); });
+        (void)refusal([&] { (void)depths_of(*open_depth(folder / ("broken" + form.ending))); });
     }
     SUCCEED();
 }
 
 TEST_CASE("a long bag is opened in time", "[bag]") {
     const TemporaryFolder folder;
+    BagForm form = GENERATE(from_range(bag_forms()));
+    const fs::path file = folder / ("long" + form.ending);
+    CAPTURE(form.name());
+    form.chunk_bytes = 1 << 16;
     {
-        Bag bag(folder / "long.db3");
+        Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
         for (int n = 0; n < 20'000; ++n)
             bag.add(depth, depth_image(1.0 + 0.01 * n, n % 100, 16, 12));
     }
-    CHECK(open_depth(folder / "long.db3")->description().frames == 20'000);
+    CHECK(open_depth(file)->description().frames == 20'000);
 }

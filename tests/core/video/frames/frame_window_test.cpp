@@ -44,6 +44,14 @@ TEST_CASE("a moment lies between the frames around it, blended by time", "[windo
     if (blend > 0.0) CHECK(pair.to == pair.from + 1);
 }
 
+TEST_CASE("the colour is that of the nearer frame, of which most of the depth is", "[window]") {
+    const FrameWindow window = window_of(4);
+    CHECK(&window.at(1.11).colour_frame() == &window.frames[1]);
+    CHECK(&window.at(1.24).colour_frame() == &window.frames[1]);
+    CHECK(&window.at(1.26).colour_frame() == &window.frames[2]);
+    CHECK(&window.at(1.39).colour_frame() == &window.frames[2]);
+}
+
 TEST_CASE("before the first and after the last frame the surface is held", "[window]") {
     const FrameWindow window = window_of(4);
     CHECK(window.at(0.2).from == &window.frames[0]);

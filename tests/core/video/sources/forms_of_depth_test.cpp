@@ -134,6 +134,16 @@ cv::Mat hues() {
     return painted(far, as_hue);
 }
 
+/// Metres in the bytes of the channels; for the others millimetres, what simulators write, heights.
+cv::Mat in_bytes_of(DepthCode code) {
+    const auto number = [code](double far) {
+        if (code == DepthCode::rg16) return distance_mm(far);
+        if (code == DepthCode::rgb24) return std::round(distance_mm(far) * 16.777215);
+        return code == DepthCode::terrain ? 100.0 + 0.1 * (kLast - far) : 0.001 * distance_mm(far);
+    };
+    return in_bytes(each(CV_32F, number), code);
+}
+
 /// Three equal channels of its own bits.
 cv::Mat grey(const cv::Mat& picture) {
     cv::Mat three;
@@ -177,20 +187,6 @@ Write late_video(const cv::Mat& content, const std::string& format, const std::s
     };
 }
 
-/// A track of colour, and one of depth.
-Write tracks(const cv::Mat& content, const std::string& format, const std::string& title) {
-    return [=](const fs::path& file) {
-        const fs::path first = file.string() + ".colour";
-        const fs::path second = file.string() + ".depth";
-        ffmpeg(raw_input(photo(), "bgr24", first) + raw_input(content, format, second) +
-               "-map 0 -map 1 -c:v ffv1 -pix_fmt:v:0 bgr0 -pix_fmt:v:1 " +
-               (format == "bgr24" ? "bgr0" : format) + " -metadata:s:v:1 title='" + title + "' '" +
-               file.string() + "'");
-        fs::remove(first);
-        fs::remove(second);
-    };
-}
-
 const std::string kHevc = "-c:v libx265 -x265-params lossless=1:log-level=none -pix_fmt ";
 const std::string kCrf4 = "-c:v libx264 -crf 4 -pix_fmt yuv420p";
 
@@ -214,8 +210,9 @@ constexpr double kHue = 1.0 / 1529;
 constexpr double kLimited10 = 1.0 / 876;
 constexpr double kCompressed = 4.0 / 255;
 
-// What nobody says of pictures.
-const std::string kAll = "near unit scale no_data";
+// What is not sure of pictures that nobody says anything of.
+const std::string kAll = "no_data";
+const std::string kDark8 = "near no_data";  // against the custom of 8 bits
 const std::string kHalves = " packing code";
 
 std::vector<Form> forms() {
@@ -239,7 +236,7 @@ std::vector<Form> forms() {
         {"PNG 16 bit, levels, near bright", "a.png", picture(levels(16, true)), kExact, 4096, kAll},
         {"PNG 16 bit, levels, near dark", "a.png", picture(levels(16, false)), kExact, 4096, kAll},
         {"PNG 16 bit, levels, near dark, told", "a.png", picture(levels(16, false)), kExact, 4096,
-         "unit scale no_data", dark},
+         kAll, dark},
         {"PNG 16 bit, disparity, by its name", "a_disp.png", picture(disparity16), kExact, 4096,
          "no_data"},
         {"PNG 16 bit, disparity, told", "a.png", picture(disparity16), kExact, 4096, "no_data",
@@ -250,11 +247,30 @@ std::vector<Form> forms() {
          picture(levels(8, false)),
          k8Bits,
          256,
-         kAll,
+         kDark8,
          {},
          1.0,
          true},
-        {"PNG, hue", "a.png", picture(hues()), kHue, 1529, kAll + " code"},
+        {"PNG, hue", "a.png", picture(hues()), kHue, 1529, ""},
+        {"PNG, rg16, mm", "a.png", picture(in_bytes_of(DepthCode::rg16)), kExact, 4096, kAll},
+        {"PNG, rgb24",
+         "a_depth.png",
+         picture(in_bytes_of(DepthCode::rgb24)),
+         kExact,
+         4096,
+         "",
+         {},
+         1.0,
+         true},
+        {"PNG, rgb24, told",
+         "a.png",
+         picture(in_bytes_of(DepthCode::rgb24)),
+         kExact,
+         4096,
+         "",
+         {.code = DepthCode::rgb24}},
+        {"PNG, float32, m", "a.png", picture(in_bytes_of(DepthCode::float32)), kExact, 4096, kAll},
+        {"PNG, terrain", "a.png", picture(in_bytes_of(DepthCode::terrain)), kExact, 4096, ""},
         {"TIFF 16 bit, mm", "a.tiff", picture(mm), kExact, 4096, kAll},
         {"TIFF float, m", "a.tif", text(tiff(kSceneColumns, kSceneRows, 32, 3, true, bytes_of(m))),
          kExact, 4096, kAll},
@@ -322,13 +338,28 @@ std::vector<Form> forms() {
          1.0,
          true},
         {"H.264 8 bit CRF 4, near dark, turned", "a.mp4",
-         turned_video(levels(8, false), "gray", kCrf4), kCompressed, 200, kAll},
+         turned_video(levels(8, false), "gray", kCrf4), kCompressed, 200, kDark8},
         {"H.264 4:4:4 lossless, hue", "a.mkv",
-         video(hues(), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"), kHue, 1529,
-         kAll + " code"},
+         video(hues(), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"), kHue, 1529, ""},
+        {"H.264 RGB lossless, rg16, mm", "a.mkv",
+         video(in_bytes_of(DepthCode::rg16), "bgr24", "-c:v libx264rgb -qp 0 -pix_fmt bgr24"),
+         kExact, 4096, kAll},
+        {"FFV1, rgb24", "a.mkv",
+         video(in_bytes_of(DepthCode::rgb24), "bgr24", "-c:v ffv1 -pix_fmt bgr0"), kExact, 4096,
+         ""},
+        {"FFV1, float32, m", "a.mkv",
+         video(in_bytes_of(DepthCode::float32), "bgra", "-c:v ffv1 -pix_fmt bgra"), kExact, 4096,
+         kAll},
+        {"FFV1, terrain, told",
+         "a.mkv",
+         video(in_bytes_of(DepthCode::terrain), "bgr24", "-c:v ffv1 -pix_fmt bgr0"),
+         kExact,
+         4096,
+         "",
+         {.code = DepthCode::terrain}},
         {"tracks, FFV1 16 bit, mm",
          "a.mkv",
-         tracks(mm, "gray16le", ""),
+         tracks(photo(), mm, "gray16le", ""),
          kExact,
          4096,
          kAll,
@@ -337,7 +368,7 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1 12 bit, near dark",
          "a.mkv",
-         tracks(levels(12, false), "gray12le", "Depth"),
+         tracks(photo(), levels(12, false), "gray12le", "Depth"),
          kExact,
          4096,
          kAll,
@@ -346,7 +377,7 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1 8 bit, near bright",
          "a.mkv",
-         tracks(levels(8, true), "gray", ""),
+         tracks(photo(), levels(8, true), "gray", ""),
          k8Bits,
          256,
          kAll,
@@ -355,10 +386,10 @@ std::vector<Form> forms() {
          true},
         {"tracks, FFV1, hue",
          "a.mkv",
-         tracks(hues(), "bgr24", "Depth"),
+         tracks(photo(), hues(), "bgr24", "Depth"),
          kHue,
          1529,
-         kAll + " code",
+         "",
          {},
          1.0,
          true},
@@ -385,7 +416,7 @@ std::vector<Form> forms() {
          picture(beside(grey(levels(8, false)), photo())),
          k8Bits,
          256,
-         kAll + kHalves,
+         kDark8 + kHalves,
          {},
          1.0,
          true},
@@ -394,8 +425,17 @@ std::vector<Form> forms() {
          picture(above(photo(), hues())),
          kHue,
          1529,
-         kAll + kHalves,
+         "packing",
          {},
+         1.0,
+         true},
+        {"left-right, PNG, rg16, mm",
+         "a.png",
+         picture(beside(photo(), in_bytes_of(DepthCode::rg16))),
+         kExact,
+         4096,
+         kAll,
+         {.packing = DepthPacking::left_right},
          1.0,
          true},
         {"top-bottom, TIFF 16 bit, disparity", "a.tiff",
@@ -434,7 +474,7 @@ std::vector<Form> forms() {
          video(beside(hues(), photo()), "bgr24", "-c:v libx264 -crf 4 -pix_fmt yuv444p"),
          kCompressed,
          1000,
-         kAll + kHalves,
+         "packing",
          {},
          0.98,
          true},

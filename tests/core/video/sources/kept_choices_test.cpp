@@ -1,6 +1,8 @@
 // What a person chose of a file's depth, and that it is heard when the file is opened again.
 #include "core/video/sources/kept_choices.hpp"
 
+#include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -125,7 +127,7 @@ TEST_CASE("so is how a depth is coded that is found beside its colour", "[kept]"
     const fs::path colour = home.folder / "a_color.png";
     const fs::path depth = home.folder / "a_depth.png";
     write_picture(colour, 64, 48, 8, 3, [](int i, int, int) { return 3 * i; });
-    write_picture(depth, 64, 48, 8, 3, [](int i, int j, int k) { return (i * j * (k + 1)) % 256; });
+    write_picture(depth, 64, 48, 8, 3, [](int i, int j, int) { return (i * j) % 256; });
     const auto bits = [&] {
         return open_media(colour, {}, home.request())->description().depth_bits;
     };
@@ -197,4 +199,104 @@ TEST_CASE("a choice that cannot be kept is told in one plain line", "[kept]") {
     CHECK(contains(line, "not kept"));
     CHECK(contains(line, "make it writable"));
     CHECK(line.find('\n') == std::string::npos);
+}
+
+namespace {
+
+/// A folder of 16-bit pictures that leave open which levels are near.
+struct OpenFolder {
+    TemporaryFolder folder{};
+    fs::path choices{folder / "config"};
+    fs::path first{folder / "takes/first.png"};
+    fs::path second{folder / "takes/second.png"};
+
+    OpenFolder() {
+        fs::create_directories(first.parent_path());
+        const auto corridor = [](int i, int j, int) {
+            return 60000 - 1000 * std::max(std::abs(i - 32), std::abs(j - 24));
+        };
+        for (const fs::path& file : {first, second}) write_picture(file, 64, 48, 16, 1, corridor);
+    }
+    [[nodiscard]] MediaDescription opened(const fs::path& file) const {
+        return open_depth(file, {.find_out = true, .kept_in = choices})->description();
+    }
+    [[nodiscard]] std::vector<DepthAlternative> alternatives() const {
+        return opened(first).conclusion.alternatives;
+    }
+    /// The likeliest answer by which the other end is near.
+    [[nodiscard]] DepthAlternative other_end() const {
+        const std::vector<DepthAlternative> all = alternatives();
+        REQUIRE(all.size() >= 2);
+        const auto other = std::find_if(all.begin(), all.end(), [&all](const auto& one) {
+            return one.statement.near != all.front().statement.near;
+        });
+        REQUIRE(other != all.end());
+        return *other;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("an answer for a folder is heard for its files that leave it open, and nobody asks again",
+          "[kept]") {
+    const OpenFolder takes;
+    const std::size_t before = takes.alternatives().size();
+    const DepthAlternative other = takes.other_end();
+    const DepthStatement answer = other.statement;
+    keep_folder_choice(takes.choices, takes.first, answer);
+    for (const fs::path& file : {takes.first, takes.second}) {
+        const MediaDescription media = takes.opened(file);
+        CHECK(media.conclusion.alternatives.empty());
+        CHECK(doubt_about(media).empty());
+        CHECK(media.meaning->near == known(*answer.near, Origin::folder));
+        CHECK(media.meaning->unit == known(*answer.unit, Origin::folder));
+        CHECK(media.meaning->range.value == other.range);
+        CHECK(media.panel == DepthStatement{});
+    }
+    const fs::path apart = takes.folder / "apart.png";
+    fs::copy_file(takes.first, apart);
+    CHECK(takes.opened(apart).conclusion.alternatives.size() == before);
+    keep_folder_choice(takes.choices, takes.second, {});
+    CHECK(takes.alternatives().size() == before);
+    CHECK(names_in(takes.choices).empty());
+}
+
+TEST_CASE(
+    "an answer for a folder gives way to a sidecar, to a choice for the file, and to findings",
+    "[kept]") {
+    const OpenFolder takes;
+    const DepthStatement answer = takes.other_end().statement;
+    const NearLevels other =
+        answer.near == NearLevels::dark ? NearLevels::bright : NearLevels::dark;
+    const DepthStatement against{.near = other, .unit = DepthUnit::levels};
+    keep_folder_choice(takes.choices, takes.first, answer);
+    const std::vector<std::string> names = names_in(takes.choices);
+    REQUIRE(names.size() == 1);
+    CHECK(names.front().starts_with("takes-files-"));
+    CHECK(contains(read_text(takes.choices / names.front()),
+                   "the files of '" + fs::canonical(takes.first.parent_path()).string()));
+    write_sidecar(takes.first, against);
+    CHECK(takes.opened(takes.first).meaning->near == known(other, Origin::sidecar));
+    keep_choice(takes.choices, takes.second, against);
+    CHECK(takes.opened(takes.second).meaning->near == known(other, Origin::panel));
+    // That answer is not among the likely ones of this file.
+    const fs::path height = takes.folder / "takes/height.png";
+    fs::copy_file(takes.second, height);
+    CHECK(takes.opened(height).meaning->near == known(NearLevels::bright, Origin::found));
+    // What is said on the panel of other things does not withdraw it.
+    const DepthRequest whole{.find_out = true,
+                             .panel = {.finger_mm = 2.0},
+                             .kept_in = takes.choices,
+                             .panel_is_whole = true};
+    const MediaDescription again = open_depth(takes.second, whole)->description();
+    CHECK(again.panel == whole.panel);
+    CHECK(again.meaning->near == known(*answer.near, Origin::folder));
+}
+
+TEST_CASE("a folder as media and the files in it have choices of their own", "[kept]") {
+    const fs::path takes = "/films/takes";
+    CHECK(kept_folder_choice_of("a", takes / "first.png") ==
+          kept_folder_choice_of("a", takes / "second.png"));
+    CHECK(kept_folder_choice_of("a", takes / "first.png") != kept_choice_of("a", takes));
+    CHECK(kept_folder_choice_of("a", takes / "first.png") != kept_folder_choice_of("a", takes));
 }

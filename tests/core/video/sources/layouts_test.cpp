@@ -13,6 +13,7 @@
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/text.hpp"
@@ -52,11 +53,11 @@ TEST_CASE("7-Scenes' names say millimetres, two levels of no data, and its camer
         write_text(folder / (name + ".pose.txt"), "1 0 0 0\n");
     }
     const SourceFacts facts = depth_facts(folder.path());
-    CHECK(facts.known.unit == DepthUnit::mm);
-    CHECK(facts.known.scale == 1.0);
-    CHECK(facts.known.no_data == std::vector<double>{0.0, 65535.0});
-    CHECK(facts.known.intrinsics == Intrinsics{585.0, 585.0, 320.0, 240.0});
-    CHECK(facts.known_from == "7-Scenes names");
+    CHECK(stated_by(facts).unit == DepthUnit::mm);
+    CHECK(stated_by(facts).scale == 1.0);
+    CHECK(stated_by(facts).no_data == std::vector<double>{0.0, 65535.0});
+    CHECK(stated_by(facts).intrinsics == Intrinsics{585.0, 585.0, 320.0, 240.0});
+    CHECK(origins_of(facts.findings) == "7-Scenes names");
     CHECK(contains(open_media(folder.path(), {}, {.find_out = true})->description().notice,
                    "does not tell how they stand"));
     CHECK(all_of(*open_media(folder.path())).size() == 2);
@@ -66,11 +67,12 @@ TEST_CASE("tsdf-fusion's names say millimetres, and a file beside them the camer
     const TemporaryFolder folder;
     write_vga_depth(folder / "frame-000000.depth.png", 1);
     write_colour(folder / "frame-000000.color.jpg", 1);
-    CHECK(depth_facts(folder.path()).known.unit == DepthUnit::mm);
-    CHECK_FALSE(depth_facts(folder.path()).known.intrinsics);
+    CHECK(stated_by(depth_facts(folder.path())).unit == DepthUnit::mm);
+    CHECK_FALSE(stated_by(depth_facts(folder.path())).intrinsics);
     write_text(folder / "camera-intrinsics.txt",
                " 5.1e+02 0 3.0e+02\n 0 5.2e+02 2.0e+02\n 0 0 1\n");
-    CHECK(depth_facts(folder.path()).known.intrinsics == Intrinsics{510.0, 520.0, 300.0, 200.0});
+    CHECK(stated_by(depth_facts(folder.path())).intrinsics ==
+          Intrinsics{510.0, 520.0, 300.0, 200.0});
 }
 
 TEST_CASE("ScanNet's folders say millimetres and the depth camera", "[layouts]") {
@@ -83,10 +85,10 @@ TEST_CASE("ScanNet's folders say millimetres and the depth camera", "[layouts]")
     write_text(folder / "intrinsic/intrinsic_depth.txt",
                "577.59 0 318.905 0\n0 578.73 242.684 0\n0 0 1 0\n0 0 0 1\n");
     const SourceFacts facts = depth_facts(folder.path());
-    CHECK(facts.known.unit == DepthUnit::mm);
-    CHECK(facts.known.no_data == std::vector<double>{0.0});
-    CHECK(facts.known.intrinsics == Intrinsics{577.59, 578.73, 318.905, 242.684});
-    CHECK(facts.known_from == "ScanNet's folders");
+    CHECK(stated_by(facts).unit == DepthUnit::mm);
+    CHECK(stated_by(facts).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(facts).intrinsics == Intrinsics{577.59, 578.73, 318.905, 242.684});
+    CHECK(origins_of(facts.findings) == "ScanNet's folders");
     const auto shown = all_of(*open_media(folder.path()));
     REQUIRE(shown.size() == 3);
     CHECK(shown[2].depth == 10);
@@ -99,14 +101,15 @@ TEST_CASE("Open3D's camera file says the scale and the intrinsics, column by col
     write_vga_depth(folder / "depth/000001.png", 1);
     write_colour(folder / colour / "000001.png", 1);
     const auto said = depth_facts(folder.path());
-    CHECK((said.known.unit == DepthUnit::mm) == (colour != "rgb"));  // TUM's folders are so, too
+    CHECK((stated_by(said).unit == DepthUnit::mm) ==
+          (colour != "rgb"));  // TUM's folders are so, too
     write_text(folder / "camera_intrinsic.json",
                R"({"width": 640, "height": 480, "depth_scale": 4000,
                    "intrinsic_matrix": [525.0, 0, 0, 0, 526.0, 0, 319.5, 239.5, 1]})");
     const auto facts = depth_facts(folder.path());
-    CHECK(facts.known.unit == DepthUnit::mm);
-    CHECK(facts.known.scale == 0.25);
-    CHECK(facts.known.intrinsics == Intrinsics{525.0, 526.0, 319.5, 239.5});
+    CHECK(stated_by(facts).unit == DepthUnit::mm);
+    CHECK(stated_by(facts).scale == 0.25);
+    CHECK(stated_by(facts).intrinsics == Intrinsics{525.0, 526.0, 319.5, 239.5});
 }
 
 TEST_CASE("a camera file that is broken or of other pictures says nothing", "[layouts]") {
@@ -121,20 +124,34 @@ TEST_CASE("a camera file that is broken or of other pictures says nothing", "[la
                      "intrinsic_matrix": [525, 0, 0, 0, 526, 0, 319, 239, 1]})");
     CAPTURE(json);
     write_text(folder / "camera_intrinsic.json", json);
-    CHECK(depth_facts(folder.path()).known.unit == DepthUnit::mm);
-    CHECK_FALSE(depth_facts(folder.path()).known.intrinsics);
+    const SourceFacts facts = depth_facts(folder.path());
+    CHECK(stated_by(facts).unit == DepthUnit::mm);
+    CHECK_FALSE(stated_by(facts).intrinsics);
+    const bool is_read = contains(json, "-5") || contains(json, "width");
+    CHECK(contains(facts.notice, "--intrinsics") == is_read);
+}
+
+TEST_CASE("a camera of the full pictures is scaled for depth that was made smaller", "[layouts]") {
+    const TemporaryFolder folder;
+    write_depth(folder / "depth/000001.png", 1, 424, 240);
+    write_colour(folder / "color/000001.png", 1);
+    write_text(folder / "camera_intrinsic.json", R"({"width": 848, "height": 480,
+        "intrinsic_matrix": [424.5, 0, 0, 0, 425.5, 0, 423.5, 239.5, 1]})");
+    const SourceFacts facts = depth_facts(folder.path());
+    CHECK(stated_by(facts).intrinsics == Intrinsics{212.25, 212.75, 211.5, 119.5});
+    CHECK(contains(facts.notice, "scaled to 424 x 240"));
 }
 
 TEST_CASE("a plain folder of 16-bit pictures says nothing, nor do 8 bits in a dataset's layout",
           "[layouts]") {
     const TemporaryFolder folder;
     write_vga_depth(folder / "walker/frame_00001.png", 1);
-    CHECK(depth_facts(folder / "walker").known == DepthStatement{});
-    CHECK(depth_facts(folder / "walker").known_from.empty());
+    CHECK(stated_by(depth_facts(folder / "walker")) == DepthStatement{});
+    CHECK(origins_of(depth_facts(folder / "walker").findings).empty());
     fs::create_directories(folder / "set/depth");
     write_picture(folder / "set/depth/1.png", 16, 12, 8, 1, [](int, int, int) { return 7; });
     write_colour(folder / "set/color/1.png", 1);
-    CHECK(depth_facts(folder / "set").known == DepthStatement{});
+    CHECK(stated_by(depth_facts(folder / "set")) == DepthStatement{});
 }
 
 TEST_CASE("names of colour and depth beside each other are told apart in many words", "[layouts]") {
@@ -145,8 +162,16 @@ TEST_CASE("names of colour and depth beside each other are told apart in many wo
                                          {"stone_Color.png", "stone_Height.png"},
                                          {"image/0001.png", "mono_depth/0001.png"},
                                          {"left/0001.png", "disparity/0001.png"},
+                                         {"FARBE/0001.png", "TIEFE/0001.png"},
+                                         {"couleur_1.png", "profondeur_1.png"},
+                                         {"color/1.png", "profundidad/1.png"},
+                                         {"colore/1.png", "profondita/1.png"},
                                          {"0001.png", "0001_depth.png"},
-                                         {"img_7.png", "disp_7.png"}}));
+                                         {"img_7.png", "disp_7.png"},
+                                         {"im0.png", "disp0.png"},
+                                         {"photo/25.png", "depth/25.png"},
+                                         {"image_left/1.png", "depth_left/1.png"},
+                                         {"results/frame1.png", "results/depth1.png"}}));
     CAPTURE(colour, depth);
     write_colour(folder / colour, 7);
     write_vga_depth(folder / depth, 3);
@@ -164,6 +189,7 @@ TEST_CASE("a stereo pair, and words inside other words, are not taken for colour
     CHECK_FALSE(refusal([&] { (void)open_media(folder.path()); }).empty());
     CHECK_FALSE(named_depth("display.mp4"));
     CHECK_FALSE(named_depth("heights_of_abraham.mp4"));
+    CHECK_FALSE(named_depth("stiefel.mp4"));
     CHECK_FALSE(named_colour("different.mp4"));
     CHECK(named_depth("Rock035_Height.png"));
     CHECK(named_depth("disp0.png"));

@@ -100,6 +100,15 @@ std::string exr_of(std::uint32_t columns, std::uint32_t rows) {
     return bytes;
 }
 
+/// A chunk of a recording that claims to unpack to a gigabyte.
+std::string mcap() {
+    const std::string wide = number(0) + number(0);
+    const std::string chunk = wide + wide + number(1U << 30U) + number(0) + number(0) + number(4) +
+                              "zstd" + number(4) + number(0) + "\x28\xb5\x2f\xfd";
+    return "\x89MCAP0\r\n\x06" + number(static_cast<std::uint32_t>(chunk.size())) + number(0) +
+           chunk;
+}
+
 std::string webp(const std::string& chunk) {
     return "RIFF" + number(kLongEnough - 8) + "WEBP" + chunk;
 }
@@ -169,6 +178,7 @@ std::map<std::string, Bomb> bombs() {
         {"doubles.npy", {array_header("<f8", "(8000, 8000)"), "of 8 bytes", kGigabytes}},
         {"many.npy", {array_header("|u1", "(500000000, 2, 2)"), "500000000 pictures", kGigabytes}},
         {"column.npy", {npy("<f4", "(2000, 500, 500)", "", true), "Fortran order", kGigabytes}},
+        {"a.mcap", {mcap(), "a chunk claims to be larger"}},
         {"a.npz", {packed_array(), "unpacks to 4095 MB", 0}},
         {"a.exr", {exr_of(30000, 30000), wide}},
         {"a.mkv", {film("mkv", kLossless, mkv_size, mkv_claim), wide}},

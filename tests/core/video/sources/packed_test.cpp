@@ -13,6 +13,7 @@
 #include "core/video/sources/paired_media.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/core/video/coded_scene.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -156,15 +157,20 @@ TEST_CASE("depth coded by hue is decoded from its half, with what the recorder k
                 above(scene_photo(), painted(scene_depth(), as_hue)));
     PackedForm form = form_of(DepthPacking::top_bottom);
     form.hue = HueCode{{{1.0, 3.0}}};
-    form.known.intrinsics = Intrinsics{200.0, 100.0, 79.5, 119.5};
+    form.finding = {{.intrinsics = Intrinsics{200.0, 100.0, 79.5, 119.5}},
+                    Evidence::metadata,
+                    kSurenessOfMetadata,
+                    "a test"};
     form.intrinsics_size = {kSceneColumns / 2, kSceneRows};
-    form.known_from = "a test";
+    form.coded = {{}, Evidence::metadata, kSurenessOfMetadata, "a test"};
     const Sources sources = open_packed(folder / "both.png", form);
     const SourceFacts& facts = sources.depth->facts();
     CHECK(facts.bits == kRealBits);
-    CHECK(facts.known.range == DepthRange{1.0, 3.0});
-    CHECK(facts.known.intrinsics == Intrinsics{400.0, 100.0, 159.5, 119.5});
-    CHECK(facts.known_from == "a test");
+    CHECK(stated_by(facts).range == DepthRange{1.0, 3.0});
+    CHECK(stated_by(facts).packing == DepthPacking::top_bottom);
+    CHECK(stated_by(facts).code == DepthCode::hue);
+    CHECK(stated_by(facts).intrinsics == Intrinsics{400.0, 100.0, 159.5, 119.5});
+    CHECK(origins_of(facts.findings) == "a test");
     const cv::Mat metres = sources.depth->next()->picture;
     CHECK(std::isnan(metres.at<float>(3, 3)));
     CHECK_THAT(static_cast<double>(metres.at<float>(150, 260)), WithinAbs(1.0 + 2.0 * 0.9, 2e-3));

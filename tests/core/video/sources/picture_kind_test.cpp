@@ -29,7 +29,7 @@ PictureGuess guess(const cv::Mat& picture) {
     return guess_kind(pictures);
 }
 
-cv::Mat grey_of(const cv::Mat& picture) {
+cv::Mat in_grey(const cv::Mat& picture) {
     cv::Mat grey;
     cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
     cv::cvtColor(grey, grey, cv::COLOR_GRAY2BGR);
@@ -118,14 +118,14 @@ cv::Mat white_noise(bool coloured) {
     cv::Mat noise(kSceneRows, kSceneColumns, CV_8UC3);
     cv::RNG random(5);
     random.fill(noise, cv::RNG::UNIFORM, 0, 256);
-    return coloured ? noise : grey_of(noise);
+    return coloured ? noise : in_grey(noise);
 }
 
 cv::Mat landscape(bool coloured) {
     cv::Mat view = scene_photo();
     for (int j = 0; j < kSceneRows / 2; ++j)  // a bare sky over a rough ground
         view.row(j).setTo(cv::Scalar(250.0 - j / 4.0, 225.0 - j / 3.0, 200.0 - j / 2.0));
-    return coloured ? view : grey_of(view);
+    return coloured ? view : in_grey(view);
 }
 
 /// Three pictures of each input, or as many as it has, by one run of ffmpeg.
@@ -149,15 +149,15 @@ std::vector<Named> no_depth() {
     const cv::Mat right = scene_photo(9.0);
     return {
         {"photograph", left},
-        {"black-and-white photograph", grey_of(left)},
-        {"soft black-and-white photograph", blurred(grey_of(left), 2.0)},
+        {"black-and-white photograph", in_grey(left)},
+        {"soft black-and-white photograph", blurred(in_grey(left), 2.0)},
         {"stereo pair", beside(left, right)},
         {"stereo pair, one above the other", above(left, right)},
-        {"black-and-white stereo pair", grey_of(beside(left, right))},
-        {"stereo pair, one eye grey", beside(left, grey_of(right))},
-        {"photograph beside its grey copy", beside(left, grey_of(left))},
-        {"photograph beside its soft grey copy", beside(left, blurred(grey_of(left), 3.0))},
-        {"photograph beside its very soft grey copy", beside(left, blurred(grey_of(left), 6.0))},
+        {"black-and-white stereo pair", in_grey(beside(left, right))},
+        {"stereo pair, one eye grey", beside(left, in_grey(right))},
+        {"photograph beside its grey copy", beside(left, in_grey(left))},
+        {"photograph beside its soft grey copy", beside(left, blurred(in_grey(left), 3.0))},
+        {"photograph beside its very soft grey copy", beside(left, blurred(in_grey(left), 6.0))},
         {"landscape", landscape(true)},
         {"black-and-white landscape", landscape(false)},
         {"text", page_of_text(10, 250)},
@@ -174,9 +174,16 @@ std::vector<Named> no_depth() {
         {"colour wheel", colour_wheel()},
         {"noise", white_noise(true)},
         {"grey noise", white_noise(false)},
-        {"rough surface", grey_of(blurred(white_noise(false), 1.0))},
+        {"rough surface", in_grey(blurred(white_noise(false), 1.0))},
         {"black", sheet(0)},
         {"white", sheet(255)},
+        {"painted depth",
+         [] {
+             cv::Mat levels;
+             scene_depth().convertTo(levels, CV_8U, 255.0);
+             cv::applyColorMap(levels, levels, cv::COLORMAP_VIRIDIS);
+             return levels;
+         }()},
         {"one hue", cv::Mat(kSceneRows, kSceneColumns, CV_8UC3, cv::Scalar(0, 255, 0))},
         {"photograph beside black", beside(left, sheet(0))},
         {"photograph beside the depth of another one", [&] {
@@ -261,6 +268,29 @@ TEST_CASE("depth alone in a picture is told, with its code", "[kind]") {
     CHECK(guess(inverse).kind == PictureKind::grey_depth);
 }
 
+TEST_CASE("depth in the bytes of channels is told, and the same channels in disorder are not",
+          "[kind]") {
+    const cv::Mat depth = scene_depth();
+    const auto [code, nearest, farthest] =
+        GENERATE(table<DepthCode, double, double>({{DepthCode::rg16, 400.0, 6000.0},
+                                                   {DepthCode::rg16, 0.0, 65535.0},
+                                                   {DepthCode::rgb24, 8000.0, 900000.0},
+                                                   {DepthCode::terrain, -40.0, 2500.0}}));
+    CAPTURE(name_of(code), farthest);
+    cv::Mat numbers;
+    depth.convertTo(numbers, CV_32F, farthest - nearest, nearest);
+    const cv::Mat picture = in_bytes(numbers, code);
+    const PictureGuess guessed = guess(picture);
+    CHECK(guessed.kind == PictureKind::byte_depth);
+    CHECK(guessed.code == code);
+    std::vector<cv::Mat> channels;
+    cv::split(picture, channels);
+    cv::flip(channels[1], channels[1], 1);
+    cv::Mat mixed_up;
+    cv::merge(channels, mixed_up);
+    CHECK(guess(mixed_up).kind == PictureKind::photo);
+}
+
 TEST_CASE("colour and depth in halves are told, with packing and code", "[kind]") {
     const cv::Mat colour = scene_photo();
     const auto [code, paint] = GENERATE(table<DepthCode, cv::Vec3b (*)(float)>(
@@ -299,6 +329,110 @@ TEST_CASE("depth is told in compressed video, too", "[kind]") {
            (folder / "clip.mp4").string() + "'");
     const auto source = open_picture_source(folder / "clip.mp4", PictureRole::colour);
     CHECK(guess(source->next()->picture).kind == kind);
+}
+
+TEST_CASE("another photograph of the scene is told from its depth", "[kind]") {
+    const cv::Mat colour = scene_photo();
+    const cv::Mat depth = painted(scene_depth(), as_grey);
+    cv::Mat noisy;
+    cv::Mat noise(depth.size(), CV_8UC1);
+    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
+    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
+    cv::add(depth, noise, noisy);
+    cv::Mat steps = sheet(60);
+    cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
+    cv::Mat darker;
+    in_grey(colour).convertTo(darker, CV_8U, 0.6, 30.0);
+    CHECK(is_photo_of_scene(colour, in_grey(colour)));
+    CHECK(is_photo_of_scene(colour, darker));
+    CHECK(is_photo_of_scene(colour, in_grey(scene_photo(9.0))));
+    CHECK(is_photo_of_scene(in_grey(colour), in_grey(scene_photo(9.0))));
+    for (const cv::Mat& surface : {depth, noisy, steps, sheet(90), grey_gradient()})
+        CHECK_FALSE(is_photo_of_scene(colour, surface));
+    cv::Mat painting;
+    cv::applyColorMap(noisy, painting, cv::COLORMAP_VIRIDIS);
+    CHECK_FALSE(is_photo_of_scene(painting, noisy));
+    CHECK_FALSE(is_photo_of_scene(colour, cv::Mat(8, 8, CV_8UC3, cv::Scalar::all(9))));
+}
+
+TEST_CASE("what is given as depth and is none is refused, unless a person calls it depth",
+          "[kind]") {
+    const TemporaryFolder folder;
+    const cv::Mat colour = scene_photo();
+    cv::Mat labels = sheet(20);
+    cv::rectangle(labels, {100, 60, 90, 120}, cv::Scalar::all(80), cv::FILLED);
+    cv::Mat mask = sheet(0);
+    cv::rectangle(mask, {100, 60, 90, 120}, cv::Scalar::all(255), cv::FILLED);
+    const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
+        {{"cam1/14036.png", in_grey(scene_photo(9.0)), "photograph"},
+         {"ir.png", in_grey(colour), "named as infrared"},
+         {"semantic/0000.png", labels, "in a folder named as labels"},
+         {"confidence/0000.png", white_noise(false), "in a folder named as confidence"},
+         {"mask.png", mask, "named as a mask"},
+         {"b.png", mask, "black and white"},
+         {"frame_flow.png", painted(scene_depth(), as_grey), "named as optical flow"}}));
+    CAPTURE(name);
+    const auto file = folder / name;
+    std::filesystem::create_directories(file.parent_path());
+    REQUIRE(cv::imwrite((folder / "rgb.png").string(), colour));
+    cv::Mat grey;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    REQUIRE(cv::imwrite(file.string(), grey));
+    DepthRequest request{.find_out = true};
+    const auto open = [&] { return open_media(folder / "rgb.png", file, request); };
+    const std::string line = refusal([&] { (void)open(); });
+    CHECK(contains(line, words));
+    CHECK(contains(line, file.string()));
+    CHECK(contains(line, "--depth-code grey"));
+    CHECK(line.find('\n') == std::string::npos);
+    request.command_line.code = DepthCode::grey;
+    CHECK(open()->description().depth_bits == 8);
+}
+
+TEST_CASE("grey depth is opened beside colour, whatever it is called", "[kind]") {
+    const TemporaryFolder folder;
+    cv::Mat steps = sheet(60);
+    cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
+    cv::Mat noisy;
+    cv::Mat noise(steps.size(), CV_8UC1);
+    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
+    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
+    cv::add(painted(scene_depth(), as_grey), noise, noisy);
+    const auto [name, picture] = GENERATE_COPY(
+        table<std::string, cv::Mat>({{"b.png", painted(scene_depth(), as_grey)},
+                                     {"b.png", steps},
+                                     {"b.png", noisy},
+                                     {"valid/0000.png", painted(scene_depth(), as_grey)},
+                                     {"mask_depth.png", steps}}));
+    CAPTURE(name);
+    std::filesystem::create_directories((folder / name).parent_path());
+    REQUIRE(cv::imwrite((folder / "a.png").string(), scene_photo()));
+    cv::Mat grey;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    REQUIRE(cv::imwrite((folder / name).string(), grey));
+    const auto media = open_media(folder / "a.png", folder / name, {.find_out = true});
+    CHECK(media->description().depth_bits == 8);
+}
+
+TEST_CASE("a grey picture and one of something else are refused as what they are", "[kind]") {
+    const TemporaryFolder folder;
+    const cv::Mat photo = scene_photo();
+    const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
+        {{"cam0_000012.png", in_grey(photo), "is grey and does not look like depth"},
+         {"frame_0001_normal.png", photo, "named as normals"},
+         {"aachen_gtFine_labelIds.png", chessboard(24), "named as labels"},
+         {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
+         {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
+         {"IMG_0001.png", photo, "needs a depth file"}}));
+    CAPTURE(name);
+    const auto file = folder / name;
+    std::filesystem::create_directories(file.parent_path());
+    REQUIRE(cv::imwrite(file.string(), picture));
+    DepthRequest request{.find_out = true};
+    const auto open = [&] { return open_media(file, {}, request); };
+    CHECK(contains(refusal([&] { (void)open(); }), words));
+    request.command_line.code = DepthCode::grey;
+    CHECK(open()->description().depth_bits == 8);
 }
 
 TEST_CASE("no pictures, tiny ones and ones of another type are photographs", "[kind]") {

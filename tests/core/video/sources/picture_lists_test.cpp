@@ -1,6 +1,7 @@
 // Lists of pictures with times, as TUM's benchmark has them.
 #include "core/video/sources/picture_lists.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/stated.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -99,16 +101,36 @@ TEST_CASE("TUM's lists say metres of 1/5000, 0 for no data, and which camera it 
     const TemporaryFolder folder;
     const fs::path sequence = folder / "rgbd_dataset_freiburg3_long_office";
     write_tum(sequence);
-    CHECK_FALSE(depth_facts(sequence).known.intrinsics);  // of pictures of another size
+    CHECK_FALSE(stated_by(depth_facts(sequence)).intrinsics);  // of pictures of another size
     for (int number = 1; number <= 4; ++number)
         write_depth(sequence / "depth" / (std::to_string(number) + ".png"), number, 640, 480);
     const SourceFacts facts = depth_facts(sequence);
-    CHECK(facts.known.unit == DepthUnit::m);
-    CHECK(facts.known.scale == 0.0002);
-    CHECK(facts.known.no_data == std::vector<double>{0.0});
-    CHECK(facts.known.intrinsics == Intrinsics{535.4, 539.2, 320.1, 247.6});
-    CHECK(facts.known_from == "TUM lists");
-    CHECK_FALSE(facts.known.near);
+    CHECK(stated_by(facts).unit == DepthUnit::m);
+    CHECK(stated_by(facts).scale == 0.0002);
+    CHECK(stated_by(facts).no_data == std::vector<double>{0.0});
+    CHECK(stated_by(facts).intrinsics == Intrinsics{535.4, 539.2, 320.1, 247.6});
+    CHECK(origins_of(facts.findings) == "TUM lists");
+    CHECK_FALSE(stated_by(facts).near);
+}
+
+TEST_CASE("lists whose depth all is too near for TUM's camera may be in millimetres", "[lists]") {
+    const TemporaryFolder folder;
+    write_tum(folder.path());
+    const int nearest = GENERATE(1600, 5000);
+    for (int number = 1; number <= 4; ++number)
+        write_picture(folder / "depth" / (std::to_string(number) + ".png"), 64, 48, 16, 1,
+                      [=](int i, int j, int) { return nearest + 30 * i + 20 * j; });
+    const MediaDescription media = open_depth(folder.path(), {.find_out = true})->description();
+    const auto& answers = media.conclusion.alternatives;
+    const auto offers = [&](double millimetres) {
+        return std::any_of(answers.begin(), answers.end(), [=](const DepthAlternative& answer) {
+            return state_same_values(answer.statement,
+                                     {.unit = DepthUnit::mm, .scale = millimetres});
+        });
+    };
+    CHECK(offers(1.0) == (nearest == 1600));
+    CHECK(offers(0.2) == (nearest == 1600));
+    CHECK(answers.empty() == (nearest == 5000));
 }
 
 TEST_CASE("numbers without a point are frames, thirty a second", "[lists]") {

@@ -4,13 +4,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <iterator>
+#include <opencv2/core.hpp>
 #include <string>
 
+#include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
+#include "core/video/sources/readers.hpp"
 #include "tests/core/video/clips.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -89,4 +93,18 @@ TEST_CASE("a picture that cannot be written is refused by name and leaves nothin
     CHECK(taken.find("taken.png") != std::string::npos);
     CHECK(files_in(folder.path()) == 1);
     CHECK_FALSE(refusal([&] { write_png({}, folder / "empty.png"); }).empty());
+}
+
+TEST_CASE("a picture in text is read, also without a blank after its last level", "[pictures]") {
+    const TemporaryFolder folder;
+    write_text(folder / "levels.pgm",
+               std::string("P2\n3 2\n5000\n0 10 20\n30 40 5000") + GENERATE("", "\n"));
+    const StillPicture still = read_still(folder / "levels.pgm", PictureRole::depth);
+    REQUIRE(still.picture.type() == CV_16UC1);
+    CHECK(still.picture.at<std::uint16_t>(0, 2) == 20);
+    CHECK(still.picture.at<std::uint16_t>(1, 2) == 5000);
+    write_text(folder / "part.pgm", "P2\n3 2\n5000\n0 10 20\n30");
+    CHECK(refusal([&] {
+              (void)read_still(folder / "part.pgm", PictureRole::depth);
+          }).find("damaged") != std::string::npos);
 }

@@ -53,11 +53,11 @@ TEST_CASE("Depthkit's asset beside a video says clips, camera and that hue below
     REQUIRE(form);
     CHECK(form->packing == DepthPacking::top_bottom);
     CHECK(form->hue == HueCode{{{0.5, 1.25}}});
-    CHECK(form->known.intrinsics == Intrinsics{366.5, 366.25, 254.5, 205.25});
+    CHECK(form->finding.statement.intrinsics == Intrinsics{366.5, 366.25, 254.5, 205.25});
     CHECK(form->intrinsics_size == cv::Size(512, 424));
-    CHECK(form->known.packing == DepthPacking::top_bottom);
-    CHECK(form->known.code == DepthCode::hue);
-    CHECK(form->known_from == "'Take.Metadata.asset'");
+    CHECK(form->packing == DepthPacking::top_bottom);
+    CHECK(form->coded.statement.code == DepthCode::hue);
+    CHECK(form->finding.reason == "'Take.Metadata.asset'");
 }
 
 TEST_CASE("Depthkit's JSON is read, whether its camera stands alone or in a list", "[recorder]") {
@@ -69,7 +69,7 @@ TEST_CASE("Depthkit's JSON is read, whether its camera stands alone or in a list
     const auto form = form_by_recorder(folder / "take.mp4", {320, 960});
     REQUIRE(form);
     CHECK(form->hue->metres == DepthRange{0.5, 2.5});
-    CHECK(form->known.intrinsics == Intrinsics{500.0, 510.0, 319.5 - 160.0, 239.5});
+    CHECK(form->finding.statement.intrinsics == Intrinsics{500.0, 510.0, 319.5 - 160.0, 239.5});
     CHECK(form->intrinsics_size == cv::Size(320, 480));
 }
 
@@ -86,8 +86,8 @@ TEST_CASE("Record3D's metadata is found inside its video and beside it", "[recor
     REQUIRE(form);
     CHECK(form->packing == DepthPacking::right_left);
     CHECK(form->hue == record3d_code(ranged ? DepthRange{0.25, 2.25} : DepthRange{0.0, 3.0}));
-    CHECK(form->known.intrinsics == Intrinsics{600.0, 601.0, 239.5, 319.5});
-    CHECK_FALSE(form->known_from.empty());
+    CHECK(form->finding.statement.intrinsics == Intrinsics{600.0, 601.0, 239.5, 319.5});
+    CHECK_FALSE(form->finding.reason.empty());
 }
 
 TEST_CASE("metadata of another video in the folder is not taken", "[recorder]") {
@@ -147,7 +147,7 @@ TEST_CASE("lengths that no camera has are passed over, the rest of the metadata 
     const auto form = form_by_recorder(folder / "a.mov", asset_size());
     REQUIRE(form);
     CHECK(form->hue == HueCode{{{0.5, 1.25}}});
-    CHECK_FALSE(form->known.intrinsics);
+    CHECK_FALSE(form->finding.statement.intrinsics);
 }
 
 TEST_CASE("several cameras in one video are not taken for one", "[recorder]") {

@@ -70,6 +70,35 @@ TEST_CASE("a folder, a pipe and an empty file are refused for what they are", "[
     CHECK(holds(refusal_of("/dev/null"), "device"));
 }
 
+TEST_CASE("a folder whose folders are not named colour and depth says which they are",
+          "[refusal]") {
+    const TemporaryFolder folder;
+    const auto grey = [](int i, int j, int) { return 7 * i + j; };
+    const std::string above = GENERATE("", "training/", "scene/left/");
+    CAPTURE(above);
+    std::filesystem::create_directories(folder / (above + "SYVYYS"));
+    write_picture(folder / (above + "SYVYYS/0.png"), 8, 8, 16, 1, grey);
+    const std::string one = refusal_of(folder.path());
+    CHECK(holds(one, "give '" + (folder / (above + "SYVYYS")).string() + "'"));
+    std::filesystem::create_directories(folder / (above + "KUVA"));
+    write_picture(folder / (above + "KUVA/0.png"), 8, 8, 8, 3, grey);
+    const std::string two = refusal_of(folder.path());
+    CHECK(holds(two, "'" + above + "KUVA', '" + above + "SYVYYS'"));
+    CHECK(holds(two, "give the one of the colour first"));
+}
+
+TEST_CASE("a folder of a form that has to be converted says how", "[refusal]") {
+    const TemporaryFolder folder;
+    const std::string frame("PIEH\1\0\0\0\1\0\0\0\0\0\x80?", 16);  // one pixel, 1 m away
+    write_text(folder / "readme.txt", "Depth of each frame.\n");
+    write_text(folder / "frame_0001.dpt", frame);
+    write_text(folder / "frame_0002.dpt", frame);
+    const std::string said = refusal_of(folder.path());
+    CHECK(holds(said, "'frame_0001.dpt' in it is a depth picture of MPI Sintel"));
+    CHECK(holds(said, "python3 -c"));
+    CHECK(holds(said, "likewise the others"));
+}
+
 TEST_CASE("text under a video's or a picture's name is refused as text", "[refusal]") {
     const TemporaryFolder folder;
     const std::string name = GENERATE("notes.mp4", "list.m3u8", "notes.png", "notes.webm");

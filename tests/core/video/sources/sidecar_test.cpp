@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,7 +35,10 @@ DepthStatement everything() {
             .registration = Registration{-3.25, 0.1, 1.01},
             .cleaning = CleaningChoice{CleaningPreset::own,
                                        {.fill_holes = true, .colour_edges = true, .steady = true}},
-            .finger_mm = 1.0 / 3.0};
+            .finger_mm = 1.0 / 3.0,
+            .times = DepthTimes::paired,
+            .time_offset_s = -1.0 / 3.0,
+            .frames_per_s = 30000.0 / 1001.0};
 }
 
 template <typename Value>
@@ -69,6 +73,8 @@ TEST_CASE("what a sidecar says reads back to the same bits", "[sidecar]") {
         CHECK(statement_in(toml_of({.unit = unit}), "a").unit == unit);
     for (const DepthPacking packing : kDepthPackings)
         CHECK(statement_in(toml_of({.packing = packing}), "a").packing == packing);
+    for (const DepthTimes times : kDepthTimes)
+        CHECK(statement_in(toml_of({.times = times}), "a").times == times);
 }
 
 TEST_CASE("a sidecar is written beside its file and read again", "[sidecar]") {
@@ -99,6 +105,9 @@ TEST_CASE("a fact's name may be written as the command line and as a table has i
         CAPTURE(name);
         CHECK(said_by(name + " = \"disparity\"").unit == DepthUnit::disparity);
     }
+    CHECK(said_by("depth-times = \"own\"").times == DepthTimes::own);
+    CHECK(said_by("depth-offset = -0.05").time_offset_s == -0.05);
+    CHECK(said_by("depth_fps = 29.97").frames_per_s == 29.97);
     for (const std::string name : {"no-data", "no_data"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = [0]").no_data == std::vector<double>{0.0});
@@ -119,6 +128,33 @@ TEST_CASE("numbers may be a list, or a text as the command line has it", "[sidec
     CHECK(said_by("no-data = \"\"").no_data == std::vector<double>{});
     CHECK(said_by("intrinsics = \"525,524,320,240\"").intrinsics ==
           Intrinsics{525.0, 524.0, 320.0, 240.0});
+}
+
+TEST_CASE(
+    "a stated camera of larger pictures is scaled, one beside the picture is left out and said",
+    "[sidecar]") {
+    const TemporaryFolder folder;
+    write_depth(folder / "depth.png", 1, 424, 240);
+    DepthRequest request{.find_out = true};
+    request.command_line.unit = DepthUnit::mm;
+    const auto [stated, camera, said] =
+        GENERATE(table<Intrinsics, std::optional<Intrinsics>, std::string>(
+            {{Intrinsics{420.0, 422.0, 423.5, 239.5}, Intrinsics{210.0, 211.0, 211.5, 119.5},
+              "2 times as large"},
+             {Intrinsics{210.0, 211.0, 205.0, 125.0}, Intrinsics{210.0, 211.0, 205.0, 125.0}, ""},
+             {Intrinsics{210.0, 211.0, 60.0, 119.5}, Intrinsics{210.0, 211.0, 60.0, 119.5}, ""},
+             {Intrinsics{210.0, 211.0, 600.0, 119.5}, std::nullopt,
+              "is outside the picture of 424 x 240"}}));
+    CAPTURE(said);
+    request.command_line.intrinsics = stated;
+    const auto media = open_depth(folder / "depth.png", request);
+    CHECK(media->description().meaning->intrinsics.value == camera);
+    CHECK(contains(media->description().notice, said));
+    CHECK(media->description().notice.empty() == said.empty());
+    request.command_line.geometry = Geometry::true_shape;
+    const std::string refused =
+        refusal([&, file = folder / "depth.png"] { (void)open_depth(file, request); });
+    CHECK(contains(refused, "is outside") == !camera.has_value());
 }
 
 TEST_CASE("intrinsics may be said as a horizontal field of view, in degrees", "[sidecar]") {
@@ -186,8 +222,9 @@ TEST_CASE("auto is cleaned as the sidecar says, and any other choice beats that"
 }
 
 TEST_CASE("auto says nothing", "[sidecar]") {
-    for (const std::string name : {"near", "unit", "scale", "range", "no-data", "packing", "code",
-                                   "geometry", "intrinsics", "cleaning", "finger"}) {
+    for (const std::string name :
+         {"near", "unit", "scale", "range", "no-data", "packing", "code", "geometry", "intrinsics",
+          "cleaning", "finger", "times", "offset", "fps"}) {
         CAPTURE(name);
         CHECK(said_by(name + " = \"auto\"") == DepthStatement{});
     }
@@ -207,8 +244,10 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
         "intrinsics = [1, -1, 0, 0]", "intrinsics = \"0.5deg\"", "intrinsics = 179",
         "intrinsics = \"60rad\"", "intrinsics = \"1,1,0,0deg\"", "colour = \"red\"", "unit = true",
         "cleaning = \"clean\"", "cleaning = \"own\"", "cleaning = [\"fill\"]", "cleaning = [1]",
-        "cleaning = true", "finger = -1", "finger = 26", "finger = [1, 2]", "finger = \"thumb\"",
-        "range = 2020-01-01", "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
+        "cleaning = true", "times = \"video\"", "times = 1", "offset = 86401", "offset = nan",
+        "offset = [1, 2]", "fps = -1", "fps = 0.0001", "fps = 10001", "fps = \"fast\"",
+        "finger = -1", "finger = 26", "finger = [1, 2]", "finger = \"thumb\"", "range = 2020-01-01",
+        "scale = {}", "no-data = ", "unit = \"mm", "[depth]");
     CAPTURE(fact);
     const auto file = folder / "clip.toml";
     write_text(file, "# said by hand\n[depth]\n" + fact + "\n");

@@ -1,5 +1,5 @@
 // Parses messages; a truncated message, or one with impossible sizes, gives nothing.
-#include "core/video/formats/ros_messages.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,13 +10,11 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <sstream>
 #include <string_view>
 
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/libraries.hpp"
-#include "core/video/modules/picture_codecs.hpp"
+#include "core/video/formats/still_picture.hpp"
 
 namespace dibhr {
 
@@ -134,34 +132,12 @@ cv::Mat plain_picture(const RosImage& image) {
     return picture;
 }
 
-/// Checks the header first, because OpenCV allocates memory for any size that a header claims.
-bool is_plausible_picture(Bytes data) {
-    constexpr std::size_t kHeaderBytes = 1U << 16U;
-    const Bytes begin = data.first(std::min(data.size(), kHeaderBytes));
-    std::istringstream in(std::string(begin.begin(), begin.end()));
-    const auto claimed = claimed_size(in);
-    return claimed && can_hold(data.size(), claimed->columns, claimed->rows, claimed->pixel_bytes);
-}
-
-cv::Mat decoded(Bytes data, int flags) {
-    const bool is_too_large = data.size() > std::size_t{std::numeric_limits<int>::max()};
-    if (data.empty() || is_too_large || !is_plausible_picture(data)) return {};
-    const cv::Mat bytes(1, static_cast<int>(data.size()), CV_8UC1,
-                        const_cast<std::uint8_t*>(data.data()));  // only read
-    try {
-        const QuietErrors quiet;
-        return picture_codecs().decode(bytes, flags);
-    } catch (const cv::Exception&) {
-        return {};
-    }
-}
-
 /// A PNG behind a header of compressed_depth_image_transport: an enumeration, and the two numbers
 /// of the formula by which floats became 16 bits, v = a / depth + b.
 cv::Mat compressed_depth(const RosImage& image) {
     constexpr std::size_t kHeaderBytes = 12;
     if (image.data.size() <= kHeaderBytes) return {};
-    cv::Mat stored = decoded(image.data.subspan(kHeaderBytes), cv::IMREAD_UNCHANGED);
+    cv::Mat stored = decoded_picture(image.data.subspan(kHeaderBytes), cv::IMREAD_UNCHANGED);
     if (stored.empty() || stored.type() != CV_16UC1) return {};
     if (!holds(image.encoding, "32FC1")) return stored;
     std::array<float, 2> quantised{};
@@ -216,7 +192,7 @@ RosPicture kind_of(const RosImage& image) {
 
 cv::Mat picture_of(const RosImage& image) {
     if (is_compressed_depth(image)) return compressed_depth(image);
-    return image.compressed ? decoded(image.data, cv::IMREAD_COLOR) : plain_picture(image);
+    return image.compressed ? decoded_picture(image.data, cv::IMREAD_COLOR) : plain_picture(image);
 }
 
 std::optional<RosCamera> ros_camera(Bytes message) {

@@ -1,4 +1,4 @@
-// Reads the picture topics of ROS 2 bags in SQLite (.db3), in order of the messages' stamps; inside
+// Reads the picture topics of ROS 2 bags (.db3, .mcap), in order of the messages' stamps; inside
 // the room.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace dibhr {
 
-/// Whether the place is a SQLite file, or a folder of a bag's files.
+/// Whether the place is a SQLite or MCAP file, or a folder of a bag's files.
 [[nodiscard]] bool is_ros_bag(const std::filesystem::path& place, std::string_view head);
 
 /// Whether the bag has a topic of that role. Throws InputError as below.

@@ -1,5 +1,5 @@
 // Chooses a topic of a bag, sorts its messages by time, and decodes them.
-#include "core/video/formats/ros_bag.hpp"
+#include "core/video/formats/bags/ros_bag.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -14,10 +14,9 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/sqlite/database.hpp"
-#include "core/video/formats/bag_file.hpp"
+#include "core/video/formats/bags/bag_file.hpp"
+#include "core/video/formats/bags/ros_messages.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/formats/ros_messages.hpp"
 
 namespace dibhr {
 
@@ -31,22 +30,28 @@ constexpr std::int64_t kLongestBag_ns = 1'000'000'000'000'000;  ///< a million s
 constexpr std::int64_t kFirst_ns = 0;
 constexpr std::int64_t kLast_ns = 4'000'000'000'000'000'000;
 
+/// The stamps of all messages are read where no more must be unpacked for them, in half a second.
+constexpr std::uint64_t kMostUnpacked_bytes = std::uint64_t{1} << 29;
+
 using BagFiles = std::vector<std::unique_ptr<BagFile>>;
 
+/// Also of a packed bag, which is refused with advice, unless it is there unpacked, too.
 bool is_bag_name(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
-    return name.ends_with(".db3") || name.ends_with(".db3.zstd") || name.ends_with(".mcap");
+    if (name.ends_with(".zstd"))
+        return is_bag_name(file.stem()) && !is_file(file.parent_path() / file.stem());
+    return name.ends_with(".db3") || name.ends_with(".mcap");
 }
 
 /// Opens the file, or the files of a folder.
 BagFiles opened_bags(const fs::path& place) {
     BagFiles files;
     if (!is_folder(place)) {
-        files.push_back(std::make_unique<BagFile>(place));
+        files.push_back(open_bag_file(place));
         return files;
     }
     for (const fs::path& entry : entries_of(place)) {
-        if (is_bag_name(entry)) files.push_back(std::make_unique<BagFile>(entry));
+        if (is_bag_name(entry)) files.push_back(open_bag_file(entry));
     }
     return files;
 }
@@ -91,7 +96,7 @@ int likelihood(const Topic& topic, const RosImage& image, PictureRole role) {
 
 struct Choice {
     Topic topic{};
-    std::string others{};  ///< all picture topics with their encodings, for a message
+    std::string others{};  ///< all picture topics with their encodings or types, for a message
 };
 
 /// The most likely topic; an empty name when none is of that role.
@@ -101,15 +106,18 @@ Choice chosen(BagFiles& files, PictureRole role) {
     std::vector<std::string> seen;
     for (const auto& file : files) {
         for (const Topic& topic : file->topics()) {
-            if (!is_of_pictures(topic) ||
+            const bool is_foreign =
+                !is_of_pictures(topic) && lower_case(topic.type).find("image") != std::string::npos;
+            if (!(is_of_pictures(topic) || is_foreign) ||
                 std::find(seen.begin(), seen.end(), topic.name) != seen.end())
                 continue;
             seen.push_back(topic.name);
-            const auto data = first_message(files, topic);
+            const auto data = is_foreign ? std::nullopt : first_message(files, topic);
             const auto image = data ? ros_image(*data, is_compressed(topic)) : std::nullopt;
+            if (!image && !is_foreign) continue;
+            choice.others += (choice.others.empty() ? "" : ", ") + topic.name + ": " +
+                             (image ? image->encoding : topic.type);
             if (!image) continue;
-            choice.others +=
-                (choice.others.empty() ? "" : ", ") + topic.name + ": " + image->encoding;
             const int now = likelihood(topic, *image, role);
             if (now > best) choice.topic = topic;
             best = std::max(best, now);
@@ -132,6 +140,12 @@ struct Stamped {
     std::int64_t time_ns;
 };
 
+/// By the clock of its sender; not positive: it has none.
+std::int64_t stamp_of(const BagFiles& files, const Stamped& message) {
+    const auto head = files[message.file]->data(message.row, kStampBytes);
+    return ros_stamp_ns(head).value_or(0);
+}
+
 /// Sorts by time, and keeps each time once.
 void put_in_order(std::vector<Stamped>& messages) {
     std::stable_sort(messages.begin(), messages.end(),
@@ -140,25 +154,55 @@ void put_in_order(std::vector<Stamped>& messages) {
     messages.erase(std::unique(messages.begin(), messages.end(), same), messages.end());
 }
 
+/// How much later than recorded the messages were stamped, as the median of some of them; zero
+/// where one of these has no stamp.
+std::int64_t stamp_delay_ns(const BagFiles& files, const std::vector<Stamped>& recorded) {
+    constexpr std::size_t kSamples = 31;
+    std::vector<std::int64_t> delays_ns;
+    for (std::size_t k = 0; k < kSamples && !recorded.empty(); ++k) {
+        const Stamped& message = recorded[k * recorded.size() / kSamples];
+        const std::int64_t stamp_ns = stamp_of(files, message);
+        if (stamp_ns <= 0) return 0;
+        delays_ns.push_back(stamp_ns - message.time_ns);
+    }
+    const auto middle = delays_ns.begin() + static_cast<std::ptrdiff_t>(delays_ns.size() / 2);
+    std::nth_element(delays_ns.begin(), middle, delays_ns.end());
+    return middle == delays_ns.end() ? 0 : *middle;
+}
+
+struct TimedMessages {
+    std::vector<Stamped> messages{};
+    bool are_recording_times{false};  ///< as the bag is too long to read all stamps
+};
+
 /// The messages by their stamps, or, where one has none, all by their time of recording.
-std::vector<Stamped> messages_of(BagFiles& files, const Topic& wanted) {
-    std::vector<Stamped> stamped;
+TimedMessages messages_of(const BagFiles& files, const Topic& wanted) {
     std::vector<Stamped> recorded;
+    std::uint64_t unpacked_bytes = 0;
     for (std::size_t k = 0; k < files.size(); ++k) {
         for (const Topic& topic : files[k]->topics()) {
             if (topic.name != wanted.name || topic.type != wanted.type) continue;
             for (const auto& message : files[k]->messages(topic.id, kMostPictures)) {
-                const auto head = files[k]->data(message.row, kStampBytes);
-                const std::int64_t stamp_ns = ros_stamp_ns(head).value_or(0);
-                if (stamp_ns > 0) stamped.push_back({k, message.row, stamp_ns});
                 recorded.push_back(
                     {k, message.row, std::clamp(message.recorded_ns, kFirst_ns, kLast_ns)});
+                unpacked_bytes += message.unpacked_bytes;
             }
         }
     }
-    std::vector<Stamped>& taken = stamped.size() == recorded.size() ? stamped : recorded;
+    if (unpacked_bytes > kMostUnpacked_bytes) {
+        const std::int64_t delay_ns = stamp_delay_ns(files, recorded);
+        for (Stamped& message : recorded)
+            message.time_ns = std::clamp(message.time_ns + delay_ns, kFirst_ns, kLast_ns);
+        put_in_order(recorded);
+        return {std::move(recorded), true};
+    }
+    std::vector<Stamped> stamped = recorded;
+    for (Stamped& message : stamped) message.time_ns = stamp_of(files, message);
+    const bool have_all_stamps = std::all_of(
+        stamped.begin(), stamped.end(), [](const Stamped& message) { return message.time_ns > 0; });
+    std::vector<Stamped>& taken = have_all_stamps ? stamped : recorded;
     put_in_order(taken);
-    return std::move(taken);
+    return {std::move(taken), false};
 }
 
 class RosTopic : public IndexedPictures {
@@ -166,8 +210,16 @@ class RosTopic : public IndexedPictures {
     RosTopic(const fs::path& place, BagFiles files, Topic topic, PictureRole role)
         : files_(std::move(files)), topic_(std::move(topic)) {
         facts_.file = place;
-        messages_ = messages_of(files_, topic_);
+        TimedMessages timed = messages_of(files_, topic_);
+        messages_ = std::move(timed.messages);
         if (messages_.empty()) throw InputError(unreadable());
+        for (const auto& file : files_) add_clause(facts_.notice, file->notice());
+        facts_.timing.text = timed.are_recording_times ? "when its messages were recorded"
+                                                       : "stamps of the messages";
+        if (timed.are_recording_times)
+            add_clause(facts_.notice,
+                       "the times of " + one_line(topic_.name, 100) +
+                           " are those of its recording: the bag is too long to read every stamp");
         last_ = decoded(messages_.front());
         if (last_.empty()) throw InputError(unreadable());
         require_size(place, last_.cols, last_.rows);
@@ -193,8 +245,7 @@ class RosTopic : public IndexedPictures {
 
     [[nodiscard]] std::string unreadable() const {
         return shown(facts_.file) + " holds a picture of the topic " + one_line(topic_.name, 100) +
-               " that cannot be decoded, or is larger than 33 megapixels: record it again without "
-               "compressing messages";
+               " that cannot be decoded, or is larger than 33 megapixels: record it again";
     }
 
     /// Empty when the message is broken.
@@ -229,28 +280,35 @@ class RosTopic : public IndexedPictures {
     }
 
     void describe_levels() {
-        facts_.known.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm;
-        facts_.known.scale = 1.0;
-        facts_.known.no_data = std::vector<double>{0.0};
-        facts_.known_from = "ROS topic " + one_line(topic_.name, 100);
+        // Millimetres in whole numbers, metres in real ones: www.ros.org/reps/rep-0118.html.
+        facts_.findings.push_back(
+            finding_of_metadata({.unit = facts_.bits == kRealBits ? DepthUnit::m : DepthUnit::mm,
+                                 .scale = 1.0,
+                                 .no_data = std::vector{0.0}},
+                                "ROS topic " + one_line(topic_.name, 100)));
         describe_cameras();
     }
 
-    /// The camera of that topic's pictures; nothing when the bag has none.
-    [[nodiscard]] std::optional<RosCamera> camera_of(const std::string& topic) {
-        const auto info =
-            first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
-        return info ? ros_camera(*info) : std::nullopt;
+    /// The message on the camera of that topic's pictures; nothing when the bag has none.
+    [[nodiscard]] std::optional<std::vector<std::uint8_t>> camera_info_message(
+        const std::string& topic) {
+        return first_message(files_, {0, camera_info_of(topic), "sensor_msgs/msg/CameraInfo"});
     }
 
     void describe_cameras() {
-        const auto depth = camera_of(topic_.name);
-        if (!depth || depth->size != cv::Size(facts_.columns, facts_.rows)) return;
-        facts_.known.intrinsics = depth->camera.intrinsics();
-        facts_.lens = depth->camera.lens();
+        const auto info = camera_info_message(topic_.name);
+        if (!info) return;
+        const RosCamera depth = ros_camera(*info).value_or(RosCamera{});
+        const FittedCamera fitted =
+            fit_camera(depth.camera.intrinsics(), depth.size, {facts_.columns, facts_.rows});
+        add_clause(facts_.notice, fitted.notice);
+        if (!fitted.camera) return;
+        facts_.findings.back().statement.intrinsics = fitted.camera;
+        facts_.lens = depth.camera.lens();
         const std::string colour_topic = chosen(files_, PictureRole::colour).topic.name;
-        const auto colour = camera_of(colour_topic);
-        if (!colour || colour->frame == depth->frame || colour->size.empty()) return;
+        const auto colour_info = camera_info_message(colour_topic);
+        const auto colour = colour_info ? ros_camera(*colour_info) : std::nullopt;
+        if (!colour || colour->frame == depth.frame || colour->size.empty()) return;
         facts_.other_camera = true;
         // The topic in which RealSense's node publishes the placement.
         const std::string extrinsics_topic =
@@ -259,8 +317,8 @@ class RosTopic : public IndexedPictures {
             first_message(files_, {0, extrinsics_topic, "realsense2_camera_msgs/msg/Extrinsics"});
         if (const auto placement = message ? ros_placement(*message) : std::nullopt)
             facts_.cameras = std::make_shared<const CameraPair>(
-                CameraPair{depth->camera, colour->camera, colour->size, *placement,
-                           "ROS topic " + one_line(extrinsics_topic, 100)});
+                CameraPair{CameraModel(*fitted.camera, facts_.lens), colour->camera, colour->size,
+                           *placement, "ROS topic " + one_line(extrinsics_topic, 100)});
     }
 
     BagFiles files_;
@@ -271,8 +329,8 @@ class RosTopic : public IndexedPictures {
 
 }  // namespace
 
-bool is_ros_bag(const fs::path& place, std::string_view /*head*/) {
-    if (!is_folder(place)) return is_database(place);
+bool is_ros_bag(const fs::path& place, std::string_view head) {
+    if (!is_folder(place)) return is_bag_file(place, head);
     const std::vector<fs::path> entries = entries_of(place);
     return std::any_of(entries.begin(), entries.end(), is_bag_name);
 }

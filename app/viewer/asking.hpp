@@ -1,0 +1,43 @@
+// The question which meaning of the open depth is right: when it is asked, and its small reliefs.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "app/panels/viewer_state.hpp"
+#include "core/haptics/depth_image.hpp"
+#include "core/video/frames/frame_window.hpp"
+#include "core/video/sources/media.hpp"
+#include "render/gl_objects.hpp"
+#include "render/scene_view.hpp"
+
+namespace dibhr {
+
+/// The question on a media that was opened; nothing where its meaning is sure, or a person stated
+/// it. Looks at the disk.
+[[nodiscard]] std::optional<DepthQuestion> question_on(const MediaDescription& media);
+
+/// The frame's depth as it would be by another meaning of the same file, from 0 to 255, with at
+/// most 256 columns and rows. What is beyond the range of `now` stays at its end, and what was
+/// never seen is far.
+[[nodiscard]] DepthImage depth_by(const Frame& frame, const DepthMeaning& now,
+                                  const DepthMeaning& other);
+
+/// Takes a number key while asks_depth() is true: that of an alternative, or 0, for the other files
+/// of the folder.
+void take_digit(int digit, ViewerState& state);
+
+class ViewerAsking {
+  public:
+    /// Once a picture: draws one more of the open question's reliefs, all from the first frame that
+    /// is shown of the media of that number.
+    void draw_reliefs(const DepthBlend& shown, std::uint32_t media, ViewerState& state,
+                      SceneView& scene);
+
+  private:
+    std::optional<Frame> frame_{};
+    std::array<ColourTexture, 4> reliefs_{};
+};
+
+}  // namespace dibhr

@@ -1,0 +1,264 @@
+// Puts bytes together, and compares the second differences of numbers with those of their bytes.
+#include "core/video/depth/byte_code.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <opencv2/core.hpp>
+#include <vector>
+
+namespace dibhr {
+
+namespace {
+
+// Channels of OpenCV's pictures.
+constexpr std::size_t kBlueByte = 0;
+constexpr std::size_t kGreenByte = 1;
+constexpr std::size_t kRedByte = 2;
+constexpr std::size_t kAlphaByte = 3;
+
+/// Channels of a number's bytes, the highest byte first.
+using ByteOrder = std::span<const std::size_t>;
+
+ByteOrder byte_order(DepthCode code) noexcept {
+    static constexpr std::array kOfRg16{kRedByte, kGreenByte};
+    static constexpr std::array kOfRgb24{kBlueByte, kGreenByte, kRedByte};
+    static constexpr std::array kOfTerrain{kRedByte, kGreenByte, kBlueByte};
+    static constexpr std::array kOfFloat32{kAlphaByte, kBlueByte, kGreenByte, kRedByte};
+    switch (code) {
+        case DepthCode::rg16:
+            return kOfRg16;
+        case DepthCode::rgb24:
+            return kOfRgb24;
+        case DepthCode::terrain:
+            return kOfTerrain;
+        case DepthCode::float32:
+            return kOfFloat32;
+        default:
+            break;
+    }
+    return {};
+}
+
+std::uint32_t number_at(const std::uint8_t* pixel, ByteOrder order) {
+    std::uint32_t number = 0;
+    for (const std::size_t channel : order) number = number << 8U | pixel[channel];
+    return number;
+}
+
+/// Of the codes whose numbers are real.
+float real_number(std::uint32_t number, DepthCode code) {
+    if (code == DepthCode::float32) return std::bit_cast<float>(number);
+    if (code == DepthCode::terrain) return static_cast<float>(-10000.0 + 0.1 * number);
+    return static_cast<float>(number);  // 24 bits: exact
+}
+
+bool has_bytes(const cv::Mat& picture, DepthCode code) {
+    return picture.depth() == CV_8U && picture.channels() <= 4 &&
+           picture.channels() >= least_channels(code);
+}
+
+// Finding out.
+
+constexpr std::size_t kSampledPixels = 40000;  ///< about as many of each picture are looked at
+constexpr std::int64_t kLeastSteps = 64;
+/// Least share of steps of a true code that vanish; of noise two in nine do.
+constexpr double kLeastContinued = 0.7;
+
+/// Calls `visit` with the first pixel of every few rows that have rows beside them.
+template <typename Visit>
+void visit_rows(const cv::Mat& picture, const Visit& visit) {
+    const int every = static_cast<int>(std::max<std::size_t>(1, picture.total() / kSampledPixels));
+    for (int j = 1 + (every - 1) / 2; j + 1 < picture.rows; j += every)
+        visit(picture.ptr<std::uint8_t>(j));
+}
+
+/// Places where the second difference of a number without its lowest byte is one, and how many of
+/// them have a small one with that byte.
+struct Steps {
+    std::int64_t all{0};
+    std::int64_t continued{0};
+
+    void add(std::int64_t before, std::int64_t here, std::int64_t after) {
+        constexpr std::int64_t kSmall = 128;                 // half of a step
+        constexpr std::int64_t kSlow = 4;                    // of a surface, where two are equal
+        if (before == 0 || here == 0 || after == 0) return;  // no data
+        // Flat colours that meet, as in a drawing, tell nothing.
+        const bool may_be_flat = before == here || here == after;
+        if (may_be_flat && std::abs(after - before) > kSlow) return;
+        if (std::abs((before >> 8) - 2 * (here >> 8) + (after >> 8)) != 1) return;
+        ++all;
+        continued += static_cast<std::int64_t>(std::abs(before - 2 * here + after) < kSmall);
+    }
+};
+
+/// Along rows and columns.
+Steps steps_in(std::span<const cv::Mat> pictures, ByteOrder order) {
+    Steps steps;
+    for (const cv::Mat& picture : pictures) {
+        const auto right = static_cast<std::ptrdiff_t>(picture.channels());
+        const auto down = static_cast<std::ptrdiff_t>(picture.step[0]);
+        visit_rows(picture, [&](const std::uint8_t* row) {
+            const auto number = [order](const std::uint8_t* pixel) {
+                return static_cast<std::int64_t>(number_at(pixel, order));
+            };
+            for (int i = 1; i + 1 < picture.cols; ++i) {
+                const std::uint8_t* const pixel = row + i * right;
+                const std::int64_t here = number(pixel);
+                steps.add(number(pixel - right), here, number(pixel + right));
+                steps.add(number(pixel - down), here, number(pixel + down));
+            }
+        });
+    }
+    return steps;
+}
+
+/// The share of pixels with data for which `fits` is true.
+template <typename Fits>
+double share_where(std::span<const cv::Mat> pictures, ByteOrder order, const Fits& fits) {
+    std::int64_t all = 0;
+    std::int64_t fitting = 0;
+    for (const cv::Mat& picture : pictures) {
+        visit_rows(picture, [&](const std::uint8_t* row) {
+            for (int i = 0; i < picture.cols; ++i) {
+                const std::uint8_t* const pixel =
+                    row + i * static_cast<std::ptrdiff_t>(picture.channels());
+                if (number_at(pixel, order) == 0) continue;
+                ++all;
+                fitting += static_cast<std::int64_t>(fits(pixel));
+            }
+        });
+    }
+    return all > 0 ? static_cast<double>(fitting) / static_cast<double>(all) : 0.0;
+}
+
+constexpr double kNearlyAll = 0.98;
+
+/// Whether blue is one of two values nearly everywhere: it is not used, or marks something.
+bool is_blue_unused(std::span<const cv::Mat> pictures, ByteOrder order) {
+    std::array<std::int64_t, 256> counts{};
+    (void)share_where(pictures, order, [&counts](const std::uint8_t* pixel) {
+        ++counts[pixel[kBlueByte]];
+        return true;
+    });
+    std::int64_t all = 0;
+    for (const std::int64_t count : counts) all += count;
+    std::partial_sort(counts.begin(), counts.begin() + 2, counts.end(), std::greater<>{});
+    return static_cast<double>(counts[0] + counts[1]) >= kNearlyAll * static_cast<double>(all);
+}
+
+/// Whether numbers of this code are those of scenes: heights on the earth, floats of usual size.
+bool is_plausible(std::span<const cv::Mat> pictures, DepthCode code) {
+    const ByteOrder order = byte_order(code);
+    if (code == DepthCode::rg16) return is_blue_unused(pictures, order);
+    if (code == DepthCode::terrain) {  // from 3446 m below the sea to 9661 m
+        const auto is_height = [](const std::uint8_t* pixel) {
+            return pixel[kRedByte] == 1 || pixel[kRedByte] == 2;
+        };
+        return share_where(pictures, order, is_height) >= kNearlyAll &&
+               !is_blue_unused(pictures, order);
+    }
+    if (code == DepthCode::float32) {
+        constexpr float kLeast = 1e-4F;
+        constexpr float kMost = 1e6F;
+        constexpr double kLeastFinite = 0.05;
+        const auto number = [order](const std::uint8_t* pixel) {
+            return real_number(number_at(pixel, order), DepthCode::float32);
+        };
+        const double finite = share_where(pictures, order, [&number](const std::uint8_t* pixel) {
+            return std::isfinite(number(pixel));
+        });
+        const double usual = share_where(pictures, order, [&number](const std::uint8_t* pixel) {
+            return number(pixel) >= kLeast && number(pixel) <= kMost;
+        });
+        return finite >= kLeastFinite && usual >= kNearlyAll * finite;
+    }
+    return true;
+}
+
+}  // namespace
+
+bool is_of_bytes(DepthCode code) noexcept {
+    return !byte_order(code).empty();
+}
+
+int least_channels(DepthCode code) noexcept {
+    return code == DepthCode::float32 ? 4 : 3;
+}
+
+cv::Mat numbers_in_bytes(const cv::Mat& picture, DepthCode code) {
+    const bool is_whole = code == DepthCode::rg16;
+    cv::Mat numbers(picture.rows, picture.cols, is_whole ? CV_16UC1 : CV_32FC1,
+                    cv::Scalar(is_whole ? 0.0 : std::numeric_limits<double>::quiet_NaN()));
+    if (!has_bytes(picture, code)) return numbers;
+    const ByteOrder order = byte_order(code);
+    for (int j = 0; j < picture.rows; ++j) {
+        const std::uint8_t* pixel = picture.ptr<std::uint8_t>(j);
+        for (int i = 0; i < picture.cols; ++i, pixel += picture.channels()) {
+            const std::uint32_t number = number_at(pixel, order);
+            if (is_whole)
+                numbers.at<std::uint16_t>(j, i) = static_cast<std::uint16_t>(number);
+            else
+                numbers.at<float>(j, i) = real_number(number, code);
+        }
+    }
+    return numbers;
+}
+
+DepthStatement byte_code_meaning(DepthCode code) {
+    constexpr double kHighestOf24Bits = 16777215.0;
+    DepthStatement meaning;
+    meaning.code = code;
+    if (code == DepthCode::rgb24) {
+        meaning.near = NearLevels::dark;
+        meaning.unit = DepthUnit::levels;
+        meaning.no_data = std::vector{0.0, kHighestOf24Bits};  // the sky is the farthest
+    } else if (code == DepthCode::terrain) {
+        meaning.near = NearLevels::bright;
+        meaning.unit = DepthUnit::levels;
+        meaning.no_data = std::vector{-10000.0};
+    }
+    return meaning;
+}
+
+std::optional<bool> is_continuous(std::span<const cv::Mat> pictures, DepthCode code) {
+    const bool all_have = std::all_of(pictures.begin(), pictures.end(),
+                                      [code](const cv::Mat& one) { return has_bytes(one, code); });
+    if (!all_have) return std::nullopt;
+    const ByteOrder order = byte_order(code);
+    // The highest byte of a shallow scene is the same everywhere, or steps at silhouettes alone,
+    // and the lowest one may be noise: so one pair of bytes is enough.
+    bool has_steps = false;
+    for (std::size_t bytes = 2; bytes <= order.size(); ++bytes) {
+        const Steps steps = steps_in(pictures, order.first(bytes));
+        if (steps.all < kLeastSteps) continue;
+        has_steps = true;
+        if (static_cast<double>(steps.continued) >=
+            kLeastContinued * static_cast<double>(steps.all))
+            return true;
+    }
+    return has_steps ? std::optional(false) : std::nullopt;
+}
+
+std::optional<DepthCode> byte_code_in(std::span<const cv::Mat> pictures) {
+    const auto none_contradicts = [pictures](DepthCode code) {
+        return std::all_of(pictures.begin(), pictures.end(), [code](const cv::Mat& picture) {
+            return is_continuous({&picture, 1}, code).value_or(true);
+        });
+    };
+    for (const DepthCode code :
+         {DepthCode::float32, DepthCode::terrain, DepthCode::rg16, DepthCode::rgb24}) {
+        if (is_continuous(pictures, code).value_or(false) && none_contradicts(code) &&
+            is_plausible(pictures, code))
+            return code;
+    }
+    return std::nullopt;
+}
+
+}  // namespace dibhr

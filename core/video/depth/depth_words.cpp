@@ -1,0 +1,206 @@
+// Compares whole words; the most telling one counts.
+#include "core/video/depth/depth_words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/video/depth/picture_levels.hpp"
+
+namespace dibhr {
+
+namespace {
+
+using NameWords = std::span<const std::string>;
+
+/// A word for values that are near where bright.
+struct NearnessWord {
+    std::string_view word;
+    std::optional<DepthUnit> unit;
+    double sureness;
+};
+
+constexpr std::array kNearnessWords{
+    NearnessWord{"disp", DepthUnit::disparity, kSurenessOfName},
+    NearnessWord{"disparity", DepthUnit::disparity, kSurenessOfName},
+    NearnessWord{"disparities", DepthUnit::disparity, kSurenessOfName},
+    NearnessWord{"idepth", DepthUnit::disparity, kSurenessOfName},
+    NearnessWord{"invdepth", DepthUnit::disparity, kSurenessOfName},
+    // Heights seen from above: high is near, and linear.
+    NearnessWord{"height", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"heightmap", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"displacement", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"elevation", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"bump", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"dem", DepthUnit::levels, 0.92},  // also a German article
+    NearnessWord{"dsm", DepthUnit::levels, 0.92}, NearnessWord{"dtm", DepthUnit::levels, 0.92},
+    NearnessWord{"terrain", DepthUnit::levels, 0.92},
+    NearnessWord{"nearness", std::nullopt, kSurenessOfName},
+    NearnessWord{"closeness", std::nullopt, kSurenessOfName}};
+
+/// A word for distances of unknown unit; a probability of 0 gives no row. Programs that estimate
+/// depth call their relative values so, too.
+struct DistanceWord {
+    std::string_view word;
+    double dark;
+    double levels;
+    double metres;  ///< of real numbers
+};
+
+constexpr double kDarkOfDepth = 0.75;
+constexpr double kLevelsOfDepth = 0.3;
+constexpr std::array kDistanceWords{DistanceWord{"lidar", 0.97, 0.1, 0.9},
+                                    DistanceWord{"velodyne", 0.97, 0.1, 0.9},
+                                    DistanceWord{"metric", 0.97, 0.05, 0.0},
+                                    DistanceWord{"distance", 0.9, 0.3, 0.5},
+                                    DistanceWord{"distances", 0.9, 0.3, 0.5},
+                                    DistanceWord{"range", 0.8, 0.0, 0.5},  // also of values
+                                    DistanceWord{"depth", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"depths", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"depthmap", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"depthmaps", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"tiefe", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"tiefen", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"tiefenbild", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"tiefenkarte", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"profondeur", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"profundidad", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{"profondita", kDarkOfDepth, kLevelsOfDepth, 0.0}};
+
+/// Beside these, a word for depth does not mean distances.
+constexpr std::array<std::string_view, 13> kRelativeWords{
+    "rel",  "relative", "norm", "normalized", "normalised", "linear",  "log",
+    "mist", "zbuffer",  "dpt",  "midas",      "marigold",   "anything"};
+
+struct UnitOfDistance {
+    std::string_view word;
+    DepthUnit unit;
+    double scale;
+    bool is_short;  ///< counts only beside a word for distances, or after "in"
+};
+
+constexpr std::array kUnitsOfDistance{UnitOfDistance{"mm", DepthUnit::mm, 1.0, true},
+                                      UnitOfDistance{"cm", DepthUnit::mm, 10.0, true},
+                                      UnitOfDistance{"m", DepthUnit::m, 1.0, true},
+                                      UnitOfDistance{"millimeter", DepthUnit::mm, 1.0, false},
+                                      UnitOfDistance{"millimeters", DepthUnit::mm, 1.0, false},
+                                      UnitOfDistance{"millimetre", DepthUnit::mm, 1.0, false},
+                                      UnitOfDistance{"millimetres", DepthUnit::mm, 1.0, false},
+                                      UnitOfDistance{"centimeter", DepthUnit::mm, 10.0, false},
+                                      UnitOfDistance{"centimeters", DepthUnit::mm, 10.0, false},
+                                      UnitOfDistance{"centimetre", DepthUnit::mm, 10.0, false},
+                                      UnitOfDistance{"centimetres", DepthUnit::mm, 10.0, false},
+                                      UnitOfDistance{"meter", DepthUnit::m, 1.0, false},
+                                      UnitOfDistance{"meters", DepthUnit::m, 1.0, false},
+                                      UnitOfDistance{"metre", DepthUnit::m, 1.0, false},
+                                      UnitOfDistance{"metres", DepthUnit::m, 1.0, false}};
+
+bool has_name_word(NameWords words, std::string_view word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string quoted_word(std::string_view word, std::string_view whose) {
+    return in_quotes(word) + " in " + std::string(whose);
+}
+
+/// "inv_depth", "inverse depth".
+bool is_of_inverse(NameWords words) {
+    const auto is_inverse = [](const std::string& word) {
+        return word == "inv" || word == "inverse" || word == "reciprocal";
+    };
+    const auto at = std::find_if(words.begin(), words.end(), is_inverse);
+    return at != words.end() && at + 1 != words.end() &&
+           (at[1] == "depth" || at[1] == "distance" || at[1] == "z");
+}
+
+/// "rock_wall_disp_4k": a displacement, of as many pixels.
+bool is_of_texture(NameWords words) {
+    constexpr std::array<std::string_view, 5> kSizes{"1k", "2k", "4k", "8k", "16k"};
+    return std::any_of(kSizes.begin(), kSizes.end(),
+                       [words](std::string_view size) { return has_name_word(words, size); });
+}
+
+const DistanceWord* distance_word(NameWords words) {
+    const auto* const found = std::find_if(
+        kDistanceWords.begin(), kDistanceWords.end(),
+        [words](const DistanceWord& known) { return has_name_word(words, known.word); });
+    return found == kDistanceWords.end() ? nullptr : found;
+}
+
+/// Whether the word at that place is the unit of the distances that the name speaks of: no size
+/// ("shot_10m") and, as a single letter, directly behind them.
+bool is_unit_at(NameWords words, std::size_t at, const UnitOfDistance& unit) {
+    if (words[at] != unit.word) return false;
+    if (at == 0) return !unit.is_short || (unit.word.size() > 1 && distance_word(words) != nullptr);
+    const std::string& before = words[at - 1];
+    if (is_decimal_digit(before.front())) return false;
+    if (!unit.is_short || before == "in" || before == "z" || distance_word({&before, 1}) != nullptr)
+        return true;
+    return unit.word.size() > 1 && distance_word(words) != nullptr;
+}
+
+/// Null: the name has none.
+const UnitOfDistance* unit_of_distance(NameWords words) {
+    for (const UnitOfDistance& unit : kUnitsOfDistance)
+        for (std::size_t at = 0; at < words.size(); ++at)
+            if (is_unit_at(words, at, unit)) return &unit;
+    return nullptr;
+}
+
+Finding finding_on_unit(const UnitOfDistance& unit, int bits, std::string_view whose) {
+    constexpr double kLeast_m = 0.001;
+    constexpr double kMost_m = 2000.0;
+    constexpr double kMostOfWhole_m = 100.0;  // whole metres of a larger scene are of another unit
+    const bool is_whole = bits != kRealBits && unit.unit == DepthUnit::m;
+    return {{.near = NearLevels::dark, .unit = unit.unit, .scale = unit.scale},
+            Evidence::name,
+            kSurenessOfName,
+            quoted_word(unit.word, whose),
+            {},
+            {"a scene", kLeast_m, is_whole ? kMostOfWhole_m : kMost_m}};
+}
+
+Findings findings_on_distance(const DistanceWord& known, int bits, std::string_view whose) {
+    const std::string reason = quoted_word(known.word, whose);
+    Findings rows{{{.near = NearLevels::dark}, Evidence::name, known.dark, reason}};
+    if (known.levels > 0.0)
+        rows.push_back({{.unit = DepthUnit::levels}, Evidence::name, known.levels, reason});
+    if (known.metres > 0.0 && bits == kRealBits)
+        rows.push_back(
+            {{.unit = DepthUnit::m, .scale = 1.0}, Evidence::name, known.metres, reason});
+    return rows;
+}
+
+}  // namespace
+
+Findings findings_in_name(std::string_view name, int bits, std::string_view whose) {
+    const std::vector<std::string> all = words_of_name(name);
+    const NameWords words(all);
+    if (is_of_inverse(words))
+        return {{{.near = NearLevels::bright, .unit = DepthUnit::disparity},
+                 Evidence::name,
+                 kSurenessOfName,
+                 "inverse depth in " + std::string(whose)}};
+    for (const NearnessWord& known : kNearnessWords)
+        if (has_name_word(words, known.word))
+            return {{{.near = NearLevels::bright,
+                      .unit = is_of_texture(words) ? DepthUnit::levels : known.unit},
+                     Evidence::name,
+                     known.sureness,
+                     quoted_word(known.word, whose)}};
+    if (bits <= 8) return {};
+    if (const UnitOfDistance* const unit = unit_of_distance(words))
+        return {finding_on_unit(*unit, bits, whose)};
+    const bool is_relative =
+        std::any_of(kRelativeWords.begin(), kRelativeWords.end(),
+                    [words](std::string_view word) { return has_name_word(words, word); });
+    const DistanceWord* const distance = is_relative ? nullptr : distance_word(words);
+    return distance == nullptr ? Findings{} : findings_on_distance(*distance, bits, whose);
+}
+
+}  // namespace dibhr
