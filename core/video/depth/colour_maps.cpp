@@ -77,7 +77,7 @@ bool is_on(const Colours& map, const cv::Vec3b& colour) {
 }  // namespace
 
 bool is_colour_mapped(const cv::Mat& picture) {
-    constexpr double kNearlyAll = 0.93;
+    constexpr double kNearlyAllOfMap = 0.93;
     constexpr double kColoured = 0.5;
     constexpr int kGreyChroma = 24;
     constexpr int kLeastSpan = 60;  // of a channel: less is a plain picture of one colour
@@ -103,14 +103,14 @@ bool is_colour_mapped(const cv::Mat& picture) {
     return std::any_of(maps.begin(), maps.end(), [&](const Colours& map) {
         const auto on_map = std::count_if(samples.begin(), samples.end(),
                                           [&](const cv::Vec3b& c) { return is_on(map, c); });
-        return static_cast<double>(on_map) >= kNearlyAll * count;
+        return static_cast<double>(on_map) >= kNearlyAllOfMap * count;
     });
 }
 
 bool has_two_levels(const cv::Mat& picture) {
     if (picture.type() != CV_8UC3 || picture.empty()) return false;
     const Colours samples = samples_of(picture);
-    const cv::Vec3b first = samples.front();
+    const cv::Vec3b& first = samples.front();
     const auto second = std::find_if(samples.begin(), samples.end(),
                                      [&](const cv::Vec3b& c) { return c != first; });
     return second != samples.end() && std::all_of(second, samples.end(), [&](const cv::Vec3b& c) {

@@ -95,15 +95,15 @@ class Pairs {
 
 /// Whether x / z rises evenly along the columns, and y / z along the rows.
 bool is_of_points(const cv::Mat& picture) {
-    constexpr int kSamplesAlong = 64;
+    constexpr int kPointsAlong = 64;
     constexpr double kLeastPoints = 100.0;
     constexpr double kLeastCorrelation = 0.99;  // a lens may bend them a little
     Pairs columns;
     Pairs rows;
-    for (int j = 0; j < kSamplesAlong; ++j)
-        for (int i = 0; i < kSamplesAlong; ++i) {
-            const int row = (2 * j + 1) * picture.rows / (2 * kSamplesAlong);
-            const int column = (2 * i + 1) * picture.cols / (2 * kSamplesAlong);
+    for (int j = 0; j < kPointsAlong; ++j)
+        for (int i = 0; i < kPointsAlong; ++i) {
+            const int row = (2 * j + 1) * picture.rows / (2 * kPointsAlong);
+            const int column = (2 * i + 1) * picture.cols / (2 * kPointsAlong);
             const auto& point = picture.at<cv::Vec3f>(row, column);
             const auto z = static_cast<double>(point[kPointsZ]);
             const double right = static_cast<double>(point[kPointsX]) / z;
@@ -152,19 +152,19 @@ cv::Mat few_levels_of(const cv::Mat& picture) {
 
 /// Whether 2047 stands out from the other levels, which are of 0.42 m and more.
 bool looks_like_kinect(const cv::Mat& picture) {
-    constexpr double kLeastNone = 5e-4;  // of the pixels
+    constexpr double kLeastOfNone = 5e-4;  // of the pixels
     constexpr double kLeastSeen = 0.1;
     constexpr double kMostOfLevels = 0.98;
-    constexpr int kNearest = 300;
-    constexpr int kFarthest = 1092;
+    constexpr int kNearestLevel = 300;
+    constexpr int kFarthestLevel = 1092;
     const cv::Mat raw = in_11_bits(few_levels_of(picture));
     const std::span<const cv::Mat> levels(&raw, 1);
     const auto all = static_cast<double>(raw.total());
     if (count_levels(levels, [](int level) { return level > kKinectNone; }) > 0.0) return false;
     const double none = count_levels(levels, [](int level) { return level == kKinectNone; });
-    const double seen =
-        count_levels(levels, [](int level) { return level >= kNearest && level <= kFarthest; });
-    return none >= kLeastNone * all && seen >= kLeastSeen * all &&
+    const double seen = count_levels(
+        levels, [](int level) { return level >= kNearestLevel && level <= kFarthestLevel; });
+    return none >= kLeastOfNone * all && seen >= kLeastSeen * all &&
            seen >= kMostOfLevels * (all - none);
 }
 
