@@ -78,4 +78,14 @@ cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole ro
     return between;
 }
 
+cv::Mat rise_of(const cv::Mat& picture) {
+    cv::Mat across;
+    cv::Mat down;
+    cv::Sobel(picture, across, CV_32F, 1, 0, 3, 1.0 / 8.0);
+    cv::Sobel(picture, down, CV_32F, 0, 1, 3, 1.0 / 8.0);
+    cv::Mat rise;
+    cv::magnitude(across, down, rise);
+    return rise;
+}
+
 }  // namespace dibhr

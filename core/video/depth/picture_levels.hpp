@@ -38,4 +38,7 @@ inline constexpr int kMostSide_px = 32000;
 /// pixels. A level of depth is never mixed with no data, which is level 0.
 [[nodiscard]] cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role);
 
+/// By how many levels a picture rises from pixel to pixel, CV_32F.
+[[nodiscard]] cv::Mat rise_of(const cv::Mat& picture);
+
 }  // namespace dibhr

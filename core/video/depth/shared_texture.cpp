@@ -7,6 +7,8 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "core/video/depth/picture_levels.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -30,12 +32,7 @@ FineStructure fine_structure(const cv::Mat& picture, Edges edges) {
     cv::subtract(picture, around, fine.levels, cv::noArray(), CV_32F);
     fine.counts = cv::Mat(picture.size(), CV_8U, cv::Scalar(255));
     if (edges == Edges::count) return fine;
-    cv::Mat across;
-    cv::Mat down;
-    cv::Sobel(around, across, CV_32F, 1, 0, 3, 1.0 / 8.0);
-    cv::Sobel(around, down, CV_32F, 0, 1, 3, 1.0 / 8.0);
-    cv::Mat rise;
-    cv::magnitude(across, down, rise);
+    const cv::Mat rise = rise_of(around);
     cv::erode(rise < kJump, fine.counts, cv::Mat::ones(5, 5, CV_8U));
     fine.levels.setTo(0.0, ~fine.counts);
     return fine;

@@ -62,18 +62,12 @@ bool is_one_of(const std::string& name, Words words) {
     return std::find(words.begin(), words.end(), lower_case(name)) != words.end();
 }
 
-/// Whether one of the words of a name, which letters and digits make, is in a list.
+/// Whether one of the words of a name is in a list.
 bool has_word(const std::string& name, std::string_view words) {
-    std::string word = " ";
-    for (const char c : lower_case(name) + '_') {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-            word += c;
-            continue;
-        }
-        if (word.size() > 1 && words.find(word + ' ') != std::string_view::npos) return true;
-        word = " ";
-    }
-    return false;
+    const std::vector<std::string> all = words_of_name(name);
+    return std::any_of(all.begin(), all.end(), [words](const std::string& word) {
+        return words.find(' ' + word + ' ') != std::string_view::npos;
+    });
 }
 
 bool names_depth(const std::string& name) {

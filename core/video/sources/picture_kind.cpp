@@ -15,6 +15,7 @@
 #include "core/video/depth/byte_code.hpp"
 #include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
+#include "core/video/depth/picture_levels.hpp"
 #include "core/video/depth/shared_texture.hpp"
 #include "core/video/sources/packed.hpp"
 
@@ -83,12 +84,7 @@ SurfaceStatistics surface_statistics(const cv::Mat& levels, const cv::Mat& mask)
     cv::medianBlur(levels, around, 5);
     cv::Mat apart;
     cv::absdiff(levels, around, apart);
-    cv::Mat across;
-    cv::Mat down;
-    cv::Sobel(around, across, CV_32F, 1, 0, 3, 1.0 / 8.0);
-    cv::Sobel(around, down, CV_32F, 0, 1, 3, 1.0 / 8.0);
-    cv::Mat rise;
-    cv::magnitude(across, down, rise);
+    const cv::Mat rise = rise_of(around);
     const cv::Mat edges = (rise >= kEdge) & inner;
     const cv::Mat slopes = (rise >= kFlat) & (rise < kSlope) & inner;
     statistics.edges = share(cv::countNonZero(edges), count);

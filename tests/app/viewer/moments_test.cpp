@@ -2,7 +2,6 @@
 // into both, read from pictures of the real window.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -11,7 +10,6 @@
 #include <random>
 #include <set>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/haptics/vec.hpp"
@@ -189,8 +187,8 @@ TEST_CASE("colour and relief on the screen are of one moment, also on a machine 
     std::set<int> shown;
     std::string mixed;
     for (std::size_t read = 0; read < kPictures;) {
-        std::this_thread::sleep_for(
-            std::chrono::milliseconds(std::uniform_int_distribution(0, 100)(random)));
+        const auto next = viewer.seen().picture + std::uniform_int_distribution(1U, 6U)(random);
+        viewer.wait_until([next](const Seen& now) { return now.picture >= next; });
         const Bits bits(Screen{desk});
         if (!bits.is_plain()) continue;
         ++read;
