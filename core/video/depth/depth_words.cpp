@@ -118,11 +118,14 @@ bool is_of_inverse(NameWords words) {
            (at[1] == "depth" || at[1] == "distance" || at[1] == "z");
 }
 
-/// "rock_wall_disp_4k": a displacement, of as many pixels.
+/// "rock_wall_disp_4k": a displacement, of as many pixels. A number and its letter are two words.
 bool is_of_texture(NameWords words) {
-    constexpr std::array<std::string_view, 5> kSizes{"1k", "2k", "4k", "8k", "16k"};
-    return std::any_of(kSizes.begin(), kSizes.end(),
-                       [words](std::string_view size) { return has_name_word(words, size); });
+    constexpr std::array<std::string_view, 5> kThousands{"1", "2", "4", "8", "16"};
+    for (std::size_t at = 1; at < words.size(); ++at)
+        if (words[at] == "k" &&
+            std::find(kThousands.begin(), kThousands.end(), words[at - 1]) != kThousands.end())
+            return true;
+    return false;
 }
 
 const DistanceWord* distance_word(NameWords words) {

@@ -282,10 +282,10 @@ std::vector<DepthHypothesis> weigh(const Findings& findings) {
     return kinds;
 }
 
-DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings) {
+DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings, double least) {
     DepthStatement all = merged(persons);
     for (const Finding& finding : findings)
-        if (finding.sureness >= kSureEnough) all.fill_in(finding.statement);
+        if (finding.sureness >= least) all.fill_in(finding.statement);
     return all;
 }
 

@@ -91,8 +91,9 @@ struct DepthConclusion {
     std::vector<DepthAlternative> alternatives{};
 };
 
-/// The facts that a person states, or a finding that is sure enough.
-[[nodiscard]] DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings);
+/// The facts that a person states, or a finding of at least that sureness.
+[[nodiscard]] DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings,
+                                        double least = kSureEnough);
 
 /// The reasons of the sure findings that state facts, but of those that look at pictures alone:
 /// "array 'disparity', array 'K'".

@@ -32,6 +32,7 @@ namespace {
 constexpr int kMostSampled = 24;
 constexpr int kLeastSampled = 4;
 constexpr double kPixelsDecoded = 2.4e7;  ///< decoded in about half a second
+constexpr double kBeyondNumbers = 0.92;   ///< facts as sure need no numbers
 
 DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     DepthStatement said;
@@ -114,7 +115,7 @@ Findings units_beside(const SampledLevels& levels, const Findings& rows) {
 /// rows state and they contradict. Returns the levels without those that are no data.
 SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
     SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
-    const DepthStatement known = sure_facts(persons, rows);
+    const DepthStatement known = sure_facts(persons, rows, kBeyondNumbers);
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
         return row.statement.no_data.has_value();
     });
@@ -277,7 +278,8 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
+    if (!is_complete(sure_facts(persons, rows, kBeyondNumbers)))
+        levels = add_numbers(sources, persons, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
     if (!(of_folder == DepthStatement{})) {

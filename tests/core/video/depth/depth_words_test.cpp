@@ -66,6 +66,12 @@ TEST_CASE("inverse depth is disparity, and heights stay heights with their unit"
     CHECK(stated_in(height, 16) ==
           DepthStatement{.near = NearLevels::bright, .unit = DepthUnit::levels});
     CHECK(stated_in("nearness") == DepthStatement{.near = NearLevels::bright});
+    const std::string texture = GENERATE("rock_wall_disp_4k", "bark-disp-16k", "tiles_1k_disp");
+    CAPTURE(texture);
+    CHECK(stated_in(texture, 16) ==
+          DepthStatement{.near = NearLevels::bright, .unit = DepthUnit::levels});
+    CHECK(stated_in("disp_k_4") ==
+          DepthStatement{.near = NearLevels::bright, .unit = DepthUnit::disparity});
 }
 
 TEST_CASE("a word for depth is a weak hint at distances, unless it is relative", "[words]") {
