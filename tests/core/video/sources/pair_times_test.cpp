@@ -483,6 +483,9 @@ TEST_CASE("videos that begin at different times of their clock are together by t
     make_numbered_clip(folder / name, 50, "25", kH264 + begins(colour_begins_s));
     make_numbered_clip(folder / "depth.mkv", 50, "25", kLossless + begins(depth_begins_s));
     const auto media = open_media(folder / name, folder / "depth.mkv", as_grey_video());
+    CHECK(contains(media->description().timing, "in the file; the colour begins 0."));
+    CHECK(contains(media->description().timing,
+                   colour_begins_s > depth_begins_s ? "after the depth" : "before the depth"));
     check_pair(*media, {even_s(50, 25.0), even_s(50, 25.0, colour_begins_s - depth_begins_s)});
 }
 
