@@ -438,13 +438,14 @@ void decode_as_told(Sources& sources, DepthCode code) {
         decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
 }
 
-/// Whether metadata, a layout or a name state the unit of the levels as they are.
-bool states_unit(const SourceFacts& facts) {
-    return sure_facts({}, facts.findings).unit || sure_facts({}, findings_by_name(facts)).unit;
+/// The unit of the levels as they are, where metadata, a layout or a name state it.
+std::optional<DepthUnit> stated_unit(const SourceFacts& facts) {
+    const auto by_reader = sure_facts({}, facts.findings).unit;
+    return by_reader ? by_reader : sure_facts({}, findings_by_name(facts)).unit;
 }
 
 /// As its data set says, where the levels do not contradict it; else as the levels themselves show.
-/// That they are turned counts only where nothing states what they are.
+/// What their bits show counts only where nothing states something else.
 void decode_as_found(Sources& sources) {
     const SourceFacts facts = sources.depth->facts();
     const auto set = data_set_of(facts);
@@ -457,7 +458,12 @@ void decode_as_found(Sources& sources) {
     const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
     if (!may_show) return;
     const auto seen = level_code_in(sources.depth->samples(1));
-    if (seen == DepthCode::turned16 && (set || states_unit(facts))) return;
+    if (seen && has_whole_numbers(*seen)) {
+        const auto unit = stated_unit(facts);
+        const bool agrees = seen == DepthCode::depth16 && unit == DepthUnit::mm;
+        const bool is_of_set = set && set->finding.sureness >= kSureEnough;
+        if (is_of_set || (unit && !agrees)) return;
+    }
     if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
 }
 
