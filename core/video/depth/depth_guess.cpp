@@ -101,14 +101,26 @@ struct IntegerScale {
     double of_sky;    ///< the same where the highest level is no data
     double of_close;  ///< the same where all is within a metre, without the holes of a sensor
     double of_laser;  ///< the same where single pixels have data that fit a street
+    double of_turn;   ///< the same in the size of a spinning LiDAR's pictures
 };
 
-constexpr std::array<IntegerScale, 4> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4},
-    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1},           // TUM: 5000 a metre
-    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9},  // street data sets
-    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06},        // simulators: centimetres
+constexpr std::array<IntegerScale, 5> kIntegerScales{{
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4, 0.4},
+    {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1, 0.02},           // TUM: 5000 a metre
+    {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9, 0.05},  // street data sets
+    {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06, 0.05},        // simulators: centimetres
+    // Ouster's range images (github.com/ouster-lidar/ouster-ros, os_image); else nobody's.
+    {DepthUnit::mm, 4.0, kLand, 0.0, 0.0, 0.0, 0.0, 0.0, 0.6},
 }};
+
+/// Whether pictures have a row for each laser of a spinning LiDAR, and a column for each of the
+/// usual steps of its turn.
+bool is_of_turn(cv::Size picture) {
+    constexpr std::array kLasers{16, 32, 64, 128};
+    constexpr std::array kSteps{512, 1024, 2048, 4096};
+    return std::find(kLasers.begin(), kLasers.end(), picture.height) != kLasers.end() &&
+           std::find(kSteps.begin(), kSteps.end(), picture.width) != kSteps.end();
+}
 
 /// "as numbers of 1 mm from 0.5 to 4.2 m: a room".
 std::string sizes_text(const IntegerScale& scale, double nearest_m, double farthest_m, bool fits) {
@@ -188,6 +200,7 @@ std::size_t different_values(const std::vector<float>& rising) {
 }  // namespace
 
 SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : bits_(bits) {
+    if (!pictures.empty()) picture_ = pictures.front().size();
     lattices_.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) lattices_.push_back(lattice_of(picture));
     levels_ = rising_without({});
@@ -368,20 +381,25 @@ Findings SampledLevels::units_of_integers() const {
     const bool is_flat = farthest < kFlat * nearest;
     const bool is_of_laser =
         kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered();
+    const bool is_turn = is_of_turn(picture_);
+    const std::string where = is_turn       ? "with a row a laser of a spinning LiDAR, "
+                              : is_of_laser ? "where a laser sees single pixels, "
+                                            : "";
     for (const IntegerScale& scale : kIntegerScales) {
         const double in_m = scale.scale * (scale.unit == DepthUnit::m ? 1.0 : 0.001);
         const double fits = scale.sizes.plausibility(nearest * in_m, farthest * in_m);
-        const double sureness = has_sky && !has_holes                          ? scale.of_sky
+        const double sureness = is_turn                                        ? scale.of_turn
+                                : has_sky && !has_holes                        ? scale.of_sky
                                 : is_flat && (!has_holes || nearest > kFar_mm) ? scale.of_flat
                                 : is_close && !has_holes                       ? scale.of_close
                                 : is_of_laser                                  ? scale.of_laser
                                                                                : scale.sureness;
+        if (sureness == 0.0) continue;
         rows.push_back(
             {{.unit = scale.unit, .scale = scale.scale},
              kNumbers,
              sureness * fits,
-             (is_of_laser ? "where a laser sees single pixels, " : "") +
-                 sizes_text(scale, nearest * in_m, farthest * in_m, fits > kImplausible)});
+             where + sizes_text(scale, nearest * in_m, farthest * in_m, fits > kImplausible)});
     }
     return rows;
 }

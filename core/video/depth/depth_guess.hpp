@@ -74,6 +74,7 @@ class SampledLevels {
     [[nodiscard]] Findings units_of_numbers() const;
 
     int bits_;
+    cv::Size picture_{};  ///< size of the first
     std::vector<LevelLattice> lattices_{};
     std::vector<double> no_data_{};
     std::vector<float> levels_{};  ///< that are data, in rising order

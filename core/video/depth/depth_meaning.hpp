@@ -26,7 +26,19 @@ enum class DepthPacking { separate, left_right, right_left, top_bottom, bottom_t
 
 /// How a picture holds depth: by its brightness, by its hue, as a number in the bytes of its
 /// channels (byte_code.hpp), or in levels that are no distances (level_code.hpp).
-enum class DepthCode { grey, hue, rg16, rgb24, float32, terrain, turned16, kinect11, stereo, xyz };
+enum class DepthCode {
+    grey,
+    hue,
+    rg16,
+    rgb24,
+    float32,
+    terrain,
+    turned16,
+    kinect11,
+    stereo,
+    xyz,
+    depth16
+};
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
 /// millimetres, in orthographic view.
@@ -53,7 +65,7 @@ inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPackin
 inline constexpr std::array kDepthCodes{
     DepthCode::grey,    DepthCode::hue,     DepthCode::rg16,     DepthCode::rgb24,
     DepthCode::float32, DepthCode::terrain, DepthCode::turned16, DepthCode::kinect11,
-    DepthCode::stereo,  DepthCode::xyz};
+    DepthCode::stereo,  DepthCode::xyz,     DepthCode::depth16};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 

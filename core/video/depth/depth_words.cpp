@@ -36,7 +36,9 @@ constexpr std::array kNearnessWords{
     NearnessWord{"heightmap", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"displacement", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"elevation", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"displacementmap", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"bump", DepthUnit::levels, kSurenessOfName},
+    NearnessWord{"bumpmap", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"dem", DepthUnit::levels, 0.92},  // also a German article
     NearnessWord{"dsm", DepthUnit::levels, 0.92}, NearnessWord{"dtm", DepthUnit::levels, 0.92},
     NearnessWord{"terrain", DepthUnit::levels, 0.92},

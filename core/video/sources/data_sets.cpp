@@ -101,6 +101,13 @@ constexpr Values kByCalibration{"disparities, with the cameras' calib.txt", Near
                                 DepthUnit::mm, 1.0, kNotStated};
 constexpr Values kTurned{"millimetres, whose bits are turned by three", NearLevels::dark,
                          DepthUnit::mm, 1.0, 0.0};
+constexpr Values kBelowConfidence{"millimetres in 13 bits, a confidence above",
+                                  NearLevels::dark,
+                                  DepthUnit::mm,
+                                  1.0,
+                                  0.0,
+                                  0.02,
+                                  8.2};
 constexpr Values kRawKinect{"raw disparities of a Kinect", NearLevels::dark, DepthUnit::mm, 1.0,
                             kNotStated};
 
@@ -240,6 +247,9 @@ constexpr std::array kDataSets{
     DataSet{"Hamlyn", "depth0#/#.png", "../image0#", 16, kOrgan, 0.95},
     DataSet{"SCARED", "*_depth_map.tiff", "left_image.png", kRealBits, kPoints, 0.98,
             DepthCode::xyz},
+    // Phones.
+    DataSet{"Android's DEPTH16", "*depth16*", "", 16, kBelowConfidence, 0.97, DepthCode::depth16},
+    DataSet{"Android's DEPTH16", "*arcore*", "", 16, kBelowConfidence, 0.97, DepthCode::depth16},
     // Programs that estimate depth.
     DataSet{"MiDaS", "*-dpt_*.png", "", 16, kNearBright, 0.95},
     DataSet{"MiDaS", "*-midas_*.png", "", 16, kNearBright, 0.95},

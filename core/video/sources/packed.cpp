@@ -235,8 +235,10 @@ Finding finding_on_code(DepthCode code, bool is_stated) {
         : code == DepthCode::hue      ? "its colours: pure hues alone"
         : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
         : code == DepthCode::turned16 ? "its levels: multiples of 8, as of bits turned by three"
-        : code == DepthCode::xyz      ? "its channels, which are points before one camera"
-                                      : "the bytes of its colours, which carry as those of numbers";
+        : code == DepthCode::depth16
+            ? "its levels: distances that go on where the three highest bits change"
+        : code == DepthCode::xyz ? "its channels, which are points before one camera"
+                                 : "the bytes of its colours, which carry as those of numbers";
     return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
 }
 
@@ -305,7 +307,7 @@ std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pict
     coded.statement.code = code;
     coded.statement.fill_in(level_code_meaning(code));
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
-        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.bits = has_whole_numbers(code) ? 16 : kRealBits;
         facts.channels = 1;
         for (Finding& other : facts.findings) forget_levels(other.statement);
         std::erase_if(facts.findings, [](const Finding& other) {

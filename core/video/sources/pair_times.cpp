@@ -354,8 +354,9 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
 }
 
 /// Where one source has times and the other has none, or where a person states that they are
-/// paired.
-void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool find_out) {
+/// paired. Returns how much later the colour's own beginning then is; nothing: no times were taken.
+std::optional<double> take_pair_times(Sources& sources, PairTimes& pair, bool is_stated,
+                                      bool find_out) {
     const SourceFacts& depth = sources.depth->facts();
     const SourceFacts& colour = sources.colour->facts();
     const bool depth_has = has_own_times(depth);
@@ -367,7 +368,7 @@ void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool fin
     const bool may_differ =
         (is_stated || !are_numbered) && !is_shared && depth.frames != colour.frames;
     const bool is_paired = is_stated && pair.times.value == DepthTimes::paired;
-    if (!is_paired && (is_stated || !find_out)) return;
+    if (!is_paired && (is_stated || !find_out)) return std::nullopt;
     if (!is_stated && is_shared) pair.times.value = DepthTimes::paired;
     bool depth_takes = !depth_has && colour_has;
     bool colour_takes = depth_has && !colour_has;
@@ -376,13 +377,35 @@ void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool fin
         colour_takes = !depth_takes;
     }
     if (depth_has && colour_has) depth_takes = is_paired;
+    std::optional<double> colour_later_s;
     if (depth_takes) {
         if (const auto later_s = take_times_of(*sources.colour, sources.depth))
-            pair.colour_later_s = -*later_s;
+            colour_later_s = -*later_s;
     } else if (colour_takes) {
-        pair.colour_later_s = take_times_of(*sources.depth, sources.colour);
+        colour_later_s = take_times_of(*sources.depth, sources.colour);
     }
-    if (!is_stated && pair.colour_later_s) pair.times.value = DepthTimes::paired;
+    if (!is_stated && colour_later_s) pair.times.value = DepthTimes::paired;
+    return colour_later_s;
+}
+
+/// Sets how colour and depth with times of their own begin.
+void take_beginnings(const SourceFacts& depth, const SourceFacts& colour, PairTimes& pair) {
+    const bool is_shared = share_clock(depth, colour);
+    if (is_shared) pair.colour_later_s = colour.start_s - depth.start_s;
+    if (!has_own_times(depth) || !has_own_times(colour)) return;
+    const double apart_s = std::fabs(pair.colour_later_s);
+    std::string text = is_shared ? "begins with the depth, by the clock of both"
+                                 : "taken to begin with the depth: they have no common clock";
+    if (apart_s * colour.frames_per_s > kHalfFrame) {
+        text = "begins " + short_text(apart_s, 3) + " s " +
+               (pair.colour_later_s > 0.0 ? "after" : "before") +
+               " the depth, by the clock of both";
+        pair.beginning = "the colour " + text;
+    }
+    Finding row =
+        finding_on_times("colour", is_shared ? colour.timing.from : TimesFrom::assumed, text);
+    row.about = "begin of the colour";
+    pair.findings.push_back(std::move(row));
 }
 
 }  // namespace
@@ -401,14 +424,17 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
     }
     if (!sources.colour || sources.colour->facts().still || sources.depth->facts().still)
         return pair;
-    take_pair_times(sources, pair, is_stated, find_out);
+    const auto taken_later_s = take_pair_times(sources, pair, is_stated, find_out);
     const SourceFacts& depth = sources.depth->facts();
     const SourceFacts& colour = sources.colour->facts();
-    if (pair.colour_later_s) {
+    if (taken_later_s) {
+        pair.colour_later_s = *taken_later_s;
         const bool of_depth = depth.timing.from == TimesFrom::other;
         pair.findings.push_back(
             finding_on_times(of_depth ? "depth" : "colour", TimesFrom::other,
                              of_depth ? depth.timing.text : colour.timing.text));
+    } else {
+        take_beginnings(depth, colour, pair);
     }
     pair.notice = contradiction(depth, colour);
     return pair;

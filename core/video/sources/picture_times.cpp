@@ -11,11 +11,13 @@
 #include <memory>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/files/json.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -151,7 +153,11 @@ std::vector<std::string> title_words(const std::string& title) {
 
 bool names_time(const std::string& title) {
     const std::vector<std::string> words = title_words(title);
-    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    const bool is_entry =  // "t_00" of a matrix
+        std::any_of(words.begin(), words.end(), [](const std::string& word) {
+            return !word.empty() && std::all_of(word.begin(), word.end(), is_decimal_digit);
+        });
+    return !is_entry && std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word == "t" || word == "ts" || word.starts_with("time") || word.ends_with("stamp");
     });
 }
@@ -412,6 +418,63 @@ std::vector<fs::path> stamp_files(const fs::path& folder) {
     return files;
 }
 
+/// Where the last digits of a name begin, and how many they are.
+std::pair<std::size_t, std::size_t> last_digits(const std::string& name) {
+    constexpr const char* kDigits = "0123456789";
+    const std::size_t last = name.find_last_of(kDigits);
+    if (last == std::string::npos) return {name.size(), 0};
+    const std::size_t first = name.find_last_not_of(kDigits, last) + 1;  // npos + 1 is 0
+    return {first, last + 1 - first};
+}
+
+/// The JSON files beside a row that may be of its first frame: of the picture's name, then those of
+/// its number ("frame_00000.json" of "depth_00000.png").
+std::vector<fs::path> first_frame_files(const NumberedPicture& first) {
+    const fs::path own = fs::path(first.file).replace_extension(".json");
+    const fs::path folder = own.has_parent_path() ? own.parent_path() : fs::path(".");
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end;
+         first.number && !first.decimal && !failed && entry != end; entry.increment(failed)) {
+        const fs::path& file = entry->path();
+        const bool is_json = lower_case(file.extension().string()) == ".json";
+        if (is_json && file != own && numbered(file).number == first.number) files.push_back(file);
+    }
+    std::sort(files.begin(), files.end());
+    files.insert(files.begin(), own);
+    return files;
+}
+
+/// The file named as `first`, with the last digits of a picture's name.
+fs::path frame_file(const fs::path& first, const fs::path& picture) {
+    const std::string own = picture.stem().string();
+    std::string name = first.stem().string();
+    const auto [own_begin, own_count] = last_digits(own);
+    const auto [begin, count] = last_digits(name);
+    name.replace(begin, count, own, own_begin, own_count);
+    return first.parent_path() / (name + first.extension().string());
+}
+
+/// The stamps in JSON files beside a row, one a frame.
+std::optional<ListedTimes> times_of_frames(const PictureRow& row) {
+    for (const fs::path& first : first_frame_files(row.front())) {
+        std::vector<double> stamps;
+        std::optional<double> unit_s;
+        for (const NumberedPicture& picture : row) {
+            const fs::path file = frame_file(first, picture.file);
+            const Json frame = parsed_json(small_text_in(file).value_or(""));
+            const auto stamp = frame.is_object() ? stamp_of(frame) : std::nullopt;
+            if (!stamp) break;
+            stamps.push_back(stamp->first);
+            unit_s = stamp->second;
+        }
+        if (stamps.size() != row.size()) continue;
+        if (auto times = in_seconds(std::move(stamps), unit_s, true))
+            return ListedTimes{std::move(*times), first, true};
+    }
+    return std::nullopt;
+}
+
 std::shared_ptr<const std::vector<double>> kept_numbers(std::vector<double> numbers) {
     return std::make_shared<const std::vector<double>>(std::move(numbers));
 }
@@ -453,7 +516,7 @@ std::optional<ListedTimes> times_beside(const PictureRow& row) {
     for (const fs::path& file : stamp_files(row.front().file.parent_path())) {
         if (auto stamps = read_stamps(file, row)) return ListedTimes{std::move(*stamps), file};
     }
-    return std::nullopt;
+    return times_of_frames(row);
 }
 
 Timing timing_of(const PictureRow& row, const PictureRow& other, const fs::path& list) {
@@ -475,7 +538,8 @@ Timing timing_of(const PictureRow& row, const PictureRow& other, const fs::path&
     if (auto beside = list.empty() ? times_beside(row) : std::nullopt) {
         timing.stamps_s = kept_numbers(std::move(beside->times_s));
         timing.stamps_from = TimesFrom::list;
-        timing.stamps_text = "stamps in " + shown(beside->file.filename());
+        timing.stamps_text = "stamps in " + shown(beside->file.filename()) +
+                             (beside->is_of_frame ? " and the like, one a frame" : "");
         return timing;
     }
     if (numbers.size() < 2) return timing;

@@ -217,6 +217,14 @@ Sources depth_in(const Place& place, const DepthStatement& statement) {
                    statement);
 }
 
+/// Whether its name surely says what its levels are, as of heights.
+bool names_levels(const SourceFacts& facts) {
+    const Findings named = findings_by_name(facts);
+    return std::any_of(named.begin(), named.end(), [](const Finding& row) {
+        return row.statement.unit && row.sureness >= kSurenessOfName;
+    });
+}
+
 /// Whether a single place is depth: by its name, its levels or its appearance, which is a guess.
 bool is_depth(const Place& place, const PictureGuess& guess) {
     if (named_depth(place.path) || place.is(PictureForm::bag)) return true;
@@ -227,8 +235,13 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     }
     if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
     const auto source = open_picture_source(place.path, PictureRole::depth);
-    const bool is_deep = source->facts().bits > 8;
-    return is_deep && (source->facts().channels == 1 || level_code_in(source->samples(1)));
+    const SourceFacts& facts = source->facts();
+    if (facts.bits > 8) return facts.channels == 1 || level_code_in(source->samples(1));
+    // Heights of a material look like any grey picture.
+    if (place.is(PictureForm::video) || !named_other(place.path).empty() || !names_levels(facts))
+        return false;
+    const std::vector<cv::Mat> first = colour_samples(place.path, 1);
+    return !first.empty() && !is_coloured(first.front());
 }
 
 constexpr const char* kAllTheSame = "; if it is depth all the same, say --depth-code grey";
@@ -296,7 +309,8 @@ std::string other_than_depth(const fs::path& place, Sources& sources) {
     const SourceFacts& facts = sources.depth->facts();
     if (named_depth(place) || has_decoded_levels(facts)) return {};
     if (!named_no_depth(place).empty()) return no_depth_by_name(place) + ", not as depth";
-    const bool is_known = named_depth(place.parent_path().filename()) || data_set_of(facts);
+    const bool is_known =
+        named_depth(place.parent_path().filename()) || data_set_of(facts) || names_levels(facts);
     if (facts.bits > 8 || is_known) return {};
     const std::vector<cv::Mat> depth = sources.depth->samples(1);
     const std::vector<cv::Mat> colour = sources.colour->samples(1);
@@ -438,13 +452,14 @@ void decode_as_told(Sources& sources, DepthCode code) {
         decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
 }
 
-/// Whether metadata, a layout or a name state the unit of the levels as they are.
-bool states_unit(const SourceFacts& facts) {
-    return sure_facts({}, facts.findings).unit || sure_facts({}, findings_by_name(facts)).unit;
+/// The unit of the levels as they are, where metadata, a layout or a name state it.
+std::optional<DepthUnit> stated_unit(const SourceFacts& facts) {
+    const auto by_reader = sure_facts({}, facts.findings).unit;
+    return by_reader ? by_reader : sure_facts({}, findings_by_name(facts)).unit;
 }
 
 /// As its data set says, where the levels do not contradict it; else as the levels themselves show.
-/// That they are turned counts only where nothing states what they are.
+/// What their bits show counts only where nothing states something else.
 void decode_as_found(Sources& sources) {
     const SourceFacts facts = sources.depth->facts();
     const auto set = data_set_of(facts);
@@ -457,7 +472,12 @@ void decode_as_found(Sources& sources) {
     const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
     if (!may_show) return;
     const auto seen = level_code_in(sources.depth->samples(1));
-    if (seen == DepthCode::turned16 && (set || states_unit(facts))) return;
+    if (seen && has_whole_numbers(*seen)) {
+        const auto unit = stated_unit(facts);
+        const bool agrees = seen == DepthCode::depth16 && unit == DepthUnit::mm;
+        const bool is_of_set = set && set->finding.sureness >= kSureEnough;
+        if (is_of_set || (unit && !agrees)) return;
+    }
     if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
 }
 

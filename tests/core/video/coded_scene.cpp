@@ -125,6 +125,16 @@ cv::Mat rough(int columns, int rows, int seed) {
     return picture;
 }
 
+cv::Mat below_confidence(const cv::Mat& millimetres) {
+    cv::Mat levels = millimetres.clone();
+    for (int j = 0; j < levels.rows; ++j)
+        for (int i = 0; i < levels.cols; ++i) {
+            auto& level = levels.at<std::uint16_t>(j, i);
+            level = static_cast<std::uint16_t>(level | ((i / 9 + j / 7) % 8) << 13);
+        }
+    return levels;
+}
+
 cv::Mat scene_photo(double to_the_right) {
     static constexpr std::array<std::array<double, 3>, 4> kColours{
         {{0.5, 0.4, 0.3}, {0.9, 0.7, 0.5}, {0.3, 0.5, 1.3}, {0.5, 1.2, 0.6}}};

@@ -27,6 +27,10 @@ inline constexpr int kSceneRows = 240;
 /// `numbers`: CV_32F; metres for terrain.
 [[nodiscard]] cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code);
 
+/// Millimetres in 13 of 16 bits, below a confidence that changes every few pixels, as Android has
+/// them; 0: no data.
+[[nodiscard]] cv::Mat below_confidence(const cv::Mat& millimetres);
+
 /// Surfaces of other colours with a rough texture, seen from `to_the_right` pixels further right.
 [[nodiscard]] cv::Mat scene_photo(double to_the_right = 0.0);
 

@@ -61,7 +61,9 @@ TEST_CASE("inverse depth is disparity, and heights stay heights with their unit"
     CAPTURE(inverse);
     CHECK(stated_in(inverse) ==
           DepthStatement{.near = NearLevels::bright, .unit = DepthUnit::disparity});
-    const std::string height = GENERATE("height_m", "heightmap", "elevation_in_meters", "dem_03");
+    const std::string height =
+        GENERATE("height_m", "heightmap", "elevation_in_meters", "dem_03", "leather_BUMP",
+                 "LeatherBump01", "bumpMap", "DisplacementMap", "rock_HEIGHT_4k");
     CAPTURE(height);
     CHECK(stated_in(height, 16) ==
           DepthStatement{.near = NearLevels::bright, .unit = DepthUnit::levels});

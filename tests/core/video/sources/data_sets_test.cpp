@@ -98,6 +98,7 @@ TEST_CASE("a data set is known by the last parts of a path, and by what lies bes
          DepthUnit::mm,
          1.0},
         {{"depth/lidar/CAMERA_01/1561.npz", kRealBits}, "DDAD", DepthUnit::m, 1.0},
+        {{"capture_depth16_0001.png", 16}, "Android's DEPTH16", DepthUnit::mm, 1.0},
         {{"rendered_depth_maps/00000003.pfm", kRealBits, {"blended_images/00000003.jpg"}},
          "BlendedMVS",
          DepthUnit::levels,

@@ -363,6 +363,27 @@ TEST_CASE("a file beside pictures states their times", "[pair_times]") {
     check_pair(*media, pair.times_s);
 }
 
+TEST_CASE("a JSON file of each frame states its time, named as the colour or as the depth",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    const std::string named = GENERATE("frame_", "depth_");
+    const bool states_time = GENERATE(true, false);
+    CAPTURE(named, states_time);
+    for (int k = 0; k < 8; ++k) {
+        const std::string number = digits(6 * k, 5);
+        write_numbered_depth(folder / ("depth_" + number + ".png"), k);
+        write_numbered_colour(folder / ("frame_" + number + ".png"), k);
+        write_text(folder / (named + number + ".json"),
+                   std::string(R"({"frame_index": )") + std::to_string(6 * k) +
+                       (states_time ? R"(, "time": )" : R"(, "t_00": )") +
+                       number_text(500.0 + 0.1 * k, 3) + "}");
+    }
+    const auto media = open_media(folder.path(), {}, as_a_person_opens());
+    CHECK(media->description().times_from == (states_time ? "list" : "assumed"));
+    CHECK(contains(media->description().timing, "00000.json' and the like") == states_time);
+    check_pair(*media, even_s(8, states_time ? 10.0 : 30.0));
+}
+
 TEST_CASE("colour pictures without times take those of a depth video", "[pair_times]") {
     const TemporaryFolder folder;
     make_numbered_clip(folder / "depth.mkv", 40, "25", kLossless, kUneven);
@@ -462,6 +483,9 @@ TEST_CASE("videos that begin at different times of their clock are together by t
     make_numbered_clip(folder / name, 50, "25", kH264 + begins(colour_begins_s));
     make_numbered_clip(folder / "depth.mkv", 50, "25", kLossless + begins(depth_begins_s));
     const auto media = open_media(folder / name, folder / "depth.mkv", as_grey_video());
+    CHECK(contains(media->description().timing, "in the file; the colour begins 0."));
+    CHECK(contains(media->description().timing,
+                   colour_begins_s > depth_begins_s ? "after the depth" : "before the depth"));
     check_pair(*media, {even_s(50, 25.0), even_s(50, 25.0, colour_begins_s - depth_begins_s)});
 }
 

@@ -111,6 +111,20 @@ TEST_CASE("3D Scanner App's frames go with its depth by their numbers, its confi
     CHECK(shown[1].colour == 30);
 }
 
+TEST_CASE("a camera whose centre is not that of an app's pictures is of smaller ones",
+          "[scanners]") {
+    const TemporaryFolder folder;
+    write_lidar(folder / "depth_00003.png", 3);
+    write_lidar(folder / "depth_00006.png", 6);
+    write_colour(folder / "frame_00003.jpg", 30);
+    write_text(folder / "frame_00003.json",
+               R"({"intrinsics": [192, 0, 127.5, 0, 192, 95.5, 0, 0, 1]})");
+    write_text(folder / "info.json", "{}");
+    const auto media = open_media(folder.path(), {}, {.find_out = true});
+    CHECK(media->description().meaning->intrinsics.value == kLidarCamera);
+    CHECK_FALSE(contains(media->description().notice, "scaled"));
+}
+
 TEST_CASE("ARKitScenes' folders say millimetres and the camera of a line", "[scanners]") {
     const TemporaryFolder folder;
     write_lidar(folder / "lowres_depth/42445448_12.500.png", 7);

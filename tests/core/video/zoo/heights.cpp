@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "tests/core/video/coded_scene.hpp"
 #include "tests/core/video/zoo/zoo.hpp"
 
 namespace dibhr::test::zoo {
@@ -73,6 +74,15 @@ Brought material(const fs::path& folder) {
     return brought;
 }
 
+/// Grain around the middle grey, as of leather.
+Brought grain(const fs::path& folder) {
+    const cv::Mat levels = rough(kView.width, kView.height, 77);
+    save(folder / "leather_BUMP.png", levels);
+    cv::Mat farness;
+    levels.convertTo(farness, CV_32F, -1.0);
+    return {folder / "leather_BUMP.png", {}, heights(farness)};
+}
+
 /// Millimetres of a tactile sensor.
 Brought tactile_numbers(const fs::path& folder) {
     const View view = view_of(Place::gel);
@@ -111,6 +121,7 @@ Forms forms_of_heights() {
             {"GeoTIFF", geotiff},
             {"terrain-RGB", terrain_rgb},
             {"material", material},
+            {"leather_BUMP.png", grain},
             {"DIGIT", tactile_numbers},
             {"GelSight (.tmd)", gelsight}};
 }
