@@ -130,9 +130,8 @@ void take_levels_per_m(const CameraFile& camera, DataSetFacts& found) {
 }
 
 int number_of(const SourceFacts& facts) {
-    const fs::path& picture = facts.first_picture.empty() ? facts.file : facts.first_picture;
     constexpr double kMost = 1e9;
-    const double number = numbered(picture).number.value_or(0.0);
+    const double number = numbered(facts.picture()).number.value_or(0.0);
     return number < kMost ? static_cast<int>(number) : 0;
 }
 
@@ -345,8 +344,7 @@ DepthStatement statement_of(const DataSet& set) {
 
 std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
     std::error_code failed;
-    const fs::path& named = facts.first_picture.empty() ? facts.file : facts.first_picture;
-    const fs::path picture = fs::absolute(named, failed).lexically_normal();
+    const fs::path picture = fs::absolute(facts.picture(), failed).lexically_normal();
     for (const DataSet& set : kDataSets) {
         if (set.bits != facts.bits || !has_path(picture, set.path) ||
             !are_beside(picture, set.beside))
