@@ -405,63 +405,49 @@ Findings SampledLevels::units_of_integers() const {
 }
 
 Findings SampledLevels::units_of_numbers() const {
-    constexpr auto kNumbers = Evidence::numbers;
     const double lowest = quantile(levels_, kTail);
     const double highest = quantile(levels_, 1.0 - kTail);
-    Findings rows{{{.scale = 1.0}, kNumbers, 0.97, "real numbers need no scale"}};
+    Findings rows;
+    const auto add = [&rows](const DepthStatement& statement, double sureness,
+                             const std::string& reason) {
+        rows.push_back({statement, Evidence::numbers, sureness, reason});
+    };
+    const DepthStatement levels{.unit = DepthUnit::levels};
+    add({.scale = 1.0}, 0.97, "real numbers need no scale");
     if (highest <= 0.0) {
-        rows.push_back({{.unit = DepthUnit::levels},
-                        kNumbers,
-                        0.9,
-                        "all are below 0: distances or disparities with a minus sign"});
+        add(levels, 0.9, "all are below 0: distances or disparities with a minus sign");
         return rows;
     }
     if (lowest < 0.0) {
-        rows.push_back({{.unit = DepthUnit::levels},
-                        kNumbers,
-                        0.97,
-                        "some are below 0: no distances, and not one over them"});
-        rows.push_back({{.near = NearLevels::bright},
-                        kNumbers,
-                        0.75,
-                        "relative values mostly rise towards the viewer"});
+        add(levels, 0.97, "some are below 0: no distances, and not one over them");
+        add({.near = NearLevels::bright}, 0.75, "relative values mostly rise towards the viewer");
         return rows;
     }
-    const std::string ends = short_text(lowest, 3) + " to " + short_text(highest, 3);
     if (lowest < kReachesZero * highest)
-        rows.push_back({{.unit = DepthUnit::levels},
-                        kNumbers,
-                        0.85,
-                        "they reach 0: no distance is as near, and no disparity has one over it"});
-    if (highest <= 1.0) {
-        const bool is_normalised = lowest < kReachesEnd && highest > 1.0 - kReachesEnd;
-        rows.push_back({{.unit = DepthUnit::levels},
-                        kNumbers,
-                        is_normalised ? 0.93 : 0.55,
-                        is_normalised ? "they go from 0 to 1" : "they lie between 0 and 1"});
-    }
+        add(levels, 0.85, "they reach 0: no distance is as near, and no disparity has one over it");
+    const bool is_normalised = lowest < kReachesEnd && highest > 1.0 - kReachesEnd;
+    if (highest <= 1.0)
+        add(levels, is_normalised ? 0.93 : 0.55,
+            is_normalised ? "they go from 0 to 1" : "they lie between 0 and 1");
+    const std::string ends = short_text(lowest, 3) + " to " + short_text(highest, 3);
     const bool in_room = lowest >= 0.05 && highest > 1.0 && highest <= 30.0;
     const bool in_street = lowest >= 1.5 && lowest <= 15.0 && highest <= 100.0;
     const bool in_metres = in_room || in_street;
-    rows.push_back({{.unit = DepthUnit::m, .scale = 1.0},
-                    kNumbers,
-                    in_metres           ? 0.9
-                    : highest <= 100.0  ? 0.4
-                    : highest <= 1000.0 ? 0.2
-                                        : 0.02,
-                    ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres")});
+    add({.unit = DepthUnit::m, .scale = 1.0},
+        in_metres           ? 0.9
+        : highest <= 100.0  ? 0.4
+        : highest <= 1000.0 ? 0.2
+                            : 0.02,
+        ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres"));
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
     const bool in_centimetres = lowest >= 20.0 && highest > 100.0 && highest < kClose_mm;
-    rows.push_back(
-        {{.unit = DepthUnit::mm, .scale = 1.0},
-         kNumbers,
-         in_millimetres ? (in_centimetres ? 0.5 : 0.85) : 0.02,
-         ends + (in_millimetres ? " is a scene in millimetres" : " is no scene in millimetres")});
+    add({.unit = DepthUnit::mm, .scale = 1.0},
+        !in_millimetres  ? 0.02
+        : in_centimetres ? 0.5
+                         : 0.85,
+        ends + (in_millimetres ? " is a scene in millimetres" : " is no scene in millimetres"));
     if (in_centimetres)
-        rows.push_back({{.unit = DepthUnit::mm, .scale = 10.0},
-                        kNumbers,
-                        0.4,
-                        ends + " is a room in centimetres"});
+        add({.unit = DepthUnit::mm, .scale = 10.0}, 0.4, ends + " is a room in centimetres");
     return rows;
 }
 

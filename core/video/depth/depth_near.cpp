@@ -71,18 +71,16 @@ struct Places {
     }
 };
 
-Places places_of(const std::vector<LevelLattice>& lattices, const std::vector<double>& no_data) {
+template <typename IsData>
+Places places_of(const std::vector<LevelLattice>& lattices, const IsData& is_data) {
     Places places;
     for (const LevelLattice& lattice : lattices) {
         auto level = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j) {
             for (int i = 0; i < lattice.columns; ++i, ++level) {
-                if (!std::isfinite(*level) ||
-                    std::find(no_data.begin(), no_data.end(), static_cast<double>(*level)) !=
-                        no_data.end())
-                    continue;
-                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
-                           *level);
+                if (is_data(*level))
+                    places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
+                               *level);
             }
         }
     }
@@ -134,13 +132,14 @@ void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
 
 int SampledLevels::middle_brighter_than_sides() const {
     constexpr double kLeast = 0.25;  // the light may be faint
-    return places_of(lattices_, no_data_).brighter_than_sides(kLeast);
+    const auto has_level = [this](float level) { return is_data(level); };
+    return places_of(lattices_, has_level).brighter_than_sides(kLeast);
 }
 
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
     add_rows_on_slopes(slope_shape(), bits_, rows);
-    const Places places = places_of(lattices_, no_data_);
+    const Places places = places_of(lattices_, [this](float level) { return is_data(level); });
     const int than_sides = places.brighter_than_sides(kAllSides);
     const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
     if (than_sides != 0 && middle_of_colour.value_or(0) < 0)

@@ -282,6 +282,13 @@ std::vector<DepthHypothesis> weigh(const Findings& findings) {
     return kinds;
 }
 
+DepthMeaning meaning_by(const DepthAlternative& answer, DepthMeaning meaning) {
+    DepthStatement whole = answer.statement;
+    whole.range = answer.range;
+    merge_by_priority({{Origin::assumed, whole}}, meaning);
+    return meaning;
+}
+
 DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings, double least) {
     DepthStatement all = merged(persons);
     for (const Finding& finding : findings)

@@ -80,6 +80,9 @@ struct DepthAlternative {
     DepthRange range{};  ///< that the depth has by this answer
 };
 
+/// The meaning by one of the answers, with its range; the other facts stay.
+[[nodiscard]] DepthMeaning meaning_by(const DepthAlternative& answer, DepthMeaning meaning);
+
 /// The table, and how sure the meaning concluded from it is.
 struct DepthConclusion {
     Findings findings{};    ///< those of persons first

@@ -108,9 +108,9 @@ std::vector<double> matrix_in(const Json& json, const char* name) {
 
 /// The intrinsics of an object, without those inside its members.
 std::optional<Intrinsics> intrinsics_in(const Json& json) {
-    const std::vector<double> columns = numbers_in(json, "intrinsic_matrix");
-    if (columns.size() == 9)  // also row by row: the other two are 0
-        return Intrinsics{columns[0], columns[4], columns[2] + columns[6], columns[5] + columns[7]};
+    const std::vector<double> m = matrix_in(json, "intrinsic_matrix");
+    if (m.size() == 9)  // column by column or row by row: the other two are 0
+        return Intrinsics{m[0], m[4], m[2] + m[6], m[5] + m[7]};
     const auto centre_x = json.contains("cx") ? number_in(json, "cx") : number_in(json, "ppx");
     const auto centre_y = json.contains("cy") ? number_in(json, "cy") : number_in(json, "ppy");
     const bool has_lengths = json.contains("fx") && (json.contains("cx") || json.contains("ppx"));
@@ -123,8 +123,6 @@ std::optional<Intrinsics> intrinsics_in(const Json& json) {
         const std::vector<double> rows = matrix_in(json, name);
         if (rows.size() == 9) return Intrinsics{rows[0], rows[4], rows[2], rows[5]};
     }
-    const std::vector<double> rows = matrix_in(json, "intrinsic_matrix");
-    if (rows.size() == 9) return Intrinsics{rows[0], rows[4], rows[2], rows[5]};
     return std::nullopt;
 }
 

@@ -74,6 +74,11 @@ struct SourceFacts {
     Lens lens{};                        ///< of the camera that the findings state
     bool other_camera{false};           ///< its colour is from another camera at another place
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
+
+    /// The file that is read first.
+    [[nodiscard]] const std::filesystem::path& picture() const {
+        return first_picture.empty() ? file : first_picture;
+    }
 };
 
 /// Adds a clause to a notice, unless that has it or it is empty.

@@ -137,9 +137,8 @@ void take_levels_per_m(const CameraFile& camera, DataSetFacts& found) {
 }
 
 int number_of(const SourceFacts& facts) {
-    const fs::path& picture = facts.first_picture.empty() ? facts.file : facts.first_picture;
     constexpr double kMost = 1e9;
-    const double number = numbered(picture).number.value_or(0.0);
+    const double number = numbered(facts.picture()).number.value_or(0.0);
     return number < kMost ? static_cast<int>(number) : 0;
 }
 
@@ -265,22 +264,33 @@ constexpr std::array kDataSets{
 
 // Comparison.
 
-/// Whether a name is as a pattern says; both in small letters.
+/// The number of letters that the first letter of a pattern stands for; 0: it does not fit.
+std::size_t letters_of(char first, std::string_view name) {
+    if (first == '#') return std::min(name.find_first_not_of("0123456789"), name.size());
+    return !name.empty() && (first == '?' || first == name.front()) ? 1 : 0;
+}
+
+/// Whether a name fits a pattern; both in small letters. Only the last star is tried again with
+/// more letters: a file's own name may be the pattern, with any number of stars.
 bool fits_pattern(std::string_view name, std::string_view pattern) {
-    if (pattern.empty()) return name.empty();
-    const std::string_view rest = pattern.substr(1);
-    if (pattern.front() == '*') {
-        for (std::size_t k = 0; k <= name.size(); ++k)
-            if (fits_pattern(name.substr(k), rest)) return true;
-        return false;
+    std::optional<std::string_view> behind_star;
+    std::string_view untried;  // of the name, behind the letters of that star
+    while (!name.empty() || !pattern.empty()) {
+        if (pattern.starts_with('*')) {
+            pattern.remove_prefix(1);
+            behind_star = pattern;
+            untried = name;
+        } else if (const auto count = pattern.empty() ? 0 : letters_of(pattern.front(), name)) {
+            pattern.remove_prefix(1);
+            name.remove_prefix(count);
+        } else {
+            if (!behind_star || untried.empty()) return false;
+            untried.remove_prefix(1);
+            name = untried;
+            pattern = *behind_star;
+        }
     }
-    if (name.empty()) return false;
-    if (pattern.front() == '#') {
-        const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-        return digits > 0 && fits_pattern(name.substr(digits), rest);
-    }
-    return (pattern.front() == '?' || pattern.front() == name.front()) &&
-           fits_pattern(name.substr(1), rest);
+    return true;
 }
 
 std::string name_in_small(const fs::path& place) {
@@ -344,8 +354,7 @@ DepthStatement statement_of(const DataSet& set) {
 
 std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
     std::error_code failed;
-    const fs::path& named = facts.first_picture.empty() ? facts.file : facts.first_picture;
-    const fs::path picture = fs::absolute(named, failed).lexically_normal();
+    const fs::path picture = fs::absolute(facts.picture(), failed).lexically_normal();
     for (const DataSet& set : kDataSets) {
         if (set.bits != facts.bits || !has_path(picture, set.path) ||
             !are_beside(picture, set.beside))

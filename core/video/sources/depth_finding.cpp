@@ -207,12 +207,6 @@ void keep_that_fit(const DepthRange& range, std::vector<DepthAlternative>& alter
     if (alternatives.size() < 2) alternatives.clear();
 }
 
-/// `meaning` by that alternative; its range stays.
-DepthMeaning by_alternative(DepthMeaning meaning, const DepthAlternative& alternative) {
-    merge_by_priority({{Origin::assumed, alternative.statement}}, meaning);
-    return meaning;
-}
-
 }  // namespace
 
 Findings findings_by_name(const SourceFacts& facts) {
@@ -222,8 +216,7 @@ Findings findings_by_name(const SourceFacts& facts) {
         const fs::path whole = fs::absolute(place, failed).lexically_normal();
         return whole.has_filename() ? whole : whole.parent_path();
     };
-    const fs::path picture =
-        place_of(facts.first_picture.empty() ? facts.file : facts.first_picture);
+    const fs::path picture = place_of(facts.picture());
     Findings rows;
     if (named_other(picture).empty())
         rows = findings_in_name(picture.stem().string(), facts.bits, "its name");
@@ -295,7 +288,7 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     if (states_range) keep_that_fit(meaning.range.value, conclusion.alternatives);
     for (DepthAlternative& alternative : conclusion.alternatives)
         alternative.range = levels && !states_range
-                                ? levels->range(by_alternative(meaning, alternative))
+                                ? levels->range(meaning_by(alternative, meaning))
                                 : meaning.range.value;
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};

@@ -401,7 +401,7 @@ void add_camera_beside(Sources& sources) {
     if (const auto set = data_set_of(facts)) rows.push_back(set->finding);
     const DepthStatement known = sure_facts({}, rows);
     const bool is_row = !facts.first_picture.empty();
-    const fs::path& picture = is_row ? facts.first_picture : facts.file;
+    const fs::path& picture = facts.picture();
     std::error_code failed;
     const fs::path folder = fs::absolute(picture, failed).parent_path();
     constexpr double kMostNumber = 1e9;

@@ -55,13 +55,6 @@ std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, con
     return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
 }
 
-/// Converts intrinsics to another size of the same picture.
-Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
-    const double x = static_cast<double>(to.width) / from.width;
-    const double y = static_cast<double>(to.height) / from.height;
-    return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
-}
-
 /// Stretches a half to its own size, and adds how the packing is known.
 std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
                                           const PackedForm& form, PictureRole role) {
@@ -77,7 +70,8 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
         finding.statement.packing = form.packing;
         auto& camera = finding.statement.intrinsics;
         if (camera && !form.intrinsics_size.empty())
-            camera = resized(*camera, form.intrinsics_size, {facts.columns, facts.rows});
+            camera =
+                scaled_camera(*camera, form.intrinsics_size, cv::Size(facts.columns, facts.rows));
         facts.findings.push_back(std::move(finding));
     };
     return std::make_unique<ChangedPictures>(std::move(half), change, change_facts);

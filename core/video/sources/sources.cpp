@@ -439,7 +439,7 @@ void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, const
 }
 
 /// As a person says.
-void decode_as_told(Sources& sources, DepthCode code) {
+void decode_as_stated(Sources& sources, DepthCode code) {
     const auto set = data_set_of(sources.depth->facts());
     const bool is_of_set = set && set->finding.statement.code == code;
     if (code == DepthCode::stereo && !is_of_set)
@@ -487,7 +487,7 @@ void decode_levels(Sources& sources, const DepthStatement& statement, bool find_
     const SourceFacts& facts = sources.depth->facts();
     if (has_decoded_levels(facts)) return;
     if (statement.code) {
-        if (is_of_levels(*statement.code)) decode_as_told(sources, *statement.code);
+        if (is_of_levels(*statement.code)) decode_as_stated(sources, *statement.code);
         return;
     }
     const bool means_own =

@@ -148,6 +148,15 @@ TEST_CASE("names that many use are no more than a hint", "[sets]") {
     CHECK(stamped->finding.sureness < 0.5);
 }
 
+TEST_CASE("a picture whose name is full of stars is compared at once", "[sets][malformed]") {
+    const TemporaryFolder folder;
+    std::string stars;
+    for (int k = 0; k < 60; ++k) stars += "*a";  // a pattern of the names beside it
+    const auto set =
+        set_of({stars + "_depth.npy", kRealBits, {std::string(200, 'a') + ".npy"}}, folder);
+    CHECK_FALSE(set.has_value());
+}
+
 TEST_CASE("scales are read from the files of a data set", "[sets]") {
     const TemporaryFolder folder;
     fs::create_directories(folder / "depth");

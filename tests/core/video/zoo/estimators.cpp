@@ -55,7 +55,9 @@ Brought painted_depth(const fs::path& folder, int colours) {
     cv::Mat map;
     cv::applyColorMap(in_8_bits(nearness_of(view.farness)), map, colours);
     save(folder / "photo_depth.png", map);
-    return {folder / "photo_depth.png", {}, estimated(view.farness)};
+    Brought brought{folder / "photo_depth.png", {}, estimated(view.farness)};
+    brought.truth.refused_as = "colours";
+    return brought;
 }
 
 Brought midas_png(const fs::path& folder) {
