@@ -21,7 +21,7 @@
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/sidecar.hpp"
 
 namespace dibhr {

@@ -79,28 +79,19 @@ constexpr std::array<std::string_view, 13> kRelativeWords{
     "rel",  "relative", "norm", "normalized", "normalised", "linear",  "log",
     "mist", "zbuffer",  "dpt",  "midas",      "marigold",   "anything"};
 
+/// A unit in all its words. The first, a short one, counts only beside a word for distances, or
+/// after "in".
 struct UnitOfDistance {
-    std::string_view word;
     DepthUnit unit;
     double scale;
-    bool is_short;  ///< counts only beside a word for distances, or after "in"
+    std::array<std::string_view, 5> words;
 };
 
-constexpr std::array kUnitsOfDistance{UnitOfDistance{"mm", DepthUnit::mm, 1.0, true},
-                                      UnitOfDistance{"cm", DepthUnit::mm, 10.0, true},
-                                      UnitOfDistance{"m", DepthUnit::m, 1.0, true},
-                                      UnitOfDistance{"millimeter", DepthUnit::mm, 1.0, false},
-                                      UnitOfDistance{"millimeters", DepthUnit::mm, 1.0, false},
-                                      UnitOfDistance{"millimetre", DepthUnit::mm, 1.0, false},
-                                      UnitOfDistance{"millimetres", DepthUnit::mm, 1.0, false},
-                                      UnitOfDistance{"centimeter", DepthUnit::mm, 10.0, false},
-                                      UnitOfDistance{"centimeters", DepthUnit::mm, 10.0, false},
-                                      UnitOfDistance{"centimetre", DepthUnit::mm, 10.0, false},
-                                      UnitOfDistance{"centimetres", DepthUnit::mm, 10.0, false},
-                                      UnitOfDistance{"meter", DepthUnit::m, 1.0, false},
-                                      UnitOfDistance{"meters", DepthUnit::m, 1.0, false},
-                                      UnitOfDistance{"metre", DepthUnit::m, 1.0, false},
-                                      UnitOfDistance{"metres", DepthUnit::m, 1.0, false}};
+constexpr std::array<UnitOfDistance, 3> kUnitsOfDistance{{
+    {DepthUnit::mm, 1.0, {"mm", "millimeter", "millimeters", "millimetre", "millimetres"}},
+    {DepthUnit::mm, 10.0, {"cm", "centimeter", "centimeters", "centimetre", "centimetres"}},
+    {DepthUnit::m, 1.0, {"m", "meter", "meters", "metre", "metres"}},
+}};
 
 bool has_name_word(NameWords words, std::string_view word) {
     return std::find(words.begin(), words.end(), word) != words.end();
@@ -137,37 +128,36 @@ const DistanceWord* distance_word(NameWords words) {
     return found == kDistanceWords.end() ? nullptr : found;
 }
 
-/// Whether the word at that place is the unit of the distances that the name speaks of: no size
+/// Whether that word of the name is the unit of the distances that the name speaks of: no size
 /// ("shot_10m") and, as a single letter, directly behind them.
 bool is_unit_at(NameWords words, std::size_t at, const UnitOfDistance& unit) {
-    if (words[at] != unit.word) return false;
-    if (at == 0) return !unit.is_short || (unit.word.size() > 1 && distance_word(words) != nullptr);
+    const std::string& word = words[at];
+    if (std::find(unit.words.begin(), unit.words.end(), word) == unit.words.end()) return false;
+    const bool is_short = word == unit.words.front();
+    const bool may_be_apart = !is_short || (word.size() > 1 && distance_word(words) != nullptr);
+    if (at == 0) return may_be_apart;
     const std::string& before = words[at - 1];
-    if (is_decimal_digit(before.front())) return false;
-    if (!unit.is_short || before == "in" || before == "z" || distance_word({&before, 1}) != nullptr)
-        return true;
-    return unit.word.size() > 1 && distance_word(words) != nullptr;
+    return !is_decimal_digit(before.front()) && (may_be_apart || before == "in" || before == "z" ||
+                                                 distance_word({&before, 1}) != nullptr);
 }
 
-/// Null: the name has none.
-const UnitOfDistance* unit_of_distance(NameWords words) {
-    for (const UnitOfDistance& unit : kUnitsOfDistance)
-        for (std::size_t at = 0; at < words.size(); ++at)
-            if (is_unit_at(words, at, unit)) return &unit;
-    return nullptr;
-}
-
-Finding finding_on_unit(const UnitOfDistance& unit, int bits, std::string_view whose) {
+/// On the unit of the distances in a name; empty: the name has none.
+Findings findings_on_unit(NameWords words, int bits, std::string_view whose) {
     constexpr double kLeast_m = 0.001;
     constexpr double kMost_m = 2000.0;
     constexpr double kMostOfWhole_m = 100.0;  // whole metres of a larger scene are of another unit
-    const bool is_whole = bits != kRealBits && unit.unit == DepthUnit::m;
-    return {{.near = NearLevels::dark, .unit = unit.unit, .scale = unit.scale},
-            Evidence::name,
-            kSurenessOfName,
-            quoted_word(unit.word, whose),
-            {},
-            {"a scene", kLeast_m, is_whole ? kMostOfWhole_m : kMost_m}};
+    for (const UnitOfDistance& unit : kUnitsOfDistance)
+        for (std::size_t at = 0; at < words.size(); ++at)
+            if (is_unit_at(words, at, unit)) {
+                const bool is_whole = bits != kRealBits && unit.unit == DepthUnit::m;
+                return {{{.near = NearLevels::dark, .unit = unit.unit, .scale = unit.scale},
+                         Evidence::name,
+                         kSurenessOfName,
+                         quoted_word(words[at], whose),
+                         {},
+                         {"a scene", kLeast_m, is_whole ? kMostOfWhole_m : kMost_m}}};
+            }
+    return {};
 }
 
 Findings findings_on_distance(const DistanceWord& known, int bits, std::string_view whose) {
@@ -199,8 +189,7 @@ Findings findings_in_name(std::string_view name, int bits, std::string_view whos
                      known.sureness,
                      quoted_word(known.word, whose)}};
     if (bits <= 8) return {};
-    if (const UnitOfDistance* const unit = unit_of_distance(words))
-        return {finding_on_unit(*unit, bits, whose)};
+    if (Findings rows = findings_on_unit(words, bits, whose); !rows.empty()) return rows;
     const bool is_relative =
         std::any_of(kRelativeWords.begin(), kRelativeWords.end(),
                     [words](std::string_view word) { return has_name_word(words, word); });

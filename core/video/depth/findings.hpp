@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/video/depth/depth_meaning.hpp"
@@ -39,6 +40,18 @@ struct UsualDistances {
 
 /// One row of the table: facts that one piece of evidence states.
 struct Finding {
+    Finding() = default;
+    /// No aggregate: of one, GCC 12 destroys members of the nested statement twice where a text
+    /// behind it throws.
+    Finding(DepthStatement stated, Evidence from, double sure, std::string why,
+            std::string subject = {}, UsualDistances expected = {})
+        : statement(std::move(stated)),
+          evidence(from),
+          sureness(sure),
+          reason(std::move(why)),
+          about(std::move(subject)),
+          usual(std::move(expected)) {}
+
     DepthStatement statement{};
     Evidence evidence{Evidence::numbers};
     double sureness{1.0};    ///< probability in (0, 1) that the statement is right, from this alone

@@ -19,7 +19,7 @@
 #include "core/video/depth/depth_guess.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/live_source.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/pair_times.hpp"

@@ -12,9 +12,9 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/byte_code.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_times.hpp"
 #include "core/video/sources/picture_kind.hpp"
-#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {

@@ -15,7 +15,7 @@
 #include "core/video/formats/libraries.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/formats/video_packets.hpp"
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {

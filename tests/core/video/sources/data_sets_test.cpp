@@ -1,6 +1,6 @@
 // How files lie and are named tells the data set, and that what the levels mean; other people's
 // folders are none of them.
-#include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
 
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // What belongs together, and what a layout says of depth: datasets' folders, patterns of names,
 // folders of videos.
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 
 #include <cmath>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // The folders that scanner apps of phones export are opened as colour and depth in millimetres, and
 // with the camera of the colour pictures.
-#include "core/video/sources/scanner_layouts.hpp"
+#include "core/video/sources/layouts/scanner_layouts.hpp"
 
 #include <filesystem>
 #include <string>

@@ -29,7 +29,7 @@ using PictureRow = std::vector<NumberedPicture>;
 /// Facts about depth that follow from the layout of the pictures. For depth of 16 bits only: the
 /// datasets' conventions are for such pictures.
 struct LayoutFacts {
-    Finding finding{.evidence = Evidence::layout, .sureness = kSurenessOfMetadata};
+    Finding finding{{}, Evidence::layout, kSurenessOfMetadata, {}};
     int columns{0}, rows{0};       ///< picture size of the intrinsics; 0: not stated
     std::string notice{};          ///< a sentence on ignored entries
     bool other_camera{false};      ///< colour is from another camera at an unknown place

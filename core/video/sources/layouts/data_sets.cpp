@@ -1,5 +1,5 @@
 // The table, and the comparison of a picture's path with it.
-#include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 

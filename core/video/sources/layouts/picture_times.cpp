@@ -1,5 +1,5 @@
 // Searches and parses files of stamps, and recognises stamps in names.
-#include "core/video/sources/picture_times.hpp"
+#include "core/video/sources/layouts/picture_times.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // Matches names with patterns.
-#include "core/video/sources/picture_pattern.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 

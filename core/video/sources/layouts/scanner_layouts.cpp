@@ -1,5 +1,5 @@
 // A table of layouts, and the comparison of a folder with it.
-#include "core/video/sources/scanner_layouts.hpp"
+#include "core/video/sources/layouts/scanner_layouts.hpp"
 
 #include <array>
 #include <optional>
@@ -9,8 +9,8 @@
 
 #include "core/files/names.hpp"
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
 #include "core/video/sources/media_names.hpp"
-#include "core/video/sources/picture_pattern.hpp"
 
 namespace dibhr {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // Finds, orders and times the pictures of a folder, and reads them one after the other.
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 // Decides by names; reads no files but lists, camera intrinsics, and pictures that may be
 // paintings.
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -17,12 +17,12 @@
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
+#include "core/video/sources/layouts/picture_lists.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
+#include "core/video/sources/layouts/picture_times.hpp"
+#include "core/video/sources/layouts/scanner_layouts.hpp"
 #include "core/video/sources/media_names.hpp"
-#include "core/video/sources/picture_lists.hpp"
-#include "core/video/sources/picture_pattern.hpp"
-#include "core/video/sources/picture_times.hpp"
-#include "core/video/sources/scanner_layouts.hpp"
 #include "core/video/sources/sources.hpp"
 
 namespace dibhr {
