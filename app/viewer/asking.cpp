@@ -56,6 +56,7 @@ DepthMeaning meaning_by(const DepthAlternative& alternative, DepthMeaning meanin
 std::optional<DepthQuestion> question_on(const MediaDescription& media) {
     if (media.conclusion.alternatives.size() < 2 || !media.meaning) return std::nullopt;
     return DepthQuestion{.alternatives = media.conclusion.alternatives,
+                         .doubt = media.conclusion.doubt,
                          .folder = folder_of_files(media.depth_path)};
 }
 

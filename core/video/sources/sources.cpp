@@ -16,7 +16,6 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
-#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
@@ -281,13 +280,6 @@ cv::Mat grey_picture(const cv::Mat& picture) {
     cv::Mat grey;
     cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
     return grey;
-}
-
-bool is_black_and_white(const cv::Mat& picture) {
-    double lowest = 0.0;
-    double highest = 0.0;
-    cv::minMaxLoc(picture.reshape(1), &lowest, &highest);
-    return lowest == 0.0 && highest == highest_level(8) && has_two_levels(picture);
 }
 
 /// What a place that is given as the depth of a colour picture is instead, after its name; empty:
