@@ -136,14 +136,19 @@ std::optional<std::string> found_array(const NamedArrays& arrays, PictureRole ro
     return candidates.surest().front();
 }
 
-[[noreturn]] void refuse_several(const NamedArrays& arrays, const std::vector<std::string>& names) {
+/// The first names, for people.
+std::string some_of(const std::vector<std::string>& names) {
     constexpr std::size_t kMostNamed = 4;
     std::vector<std::string> quoted;
     for (const std::string& name : names)
         if (quoted.size() < kMostNamed) quoted.push_back(in_quotes(name));
     if (names.size() > kMostNamed) quoted.emplace_back("...");
+    return listed(quoted);
+}
+
+[[noreturn]] void refuse_several(const NamedArrays& arrays, const std::vector<std::string>& names) {
     throw InputError(shown(arrays.file()) + " holds " + std::to_string(names.size()) +
-                     " arrays that may be the depth, " + listed(quoted) +
+                     " arrays that may be the depth, " + some_of(names) +
                      ": save the one to touch: python3 -c \"import numpy; "
                      "numpy.save('depth.npy', " +
                      loading_of(arrays.file(), names.front()) + ")\"");
@@ -164,10 +169,10 @@ std::string chosen(const NamedArrays& arrays, PictureRole role) {
                             !is_one_of(name, kCameraNames);
                  });
     if (left.size() == 1) return left.front();
-    throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) +
-                     " arrays, none of them called " +
+    throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) + " arrays, " +
+                     some_of(left) + ", none of them called " +
                      (is_depth ? "depths, depth, disparity or disp" : "images or rgb") +
-                     ": save it with that name");
+                     ": save the right one with that name, or give another file");
 }
 
 NumpyArray opened(const NamedArrays& arrays, const std::string& name) {

@@ -332,8 +332,6 @@ std::optional<fs::path> find_depth_beside(const fs::path& given, std::string& lo
                                          : " (or another extension)");
         if (auto found = with_stem(colour, *stem, true)) return found;
     }
-    if (looked_for.empty())
-        looked_for = "nothing, because the name holds neither color, colour nor rgb";
     if (named_depth(colour)) return std::nullopt;
     if (auto found = belonging_to(colour, named_depth, named_depth, true)) return found;
     if (is_folder(colour))

@@ -177,6 +177,13 @@ void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources&
         sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
 }
 
+/// Keeps the refusal of depth in colours; `halves` as in depth_samples().
+void refuse_colours(const Place& place, const PackedForm* halves, Sources& sources) {
+    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
+    sources.not_depth = refusal_of_colours(sources.depth->facts(),
+                                           first.empty() ? cv::Mat() : seen_colours(first.front()));
+}
+
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
     const auto stated = statement.code;
@@ -193,7 +200,7 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& state
     else if (colours.kind == PictureKind::byte_depth)
         decode_colours(place, colours.bytes, false, sources);
     else
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        refuse_colours(place, nullptr, sources);
     return sources;
 }
 
@@ -268,12 +275,15 @@ bool is_below_depth(const fs::path& place) {
                            "; if it is the colour, it needs a depth file beside it: give one as "
                            "the second file" +
                            kOrEstimate);
-    if (!is_grey && is_below_depth(colour))
-        throw DepthMissing(
-            refusal_of_colours(open_picture_source(colour, PictureRole::colour)->facts()));
+    if (!seen.empty() && !is_grey && is_below_depth(colour))
+        throw DepthMissing(refusal_of_colours(
+            open_picture_source(colour, PictureRole::colour)->facts(), seen.front()));
+    if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
+        throw DepthMissing(shown(colour) + advice);
     throw DepthMissing(shown(colour) +
-                       " needs a depth file beside it: give one as the second file (looked for " +
-                       looked_for + "), say how the depth is in it with --packing" + kOrEstimate);
+                       " needs a depth file beside it: give one as the second file" +
+                       (looked_for.empty() ? "" : " (looked for " + looked_for + ")") +
+                       ", name its halves if it holds both (--packing)" + kOrEstimate);
 }
 
 cv::Mat grey_picture(const cv::Mat& picture) {
@@ -349,7 +359,7 @@ Sources open_halves(const Place& place, PackedForm form, const DepthStatement& s
         form.bytes = colours.bytes;
         form.coded = finding_on_code(colours.bytes, false);
     } else {
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        refuse_colours(place, &form, sources);
         return sources;
     }
     return open_packed(place.path, form);

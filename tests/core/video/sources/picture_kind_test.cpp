@@ -479,12 +479,15 @@ TEST_CASE("what is named depth and looks like something else is asked about", "[
 TEST_CASE("a grey picture and one of something else are refused as what they are", "[kind]") {
     const TemporaryFolder folder;
     const cv::Mat photo = scene_photo();
+    cv::Mat painting;
+    cv::applyColorMap(painted(scene_depth(), as_grey), painting, cv::COLORMAP_VIRIDIS);
     const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
         {{"cam0_000012.png", in_grey(photo), "is grey and does not look like depth"},
          {"frame_0001_normal.png", photo, "named as normals"},
          {"aachen_gtFine_labelIds.png", chessboard(24), "named as labels"},
          {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
          {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
+         {"vis/depth_viridis.png", painting, "painted in the colours of a map"},
          {"IMG_0001.png", photo, "needs a depth file"}}));
     CAPTURE(name);
     const auto file = folder / name;
