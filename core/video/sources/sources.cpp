@@ -16,6 +16,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/video/depth/byte_code.hpp"
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/depth/hue_code.hpp"
 #include "core/video/depth/level_code.hpp"
 #include "core/video/depth/picture_levels.hpp"
@@ -278,6 +279,11 @@ bool is_below_depth(const fs::path& place) {
     if (!seen.empty() && !is_grey && is_below_depth(colour))
         throw DepthMissing(refusal_of_colours(
             open_picture_source(colour, PictureRole::colour)->facts(), seen.front()));
+    if (!seen.empty() && std::all_of(seen.begin(), seen.end(), is_colour_mapped))
+        throw DepthMissing(shown(colour) +
+                           " is painted in the colours of a map (jet, viridis, ...) and needs a "
+                           "depth file beside it: give the numbers that it was painted from, as an "
+                           "array (.npy) or in grey, as the second file");
     if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
         throw DepthMissing(shown(colour) + advice);
     throw DepthMissing(shown(colour) +

@@ -488,6 +488,7 @@ TEST_CASE("a grey picture and one of something else are refused as what they are
          {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
          {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
          {"vis/depth_viridis.png", painting, "painted in the colours of a map"},
+         {"thermal.png", painting, "give the numbers that it was painted from"},
          {"IMG_0001.png", photo, "needs a depth file"}}));
     CAPTURE(name);
     const auto file = folder / name;
