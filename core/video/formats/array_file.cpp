@@ -170,7 +170,7 @@ std::string chosen(const NamedArrays& arrays, PictureRole role) {
                  });
     if (left.size() == 1) return left.front();
     throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) + " arrays, " +
-                     some_of(left) + ", none of them called " +
+                     (left.empty() ? "" : some_of(left) + ", ") + "none of them called " +
                      (is_depth ? "depths, depth, disparity or disp" : "images or rgb") +
                      ": save the right one with that name, or give another file");
 }

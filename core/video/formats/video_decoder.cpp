@@ -104,8 +104,7 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packe
                          (begins_as_video(head_of(file))
                               ? "it is cut off, or has no video stream; copy or record it again"
                               : "it is of a kind that is not known here; convert it to pictures "
-                                "(PNG of 16 bits) "
-                                "or to an array (.npy)"));
+                                "(PNG of 16 bits) or to an array (.npy)"));
     quarter_turns_ = quarter_turns(*packets_.stream());
     marks_non_reference_ = marks_non_reference(*packets_.stream()->codecpar);
 }
