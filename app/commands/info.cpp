@@ -247,6 +247,7 @@ void print_sureness(const DepthConclusion& conclusion) {
         const DepthAlternative& other = conclusion.alternatives[k];
         print_fact("or", statement_text(other.statement) + ", " + percent_text(other.probability));
     }
+    if (!conclusion.doubt.empty()) print_fact("or", "no depth: " + conclusion.doubt);
 }
 
 std::string says_text(const Finding& finding) {

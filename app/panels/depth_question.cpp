@@ -76,6 +76,9 @@ bool have_one_shape(const std::vector<DepthAlternative>& all) {
 
 std::string question_text(const ViewerState& state, const DepthQuestion& question) {
     const std::string name = one_line(shown(state.media.depth_path.filename()), 40);
+    if (!question.doubt.empty())
+        return name + " may be no depth: " + question.doubt +
+               ". If it is depth: which is right? Else close it, and open the file of the depth.";
     if (have_one_shape(question.alternatives))
         return name + " does not say its unit. The shape is the same in all: how far away is it?";
     return name +

@@ -49,6 +49,7 @@ Camera camera_over(const DepthImage& depth, double relief_px) {
 std::optional<DepthQuestion> question_on(const MediaDescription& media) {
     if (media.conclusion.alternatives.size() < 2 || !media.meaning) return std::nullopt;
     return DepthQuestion{.alternatives = media.conclusion.alternatives,
+                         .doubt = media.conclusion.doubt,
                          .folder = folder_of_files(media.depth_path)};
 }
 

@@ -18,6 +18,21 @@ namespace {
 
 using NameWords = std::span<const std::string>;
 
+constexpr std::array kOtherContents{
+    OtherContent{"a mask", " mask masks valid validity "},
+    OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
+    OtherContent{"normals", " normal normals nor nrm "},
+    OtherContent{"infrared", " ir infra infrared "},
+    OtherContent{"brightness", " amplitude intensity ", false, true},
+    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
+    OtherContent{"a painting of depth",
+                 " vis viz visualization visualisation visualized visualised colored coloured "
+                 "colorized colourised colormap colourmap ",
+                 true},
+    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
+    OtherContent{"optical flow", " flow flows "},
+    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
+
 /// A word for values that are near where bright.
 struct NearnessWord {
     std::string_view word;
@@ -172,6 +187,15 @@ Findings findings_on_distance(const DistanceWord& known, int bits, std::string_v
 }
 
 }  // namespace
+
+const OtherContent* other_content_of(std::string_view word) {
+    const std::string between_blanks = ' ' + std::string(word) + ' ';
+    const auto* const found = std::find_if(
+        kOtherContents.begin(), kOtherContents.end(), [&](const OtherContent& content) {
+            return content.words.find(between_blanks) != std::string_view::npos;
+        });
+    return found == kOtherContents.end() ? nullptr : found;
+}
 
 Findings findings_in_name(std::string_view name, int bits, std::string_view whose) {
     const std::vector<std::string> all = words_of_name(name);

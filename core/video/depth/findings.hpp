@@ -62,6 +62,10 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
+/// What a row is about that says that the pictures look like something else than depth. It lowers
+/// the probability of every meaning, as the pictures were given or named as depth.
+inline constexpr std::string_view kNoDepth = "no depth";
+
 /// What the metadata of a file state.
 [[nodiscard]] Finding finding_of_metadata(const DepthStatement& statement,
                                           const std::string& reason);
@@ -102,6 +106,9 @@ struct DepthConclusion {
     double sure{1.0};       ///< probability that near, unit and scale are all right
     double near_sure{1.0};  ///< of near alone
     double unit_sure{1.0};  ///< of unit and scale
+    /// Why the pictures may be no depth, for people: "it looks like a photograph"; empty: nothing
+    /// says so, or a person states what the levels are.
+    std::string doubt{};
     /// The likeliest two to four answers, by falling probability; the first one is the meaning's.
     /// Empty where it is sure enough, or a person stated near, unit or range.
     std::vector<DepthAlternative> alternatives{};

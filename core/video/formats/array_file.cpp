@@ -45,10 +45,6 @@ constexpr std::size_t kMostExamined = 256;  ///< arrays whose headers are read
 constexpr std::string_view kWordsOfDepth = " depths disp disps disparities idepth ";
 constexpr std::string_view kWordsOfDistance =
     " z zbuffer range distance distances dist pred prediction predictions predicted ";
-constexpr std::string_view kWordsOfOthers =
-    " mask masks valid validity conf confidence certainty uncertainty normal normals seg "
-    "segmentation semantic semantics label labels instance instances vis viz ir infrared amplitude "
-    "intensity flow ";
 
 /// The array with the first of these names, in any case; nothing when there is none.
 std::optional<std::string> named(const NamedArrays& arrays, Words words) {
@@ -74,6 +70,12 @@ bool names_depth(const std::string& name) {
     const std::string small = lower_case(name);
     return small.find("depth") != std::string::npos ||
            small.find("disparity") != std::string::npos || has_word(name, kWordsOfDepth);
+}
+
+bool names_other_content(const std::string& name) {
+    const std::vector<std::string> all = words_of_name(name);
+    return std::any_of(all.begin(), all.end(),
+                       [](const std::string& word) { return other_content_of(word) != nullptr; });
 }
 
 /// Arrays that can be pictures of a role.
@@ -110,7 +112,7 @@ Candidates candidates_in(const NamedArrays& arrays, PictureRole role) {
     if (!arrays.zipped() || arrays.names().size() > kMostExamined) return found;
     for (const std::string& name : arrays.names()) {
         const auto header = picture_header_of(arrays, name);
-        if (!header || has_word(name, kWordsOfOthers)) continue;
+        if (!header || names_other_content(name)) continue;
         const bool is_colour = is_of_coloured_bytes(*header);
         if (role == PictureRole::colour) {
             if (is_colour && !names_depth(name)) found.others.push_back(name);
@@ -134,14 +136,19 @@ std::optional<std::string> found_array(const NamedArrays& arrays, PictureRole ro
     return candidates.surest().front();
 }
 
-[[noreturn]] void refuse_several(const NamedArrays& arrays, const std::vector<std::string>& names) {
+/// The first names, for people.
+std::string some_of(const std::vector<std::string>& names) {
     constexpr std::size_t kMostNamed = 4;
     std::vector<std::string> quoted;
     for (const std::string& name : names)
         if (quoted.size() < kMostNamed) quoted.push_back(in_quotes(name));
     if (names.size() > kMostNamed) quoted.emplace_back("...");
+    return listed(quoted);
+}
+
+[[noreturn]] void refuse_several(const NamedArrays& arrays, const std::vector<std::string>& names) {
     throw InputError(shown(arrays.file()) + " holds " + std::to_string(names.size()) +
-                     " arrays that may be the depth, " + listed(quoted) +
+                     " arrays that may be the depth, " + some_of(names) +
                      ": save the one to touch: python3 -c \"import numpy; "
                      "numpy.save('depth.npy', " +
                      loading_of(arrays.file(), names.front()) + ")\"");
@@ -162,10 +169,10 @@ std::string chosen(const NamedArrays& arrays, PictureRole role) {
                             !is_one_of(name, kCameraNames);
                  });
     if (left.size() == 1) return left.front();
-    throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) +
-                     " arrays, none of them called " +
+    throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) + " arrays, " +
+                     (left.empty() ? "" : some_of(left) + ", ") + "none of them called " +
                      (is_depth ? "depths, depth, disparity or disp" : "images or rgb") +
-                     ": save it with that name");
+                     ": save the right one with that name, or give another file");
 }
 
 NumpyArray opened(const NamedArrays& arrays, const std::string& name) {

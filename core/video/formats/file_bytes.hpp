@@ -35,8 +35,11 @@ void require_readable(const std::filesystem::path& file);
 void require_no_other_form(const std::filesystem::path& file);
 
 /// What a file is that no reader reads, and what to do, as the rest of a sentence that begins with
-/// its name; empty where neither its bytes nor its ending tell a form. Does not judge text.
+/// its name; empty where neither its bytes nor its ending tell a form. Of text judges .csv alone.
 [[nodiscard]] std::string advice_on_form(const std::filesystem::path& file);
+
+/// Likewise of a photo that has depth in it which no reader reads.
+[[nodiscard]] std::string advice_on_depth_within(const std::filesystem::path& file);
 
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);

@@ -102,8 +102,9 @@ NumpyHeader read_header(const fs::path& file, ArrayBytes& bytes) {
     const auto shape = shape_of(value_of(dictionary, "shape"));
     if (!shape || !read_type(value_of(dictionary, "descr"), header))
         throw InputError(shown(file) +
-                         " holds no array of plain numbers: save the depth as float32 by "
-                         "numpy.save");
+                         " holds no array of plain numbers: save its depth as float32 by "
+                         "numpy.save (Python objects are read by numpy.load with "
+                         "allow_pickle=True, if you trust the file)");
     header.shape = *shape;
     return header;
 }
@@ -271,9 +272,12 @@ PictureShape NumpyArray::pictures() {
                          "it belongs to");
     std::vector<std::int64_t> sides = header_.shape;
     if (is_list(sides))
-        throw InputError(shown(file_) + " holds numbers in the shape " + text_of(sides) +
-                         ", a list of points or poses, and no picture: project the points into a "
-                         "picture of their distances, and give that");
+        throw InputError(
+            shown(file_) + " holds numbers in the shape " + text_of(sides) +
+            ", a list of points or poses, and no picture: save points as text "
+            "(numpy.savetxt), open that in CloudCompare (package cloudcompare), choose "
+            "Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
+            "and give that");
     const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
     PictureShape shape;
     // Estimators' batches: [1, frames, ...]

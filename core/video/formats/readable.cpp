@@ -6,10 +6,12 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -27,7 +29,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A form that no reader reads, and what to do about it; "{}" stands for the file's name.
+/// A form that no reader reads, and what to do about it; "{}" stands for the file's name, "{sides}"
+/// for "ROWS, COLUMNS" of numbers of 16 bits.
 struct UnsupportedForm {
     std::string_view begins;  ///< magic bytes; empty: none, then the ending decides
     std::string_view ending;  ///< of the name, in small letters; empty: any
@@ -58,21 +61,28 @@ constexpr std::string_view kZipArchive =
 constexpr std::string_view kTar =
     " is an archive of files: unpack it (tar -xf {}) and give the folder or the files in it";
 constexpr std::string_view kHdf5 =
-    " is an HDF5 file: list its arrays with h5ls -r {} (package hdf5-tools), and save that of the "
-    "depth: python3 -c \"import h5py, numpy; numpy.save('depth.npy', h5py.File('{}')['depth'])\"";
+    " is an HDF5 file: save its array of depth, by its name or as the largest: python3 -c \"import "
+    "h5py, numpy; d = []; h5py.File('{}').visititems(lambda n, o: d.append(o) if getattr(o, "
+    "'ndim', 0) > 1 else None); numpy.save('depth.npy', max(d, key=lambda o: ('dep' in "
+    "o.name.lower(), o.size)))\" (package python3-h5py)";
 constexpr std::string_view kMatlab73 =
-    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import h5py, "
-    "numpy; numpy.save('depth.npy', numpy.swapaxes(h5py.File('{}')['depth'], -1, -2))\"";
+    " is a MATLAB file: save its array of depth, by its name or as the largest: python3 -c "
+    "\"import h5py, numpy; d = []; h5py.File('{}').visititems(lambda n, o: d.append(o) if "
+    "getattr(o, 'ndim', 0) > 1 else None); numpy.save('depth.npy', numpy.swapaxes(max(d, "
+    "key=lambda o: ('dep' in o.name.lower(), o.size)), -1, -2))\" (package python3-h5py)";
 constexpr std::string_view kMatlab5 =
-    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import "
-    "scipy.io, numpy; numpy.save('depth.npy', scipy.io.loadmat('{}')['depth'])\"";
+    " is a MATLAB file: save its array of depth, by its name or as the largest: python3 -c "
+    "\"import scipy.io, numpy; m = scipy.io.loadmat('{}'); numpy.save('depth.npy', m[max((k for k "
+    "in m if not k.startswith('_')), key=lambda k: ('dep' in k.lower(), m[k].size))])\" (package "
+    "python3-scipy)";
 constexpr std::string_view kTrueMap =
     " is a height map of TrueMap or GelSight: convert it: python3 -c \"import numpy, struct; b = "
     "open('{}', 'rb').read(); o = b.index(b'\\0', 32) + 1; c, r = struct.unpack_from('<2I', b, o); "
     "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
 constexpr std::string_view kPointCloud =
-    " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare, choose Tools, "
-    "Projection, Rasterize, save the heights as GeoTIFF (height.tif), and give that";
+    " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare (package "
+    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
+    "and give that";
 constexpr std::string_view kLas =
     " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
     "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
@@ -88,18 +98,23 @@ constexpr std::string_view kLayers =
     " is a drawing in layers: export the layer of the depth as a PNG picture of 16 bits, and that "
     "of the colours beside it";
 constexpr std::string_view kNoHeader =
-    " holds numbers without a header, so their size and type are not known: convert it: python3 -c "
-    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape(ROWS, "
-    "COLUMNS))\", "
-    "with its own rows and columns ('<f4' for real numbers)";
+    " holds numbers without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape({sides}))\"";
+constexpr std::string_view kHeightsNoHeader =
+    " holds heights of 16 bits without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('height.npy', numpy.fromfile('{}', '<u2').reshape({sides}))\"";
 constexpr std::string_view kReals =
-    " real numbers of 32 bits without a header, so its size is not known: convert it: python3 -c "
-    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape(ROWS, "
-    "COLUMNS))\", with its own rows and columns";
-constexpr std::string_view kNumbersInText =
-    " holds numbers as text: if they are depth, convert it: python3 -c \"import numpy; "
-    "numpy.save('depth.npy', numpy.loadtxt('{}').reshape(ROWS, COLUMNS))\", with its own rows and "
-    "columns";
+    " real numbers of 32 bits without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape({sides}))\"";
+constexpr std::string_view kSurfaceX3p =
+    " is a measured surface (X3P): open it in Gwyddion (package gwyddion), save it as OpenEXR "
+    "(height.exr), and give that";
+constexpr std::string_view kLfsPointer =
+    " is a pointer of Git LFS, not the file itself: fetch it with git lfs pull in its clone "
+    "(package git-lfs), or download it again by the Download button of its page";
+constexpr std::string_view kWebPage =
+    " is a web page, not the file itself: download it again by the Download or Raw button of its "
+    "page";
 constexpr std::string_view kSintel =
     " is a depth picture of MPI Sintel: convert it: python3 -c \"import numpy; b = open('{}', "
     "'rb').read(); c, r = numpy.frombuffer(b, '<i4', 2, 4); numpy.save('depth.npy', "
@@ -126,10 +141,6 @@ constexpr std::string_view kSweep =
     "\"import numpy; numpy.savetxt('points.xyz', numpy.fromfile('{}', '<f4').reshape(-1, 5)[:, "
     ":3])\", open that in CloudCompare, choose Tools, Projection, Rasterize, save the heights as "
     "GeoTIFF (height.tif), and give that";
-constexpr std::string_view kTable =
-    " is a table in text: if its cells are depth, convert it: python3 -c \"import numpy; "
-    "numpy.save('depth.npy', numpy.loadtxt('{}', delimiter=','))\"";
-
 // The first entry that fits counts.
 constexpr std::array kUnsupportedForms{
     UnsupportedForm{kZip, ".r3d", kRecord3d},
@@ -140,12 +151,13 @@ constexpr std::array kUnsupportedForms{
     UnsupportedForm{kZip, ".pt", kPyTorch},
     UnsupportedForm{kZip, ".pth", kPyTorch},
     UnsupportedForm{kZip, ".zip", kZipArchive},
+    UnsupportedForm{kZip, ".x3p", kSurfaceX3p},
+    UnsupportedForm{"version https://git-lfs"sv, {}, kLfsPointer},
+    UnsupportedForm{"<!DOCTYPE html"sv, {}, kWebPage},
+    UnsupportedForm{"<!doctype html"sv, {}, kWebPage},
+    UnsupportedForm{"<html"sv, {}, kWebPage},
+    UnsupportedForm{"TERRAGENTERRAIN "sv, {}, kTerrain},
     UnsupportedForm{"\x89MCAP0\r\n"sv, ".svo2", kZed},
-    UnsupportedForm{
-        "#ROSBAG V"sv,
-        {},
-        " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
-        "bag of ROS 2 (.db3) of it with rosbags-convert"},
     UnsupportedForm{"NI10"sv,
                     {},
                     " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
@@ -241,18 +253,17 @@ constexpr std::array kSizedForms{
 // Of files that no reader accepts.
 constexpr std::array kUnsupportedEndings{
     UnsupportedForm{{}, ".svo", kZed},        UnsupportedForm{{}, ".svo2", kZed},
-    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".csv", kTable},
-    UnsupportedForm{{}, ".asc", kTerrain},    UnsupportedForm{{}, ".hgt", kTerrain},
-    UnsupportedForm{{}, ".dem", kTerrain},    UnsupportedForm{{}, ".bil", kTerrain},
-    UnsupportedForm{{}, ".flt", kTerrain},    UnsupportedForm{{}, ".grd", kTerrain},
-    UnsupportedForm{{}, ".obj", kPointCloud}, UnsupportedForm{{}, ".stl", kPointCloud},
-    UnsupportedForm{{}, ".xyz", kPointCloud}, UnsupportedForm{{}, ".pts", kPointCloud},
-    UnsupportedForm{{}, ".pkl", kPyTorch}};
+    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".asc", kTerrain},
+    UnsupportedForm{{}, ".hgt", kTerrain},    UnsupportedForm{{}, ".dem", kTerrain},
+    UnsupportedForm{{}, ".bil", kTerrain},    UnsupportedForm{{}, ".flt", kTerrain},
+    UnsupportedForm{{}, ".grd", kTerrain},    UnsupportedForm{{}, ".obj", kPointCloud},
+    UnsupportedForm{{}, ".stl", kPointCloud}, UnsupportedForm{{}, ".xyz", kPointCloud},
+    UnsupportedForm{{}, ".pts", kPointCloud}, UnsupportedForm{{}, ".pkl", kPyTorch}};
 
 // Of such files that do not hold text.
-constexpr std::array kHeaderlessEndings{UnsupportedForm{{}, ".raw", kNoHeader},
-                                        UnsupportedForm{{}, ".z16", kNoHeader},
-                                        UnsupportedForm{{}, ".depth", kNoHeader}};
+constexpr std::array kHeaderlessEndings{
+    UnsupportedForm{{}, ".raw", kNoHeader}, UnsupportedForm{{}, ".r16", kHeightsNoHeader},
+    UnsupportedForm{{}, ".z16", kNoHeader}, UnsupportedForm{{}, ".depth", kNoHeader}};
 
 constexpr std::size_t kInspected_bytes = 1 << 16;
 
@@ -266,25 +277,86 @@ bool lists_record3d(const fs::path& file) {
     return hold(end, "rgbd/") && hold(end, "metadata");
 }
 
+/// Of a bag of ROS 1; RealSense names its topics after the device, in the index at the end.
+std::string_view advice_on_bag(const fs::path& file) {
+    if (hold(end_of(file, kInspected_bytes), "/device_0/"))
+        return " is a recording of RealSense (a bag of ROS 1): export its pictures with rs-convert "
+               "-i {} -p depth_ (of librealsense)";
+    return " is a bag of ROS 1: make one of ROS 2 of it with rosbags-convert --src {} --dst ros2 "
+           "(pip install rosbags), and give the folder ros2";
+}
+
 /// Whether a Matroska file's list of tracks has librgbd's depth codecs.
 bool is_of_librgbd(const fs::path& file) {
     const std::string begin = beginning_of(file, kInspected_bytes);
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
-/// The advice for this file: its name where "{}" stands, or FILE where a shell would need quotes.
-std::string filled(std::string_view advice, const fs::path& file) {
-    const std::string name = file.filename().string();
-    const bool is_plain =
-        !name.starts_with('-') && std::all_of(name.begin(), name.end(), [](char c) {
-            return c == '.' || is_bare_name(std::string_view(&c, 1));
-        });
-    std::string text;
-    for (auto at = advice.find("{}"); at != std::string_view::npos; at = advice.find("{}")) {
-        text += std::string(advice.substr(0, at)) + (is_plain ? name : "FILE");
-        advice.remove_prefix(at + 2);
+/// The name of the file as a word of a shell's command or, where quotes are around it already, as
+/// text within them; FILE where neither can have it.
+std::string name_in_command(const std::string& name, bool is_quoted) {
+    constexpr std::string_view kNeverPlain = "'\"\\$`!";
+    const bool is_text =
+        name == one_line(name) && name.find_first_of(kNeverPlain) == std::string::npos;
+    if (!is_text) return "FILE";
+    const std::string safe = name.starts_with('-') ? "./" + name : name;
+    const bool is_word = std::all_of(name.begin(), name.end(), [](char c) {
+        return c == '.' || is_bare_name(std::string_view(&c, 1));
+    });
+    return is_quoted || is_word ? safe : "'" + safe + "'";
+}
+
+/// The sides of so many numbers, "ROWS, COLUMNS": by "160x120" in the name, by what cameras have,
+/// or as a square. In letters where none fits.
+std::string sides_of(const std::string& name, std::uint64_t numbers) {
+    using Sides = std::array<std::uint64_t, 2>;  // columns, rows
+    constexpr std::array<Sides, 12> kOfCameras{{{640, 480},
+                                                {512, 424},
+                                                {320, 240},
+                                                {320, 288},
+                                                {640, 576},
+                                                {848, 480},
+                                                {640, 360},
+                                                {424, 240},
+                                                {1280, 720},
+                                                {1280, 800},
+                                                {1920, 1080},
+                                                {256, 192}}};
+    const auto text = [](const Sides& sides) {
+        return std::to_string(sides[1]) + ", " + std::to_string(sides[0]);
+    };
+    const auto fits = [numbers](const Sides& sides) {
+        return sides[0] > 0 && numbers % sides[0] == 0 && numbers / sides[0] == sides[1];
+    };
+    for (std::size_t at = name.find_first_of("xX", 1); at != std::string::npos;
+         at = name.find_first_of("xX", at + 1)) {
+        std::size_t first = at;
+        while (first > 0 && is_decimal_digit(name[first - 1])) --first;
+        Sides sides{};
+        std::from_chars(name.data() + first, name.data() + at, sides[0]);
+        std::from_chars(name.data() + at + 1, name.data() + name.size(), sides[1]);
+        if (fits(sides)) return text(sides);
     }
-    return text + std::string(advice);
+    const auto* const usual = std::find_if(kOfCameras.begin(), kOfCameras.end(), fits);
+    if (usual != kOfCameras.end()) return text(*usual);
+    const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(numbers)));
+    return fits({root, root}) ? text({root, root}) : "ROWS, COLUMNS";
+}
+
+/// The advice for this file, with its name and the sides of its numbers.
+std::string filled(std::string_view advice, const fs::path& file, std::uint64_t number_bytes = 2) {
+    constexpr std::string_view kName = "{}";
+    constexpr std::string_view kSides = "{sides}";
+    const std::string name = file.filename().string();
+    std::string text(advice);
+    for (auto at = text.find(kName); at != std::string::npos; at = text.find(kName, at)) {
+        const std::string word = name_in_command(name, at > 0 && text[at - 1] == '\'');
+        text.replace(at, kName.size(), word);
+        at += word.size();
+    }
+    if (const auto at = text.find(kSides); at != std::string::npos)
+        text.replace(at, kSides.size(), sides_of(name, size_of(file) / number_bytes));
+    return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
 }
 
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
@@ -305,6 +377,7 @@ std::string advice_on_unsupported(const fs::path& file) {
     const std::string head = beginning_of(file, kMagic_bytes);
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
+    if (head.starts_with("#ROSBAG V")) return filled(advice_on_bag(file), file);
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kZip) && !is_npz(file, head))
         return lower_case(file.extension().string()) == ".npz"
@@ -343,46 +416,95 @@ bool are_reals(std::string_view bytes) {
     return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
 }
 
-/// Whether the text is numbers and what parts them.
-bool is_of_numbers(std::string_view text) {
-    constexpr std::string_view kOthers = "+-.eE, \t\r\nnaifNAIF";
-    std::size_t digits = 0;
-    std::size_t others = 0;
-    for (const char c : text) {
-        if (is_decimal_digit(c))
-            ++digits;
-        else if (kOthers.find(c) == std::string_view::npos)
-            return false;
-        else
-            others += static_cast<std::size_t>(std::isspace(static_cast<unsigned char>(c)) == 0);
-    }
-    return digits > others;
-}
-
-constexpr std::size_t kLines_bytes = 512;
-
-std::string advice_on_numbers_in_text(const fs::path& file) {
-    const std::string head = beginning_of(file, kLines_bytes);
-    if (!is_of_numbers(head)) return {};
-    return filled(head.find(',') == std::string::npos ? kNumbersInText : kTable, file);
-}
-
-std::string advice_on_headerless(const fs::path& file) {
-    const std::uint64_t bytes = size_of(file);
-    if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
-        return " holds " + std::to_string(bytes / 4) + filled(kReals, file);
-    return advice_of(kHeaderlessEndings, file, {});
-}
-
 /// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
 /// would have the decoder open other files. A video of plain pictures has a header in text.
 bool begins_like_text(const fs::path& file) {
+    constexpr std::size_t kLines_bytes = 512;
     const std::string head = beginning_of(file, kLines_bytes);
     if (head.starts_with("YUV4MPEG2 ")) return false;
     return std::all_of(head.begin(), head.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
         return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
     });
+}
+
+/// Numbers in text, after lines of other text.
+struct NumbersInText {
+    std::string before{};  ///< the other lines
+    std::size_t lines_before{0};
+    char between{' '};       ///< a comma, a semicolon or a blank
+    bool has_commas{false};  ///< in the numbers, for points
+    bool are_rows{false};    ///< each line is a row of a picture
+};
+
+/// Whether the line has what numbers are written with, and nothing else.
+bool is_of_numbers(std::string_view line) {
+    return line.find_first_not_of("+-.eE,; \t\rnaifNAIF0123456789") == std::string_view::npos &&
+           (line.find_first_of("0123456789") != std::string_view::npos ||
+            line.find("nan") != std::string_view::npos ||
+            line.find("NaN") != std::string_view::npos);
+}
+
+std::optional<NumbersInText> find_numbers_in_text(std::string_view text) {
+    constexpr std::size_t kMostLinesBefore = 40;
+    NumbersInText found;
+    std::array<std::string_view, 2> lines{};
+    std::size_t taken = 0;
+    while (!text.empty() && taken < lines.size() && found.lines_before <= kMostLinesBefore) {
+        const std::size_t end = std::min(text.find('\n'), text.size());
+        const std::string_view line = text.substr(0, end);
+        text.remove_prefix(std::min(end + 1, text.size()));
+        if (is_of_numbers(line)) {
+            lines[taken++] = line;
+        } else if (taken > 0) {
+            return std::nullopt;  // a table with words in it
+        } else {
+            found.before += line;
+            ++found.lines_before;
+        }
+    }
+    if (taken == 0) return std::nullopt;
+    const std::string_view first = lines[0];
+    const auto digits = std::count_if(first.begin(), first.end(), is_decimal_digit);
+    const auto others = std::count_if(first.begin(), first.end(), [](char c) {
+        return std::string_view("+-.eE").find(c) != std::string_view::npos;
+    });
+    if (digits < others) return std::nullopt;
+    const bool has_semicolons = first.find(';') != std::string_view::npos;
+    found.has_commas = has_semicolons && first.find(',') != std::string_view::npos;
+    found.between = has_semicolons ? ';' : first.find(',') != std::string_view::npos ? ',' : ' ';
+    found.are_rows =
+        taken == lines.size() &&
+        first.find_first_of(",; \t", first.find_first_not_of(" \t")) != std::string_view::npos;
+    return found;
+}
+
+std::string advice_on_numbers_in_text(const fs::path& file) {
+    if (!begins_like_text(file)) return {};
+    const auto numbers = find_numbers_in_text(beginning_of(file, kInspected_bytes));
+    if (!numbers) return {};
+    const bool are_heights = hold(lower_case(numbers->before), "height");
+    std::string load = numbers->has_commas
+                           ? "[line.replace(',', '.') for line in open('{}', encoding='latin-1')]"
+                           : "'{}'";
+    if (numbers->between != ' ') load += std::string(", delimiter='") + numbers->between + "'";
+    if (numbers->lines_before > 0)
+        load += ", skiprows=" + std::to_string(numbers->lines_before) +
+                (numbers->has_commas ? "" : ", encoding='latin-1'");
+    const char* const what = numbers->between == ' '
+                                 ? " holds numbers as text: if they are depth"
+                                 : " is a table in text: if its cells are depth";
+    return filled(std::string(what) + ", convert it: python3 -c \"import numpy; numpy.save('" +
+                      (are_heights ? "height" : "depth") + ".npy', numpy.loadtxt(" + load + ")" +
+                      (numbers->are_rows ? "" : ".reshape(ROWS, COLUMNS)") + ")\"",
+                  file);
+}
+
+std::string advice_on_headerless(const fs::path& file) {
+    const std::uint64_t bytes = size_of(file);
+    if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, 4);
+    return advice_of(kHeaderlessEndings, file, {});
 }
 
 }  // namespace
@@ -412,8 +534,26 @@ void require_readable(const fs::path& file) {
 std::string advice_on_form(const fs::path& file) {
     std::string advice = advice_on_unsupported(file);
     if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty() && lower_case(file.extension().string()) == ".csv")
+        advice = advice_on_numbers_in_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     return advice;
+}
+
+std::string advice_on_depth_within(const fs::path& file) {
+    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth.
+    constexpr std::size_t kList_bytes = 4096;
+    if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
+    const std::string end = end_of(file, kList_bytes);
+    const auto list = end.rfind("SEFH");
+    if (!end.ends_with("SEFT") || list == std::string::npos ||
+        end.find("\0\0\xb1\x0a"sv, list) == std::string::npos)
+        return {};
+    return filled(
+        " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+        "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+        "second file",
+        file);
 }
 
 void require_no_other_form(const fs::path& file) {

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <opencv2/imgproc.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -20,6 +22,7 @@
 #include "core/video/sources/layouts/data_sets.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/packed.hpp"
+#include "core/video/sources/picture_kind.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
@@ -111,11 +114,37 @@ Findings units_beside(const SampledLevels& levels, const Findings& rows) {
     return units;
 }
 
+/// The row on pictures that look like something else than depth, or none. Where a name or metadata
+/// state the levels surely, the look of a photograph says nothing: heights of bark are as rough.
+Findings findings_on_looks(std::span<const cv::Mat> pictures, int bits,
+                           const DepthStatement& known) {
+    constexpr std::size_t kMostInspected = 3;
+    constexpr double kSurenessOfMask = 0.95;  // a flat shape that is to be felt may be so, too
+    pictures = pictures.first(std::min(pictures.size(), kMostInspected));
+    if (pictures.empty() || bits > 16) return {};
+    const auto row = [](double sureness, const char* reason) {
+        return Findings{{{}, Evidence::appearance, sureness, reason, std::string(kNoDepth)}};
+    };
+    if (std::all_of(pictures.begin(), pictures.end(), is_black_and_white))
+        return row(kSurenessOfMask, "it is black and white alone, as a mask is");
+    const auto is_photo = [](const cv::Mat& picture) {
+        cv::Mat grey;
+        cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
+        return looks_like_photo(grey);
+    };
+    if (bits > 8 || known.unit || !std::all_of(pictures.begin(), pictures.end(), is_photo))
+        return {};
+    return row(kSurenessOfAppearance, "it looks like a photograph");
+}
+
 /// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what other
 /// rows state and they contradict. Returns the levels without those that are no data.
 SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
-    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
+    const int bits = sources.depth->facts().bits;
+    const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
+    SampledLevels levels(pictures, bits);
     const DepthStatement known = sure_facts(persons, rows, kBeyondNumbers);
+    append(findings_on_looks(pictures, bits, known), rows);
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
         return row.statement.no_data.has_value();
     });

@@ -207,7 +207,7 @@ Sources of_two(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     const LivePicture& first = cursor->pair->depth;
     const bool is_stated = statement.code || statement.packing == DepthPacking::separate;
     if (!is_stated && !first.grey && !first.colour.empty() && is_coloured(first.colour))
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        sources.not_depth = refusal_of_colours(sources.depth->facts(), {});
     return sources;
 }
 

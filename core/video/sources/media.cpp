@@ -194,11 +194,14 @@ std::string doubt_about(const MediaDescription& media, StatedBy way) {
                                   : "the unit is assumed to be " + std::string(name_of(*best.unit));
     if (!is_near && has_scale(best)) assumed += " and the scale " + scale_text(best);
     constexpr double kPercent = 100.0;
-    return shown(media.depth_path) + ": " + assumed + " (" + number_text(kPercent * sure, 0) +
-           " % sure): look at it, or " +
+    const std::string doubt =
+        conclusion.doubt.empty() ? "" : conclusion.doubt + ", so it may be no depth; ";
+    return shown(media.depth_path) + ": " + doubt + assumed + " (" +
+           number_text(kPercent * sure, 0) + " % sure): look at it, or " +
            (way == StatedBy::options ? "say " + listed(ways, " or ")
                                      : "state " + listed(ways, " or ") + " in its sidecar " +
-                                           shown(sidecar_of(media.depth_path)));
+                                           shown(sidecar_of(media.depth_path))) +
+           (doubt.empty() ? "" : ", or give the file of the depth");
 }
 
 std::string motion_trouble(const MediaDescription& media) {

@@ -13,6 +13,7 @@
 
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
@@ -39,25 +40,6 @@ constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",
 // "mono_depth", "depth maps"
 constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
-/// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
-struct OtherContent {
-    std::string_view what;    ///< for people
-    std::string_view words;   ///< each between blanks
-    bool shows_depth{false};  ///< it may be felt, though something else is better
-};
-constexpr std::array kOtherContents{
-    OtherContent{"a mask", " mask masks valid validity "},
-    OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
-    OtherContent{"normals", " normal normals nor nrm "},
-    OtherContent{"infrared", " ir infra infrared "},
-    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
-    OtherContent{"a painting of depth",
-                 " vis viz visualization visualisation visualized visualised colored coloured "
-                 "colorized colourised colormap colourmap ",
-                 true},
-    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
-    OtherContent{"optical flow", " flow flows "},
-    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
 // After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
 constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
                                                        "px",  "ids",  "occ", "noc"};
@@ -138,12 +120,8 @@ const OtherContent* other_content(const fs::path& file) {
     const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
         return !is_of_digits(word) && !is_one_of(word, kPassedWords);
     });
-    if (last == words.rend()) return nullptr;
-    const auto* const found = std::find_if(
-        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
-            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
-        });
-    return found == kOtherContents.end() ? nullptr : found;
+    const OtherContent* const found = last == words.rend() ? nullptr : other_content_of(*last);
+    return found != nullptr && found->shows_scene ? nullptr : found;
 }
 
 /// The name of the first picture in a folder; empty: it holds none, or is no folder.
@@ -293,7 +271,7 @@ std::string_view folder_named_no_depth(const fs::path& file) {
     if (found == nullptr || found->shows_depth) return {};
     const std::vector<std::string> words = words_of_name(folder.string());
     const bool is_whole = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-        return says_nothing(word) || found->words.find(' ' + word + ' ') != std::string_view::npos;
+        return says_nothing(word) || other_content_of(word) == found;
     });
     return is_whole ? found->what : std::string_view();
 }
@@ -354,8 +332,6 @@ std::optional<fs::path> find_depth_beside(const fs::path& given, std::string& lo
                                          : " (or another extension)");
         if (auto found = with_stem(colour, *stem, true)) return found;
     }
-    if (looked_for.empty())
-        looked_for = "nothing, because the name holds neither color, colour nor rgb";
     if (named_depth(colour)) return std::nullopt;
     if (auto found = belonging_to(colour, named_depth, named_depth, true)) return found;
     if (is_folder(colour))

@@ -58,7 +58,8 @@ namespace dibhr {
 /// colour, rgb, ...), else depth of the same subject, else numbers of the same name; of several the
 /// one of numbers. Beside a video this may be a folder of pictures, and beside a folder a video;
 /// beside the only video it is the folder named depth. Nothing when there is none; `looked_for`
-/// then lists the names that were tried, for the message.
+/// then lists the names that were tried, for the message; it is empty for a name without a word for
+/// colour.
 [[nodiscard]] std::optional<std::filesystem::path> find_depth_beside(
     const std::filesystem::path& colour, std::string& looked_for);
 

@@ -12,6 +12,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/byte_code.hpp"
+#include "core/video/depth/colour_maps.hpp"
 #include "core/video/sources/layouts/picture_folder.hpp"
 #include "core/video/sources/layouts/picture_times.hpp"
 #include "core/video/sources/picture_kind.hpp"
@@ -318,17 +319,20 @@ bool has_decoded_levels(const SourceFacts& facts) {
     });
 }
 
-std::string refusal_of_colours(const SourceFacts& facts) {
-    const std::string what =
-        shown(facts.file) + " is in colours that are neither grey nor a known code of depth: ";
+std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen) {
+    if (is_colour_mapped(seen))
+        return shown(facts.file) +
+               " is painted in the colours of a map (jet, viridis, ...), neither grey nor a known "
+               "code of depth: give the numbers that it was painted from, as an array (.npy) or in "
+               "grey";
     const std::string as_bytes =
-        is_lossless(facts.codec) ? ""
-                                 : "if depth is in their bytes, write them without the losses of " +
-                                       one_line(facts.codec) + ", " + kWithoutLoss + "; else ";
-    return what + as_bytes +
-           "name the code (--depth-code; grey takes the brightness) or the halves (--packing), "
-           "give "
-           "the depth that they were painted from, or let an estimator make it (dibhr help depth)";
+        is_lossless(facts.codec)
+            ? "name it with --depth-code"
+            : "write it without the losses of " + one_line(facts.codec) + ", " + kWithoutLoss;
+    return shown(facts.file) +
+           " is in colours that are neither grey nor a known code of depth: give the depth itself, "
+           "as an array (.npy) or in grey, or, if its bytes hold a code, " +
+           as_bytes;
 }
 
 bool is_of_halves(DepthPacking packing) noexcept {

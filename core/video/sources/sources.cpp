@@ -178,6 +178,13 @@ void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources&
         sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
 }
 
+/// Keeps the refusal of depth in colours; `halves` as in depth_samples().
+void refuse_colours(const Place& place, const PackedForm* halves, Sources& sources) {
+    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
+    sources.not_depth = refusal_of_colours(sources.depth->facts(),
+                                           first.empty() ? cv::Mat() : seen_colours(first.front()));
+}
+
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
     const auto stated = statement.code;
@@ -194,7 +201,7 @@ Sources decoded(const Place& place, Sources sources, const DepthStatement& state
     else if (colours.kind == PictureKind::byte_depth)
         decode_colours(place, colours.bytes, false, sources);
     else
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        refuse_colours(place, nullptr, sources);
     return sources;
 }
 
@@ -282,25 +289,26 @@ bool is_below_depth(const fs::path& place) {
                            "; if it is the colour, it needs a depth file beside it: give one as "
                            "the second file" +
                            kOrEstimate);
-    if (!is_grey && is_below_depth(colour))
-        throw DepthMissing(
-            refusal_of_colours(open_picture_source(colour, PictureRole::colour)->facts()));
+    if (!seen.empty() && !is_grey && is_below_depth(colour))
+        throw DepthMissing(refusal_of_colours(
+            open_picture_source(colour, PictureRole::colour)->facts(), seen.front()));
+    if (!seen.empty() && std::all_of(seen.begin(), seen.end(), is_colour_mapped))
+        throw DepthMissing(shown(colour) +
+                           " is painted in the colours of a map (jet, viridis, ...) and needs a "
+                           "depth file beside it: give the numbers that it was painted from, as an "
+                           "array (.npy) or in grey, as the second file");
+    if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
+        throw DepthMissing(shown(colour) + advice);
     throw DepthMissing(shown(colour) +
-                       " needs a depth file beside it: give one as the second file (looked for " +
-                       looked_for + "), say how the depth is in it with --packing" + kOrEstimate);
+                       " needs a depth file beside it: give one as the second file" +
+                       (looked_for.empty() ? "" : " (looked for " + looked_for + ")") +
+                       ", name its halves if it holds both (--packing)" + kOrEstimate);
 }
 
 cv::Mat grey_picture(const cv::Mat& picture) {
     cv::Mat grey;
     cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
     return grey;
-}
-
-bool is_black_and_white(const cv::Mat& picture) {
-    double lowest = 0.0;
-    double highest = 0.0;
-    cv::minMaxLoc(picture.reshape(1), &lowest, &highest);
-    return lowest == 0.0 && highest == highest_level(8) && has_two_levels(picture);
 }
 
 /// What a place that is given as the depth of a colour picture is instead, after its name; empty:
@@ -371,7 +379,7 @@ Sources open_halves(const Place& place, PackedForm form, const DepthStatement& s
         form.bytes = colours.bytes;
         form.coded = finding_on_code(colours.bytes, false);
     } else {
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+        refuse_colours(place, &form, sources);
         return sources;
     }
     return open_packed(place.path, form);

@@ -100,3 +100,12 @@ TEST_CASE("what a laser saw is in metres, as real numbers", "[words]") {
     CHECK(rows_in("lidar_depth", 16).size() == 2);
     CHECK(contains(rows[0].reason, "'lidar' in its name"));
 }
+
+TEST_CASE("one list says what is neither colour nor depth, for files and arrays", "[words]") {
+    for (const char* const word : {"mask", "confidence", "normal", "ir", "labels", "flow"})
+        CHECK((other_content_of(word) != nullptr && !other_content_of(word)->shows_depth));
+    CHECK(other_content_of("preview")->shows_depth);
+    CHECK(other_content_of("intensity")->shows_scene);
+    for (const char* const word : {"", "depth", "rgb", "mas", "masked"})
+        CHECK(other_content_of(word) == nullptr);
+}

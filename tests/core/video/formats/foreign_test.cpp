@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -55,9 +56,11 @@ TEST_CASE("recordings of other makers are known by their content, and told how t
           "[foreign]") {
     const TemporaryFolder folder;
     const std::string zip = "PK\x03\x04" + std::string(40, '\0');
+    const std::string rest_of_realsense = std::string(60, '\0') + "/device_0/sensor_0/Depth_0";
     const auto [name, bytes, words] = GENERATE_COPY(table<std::string, std::string, std::string>(
         {{"walk.bag", "#ROSBAG V2.0\nE" + std::string(60, '\0'), "rosbags-convert"},
          {"renamed.mp4", "#ROSBAG V2.0\nE" + std::string(60, '\0'), "rosbags-convert"},
+         {"take.bag", "#ROSBAG V2.0\nE" + rest_of_realsense, "rs-convert -i take.bag"},
          {"scan.r3d", zip, "Record3D"},
          {"renamed.zip2", zip + std::string(100'000, 'x') + "metadata PK rgbd/0.depth", "Record3D"},
          {"frames.depthviewer", zip, "DepthViewer"},
@@ -84,7 +87,7 @@ TEST_CASE("what is no picture of depth is named for what it is, with the command
     const auto [name, bytes, form, way] =
         GENERATE_COPY(table<std::string, std::string, std::string, std::string>(
             {{"frames.h5", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5py.File('frames.h5')"},
-             {"renamed.mp4", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5ls -r renamed.mp4"},
+             {"renamed.mp4", "\x89HDF\r\n\x1a\n" + rest, "HDF5", "h5py.File('renamed.mp4')"},
              {"nyu.mat", "MATLAB 7.3 MAT-file, Platform" + rest, "MATLAB", "h5py.File('nyu.mat')"},
              {"old.mat", "MATLAB 5.0 MAT-file, Platform" + rest, "MATLAB", "loadmat('old.mat')"},
              {"touch.tmd", "Binary TrueMap Data File v2.0\r\n" + rest, "GelSight", "height.npy"},
@@ -102,6 +105,20 @@ TEST_CASE("what is no picture of depth is named for what it is, with the command
              {"set.tar", std::string(257, 'a') + "ustar" + rest, "archive", "tar -xf set.tar"},
              {"set.tar.gz", "\x1f\x8b" + rest, "gzip", "gzip -dk set.tar.gz"},
              {"renamed.bin", "PK\x03\x04" + rest, "zip", "unzip renamed.bin"},
+             {"depth.npy", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n",
+              "pointer of Git LFS", "git lfs pull"},
+             {"depth.exr", "<!DOCTYPE html><html><body>Not Found</body></html>", "a web page",
+              "download it again"},
+             {"island.ter", "TERRAGENTERRAIN SIZE" + rest, "heights", "gdal_translate island.ter"},
+             {"bullet.x3p", "PK\x03\x04" + rest, "X3P", "Gwyddion"},
+             {"terrain.r16", std::string(2 * 17 * 17, '\1'), "heights of 16 bits",
+              "'<u2').reshape(17, 17)"},
+             {"Depth_16x10_123.raw", std::string(320, '\2'), "without a header",
+              "'<u2').reshape(10, 16)"},
+             {"kinect.raw", std::string(2 * 512 * 424, '\2'), "without a header",
+              "'<u2').reshape(424, 512)"},
+             {"my frames.tar", std::string(257, 'a') + "ustar" + rest, "archive",
+              "tar -xf 'my frames.tar'"},
              {"depth.pt", "PK\x03\x04" + rest, "PyTorch", "torch.load('depth.pt'"},
              {"k.xef", "EVENTS1" + rest, "Kinect Studio", "xefextract"},
              {"frame_0001.flo", sintel(8), "optical flow", "dibhr help depth"},
@@ -162,6 +179,40 @@ TEST_CASE("the command for depth in a form of a data set, or without a header, g
     read_still(folder / "depth.npy", PictureRole::depth).picture.convertTo(depth, CV_32F);
     REQUIRE(depth.cols == 3);
     for (int k = 0; k < 6; ++k) CHECK(depth.at<float>(k / 3, k % 3) == static_cast<float>(k + 1));
+}
+
+TEST_CASE("the command for a table in text gives its rows, whatever is before and between them",
+          "[foreign]") {
+    const TemporaryFolder folder;
+    const auto [name, text, saved] = GENERATE(table<std::string, std::string, std::string>(
+        {{"plain.csv", "1,2,3\n4,5,6\n", "depth.npy"},
+         {"高さ.csv", "\"Keyence VK-X\"\n\"高さ\",\"µm\"\n\n1.0,2.0,3.0\n4.0,5.0,6.0\n",
+          "depth.npy"},
+         {"comma.csv", "x;y;z\n1,0;2,0;3,0\n4,0;5,0;6,0\n", "depth.npy"},
+         {"afm.txt", "# Channel: Height\n# Units: nm\n1.0\t2.0\t3.0\n4.0\t5.0\t6.0\n",
+          "height.npy"},
+         {"with nan.txt", "nan nan nan\n1e0 2e0 3e0\n4e0 5e0 6e0\n", "depth.npy"}}));
+    CAPTURE(name);
+    write_text(folder / name, text);
+    const std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    convert(said, folder);
+    cv::Mat depth;
+    read_still(folder / saved, PictureRole::depth).picture.convertTo(depth, CV_32F);
+    REQUIRE(depth.cols == 3);
+    const int first = depth.rows - 2;
+    for (int k = 0; k < 6; ++k)
+        CHECK(depth.at<float>(first + k / 3, k % 3) == static_cast<float>(k + 1));
+}
+
+TEST_CASE("a photo with Samsung's map of depth in its trailer says how to take it out",
+          "[foreign]") {
+    const TemporaryFolder folder;
+    const auto file = folder / "IMG_0001.jpg";
+    REQUIRE(cv::imwrite(file.string(), cv::Mat(40, 60, CV_8UC3, cv::Scalar(90, 120, 200))));
+    const std::string trailer("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x10\0\0\0\x10\0\0\0SEFT", 28);
+    write_text(file, read_text(file) + trailer);
+    const std::string said = refusal([&] { (void)open_media(file); });
+    CHECK(contains(said, "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
 }
 
 TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {

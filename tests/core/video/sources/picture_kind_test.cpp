@@ -36,6 +36,25 @@ cv::Mat in_grey(const cv::Mat& picture) {
     return grey;
 }
 
+/// As a sensor's.
+cv::Mat with_noise(const cv::Mat& picture) {
+    cv::Mat noise(picture.size(), CV_8UC1);
+    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
+    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
+    return picture + noise;
+}
+
+/// Things of any brightness, each of a rough material.
+cv::Mat grey_photo() {
+    constexpr int kThing_px = 12;
+    cv::Mat things(20, 26, CV_8UC1);
+    cv::RNG(5).fill(things, cv::RNG::UNIFORM, 20, 220);
+    cv::Mat photo;
+    cv::resize(things, photo, {}, kThing_px, kThing_px, cv::INTER_NEAREST);
+    cv::cvtColor(photo, photo, cv::COLOR_GRAY2BGR);
+    return with_noise(photo);
+}
+
 cv::Mat blurred(const cv::Mat& picture, double by) {
     cv::Mat soft;
     cv::GaussianBlur(picture, soft, {}, by);
@@ -334,11 +353,7 @@ TEST_CASE("depth is told in compressed video, too", "[kind]") {
 TEST_CASE("another photograph of the scene is told from its depth", "[kind]") {
     const cv::Mat colour = scene_photo();
     const cv::Mat depth = painted(scene_depth(), as_grey);
-    cv::Mat noisy;
-    cv::Mat noise(depth.size(), CV_8UC1);
-    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
-    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
-    cv::add(depth, noise, noisy);
+    const cv::Mat noisy = with_noise(depth);
     cv::Mat steps = sheet(60);
     cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
     cv::Mat darker;
@@ -393,11 +408,7 @@ TEST_CASE("grey depth is opened beside colour, whatever it is called", "[kind]")
     const TemporaryFolder folder;
     cv::Mat steps = sheet(60);
     cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
-    cv::Mat noisy;
-    cv::Mat noise(steps.size(), CV_8UC1);
-    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
-    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
-    cv::add(painted(scene_depth(), as_grey), noise, noisy);
+    const cv::Mat noisy = with_noise(painted(scene_depth(), as_grey));
     const auto [name, picture] = GENERATE_COPY(
         table<std::string, cv::Mat>({{"b.png", painted(scene_depth(), as_grey)},
                                      {"b.png", steps},
@@ -414,15 +425,70 @@ TEST_CASE("grey depth is opened beside colour, whatever it is called", "[kind]")
     CHECK(media->description().depth_bits == 8);
 }
 
+TEST_CASE("a photograph has fine structure and edges, noisy depth has fine structure alone",
+          "[kind]") {
+    const cv::Mat photo = grey_photo();
+    CHECK(looks_like_photo(photo));
+    CHECK_FALSE(looks_like_photo(photo(cv::Rect(0, 0, 60, 60))));
+    const cv::Mat depth = painted(scene_depth(), as_grey);
+    for (const cv::Mat& surface :
+         {depth, with_noise(depth), with_noise(sheet(90)), grey_gradient(), sheet(0)})
+        CHECK_FALSE(looks_like_photo(surface));
+}
+
+TEST_CASE("black and white alone are a mask's levels, with a third one they are not", "[kind]") {
+    const auto [type, white] = GENERATE(table<int, double>({{CV_8U, 255.0}, {CV_16U, 65535.0}}));
+    cv::Mat mask(60, 80, type, cv::Scalar(0.0));
+    CHECK_FALSE(is_black_and_white(mask));
+    mask(cv::Rect(20, 20, 30, 30)) = cv::Scalar(white);
+    CHECK(is_black_and_white(mask));
+    mask.row(3) = cv::Scalar(1.0);
+    CHECK_FALSE(is_black_and_white(mask));
+    CHECK_FALSE(is_black_and_white(cv::Mat(60, 80, CV_32F, cv::Scalar(1.0))));
+    CHECK_FALSE(is_black_and_white(cv::Mat()));
+}
+
+TEST_CASE("what is named depth and looks like something else is asked about", "[kind]") {
+    const TemporaryFolder folder;
+    cv::Mat mask = sheet(0);
+    cv::rectangle(mask, {100, 60, 90, 120}, cv::Scalar::all(255), cv::FILLED);
+    const auto [name, picture, doubt] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
+        {{"depth.png", grey_photo(), "looks like a photograph"},
+         {"depth/0000.png", grey_photo(), "looks like a photograph"},
+         {"depth_0.png", mask, "black and white alone"},
+         {"wall_height.png", grey_photo(), ""},
+         {"depth.png", with_noise(painted(scene_depth(), as_grey)), ""}}));
+    CAPTURE(name);
+    const auto file = folder / name;
+    std::filesystem::create_directories(file.parent_path());
+    cv::Mat grey;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    REQUIRE(cv::imwrite(file.string(), grey));
+    DepthRequest request{.find_out = true};
+    const MediaDescription media = describe_media(file, request);
+    CHECK(contains(media.conclusion.doubt, doubt));
+    CHECK(media.conclusion.doubt.empty() == doubt.empty());
+    request.command_line.code = DepthCode::grey;
+    CHECK(describe_media(file, request).conclusion.doubt.empty());
+    if (doubt.empty()) return;
+    CHECK(media.conclusion.alternatives.size() >= 2);
+    CHECK(contains(doubt_about(media), "it may be no depth; near is assumed"));
+    CHECK(contains(doubt_about(media), "or give the file of the depth"));
+}
+
 TEST_CASE("a grey picture and one of something else are refused as what they are", "[kind]") {
     const TemporaryFolder folder;
     const cv::Mat photo = scene_photo();
+    cv::Mat painting;
+    cv::applyColorMap(painted(scene_depth(), as_grey), painting, cv::COLORMAP_VIRIDIS);
     const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
         {{"cam0_000012.png", in_grey(photo), "is grey and does not look like depth"},
          {"frame_0001_normal.png", photo, "named as normals"},
          {"aachen_gtFine_labelIds.png", chessboard(24), "named as labels"},
          {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
          {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
+         {"vis/depth_viridis.png", painting, "painted in the colours of a map"},
+         {"thermal.png", painting, "give the numbers that it was painted from"},
          {"IMG_0001.png", photo, "needs a depth file"}}));
     CAPTURE(name);
     const auto file = folder / name;
