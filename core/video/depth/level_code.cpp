@@ -217,20 +217,20 @@ ConfidenceSteps confidence_steps(const cv::Mat& picture) {
 }
 
 bool may_have_confidence(const cv::Mat& picture) {
-    constexpr double kLeastSteps = 8.0;
+    constexpr double kFewSteps = 8.0;
     constexpr double kMostlyEven = 0.5;
     const ConfidenceSteps found = confidence_steps(picture);
-    return found.steps >= kLeastSteps && found.even >= kMostlyEven * found.steps;
+    return found.steps >= kFewSteps && found.even >= kMostlyEven * found.steps;
 }
 
 /// Whether distances go on at many places where the confidence changes, and many differ.
 bool looks_confident(const cv::Mat& picture) {
-    constexpr double kLeastSteps = 32.0;
+    constexpr double kManySteps = 32.0;
     constexpr double kLeastOfPixels = 0.002;
     constexpr double kMostlyEven = 0.7;
     constexpr std::size_t kLeastDifferent = 16;
     const ConfidenceSteps found = confidence_steps(picture);
-    if (found.steps < std::max(kLeastSteps, kLeastOfPixels * found.pixels) ||
+    if (found.steps < std::max(kManySteps, kLeastOfPixels * found.pixels) ||
         found.even < kMostlyEven * found.steps)
         return false;
     const cv::Mat distances = few_levels_of(picture) & cv::Scalar(kDistanceBits);
