@@ -355,8 +355,7 @@ Findings SampledLevels::units() const {
 Findings SampledLevels::units_of_integers() const {
     constexpr auto kNumbers = Evidence::numbers;
     if (bits_ == 8)
-        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"},
-                {{.near = NearLevels::bright}, kNumbers, 0.93, "by custom 8 bits are near white"}};
+        return {{{.unit = DepthUnit::levels}, kNumbers, 0.98, "8 bits hold no distances"}};
     Findings rows{
         {{.unit = DepthUnit::disparity}, kNumbers, 0.08, "whole numbers are seldom disparities"},
         {{.unit = DepthUnit::m, .scale = 1.0}, kNumbers, 0.01, "whole metres are too coarse"}};
