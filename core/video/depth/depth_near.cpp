@@ -22,7 +22,8 @@ constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearl
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
-constexpr double kSurenessOfTunnel = 0.8;  ///< of 21 files with such a middle, 17 were tunnels
+constexpr double kSurenessOfTunnel = 0.6;  ///< of more than 8 bits: heights of things, too
+constexpr double kSurenessOfTunnelIn8Bits = 0.8;
 constexpr double kSurenessOfLitTunnel = 0.93;
 constexpr double kSurestCustom = 0.93;
 constexpr double kSurenessOfCustom = 0.87;
@@ -176,7 +177,7 @@ Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     if (than_sides > 0 && !middle_of_colour)
         rows.push_back({{.near = of_tunnel},
                         Evidence::numbers,
-                        kSurenessOfTunnel,
+                        bits_ == 8 ? kSurenessOfTunnelIn8Bits : kSurenessOfTunnel,
                         "the middle is brighter than all four sides, as the end of a tunnel"});
     if (than_sides != 0) return rows;  // neither floor nor things in the middle are seen
     add_row_on_area(places.brighter(places.middle, places.border), kSurestMiddle,
