@@ -161,19 +161,6 @@ bool names_carla(const fs::path& file) {
     return holds(file) || holds(file.parent_path());
 }
 
-/// The runs of letters and digits, in small letters.
-std::vector<std::string> plain_words_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(name)) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            words.back() += c;
-        else if (!words.back().empty())
-            words.emplace_back();
-    }
-    if (words.back().empty()) words.pop_back();
-    return words;
-}
-
 struct PackingWord {
     std::string_view word;
     std::optional<DepthPacking> packing;
