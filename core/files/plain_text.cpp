@@ -118,6 +118,18 @@ std::string lower_case(std::string text) {
     return text;
 }
 
+std::vector<std::string> plain_words_of(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const char c : lower_case(std::string(text))) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
+}
+
 std::string escaped_text(std::string_view text) {
     constexpr std::string_view kDigits = "0123456789abcdef";
     std::string result;

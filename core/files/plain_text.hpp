@@ -23,6 +23,9 @@ namespace dibhr {
 /// The text with A to Z as a to z.
 [[nodiscard]] std::string lower_case(std::string text);
 
+/// The runs of letters and digits of ASCII, in small letters. "Timestamp [ns]" has two.
+[[nodiscard]] std::vector<std::string> plain_words_of(std::string_view text);
+
 /// 0 to 9.
 [[nodiscard]] bool is_decimal_digit(char c);
 

@@ -37,7 +37,10 @@ enum class DepthCode {
     kinect11,
     stereo,
     xyz,
-    depth16
+    depth16,
+    gb16,
+    bgr24,
+    float32_bgra
 };
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
@@ -63,9 +66,10 @@ inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPackin
                                            DepthPacking::right_left, DepthPacking::top_bottom,
                                            DepthPacking::bottom_top, DepthPacking::tracks};
 inline constexpr std::array kDepthCodes{
-    DepthCode::grey,    DepthCode::hue,     DepthCode::rg16,     DepthCode::rgb24,
-    DepthCode::float32, DepthCode::terrain, DepthCode::turned16, DepthCode::kinect11,
-    DepthCode::stereo,  DepthCode::xyz,     DepthCode::depth16};
+    DepthCode::grey,    DepthCode::hue,         DepthCode::rg16,     DepthCode::rgb24,
+    DepthCode::float32, DepthCode::terrain,     DepthCode::turned16, DepthCode::kinect11,
+    DepthCode::stereo,  DepthCode::xyz,         DepthCode::depth16,  DepthCode::gb16,
+    DepthCode::bgr24,   DepthCode::float32_bgra};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -192,11 +191,6 @@ std::vector<double> numbers_of(const NamedArrays& arrays, Words words, std::int6
     }
 }
 
-bool rises(const std::vector<double>& times) {
-    return std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) &&
-           std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-}
-
 /// The first nine numbers as a matrix, row by row. Estimators also state it in parts of the picture
 /// (MoGe): then the centre is below 1.
 Intrinsics intrinsics_of(const std::vector<double>& rows, const PictureShape& shape) {
@@ -297,7 +291,7 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
     std::vector<double> times_s = numbers_of(arrays, kTimeNames, shape_.frames);
     facts_.timing = {.from = TimesFrom::list, .text = "in the file"};
-    if (std::cmp_not_equal(times_s.size(), shape_.frames) || !rises(times_s)) {
+    if (std::cmp_not_equal(times_s.size(), shape_.frames) || !is_rising(times_s)) {
         times_s.clear();
         facts_.timing = assumed_timing();
         if (usable) facts_.timing = {.from = TimesFrom::stated, .text = "by the rate in the file"};

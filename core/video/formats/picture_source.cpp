@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/files/plain_text.hpp"
@@ -20,6 +22,13 @@ std::string_view name_of(TimesFrom value) noexcept {
     constexpr std::array<std::string_view, 6> kNames{"file",  "names",  "list",
                                                      "other", "stated", "assumed"};
     return kNames[static_cast<std::size_t>(value)];
+}
+
+bool is_rising(const std::vector<double>& times_s) {
+    return std::all_of(times_s.begin(), times_s.end(),
+                       [](double time_s) { return std::isfinite(time_s); }) &&
+           std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) ==
+               times_s.end();
 }
 
 Timing assumed_timing() {

@@ -141,6 +141,9 @@ class ChangedPictures : public PictureSource {
     std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
 
+/// Whether times are finite, and each is later than the one before.
+[[nodiscard]] bool is_rising(const std::vector<double>& times_s);
+
 /// Rate of pictures without times [1/s].
 inline constexpr double kPicturesPerSecond = 30.0;
 /// Their timing.

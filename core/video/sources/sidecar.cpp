@@ -175,7 +175,7 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
         return keep(said.packing, word_of(node, kDepthPackings), "is not the name of a packing");
     if (name == "code")
         return keep(said.code, word_of(node, kDepthCodes),
-                    "is none of grey, hue, rg16, rgb24, float32, terrain");
+                    "is not the name of a code of depth (dibhr help depth)");
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
     if (name == "times")

@@ -178,9 +178,10 @@ bool read_nyu(const fs::path& /*folder*/, const SourceFacts& /*facts*/, DataSetF
 // github.com/StanfordVL/taskonomy; cs.nyu.edu/~silberman (toolbox); kaldir.vc.in.tum.de/scannetpp;
 // durrlab.github.io/C3VD; github.com/anitarau/simcol; github.com/CapsuleEndoscope/EndoSLAM;
 // github.com/UZ-SLAMLab/Endo-Depth-and-Motion (Hamlyn); endovissub2019-scared.grand-challenge.org;
-// microsoft.github.io/AirSim (image APIs); docs.unrealengine.com (SceneDepthWorldUnits);
-// github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from scene to scene);
-// github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold; roboimagedata.compute.dtu.dk.
+// github.com/stepjam/RLBench; microsoft.github.io/AirSim (image APIs); docs.unrealengine.com
+// (SceneDepthWorldUnits); github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from
+// scene to scene); github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold;
+// roboimagedata.compute.dtu.dk.
 constexpr std::array kDataSets{
     // Streets.
     DataSet{"KITTI depth completion", "proj_depth/groundtruth/image_#/#.png", "", 16, kStreet,
@@ -200,6 +201,7 @@ constexpr std::array kDataSets{
     DataSet{"TartanAir", "depth_left/#_left_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir", "depth_right/#_right_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir V2", "depth_?cam_*/#_?cam_*_depth.png", "", kRealBits, kMetres, 0.995},
+    DataSet{"RLBench", "*_depth/#.png", "../*_rgb ../*_mask", kRealBits, kFarBright, 0.97},
     DataSet{"AirSim", "*_depthplanar_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "*_depthperspective_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "images/img_*.pfm", "../airsim_rec.txt", kRealBits, kMetresToSky, 0.99},

@@ -75,7 +75,7 @@ TEST_CASE("the last word of a name says that it is a mask, confidence or a paint
          {"a_depth_mask.npy", "depthMask.png", "depth_conf_0001.png", "confidence", "depth_vis.mp4",
           "depth_colored.png", "rock_nor_gl_2k.png", "thumbnail.jpg", "snap_Infrared.png",
           "depth_normals", "confidence_map.png", "gtFine_labelIds.png", "flow_occ",
-          "frame_0001_flow.png"}) {
+          "frame_0001_flow.png", "confidence_image.npy", "mask_img_07.png"}) {
         CAPTURE(name);
         CHECK_FALSE(named_other(name).empty());
         CHECK_FALSE(named_depth(name));
@@ -87,6 +87,30 @@ TEST_CASE("the last word of a name says that it is a mask, confidence or a paint
         CHECK(named_other(name).empty());
         CHECK(named_depth(name) != named_colour(name));
     }
+}
+
+TEST_CASE("arrays named as other content are no frames beside the depth", "[beside]") {
+    const TemporaryFolder folder;
+    write_array(folder / "radial_distance_image.npy");
+    write_array(folder / "confidence_image.npy", 128.0F);
+    write_array(folder / "norm_amplitude_image.npy", 300.0F);
+    const auto media = open_media(folder.path());
+    CHECK(media->description().frames == 1);
+    CHECK(begins_at(*media, 1.5F));
+}
+
+TEST_CASE("pictures of brightness are the colour of the depth beside them", "[beside]") {
+    const TemporaryFolder folder;
+    cv::Mat grey;
+    cv::cvtColor(photograph(), grey, cv::COLOR_BGR2GRAY);
+    for (const char* const number : {"1", "2"}) {
+        write(folder / ("depth_" + std::string(number) + ".png"),
+              cv::Mat(kRows, kColumns, CV_16UC1, cv::Scalar(1500)));
+        write(folder / ("amplitude_" + std::string(number) + ".png"), grey);
+    }
+    const auto media = open_media(folder.path());
+    CHECK(media->description().frames == 2);
+    CHECK(media->description().colour_path == folder.path());
 }
 
 TEST_CASE("an array and a picture of one name are depth and colour, not two frames", "[beside]") {
