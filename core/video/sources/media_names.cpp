@@ -40,9 +40,9 @@ constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",
 // "mono_depth", "depth maps"
 constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
-// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
-constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
-                                                       "px",  "ids",  "occ", "noc"};
+// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "normal_pred".
+constexpr std::array<std::string_view, 11> kPassedWords{
+    "map", "maps", "gl", "dx", "k", "px", "ids", "occ", "noc", "pred", "prediction"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{

@@ -299,6 +299,7 @@ bool is_below_depth(const fs::path& place) {
                            "array (.npy) or in grey, as the second file");
     if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
         throw DepthMissing(shown(colour) + advice);
+    if (jpeg_has_gain_map(colour)) throw DepthMissing(shown(colour) + kGainMapAlone);
     throw DepthMissing(shown(colour) +
                        " needs a depth file beside it: give one as the second file" +
                        (looked_for.empty() ? "" : " (looked for " + looked_for + ")") +
