@@ -52,16 +52,7 @@ constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", 
                                                         ".mpg", ".ogv", ".ts",  ".webm"};
 
 bool ends_as(const fs::path& file, Words endings) {
-    const std::string ending = lower_case(file.extension().string());
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-bool is_one_of(std::string_view word, Words words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_of_digits(const std::string& word) {
-    return std::all_of(word.begin(), word.end(), is_decimal_digit);
+    return is_one_of(lower_case(file.extension().string()), endings);
 }
 
 bool holds(const fs::path& file, Words anywhere, Words whole) {

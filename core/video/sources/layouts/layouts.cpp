@@ -404,11 +404,8 @@ void add_camera_beside(Sources& sources) {
     const fs::path& picture = facts.picture();
     std::error_code failed;
     const fs::path folder = fs::absolute(picture, failed).parent_path();
-    constexpr double kMostNumber = 1e9;
-    const int number =
-        static_cast<int>(std::min(numbered(picture).number.value_or(0.0), kMostNumber));
-    const auto beside =
-        read_camera_beside(picture, is_row || named_depth(folder.filename()), number);
+    const auto beside = read_camera_beside(picture, is_row || named_depth(folder.filename()),
+                                           number_in_name(picture));
     if (!beside) return;
     DepthStatement said;
     const CameraFile& camera = beside->camera;
