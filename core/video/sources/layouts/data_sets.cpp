@@ -368,4 +368,12 @@ std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
     return std::nullopt;
 }
 
+const std::optional<DataSetFacts>& KnownDataSet::of(const SourceFacts& facts) {
+    if (picture_ == facts.picture() && bits_ == facts.bits) return found_;
+    found_ = data_set_of(facts);
+    picture_ = facts.picture();
+    bits_ = facts.bits;
+    return found_;
+}
+
 }  // namespace dibhr
