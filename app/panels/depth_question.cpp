@@ -183,7 +183,7 @@ void draw_foot(ViewerState& state, DepthQuestion& question) {
         "Not sure: go on with 1" + state.keys.in_brackets(Action::close_topmost);
     if (!question.folder.empty()) {
         const std::string other =
-            "Also for the other files in " + one_line(question.folder, 24) + " (0)###folder";
+            "Also for the other files in " + one_line(question.folder, 24) + " (key 0)###folder";
         ImGui::Checkbox(other.c_str(), &question.for_folder);
         add_tooltip("Files of this folder that leave the same open are not asked about again");
         ImGui::SameLine();

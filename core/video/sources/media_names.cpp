@@ -112,7 +112,7 @@ const OtherContent* other_content(const fs::path& file) {
         return !is_of_digits(word) && !is_one_of(word, kPassedWords);
     });
     const OtherContent* const found = last == words.rend() ? nullptr : other_content_of(*last);
-    return found != nullptr && found->shows_scene ? nullptr : found;
+    return found != nullptr && (found->shows_scene || found->is_quantity) ? nullptr : found;
 }
 
 /// The name of the first picture in a folder; empty: it holds none, or is no folder.

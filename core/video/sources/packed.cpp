@@ -319,15 +319,15 @@ std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen) {
         return shown(facts.file) +
                " is painted in the colours of a map (jet, viridis, ...), neither grey nor a known "
                "code of depth: give the numbers that it was painted from, as an array (.npy) or in "
-               "grey";
-    const std::string as_bytes =
-        is_lossless(facts.codec)
-            ? "name it with --depth-code"
-            : "write it without the losses of " + one_line(facts.codec) + ", " + kWithoutLoss;
+               "grey, or take its brightness by --depth-code grey";
+    const std::string first = is_lossless(facts.codec) || facts.bits == kRealBits
+                                  ? ""
+                                  : "write it without the losses of " + one_line(facts.codec) +
+                                        ", " + kWithoutLoss + ", and ";
     return shown(facts.file) +
            " is in colours that are neither grey nor a known code of depth: give the depth itself, "
            "as an array (.npy) or in grey, or, if its bytes hold a code, " +
-           as_bytes;
+           first + "name it with --depth-code";
 }
 
 bool is_of_halves(DepthPacking packing) noexcept {

@@ -200,6 +200,7 @@ constexpr std::array kDataSets{
     DataSet{"AirSim", "*_depthperspective_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "images/img_*.pfm", "../airsim_rec.txt", kRealBits, kMetresToSky, 0.99},
     DataSet{"Unreal Engine's scene depth", "*scenedepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
+    DataSet{"Unreal Engine's world depth", "*worlddepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
     // Rooms.
     DataSet{"SUN RGB-D", "depth*/*.png", "../depth_bfx ../image ../intrinsics.txt", 16, kTurned,
             0.99, DepthCode::turned16},
@@ -253,6 +254,7 @@ constexpr std::array kDataSets{
     DataSet{"Marigold", "depth_npy*/*_pred.npy", "", kRealBits, kFarBright, 0.97},
     DataSet{"Marigold", "depth_bw*/*_pred.png", "", 16, kFarBright, 0.97},
     DataSet{"Depth Anything", "vis_depth/*.png", "", 8, kNearBright, 0.95},
+    DataSet{"ZoeDepth", "*zoe*.png", "", 16, kEstimated, 0.85, DepthCode::grey, nullptr, true},
     DataSet{"ZoeDepth", "*_depth.png", "short.j*g", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
             true},
     DataSet{"ZoeDepth", "*_depth.png", "short.png", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
