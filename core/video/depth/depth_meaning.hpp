@@ -59,6 +59,15 @@ enum class DepthTimes { counted, own, paired };
 [[nodiscard]] std::string_view name_of(Geometry value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthTimes value) noexcept;
 
+/// Whether its values are distances from the camera.
+[[nodiscard]] constexpr bool is_distance(DepthUnit unit) noexcept {
+    return unit == DepthUnit::mm || unit == DepthUnit::m;
+}
+/// A value of 1 in that unit of distances, in millimetres.
+[[nodiscard]] constexpr double one_in_mm(DepthUnit unit) noexcept {
+    return unit == DepthUnit::m ? 1000.0 : 1.0;
+}
+
 inline constexpr std::array kNearLevels{NearLevels::bright, NearLevels::dark};
 inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm,
                                         DepthUnit::m};
@@ -168,9 +177,7 @@ struct DepthMeaning {
     Known<double> frames_per_s{0.0};  ///< 0: not stated
     std::string found_in{};           ///< where `found` facts are from: "TUM lists"; empty: none
 
-    [[nodiscard]] bool is_metric() const {
-        return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
-    }
+    [[nodiscard]] bool is_metric() const { return is_distance(unit.value); }
     /// All facts as one statement, for a recording or a sidecar.
     [[nodiscard]] DepthStatement statement() const;
 };

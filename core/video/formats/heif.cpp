@@ -117,12 +117,19 @@ StillPicture read_colour(const heif_image_handle& primary, const fs::path& file)
     return {picture, 8, "HEIC"};
 }
 
+/// By the type of the pictures in the file's directory, which is its beginning.
+bool has_gain_map(const fs::path& file) {
+    constexpr std::size_t kDirectory_bytes = 1 << 16;
+    return beginning_of(file, kDirectory_bytes).find("aux:hdrgainmap") != std::string::npos;
+}
+
 StillPicture read_depth(const heif_image_handle& primary, const fs::path& file) {
     const auto id = depth_id(primary);
     if (!id)
-        throw InputError(shown(file) +
-                         " is a photo without depth: give a portrait photo, or a depth file "
-                         "beside it");
+        throw InputError(shown(file) + (has_gain_map(file)
+                                            ? kGainMapAlone
+                                            : " is a photo without depth: give a portrait photo, "
+                                              "or a depth file beside it"));
     heif_image_handle* found = nullptr;
     require_done(heif_image_handle_get_depth_image_handle(&primary, *id, &found), file);
     const Handle depth(found);

@@ -20,6 +20,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_bytes.hpp"
+#include "core/video/formats/text_numbers.hpp"
 
 namespace dibhr {
 
@@ -107,8 +108,28 @@ constexpr std::string_view kReals =
     " real numbers of 32 bits without a header: convert it: python3 -c \"import numpy; "
     "numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape({sides}))\"";
 constexpr std::string_view kSurfaceX3p =
-    " is a measured surface (X3P): open it in Gwyddion (package gwyddion), save it as OpenEXR "
-    "(height.exr), and give that";
+    " is a measured surface (X3P): convert it: python3 -c \"import numpy, re, zipfile; z = "
+    "zipfile.ZipFile('{}'); m = z.read('main.xml').decode(); g = lambda t: re.search(t + "
+    "'>([^<]+)', m, 16)[1].strip(); t = dict(D='<f8', F='<f4', L='<i4', "
+    "I='<i2')[g('<CZ>.*?<DataType')]; numpy.save('height.npy', "
+    "numpy.frombuffer(z.read(g('<PointDataLink')), t).reshape(int(g('<SizeY')), "
+    "int(g('<SizeX'))).astype('<f4'))\", and give that";
+constexpr std::string_view kGwyddionField =
+    " is a measured surface (simple field of Gwyddion): convert it: python3 -c \"import numpy, re; "
+    "b = open('{}', 'rb').read(); c, r = (int(re.search(k + b'Res *= *([0-9]+)', b)[1]) for k in "
+    "(b'X', b'Y')); o = b.index(b'\\0'); numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * "
+    "r, o + 4 - o % 4).reshape(r, c))\", and give that";
+constexpr std::string_view kGwyddion =
+    " is a measured surface (of Gwyddion): open it there (package gwyddion), save its heights as "
+    "Gwyddion Simple Field (height.gsf), and give that";
+// Wilson, "Fast lossless depth image compression" (ISS 2017).
+constexpr std::string_view kRvl =
+    " holds depth packed with RVL, without a header: unpack it: python3 -c \"import numpy; s = "
+    "({sides}); n = iter((numpy.fromfile('{}', '<u4')[:, None] >> numpy.arange(28, -1, -4, 'u4') & "
+    "15).ravel().tolist()); v = lambda: (lambda x: x & 7 | (v() << 3 if x & 8 else 0))(next(n)); d "
+    "= []; p = 0; [d.extend([0] * v()) or [d.append(p := p + (lambda e: e >> 1 ^ -(e & 1))(v())) "
+    "for _ in range(v())] for _ in iter(lambda: len(d) < s[0] * s[1], False)]; "
+    "numpy.save('depth.npy', numpy.array(d, 'u2').reshape(s))\"";
 constexpr std::string_view kLfsPointer =
     " is a pointer of Git LFS, not the file itself: fetch it with git lfs pull in its clone "
     "(package git-lfs), or download it again by the Download button of its page";
@@ -184,6 +205,8 @@ constexpr std::array kUnsupportedForms{
                     " is a PDF document: take its pictures out with pdfimages -png {} picture "
                     "(package poppler-utils), and give the one of depth"},
     UnsupportedForm{"8BPS"sv, {}, kLayers},
+    UnsupportedForm{"Gwyddion Simple Field"sv, {}, kGwyddionField},
+    UnsupportedForm{"GWYP"sv, {}, kGwyddion},
     UnsupportedForm{"gimp xcf"sv, {}, kLayers},
     UnsupportedForm{"\x1f\x8b"sv, ".tgz", kTar},
     UnsupportedForm{"\x1f\x8b"sv, {}, " is packed with gzip: unpack it with gzip -dk {}"},
@@ -307,10 +330,11 @@ std::string name_in_command(const std::string& name, bool is_quoted) {
 }
 
 /// The sides of so many numbers, "ROWS, COLUMNS": by "160x120" in the name, by what cameras have,
-/// or as a square. In letters where none fits.
+/// or as a square. In letters where none fits. Of packed numbers, whose count is not known (0), by
+/// the name alone.
 std::string sides_of(const std::string& name, std::uint64_t numbers) {
     using Sides = std::array<std::uint64_t, 2>;  // columns, rows
-    constexpr std::array<Sides, 12> kOfCameras{{{640, 480},
+    constexpr std::array<Sides, 15> kOfCameras{{{640, 480},
                                                 {512, 424},
                                                 {320, 240},
                                                 {320, 288},
@@ -321,12 +345,17 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
                                                 {1280, 720},
                                                 {1280, 800},
                                                 {1920, 1080},
-                                                {256, 192}}};
+                                                {256, 192},
+                                                {224, 171},
+                                                {176, 144},
+                                                {160, 120}}};
+    const std::string kInLetters = "ROWS, COLUMNS";
     const auto text = [](const Sides& sides) {
         return std::to_string(sides[1]) + ", " + std::to_string(sides[0]);
     };
     const auto fits = [numbers](const Sides& sides) {
-        return sides[0] > 0 && numbers % sides[0] == 0 && numbers / sides[0] == sides[1];
+        return sides[0] > 0 && sides[1] > 0 &&
+               (numbers == 0 || (numbers % sides[0] == 0 && numbers / sides[0] == sides[1]));
     };
     for (std::size_t at = name.find_first_of("xX", 1); at != std::string::npos;
          at = name.find_first_of("xX", at + 1)) {
@@ -337,14 +366,15 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
         std::from_chars(name.data() + at + 1, name.data() + name.size(), sides[1]);
         if (fits(sides)) return text(sides);
     }
+    if (numbers == 0) return kInLetters;
     const auto* const usual = std::find_if(kOfCameras.begin(), kOfCameras.end(), fits);
     if (usual != kOfCameras.end()) return text(*usual);
     const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(numbers)));
-    return fits({root, root}) ? text({root, root}) : "ROWS, COLUMNS";
+    return fits({root, root}) ? text({root, root}) : kInLetters;
 }
 
-/// The advice for this file, with its name and the sides of its numbers.
-std::string filled(std::string_view advice, const fs::path& file, std::uint64_t number_bytes = 2) {
+/// The advice for this file, with its name and the sides of so many numbers.
+std::string filled(std::string_view advice, const fs::path& file, std::uint64_t numbers) {
     constexpr std::string_view kName = "{}";
     constexpr std::string_view kSides = "{sides}";
     const std::string name = file.filename().string();
@@ -355,8 +385,13 @@ std::string filled(std::string_view advice, const fs::path& file, std::uint64_t 
         at += word.size();
     }
     if (const auto at = text.find(kSides); at != std::string::npos)
-        text.replace(at, kSides.size(), sides_of(name, size_of(file) / number_bytes));
+        text.replace(at, kSides.size(), sides_of(name, numbers));
     return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
+}
+
+/// Likewise of numbers of 16 bits, which are the whole file.
+std::string filled(std::string_view advice, const fs::path& file) {
+    return filled(advice, file, size_of(file) / 2);
 }
 
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
@@ -416,94 +451,20 @@ bool are_reals(std::string_view bytes) {
     return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
 }
 
-/// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
-/// would have the decoder open other files. A video of plain pictures has a header in text.
-bool begins_like_text(const fs::path& file) {
-    constexpr std::size_t kLines_bytes = 512;
-    const std::string head = beginning_of(file, kLines_bytes);
-    if (head.starts_with("YUV4MPEG2 ")) return false;
-    return std::all_of(head.begin(), head.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
-    });
+std::string advice_by_ending(const fs::path& file) {
+    if (lower_case(file.extension().string()) == ".rvl") return filled(kRvl, file, 0);
+    return advice_of(kUnsupportedEndings, file, {});
 }
 
-/// Numbers in text, after lines of other text.
-struct NumbersInText {
-    std::string before{};  ///< the other lines
-    std::size_t lines_before{0};
-    char between{' '};       ///< a comma, a semicolon or a blank
-    bool has_commas{false};  ///< in the numbers, for points
-    bool are_rows{false};    ///< each line is a row of a picture
-};
-
-/// Whether the line has what numbers are written with, and nothing else.
-bool is_of_numbers(std::string_view line) {
-    return line.find_first_not_of("+-.eE,; \t\rnaifNAIF0123456789") == std::string_view::npos &&
-           (line.find_first_of("0123456789") != std::string_view::npos ||
-            line.find("nan") != std::string_view::npos ||
-            line.find("NaN") != std::string_view::npos);
-}
-
-std::optional<NumbersInText> find_numbers_in_text(std::string_view text) {
-    constexpr std::size_t kMostLinesBefore = 40;
-    NumbersInText found;
-    std::array<std::string_view, 2> lines{};
-    std::size_t taken = 0;
-    while (!text.empty() && taken < lines.size() && found.lines_before <= kMostLinesBefore) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        if (is_of_numbers(line)) {
-            lines[taken++] = line;
-        } else if (taken > 0) {
-            return std::nullopt;  // a table with words in it
-        } else {
-            found.before += line;
-            ++found.lines_before;
-        }
-    }
-    if (taken == 0) return std::nullopt;
-    const std::string_view first = lines[0];
-    const auto digits = std::count_if(first.begin(), first.end(), is_decimal_digit);
-    const auto others = std::count_if(first.begin(), first.end(), [](char c) {
-        return std::string_view("+-.eE").find(c) != std::string_view::npos;
-    });
-    if (digits < others) return std::nullopt;
-    const bool has_semicolons = first.find(';') != std::string_view::npos;
-    found.has_commas = has_semicolons && first.find(',') != std::string_view::npos;
-    found.between = has_semicolons ? ';' : first.find(',') != std::string_view::npos ? ',' : ' ';
-    found.are_rows =
-        taken == lines.size() &&
-        first.find_first_of(",; \t", first.find_first_not_of(" \t")) != std::string_view::npos;
-    return found;
-}
-
-std::string advice_on_numbers_in_text(const fs::path& file) {
-    if (!begins_like_text(file)) return {};
-    const auto numbers = find_numbers_in_text(beginning_of(file, kInspected_bytes));
-    if (!numbers) return {};
-    const bool are_heights = hold(lower_case(numbers->before), "height");
-    std::string load = numbers->has_commas
-                           ? "[line.replace(',', '.') for line in open('{}', encoding='latin-1')]"
-                           : "'{}'";
-    if (numbers->between != ' ') load += std::string(", delimiter='") + numbers->between + "'";
-    if (numbers->lines_before > 0)
-        load += ", skiprows=" + std::to_string(numbers->lines_before) +
-                (numbers->has_commas ? "" : ", encoding='latin-1'");
-    const char* const what = numbers->between == ' '
-                                 ? " holds numbers as text: if they are depth"
-                                 : " is a table in text: if its cells are depth";
-    return filled(std::string(what) + ", convert it: python3 -c \"import numpy; numpy.save('" +
-                      (are_heights ? "height" : "depth") + ".npy', numpy.loadtxt(" + load + ")" +
-                      (numbers->are_rows ? "" : ".reshape(ROWS, COLUMNS)") + ")\"",
-                  file);
+std::string filled_advice_on_text(const fs::path& file) {
+    const TextAdvice advice = advice_on_numbers_in_text(file);
+    return advice.words.empty() ? advice.words : filled(advice.words, file, advice.numbers);
 }
 
 std::string advice_on_headerless(const fs::path& file) {
     const std::uint64_t bytes = size_of(file);
     if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
-        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, 4);
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, bytes / 4);
     return advice_of(kHeaderlessEndings, file, {});
 }
 
@@ -533,9 +494,9 @@ void require_readable(const fs::path& file) {
 
 std::string advice_on_form(const fs::path& file) {
     std::string advice = advice_on_unsupported(file);
-    if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_by_ending(file);
     if (advice.empty() && lower_case(file.extension().string()) == ".csv")
-        advice = advice_on_numbers_in_text(file);
+        advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     return advice;
 }
@@ -557,8 +518,8 @@ std::string advice_on_depth_within(const fs::path& file) {
 }
 
 void require_no_other_form(const fs::path& file) {
-    std::string advice = advice_of(kUnsupportedEndings, file, {});
-    if (advice.empty()) advice = advice_on_numbers_in_text(file);
+    std::string advice = advice_by_ending(file);
+    if (advice.empty()) advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     if (!advice.empty()) throw InputError(shown(file) + advice);
     if (begins_like_text(file))

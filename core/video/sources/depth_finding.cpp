@@ -50,8 +50,8 @@ void append(const Findings& more, Findings& rows) {
 }
 
 /// The data set of a source, but for one whose levels are decoded, and say it themselves.
-std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
-    auto set = data_set_of(facts);
+std::optional<DataSetFacts> data_set_beside_codes(Sources& sources) {
+    auto set = sources.data_set.of(sources.depth->facts());
     if (set && set->finding.statement.code) set.reset();
     return set;
 }
@@ -79,7 +79,7 @@ Findings findings_in_folder(const fs::path& folder, int bits) {
 Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
-    if (!facts.live) rows.push_back(finding_on_form(facts));
+    if (sources.reader != nullptr) rows.push_back(finding_on_form(*sources.reader, facts));
     append(facts.findings, rows);
     append(sources.findings, rows);
     if (set) rows.push_back(set->finding);
@@ -295,7 +295,7 @@ DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
     return said;
 }
 
-FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
+FoundScale find_scale(Sources& sources, const DepthRequest& request) {
     PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
@@ -310,7 +310,7 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources, data_set_beside_codes(facts));
+        rows = findings_on(sources, data_set_beside_codes(sources));
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));

@@ -17,6 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/sources/coded_levels.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/layouts/layouts.hpp"

@@ -41,9 +41,10 @@ constexpr std::array<std::string_view, 11> kMayBeColour{"image",  "images", "img
 // "mono_depth", "depth maps"
 constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
-// After the word that decides: "normal_gl_2k", "confidence_image", "labelIds", "flow_occ".
-constexpr std::array<std::string_view, 11> kPassedWords{"map", "maps", "image", "img", "gl", "dx",
-                                                        "k",   "px",   "ids",   "occ", "noc"};
+// After the word that decides: "normal_gl_2k", "confidence_image", "labelIds", "normal_pred".
+constexpr std::array<std::string_view, 13> kPassedWords{"map", "maps", "image",     "img", "gl",
+                                                        "dx",  "k",    "px",        "ids", "occ",
+                                                        "noc", "pred", "prediction"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
@@ -53,16 +54,7 @@ constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", 
                                                         ".mpg", ".ogv", ".ts",  ".webm"};
 
 bool ends_as(const fs::path& file, Words endings) {
-    const std::string ending = lower_case(file.extension().string());
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-bool is_one_of(std::string_view word, Words words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_of_digits(const std::string& word) {
-    return std::all_of(word.begin(), word.end(), is_decimal_digit);
+    return is_one_of(lower_case(file.extension().string()), endings);
 }
 
 bool holds(const fs::path& file, Words anywhere, Words whole) {

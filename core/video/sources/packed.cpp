@@ -196,11 +196,6 @@ const PackingWord* packing_word(const std::string& word) {
     return found == kPackingWords.end() ? nullptr : found;
 }
 
-bool is_number(const std::string& word) {
-    return std::all_of(word.begin(), word.end(),
-                       [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 }  // namespace
 
 PackedForm form_by_appearance(const PictureGuess& guess) {
@@ -371,7 +366,7 @@ std::optional<NamedPacking> packing_by_name(const fs::path& file) {
     // Only words at the end count: others may mean anything.
     for (auto word = words.rbegin(); word != words.rend(); ++word) {
         const PackingWord* const known = packing_word(*word);
-        if (known == nullptr && !is_number(*word)) break;
+        if (known == nullptr && !is_of_digits(*word)) break;
         if (known == nullptr) continue;
         if (known->packing) said.packing = *known->packing;
         said.half_size = said.half_size || known->half_size;

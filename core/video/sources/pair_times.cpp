@@ -75,18 +75,15 @@ void TimeMap::change(SourceFacts& facts) const {
 
 RetimedPictures::RetimedPictures(std::unique_ptr<PictureSource> source, TimeMap times,
                                  Timing timing, double start_s)
-    : source_(std::move(source)),
-      times_(std::move(times)),
-      timing_(std::move(timing)),
-      start_s_(start_s) {
-    update_facts();
+    : source_(std::move(source)), times_(std::move(times)), facts_(source_->facts()) {
+    times_.change(facts_);
+    facts_.timing = std::move(timing);
+    if (!std::isnan(start_s)) facts_.start_s = start_s;
 }
 
 void RetimedPictures::update_facts() {
-    facts_ = source_->facts();
+    facts_.take_progress(source_->facts());
     times_.change(facts_);
-    facts_.timing = timing_;
-    if (!std::isnan(start_s_)) facts_.start_s = start_s_;
 }
 
 std::optional<TimedPicture> RetimedPictures::retimed(std::optional<TimedPicture> taken) {

@@ -132,18 +132,14 @@ struct DataSet {
 
 void take_levels_per_m(const CameraFile& camera, DataSetFacts& found) {
     if (!camera.levels_per_m) return;
-    const bool is_mm = found.finding.statement.unit == DepthUnit::mm;
-    found.finding.statement.scale = (is_mm ? 1000.0 : 1.0) / *camera.levels_per_m;
-}
-
-int number_of(const SourceFacts& facts) {
-    constexpr double kMost = 1e9;
-    const double number = numbered(facts.picture()).number.value_or(0.0);
-    return number < kMost ? static_cast<int>(number) : 0;
+    const double metre_mm = one_in_mm(DepthUnit::m);
+    const DepthUnit unit = found.finding.statement.unit.value_or(DepthUnit::mm);
+    found.finding.statement.scale = metre_mm / one_in_mm(unit) / *camera.levels_per_m;
 }
 
 bool read_bop(const fs::path& folder, const SourceFacts& facts, DataSetFacts& found) {
-    found.camera = read_camera_bop(folder / ".." / "scene_camera.json", number_of(facts));
+    found.camera =
+        read_camera_bop(folder / ".." / "scene_camera.json", number_in_name(facts.picture()));
     if (!found.camera || !found.camera->levels_per_m) return false;
     take_levels_per_m(*found.camera, found);
     return true;
@@ -374,6 +370,14 @@ std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
         return found;
     }
     return std::nullopt;
+}
+
+const std::optional<DataSetFacts>& KnownDataSet::of(const SourceFacts& facts) {
+    if (picture_ == facts.picture() && bits_ == facts.bits) return found_;
+    found_ = data_set_of(facts);
+    picture_ = facts.picture();
+    bits_ = facts.bits;
+    return found_;
 }
 
 }  // namespace dibhr

@@ -107,28 +107,10 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     return facts;
 }
 
-/// The camera that a data set has in a file beside; data_sets.cpp has the other facts.
-LayoutFacts camera_of_data_set(const PictureSet& set) {
-    LayoutFacts facts;
-    if (set.depth.empty()) return facts;
-    SourceFacts depth;
-    depth.file = set.depth.front().file;
-    depth.bits = 16;
-    const auto found = data_set_of(depth);
-    if (!found || !found->camera || !is_camera(found->camera->intrinsics)) return facts;
-    CameraFile camera = *found->camera;
-    camera.levels_per_m.reset();
-    take_camera(camera, facts);
-    facts.finding.reason = found->finding.reason;
-    facts.finding.sureness = found->finding.sureness;
-    return facts;
-}
-
 LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
     if (auto facts = facts_of_folders(folder, set)) return *facts;
-    LayoutFacts scanned = scanner_facts(folder);
-    return scanned.finding.statement == DepthStatement{} ? camera_of_data_set(set) : scanned;
+    return scanner_facts(folder);
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.
@@ -398,17 +380,18 @@ void add_camera_beside(Sources& sources) {
     if (facts.live || facts.cameras) return;
     Findings rows = facts.findings;
     rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
-    if (const auto set = data_set_of(facts)) rows.push_back(set->finding);
+    const auto& set = sources.data_set.of(facts);
+    if (set) rows.push_back(set->finding);
     const DepthStatement known = sure_facts({}, rows);
     const bool is_row = !facts.first_picture.empty();
     const fs::path& picture = facts.picture();
     std::error_code failed;
     const fs::path folder = fs::absolute(picture, failed).parent_path();
-    constexpr double kMostNumber = 1e9;
-    const int number =
-        static_cast<int>(std::min(numbered(picture).number.value_or(0.0), kMostNumber));
-    const auto beside =
-        read_camera_beside(picture, is_row || named_depth(folder.filename()), number);
+    const bool has_own = set && set->camera && is_camera(set->camera->intrinsics);
+    const auto beside = has_own
+                            ? std::optional(CameraBeside{.camera = *set->camera})
+                            : read_camera_beside(picture, is_row || named_depth(folder.filename()),
+                                                 number_in_name(picture));
     if (!beside) return;
     DepthStatement said;
     const CameraFile& camera = beside->camera;
@@ -420,10 +403,12 @@ void add_camera_beside(Sources& sources) {
     }
     if (camera.levels_per_m && facts.bits == 16 && !known.unit) {
         said.unit = DepthUnit::mm;
-        said.scale = 1000.0 / *camera.levels_per_m;
+        said.scale = one_in_mm(DepthUnit::m) / *camera.levels_per_m;
     }
     if (said == DepthStatement{}) return;
-    sources.findings.push_back(finding_of_metadata(said, shown(beside->file.filename())));
+    sources.findings.push_back(
+        has_own ? Finding{said, Evidence::layout, set->finding.sureness, set->finding.reason}
+                : finding_of_metadata(said, shown(beside->file.filename())));
 }
 
 MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {

@@ -54,6 +54,12 @@ NumberedPicture numbered(const fs::path& file) {
     return {file, number_of_text(std::string(first, last)).value_or(0.0), decimal};
 }
 
+int number_in_name(const fs::path& file) {
+    constexpr double kMost = 1e9;
+    const double number = numbered(file).number.value_or(0.0);
+    return number < kMost ? static_cast<int>(number) : 0;
+}
+
 namespace {
 
 constexpr double kLongestRow_s = 1e6;

@@ -54,6 +54,9 @@ struct PictureSet {
 
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
 
+/// The number in a picture's name as a file beside names the picture (BOP); 0: none, or too large.
+[[nodiscard]] int number_in_name(const std::filesystem::path& file);
+
 /// Whether every number occurs once, and all have a decimal point, or none.
 [[nodiscard]] bool has_order(const PictureRow& row, bool decimal);
 

@@ -215,3 +215,19 @@ TEST_CASE("a data set's turned bits are turned back, but not in a copy that some
     CHECK(meaning.range.value.far < 1600.0);
     CHECK(meaning.range.value.near > 900.0);
 }
+
+TEST_CASE("the data set of a source is looked for once, and again for other levels", "[sets]") {
+    const TemporaryFolder folder;
+    SourceFacts facts;
+    facts.file = folder / "indoors_depth.npy";
+    facts.bits = kRealBits;
+    write_text(folder / "indoors_depth_mask.npy", "");
+    KnownDataSet known;
+    REQUIRE(known.of(facts).has_value());
+    fs::remove(folder / "indoors_depth_mask.npy");
+    CHECK(known.of(facts)->name == "DIODE");
+    facts.bits = 16;
+    CHECK_FALSE(known.of(facts).has_value());
+    facts.bits = kRealBits;
+    CHECK_FALSE(known.of(facts).has_value());
+}

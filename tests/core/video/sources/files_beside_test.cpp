@@ -75,7 +75,7 @@ TEST_CASE("the last word of a name says that it is a mask, confidence or a paint
          {"a_depth_mask.npy", "depthMask.png", "depth_conf_0001.png", "confidence", "depth_vis.mp4",
           "depth_colored.png", "rock_nor_gl_2k.png", "thumbnail.jpg", "snap_Infrared.png",
           "depth_normals", "confidence_map.png", "gtFine_labelIds.png", "flow_occ",
-          "frame_0001_flow.png", "confidence_image.npy", "mask_img_07.png"}) {
+          "frame_0001_flow.png", "confidence_image.npy", "mask_img_07.png", "normal_pred.npy"}) {
         CAPTURE(name);
         CHECK_FALSE(named_other(name).empty());
         CHECK_FALSE(named_depth(name));
