@@ -550,15 +550,27 @@ DepthRange SampledLevels::range(const DepthMeaning& meaning) const {
     return not_empty({value(near), value(far)}, meaning, highest);
 }
 
-/// Mean difference of levels side by side, both of them data.
-double SampledLevels::mean_step() const {
-    Mean step;
+/// Differences of levels side by side, both of them data.
+std::vector<double> SampledLevels::steps() const {
+    std::vector<double> steps;
     for (const LevelLattice& lattice : lattices_)
         for (std::size_t k = 0; k < lattice.levels.size(); ++k)
             if (is_data(lattice.levels[k]) && is_data(lattice.beside[k]))
-                step.add(std::fabs(static_cast<double>(lattice.levels[k]) -
-                                   static_cast<double>(lattice.beside[k])));
-    return step.count > 0.0 ? step.value() : 0.0;
+                steps.push_back(std::fabs(static_cast<double>(lattice.levels[k]) -
+                                          static_cast<double>(lattice.beside[k])));
+    return steps;
+}
+
+/// Whether levels jump at places, as at outlines of things that a camera sees.
+bool SampledLevels::has_outlines() const {
+    constexpr double kLeastOfSpan = 0.1;
+    constexpr double kLeastOfSteps = 0.002;
+    if (levels_.empty()) return false;
+    const double jump = kLeastOfSpan * (quantile(levels_, 1.0 - kTail) - quantile(levels_, kTail));
+    const std::vector<double> all = steps();
+    const auto jumps =
+        std::count_if(all.begin(), all.end(), [jump](double step) { return step > jump; });
+    return static_cast<double>(jumps) > kLeastOfSteps * static_cast<double>(all.size());
 }
 
 bool SampledLevels::may_be_terrain() const {
@@ -576,8 +588,10 @@ bool SampledLevels::may_be_terrain() const {
     const bool in_metres = lowest >= kDeepest_m && highest <= kHighest_m &&
                            (lowest < -kMostOfOthers || highest > kMostOfOthers);
     const bool in_kelvin = lowest >= kColdest_K && highest <= kHottest_K;
-    return in_metres && !in_kelvin && std::fabs(lowest) > kAboutZero &&
-           mean_step() <= kRough * (highest - lowest);
+    Mean step;
+    for (const double each : steps()) step.add(each);
+    const bool is_smooth = step.count > 0.0 && step.value() <= kRough * (highest - lowest);
+    return in_metres && !in_kelvin && std::fabs(lowest) > kAboutZero && is_smooth;
 }
 
 double SampledLevels::holes_share() const {

@@ -76,7 +76,8 @@ class SampledLevels {
     [[nodiscard]] bool is_scattered() const;
     [[nodiscard]] Findings contradiction(const Finding& finding) const;
     [[nodiscard]] Findings signed_disparity(const Findings& findings) const;
-    [[nodiscard]] double mean_step() const;
+    [[nodiscard]] std::vector<double> steps() const;
+    [[nodiscard]] bool has_outlines() const;
     [[nodiscard]] SlopeShape slope_shape() const;
     [[nodiscard]] Findings units_of_integers() const;
     [[nodiscard]] Findings units_of_numbers() const;
