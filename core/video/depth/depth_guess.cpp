@@ -114,7 +114,7 @@ struct IntegerScale {
 };
 
 constexpr std::array<IntegerScale, 5> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4, 0.4},
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.74, 0.6, 0.5, 0.4, 0.4},
     {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1, 0.02},           // TUM: 5000 a metre
     {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9, 0.05},  // street data sets
     {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06, 0.05},        // simulators: centimetres
