@@ -190,7 +190,8 @@ TEST_CASE("a stated code whose bytes are in another order is refused with the ri
     const double nearest = is_float ? 0.6 : right == DepthCode::gb16 ? 500.0 : 3e6;
     const double farthest = is_float ? 9.0 : right == DepthCode::gb16 ? 4500.0 : 1.5e7;
     picture(in_bytes(scene_between(nearest, farthest), right))(folder / "a.png");
-    const std::string line = refusal([&] { (void)open_depth(folder / "a.png", told(stated)); });
+    const DepthRequest request = told(stated);
+    const std::string line = refusal([&] { (void)open_depth(folder / "a.png", request); });
     check_one_line(line, folder / "a.png");
     CHECK(line.ends_with("--depth-code " + std::string(name_of(right))));
     const DepthMeaning meaning = meaning_of(*open_depth(folder / "a.png", kAsFound));
