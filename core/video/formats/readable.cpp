@@ -82,8 +82,8 @@ constexpr std::string_view kTrueMap =
     "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
 constexpr std::string_view kPointCloud =
     " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare (package "
-    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
-    "and give that";
+    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif, "
+    "or depth.tif where Z points away from the camera), and give that";
 constexpr std::string_view kLas =
     " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
     "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
@@ -390,10 +390,6 @@ std::string filled(std::string_view advice, const fs::path& file, std::uint64_t 
 }
 
 /// Likewise of numbers of 16 bits, which are the whole file.
-std::string filled(std::string_view advice, const fs::path& file) {
-    return filled(advice, file, size_of(file) / 2);
-}
-
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
 /// none of the forms fits.
 template <std::size_t count>
@@ -404,7 +400,7 @@ std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs:
         return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
                name.ends_with(form.ending);
     });
-    return found == forms.end() ? std::string() : filled(found->advice, file);
+    return found == forms.end() ? std::string() : filled_advice(found->advice, file);
 }
 
 std::string advice_on_unsupported(const fs::path& file) {
@@ -412,19 +408,19 @@ std::string advice_on_unsupported(const fs::path& file) {
     const std::string head = beginning_of(file, kMagic_bytes);
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
-    if (head.starts_with("#ROSBAG V")) return filled(advice_on_bag(file), file);
+    if (head.starts_with("#ROSBAG V")) return filled_advice(advice_on_bag(file), file);
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kZip) && !is_npz(file, head))
         return lower_case(file.extension().string()) == ".npz"
                    ? " is damaged, or holds no array: save it again by numpy.savez"
-                   : filled(kZipArchive, file);
+                   : filled_advice(kZipArchive, file);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     const std::string name = lower_case(file.filename().string());
     const auto* const sized =
         std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
             return name.ends_with(form.ending) && form.fits(head, size_of(file));
         });
-    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+    return sized == kSizedForms.end() ? std::string() : filled_advice(sized->advice, file);
 }
 
 /// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
@@ -501,6 +497,10 @@ std::string advice_on_form(const fs::path& file) {
     return advice;
 }
 
+std::string filled_advice(std::string_view advice, const fs::path& file) {
+    return filled(advice, file, size_of(file) / 2);
+}
+
 std::string advice_on_depth_within(const fs::path& file) {
     // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth.
     constexpr std::size_t kList_bytes = 4096;
@@ -510,7 +510,7 @@ std::string advice_on_depth_within(const fs::path& file) {
     if (!end.ends_with("SEFT") || list == std::string::npos ||
         end.find("\0\0\xb1\x0a"sv, list) == std::string::npos)
         return {};
-    return filled(
+    return filled_advice(
         " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
         "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
         "second file",

@@ -190,7 +190,7 @@ TEST_CASE("the command for a table in text gives its rows, whatever is before an
     const auto [name, text, saved] = GENERATE(table<std::string, std::string, std::string>(
         {{"plain.csv", "1,2,3\n4,5,6\n", "depth.npy"},
          {"高さ.csv", "\"Keyence VK-X\"\n\"高さ\",\"µm\"\n\n1.0,2.0,3.0\n4.0,5.0,6.0\n",
-          "depth.npy"},
+          "height.npy"},
          {"comma.csv", "a;b;c\n1,0;2,0;3,0\n4,0;5,0;6,0\n", "depth.npy"},
          {"afm.txt", "# Channel: Height\n# Units: nm\n1.0\t2.0\t3.0\n4.0\t5.0\t6.0\n",
           "height.npy"},
