@@ -12,9 +12,11 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -403,9 +405,83 @@ std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs:
     return found == forms.end() ? std::string() : filled_advice(found->advice, file);
 }
 
+/// Points in the order of the pixels of a camera, each of some numbers of 32 bits.
+struct PixelPoints {
+    std::uint64_t columns{0};
+    std::uint64_t rows{0};
+    std::uint64_t count{0};              ///< 0: not stated
+    std::vector<std::string> numbers{};  ///< "x", "y", "z", ...
+    bool are_real{true};
+    bool are_binary{false};
+};
+
+/// Takes what a line of a header states: of PLY, with the size as 3D scanners add it, or of PCD.
+/// False at the last line.
+bool take_line(const std::string& line, PixelPoints& points) {
+    std::istringstream in(line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(std::move(word));
+    words.resize(std::max<std::size_t>(words.size(), 3));
+    const std::string& first = words[0];
+    const auto is_all = [&](const char* value) {
+        return std::all_of(words.begin() + 1, words.end(), [value](const std::string& word) {
+            return word.empty() || word == value;
+        });
+    };
+    const bool is_info = first == "obj_info";
+    const std::string key = lower_case(is_info ? words[1] : first);
+    const std::string& value = is_info ? words[2] : words[1];
+    std::uint64_t number = 0;
+    std::from_chars(value.data(), value.data() + value.size(), number);
+    if (key == "width") points.columns = number;
+    if (key == "height") points.rows = number;
+    if (first == "element" && words[1] == "vertex")
+        std::from_chars(words[2].data(), words[2].data() + words[2].size(), points.count);
+    if (first == "property") {
+        points.numbers.push_back(words[2]);
+        points.are_real &= words[1] == "float" || words[1] == "float32";
+    }
+    if (first == "FIELDS") points.numbers.assign(words.begin() + 1, words.end());
+    if ((first == "SIZE" && !is_all("4")) || (first == "COUNT" && !is_all("1")))
+        points.are_real = false;
+    if (first == "format") points.are_binary = words[1] == "binary_little_endian";
+    if (first == "DATA") points.are_binary = words[1] == "binary";
+    return first != "end_header" && first != "DATA";
+}
+
+/// What to do about a cloud whose points are in the order of the pixels; empty for others.
+std::string advice_on_pixel_points(const fs::path& file) {
+    constexpr std::size_t kHeader_bytes = 4096;
+    std::istringstream header(beginning_of(file, kHeader_bytes));
+    PixelPoints points;
+    std::string line;
+    bool is_complete = false;
+    while (!is_complete && std::getline(header, line)) is_complete = !take_line(line, points);
+    if (!is_complete || !header) return {};
+    const auto at = static_cast<std::uint64_t>(header.tellg());
+    const auto z = std::find(points.numbers.begin(), points.numbers.end(), "z");
+    const bool is_picture = points.columns >= 2 && points.rows >= 2 &&
+                            points.columns <= kMostPixels / points.rows &&
+                            (points.count == 0 || points.count == points.columns * points.rows);
+    if (!is_picture || !points.are_real || !points.are_binary || z == points.numbers.end())
+        return {};
+    const std::string sides = std::to_string(points.rows) + ", " + std::to_string(points.columns);
+    const std::string numbers = std::to_string(points.numbers.size());
+    return filled_advice(
+        " is a point cloud in the order of the pixels, not a picture of depth: save its distances: "
+        "python3 -c \"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4', " +
+            std::to_string(points.columns * points.rows) + " * " + numbers +
+            ", offset=" + std::to_string(at) + ").reshape(" + sides + ", " + numbers + ")[..., " +
+            std::to_string(z - points.numbers.begin()) + "])\", and give that",
+        file);
+}
+
 std::string advice_on_unsupported(const fs::path& file) {
     constexpr std::size_t kMagic_bytes = 512;
     const std::string head = beginning_of(file, kMagic_bytes);
+    if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("# .PCD")) {
+        if (std::string advice = advice_on_pixel_points(file); !advice.empty()) return advice;
+    }
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
     if (head.starts_with("#ROSBAG V")) return filled_advice(advice_on_bag(file), file);

@@ -225,6 +225,29 @@ TEST_CASE("the command for points in text gives the distances of the pixels", "[
     CHECK(depth.at<float>(119, 7) == 8.5F);
 }
 
+TEST_CASE("the command for a cloud in the order of the pixels gives their distances", "[foreign]") {
+    const TemporaryFolder folder;
+    const auto [name, header] = GENERATE(table<std::string, std::string>(
+        {{"a.ply",
+          "ply\nformat binary_little_endian 1.0\nobj_info Width 3\nobj_info Height 2\n"
+          "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n"},
+         {"a.pcd",
+          "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\n"
+          "HEIGHT 2\nPOINTS 6\nDATA binary\n"}}));
+    CAPTURE(name);
+    std::vector<float> numbers;
+    for (int k = 0; k < 6; ++k)
+        numbers.insert(numbers.end(), {0.0F, 0.0F, 700.0F + static_cast<float>(k)});
+    write_text(folder / name, header + raw_bytes_of(numbers));
+    const std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    CHECK(contains(said, "is a point cloud"));
+    convert(said, folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(3, 2));
+    CHECK(depth.at<float>(1, 2) == 705.0F);
+}
+
 TEST_CASE("the command for a simple field of Gwyddion gives its heights", "[foreign]") {
     const TemporaryFolder folder;
     const std::string head = "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nZUnits = m\n";
