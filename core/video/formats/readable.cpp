@@ -375,6 +375,18 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
     return fits({root, root}) ? text({root, root}) : kInLetters;
 }
 
+/// The sides of so many numbers in the shape of a photo, "ROWS, COLUMNS"; empty where none fit.
+std::string sides_as_of_photo(const fs::path& file, std::uint64_t numbers) {
+    std::ifstream in(file, std::ios::binary);
+    const auto photo = claimed_size(in);
+    if (!photo || photo->columns < 1 || photo->rows < 1) return {};
+    const double shape = static_cast<double>(photo->columns) / static_cast<double>(photo->rows);
+    const auto columns =
+        static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(numbers) * shape)));
+    if (columns == 0 || numbers % columns != 0) return {};
+    return std::to_string(numbers / columns) + ", " + std::to_string(columns);
+}
+
 /// The advice for this file, with its name and the sides of so many numbers.
 std::string filled(std::string_view advice, const fs::path& file, std::uint64_t numbers) {
     constexpr std::string_view kName = "{}";
@@ -578,19 +590,35 @@ std::string filled_advice(std::string_view advice, const fs::path& file) {
 }
 
 std::string advice_on_depth_within(const fs::path& file) {
-    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth.
+    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth, of
+    // 8 bits, and 0x0ab3 has its size.
     constexpr std::size_t kList_bytes = 4096;
+    constexpr std::string_view kMap = "\0\0\xb1\x0a"sv;
     if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
     const std::string end = end_of(file, kList_bytes);
     const auto list = end.rfind("SEFH");
-    if (!end.ends_with("SEFT") || list == std::string::npos ||
-        end.find("\0\0\xb1\x0a"sv, list) == std::string::npos)
-        return {};
-    return filled_advice(
-        " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
-        "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
-        "second file",
-        file);
+    const auto map = list == std::string::npos ? list : end.find(kMap, list);
+    if (!end.ends_with("SEFT") || map == std::string::npos) return {};
+    if (end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
+        return filled_advice(
+            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+            "second file",
+            file);
+    // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
+    constexpr std::uint64_t kBefore_bytes = 8 + 19;
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 4; k-- > 0 && map + 8 + k < end.size();)
+        bytes = bytes * 256 + static_cast<unsigned char>(end[map + 8 + k]);
+    if (bytes <= kBefore_bytes) return {};
+    const std::uint64_t levels = bytes - kBefore_bytes;
+    const std::string advice =
+        " holds a map of depth by Samsung, which is not read: take it out with python3 -c \"import "
+        "numpy; b = open('{}', 'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, 'u1', " +
+        std::to_string(levels) + ", b.rindex(b'DualShot_DepthMap_') + 19).reshape(";
+    const std::string rest = "))\", and give that as the second file";
+    const std::string by_photo = sides_as_of_photo(file, levels);
+    return filled(advice + (by_photo.empty() ? "{sides}" : by_photo) + rest, file, levels);
 }
 
 void require_no_other_form(const fs::path& file) {

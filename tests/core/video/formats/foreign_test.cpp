@@ -276,10 +276,21 @@ TEST_CASE("a photo with Samsung's map of depth in its trailer says how to take i
     const TemporaryFolder folder;
     const auto file = folder / "IMG_0001.jpg";
     REQUIRE(cv::imwrite(file.string(), cv::Mat(40, 60, CV_8UC3, cv::Scalar(90, 120, 200))));
-    const std::string trailer("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x10\0\0\0\x10\0\0\0SEFT", 28);
-    write_text(file, read_text(file) + trailer);
-    const std::string said = refusal([&] { (void)open_media(file); });
-    CHECK(contains(said, "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    const std::string photo = read_text(file);
+    const std::string block = std::string("\0\0\xb1\x0a\x13\0\0\0", 8) + "DualShot_DepthMap_1";
+    const std::string list("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x7b\0\0\0\x7b\0\0\0", 24);
+    std::string levels;
+    for (char k = 0; k < 12 * 8; ++k) levels += k;
+    const auto said = [&](const std::string& trailer) {
+        write_text(file, photo + trailer + "SEFT");
+        return refusal([&] { (void)open_media(file); });
+    };
+    CHECK(contains(said(list + std::string("\0\0\xb3\x0a", 4)),
+                   "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    convert(said(block + levels + list), folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(12, 8));
+    CHECK(depth.at<std::uint8_t>(1, 2) == 14);
 }
 
 TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {
