@@ -128,8 +128,7 @@ const char* refusal_without_depth(const fs::path& file) {
     if (holds("aux:hdrgainmap")) return kGainMapAlone;
     if (holds("aux:portraiteffectsmatte") || holds("aux:semantic"))
         return " is a photo that has only a mask of the person in it, and no depth: give a "
-               "portrait "
-               "photo that kept its depth, or give the depth file as the second file";
+               "portrait photo that kept its depth, or give the depth file as the second file";
     return " is a photo without depth: give a portrait photo, or a depth file beside it";
 }
 

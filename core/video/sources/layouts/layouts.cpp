@@ -339,8 +339,8 @@ std::string advice_without_pictures(const fs::path& folder) {
     if (folders.size() > kMostNamed)
         names.push_back(std::to_string(folders.size() - kMostNamed) + " more");
     return " of its own, and its folders " + listed(names) +
-           " are not named colour and depth: give the one of the colour first and then the one of "
-           "the depth";
+           " are not named colour and depth: give the colour folder first and then the depth "
+           "folder";
 }
 
 /// The pictures of that role, or those whose names state no role. Throws InputError when there are

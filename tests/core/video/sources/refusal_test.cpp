@@ -85,7 +85,7 @@ TEST_CASE("a folder whose folders are not named colour and depth says which they
     write_picture(folder / (above + "KUVA/0.png"), 8, 8, 8, 3, grey);
     const std::string two = refusal_of(folder.path());
     CHECK(holds(two, "'" + above + "KUVA', '" + above + "SYVYYS'"));
-    CHECK(holds(two, "give the one of the colour first"));
+    CHECK(holds(two, "give the colour folder first"));
 }
 
 TEST_CASE("a folder of a form that has to be converted says how", "[refusal]") {
