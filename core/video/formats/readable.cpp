@@ -403,7 +403,6 @@ std::string filled(std::string_view advice, const fs::path& file, std::uint64_t 
     return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
 }
 
-/// Likewise of numbers of 16 bits, which are the whole file.
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
 /// none of the forms fits.
 template <std::size_t count>
@@ -599,18 +598,17 @@ std::string advice_on_depth_within(const fs::path& file) {
     const auto list = end.rfind("SEFH");
     const auto map = list == std::string::npos ? list : end.find(kMap, list);
     if (!end.ends_with("SEFT") || map == std::string::npos) return {};
-    if (end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
-        return filled_advice(
-            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
-            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
-            "second file",
-            file);
     // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
     constexpr std::uint64_t kBefore_bytes = 8 + 19;
     std::uint64_t bytes = 0;
     for (std::size_t k = 4; k-- > 0 && map + 8 + k < end.size();)
         bytes = bytes * 256 + static_cast<unsigned char>(end[map + 8 + k]);
-    if (bytes <= kBefore_bytes) return {};
+    if (bytes <= kBefore_bytes || end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
+        return filled_advice(
+            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+            "second file",
+            file);
     const std::uint64_t levels = bytes - kBefore_bytes;
     const std::string advice =
         " holds a map of depth by Samsung, which is not read: take it out with python3 -c \"import "
