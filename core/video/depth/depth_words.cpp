@@ -85,6 +85,8 @@ struct DistanceWord {
 
 constexpr double kDarkOfDepth = 0.75;
 constexpr double kLevelsOfDepth = 0.3;
+constexpr std::string_view kChineseDepth = "\xe6\xb7\xb1\xe5\xba\xa6";
+constexpr std::string_view kChineseMap = "\xe6\xb7\xb1\xe5\xba\xa6\xe5\x9b\xbe";  // of depth
 constexpr std::array kDistanceWords{DistanceWord{"lidar", 0.97, 0.1, 0.9},
                                     DistanceWord{"velodyne", 0.97, 0.1, 0.9},
                                     DistanceWord{"metric", 0.97, 0.05, 0.0},
@@ -101,7 +103,9 @@ constexpr std::array kDistanceWords{DistanceWord{"lidar", 0.97, 0.1, 0.9},
                                     DistanceWord{"tiefenkarte", kDarkOfDepth, kLevelsOfDepth, 0.0},
                                     DistanceWord{"profondeur", kDarkOfDepth, kLevelsOfDepth, 0.0},
                                     DistanceWord{"profundidad", kDarkOfDepth, kLevelsOfDepth, 0.0},
-                                    DistanceWord{"profondita", kDarkOfDepth, kLevelsOfDepth, 0.0}};
+                                    DistanceWord{"profondita", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{kChineseDepth, kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{kChineseMap, kDarkOfDepth, kLevelsOfDepth, 0.0}};
 
 /// Beside these, a word for depth does not mean distances.
 constexpr std::array<std::string_view, 13> kRelativeWords{

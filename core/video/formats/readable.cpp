@@ -12,9 +12,11 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
@@ -82,8 +84,8 @@ constexpr std::string_view kTrueMap =
     "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
 constexpr std::string_view kPointCloud =
     " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare (package "
-    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
-    "and give that";
+    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif, "
+    "or depth.tif where Z points away from the camera), and give that";
 constexpr std::string_view kLas =
     " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
     "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
@@ -373,6 +375,18 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
     return fits({root, root}) ? text({root, root}) : kInLetters;
 }
 
+/// The sides of so many numbers in the shape of a photo, "ROWS, COLUMNS"; empty where none fit.
+std::string sides_as_of_photo(const fs::path& file, std::uint64_t numbers) {
+    std::ifstream in(file, std::ios::binary);
+    const auto photo = claimed_size(in);
+    if (!photo || photo->columns < 1 || photo->rows < 1) return {};
+    const double shape = static_cast<double>(photo->columns) / static_cast<double>(photo->rows);
+    const auto columns =
+        static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(numbers) * shape)));
+    if (columns == 0 || numbers % columns != 0) return {};
+    return std::to_string(numbers / columns) + ", " + std::to_string(columns);
+}
+
 /// The advice for this file, with its name and the sides of so many numbers.
 std::string filled(std::string_view advice, const fs::path& file, std::uint64_t numbers) {
     constexpr std::string_view kName = "{}";
@@ -389,11 +403,6 @@ std::string filled(std::string_view advice, const fs::path& file, std::uint64_t 
     return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
 }
 
-/// Likewise of numbers of 16 bits, which are the whole file.
-std::string filled(std::string_view advice, const fs::path& file) {
-    return filled(advice, file, size_of(file) / 2);
-}
-
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
 /// none of the forms fits.
 template <std::size_t count>
@@ -404,27 +413,101 @@ std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs:
         return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
                name.ends_with(form.ending);
     });
-    return found == forms.end() ? std::string() : filled(found->advice, file);
+    return found == forms.end() ? std::string() : filled_advice(found->advice, file);
+}
+
+/// Points in the order of the pixels of a camera, each of some numbers of 32 bits.
+struct PixelPoints {
+    std::uint64_t columns{0};
+    std::uint64_t rows{0};
+    std::uint64_t count{0};              ///< 0: not stated
+    std::vector<std::string> numbers{};  ///< "x", "y", "z", ...
+    bool are_real{true};
+    bool are_binary{false};
+};
+
+/// Takes what a line of a header states: of PLY, with the size as 3D scanners add it, or of PCD.
+/// False at the last line.
+bool take_line(const std::string& line, PixelPoints& points) {
+    std::istringstream in(line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(std::move(word));
+    words.resize(std::max<std::size_t>(words.size(), 3));
+    const std::string& first = words[0];
+    const auto is_all = [&](const char* value) {
+        return std::all_of(words.begin() + 1, words.end(), [value](const std::string& word) {
+            return word.empty() || word == value;
+        });
+    };
+    const bool is_info = first == "obj_info";
+    const std::string key = lower_case(is_info ? words[1] : first);
+    const std::string& value = is_info ? words[2] : words[1];
+    std::uint64_t number = 0;
+    std::from_chars(value.data(), value.data() + value.size(), number);
+    if (key == "width") points.columns = number;
+    if (key == "height") points.rows = number;
+    if (first == "element" && words[1] == "vertex")
+        std::from_chars(words[2].data(), words[2].data() + words[2].size(), points.count);
+    if (first == "property") {
+        points.numbers.push_back(words[2]);
+        points.are_real &= words[1] == "float" || words[1] == "float32";
+    }
+    if (first == "FIELDS") points.numbers.assign(words.begin() + 1, words.end());
+    if ((first == "SIZE" && !is_all("4")) || (first == "COUNT" && !is_all("1")))
+        points.are_real = false;
+    if (first == "format") points.are_binary = words[1] == "binary_little_endian";
+    if (first == "DATA") points.are_binary = words[1] == "binary";
+    return first != "end_header" && first != "DATA";
+}
+
+/// What to do about a cloud whose points are in the order of the pixels; empty for others.
+std::string advice_on_pixel_points(const fs::path& file) {
+    constexpr std::size_t kHeader_bytes = 4096;
+    std::istringstream header(beginning_of(file, kHeader_bytes));
+    PixelPoints points;
+    std::string line;
+    bool is_complete = false;
+    while (!is_complete && std::getline(header, line)) is_complete = !take_line(line, points);
+    if (!is_complete || !header) return {};
+    const auto at = static_cast<std::uint64_t>(header.tellg());
+    const auto z = std::find(points.numbers.begin(), points.numbers.end(), "z");
+    const bool is_picture = points.columns >= 2 && points.rows >= 2 &&
+                            points.columns <= kMostPixels / points.rows &&
+                            (points.count == 0 || points.count == points.columns * points.rows);
+    if (!is_picture || !points.are_real || !points.are_binary || z == points.numbers.end())
+        return {};
+    const std::string sides = std::to_string(points.rows) + ", " + std::to_string(points.columns);
+    const std::string numbers = std::to_string(points.numbers.size());
+    return filled_advice(
+        " is a point cloud in the order of the pixels, not a picture of depth: save its distances: "
+        "python3 -c \"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4', " +
+            std::to_string(points.columns * points.rows) + " * " + numbers +
+            ", offset=" + std::to_string(at) + ").reshape(" + sides + ", " + numbers + ")[..., " +
+            std::to_string(z - points.numbers.begin()) + "])\", and give that",
+        file);
 }
 
 std::string advice_on_unsupported(const fs::path& file) {
     constexpr std::size_t kMagic_bytes = 512;
     const std::string head = beginning_of(file, kMagic_bytes);
+    if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("# .PCD")) {
+        if (std::string advice = advice_on_pixel_points(file); !advice.empty()) return advice;
+    }
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
-    if (head.starts_with("#ROSBAG V")) return filled(advice_on_bag(file), file);
+    if (head.starts_with("#ROSBAG V")) return filled_advice(advice_on_bag(file), file);
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kZip) && !is_npz(file, head))
         return lower_case(file.extension().string()) == ".npz"
                    ? " is damaged, or holds no array: save it again by numpy.savez"
-                   : filled(kZipArchive, file);
+                   : filled_advice(kZipArchive, file);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     const std::string name = lower_case(file.filename().string());
     const auto* const sized =
         std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
             return name.ends_with(form.ending) && form.fits(head, size_of(file));
         });
-    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+    return sized == kSizedForms.end() ? std::string() : filled_advice(sized->advice, file);
 }
 
 /// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
@@ -501,20 +584,39 @@ std::string advice_on_form(const fs::path& file) {
     return advice;
 }
 
+std::string filled_advice(std::string_view advice, const fs::path& file) {
+    return filled(advice, file, size_of(file) / 2);
+}
+
 std::string advice_on_depth_within(const fs::path& file) {
-    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth.
+    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth, of
+    // 8 bits, and 0x0ab3 has its size.
     constexpr std::size_t kList_bytes = 4096;
+    constexpr std::string_view kMap = "\0\0\xb1\x0a"sv;
     if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
     const std::string end = end_of(file, kList_bytes);
     const auto list = end.rfind("SEFH");
-    if (!end.ends_with("SEFT") || list == std::string::npos ||
-        end.find("\0\0\xb1\x0a"sv, list) == std::string::npos)
-        return {};
-    return filled(
-        " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
-        "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
-        "second file",
-        file);
+    const auto map = list == std::string::npos ? list : end.find(kMap, list);
+    if (!end.ends_with("SEFT") || map == std::string::npos) return {};
+    // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
+    constexpr std::uint64_t kBefore_bytes = 8 + 19;
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 4; k-- > 0 && map + 8 + k < end.size();)
+        bytes = bytes * 256 + static_cast<unsigned char>(end[map + 8 + k]);
+    if (bytes <= kBefore_bytes || end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
+        return filled_advice(
+            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+            "second file",
+            file);
+    const std::uint64_t levels = bytes - kBefore_bytes;
+    const std::string advice =
+        " holds a map of depth by Samsung, which is not read: take it out with python3 -c \"import "
+        "numpy; b = open('{}', 'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, 'u1', " +
+        std::to_string(levels) + ", b.rindex(b'DualShot_DepthMap_') + 19).reshape(";
+    const std::string rest = "))\", and give that as the second file";
+    const std::string by_photo = sides_as_of_photo(file, levels);
+    return filled(advice + (by_photo.empty() ? "{sides}" : by_photo) + rest, file, levels);
 }
 
 void require_no_other_form(const fs::path& file) {

@@ -81,10 +81,14 @@ std::optional<NumbersInText> find_numbers_in_text(std::string_view text) {
     return found;
 }
 
-/// Whether numbers of these titles are heights, by what programs of microscopes write.
-bool are_heights(const std::string& before) {
-    constexpr std::array<std::string_view, 4> kWords{"height", "topograph", "elevation", "zscale"};
-    const std::string small = lower_case(before);
+/// Whether numbers are heights, by the name of the file and the titles that microscopes write.
+bool are_heights(const std::string& words) {
+    constexpr std::string_view kHeightInJapanese = "\xe9\xab\x98\xe3\x81\x95";
+    constexpr std::string_view kHeightInShiftJis = "\x8d\x82\x82\xb3";  // of Keyence
+    constexpr std::array<std::string_view, 8> kWords{
+        "height", "topograph",   "elevation",       "zscale",
+        "hoehe",  "h\xc3\xb6he", kHeightInJapanese, kHeightInShiftJis};
+    const std::string small = lower_case(words);
     return std::any_of(kWords.begin(), kWords.end(), [&small](std::string_view word) {
         return small.find(word) != std::string::npos;
     });
@@ -170,18 +174,21 @@ TextAdvice advice_on_numbers_in_text(const fs::path& file) {
     const std::string save = "python3 -c \"import numpy; numpy.save('";
     if (const auto z = column_of_z(*numbers))
         return {
-            " is a list of points in text: open it in CloudCompare (package cloudcompare), "
-            "choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), and "
-            "give that; or, if they are in the order of the pixels, save their distances: " +
+            " is a list of points in text: if they are in the order of the pixels, save their "
+            "distances: " +
                 save + "depth.npy', numpy.genfromtxt(" + arguments +
-                ", usecols=" + std::to_string(*z) + ").reshape({sides}))\"",
+                ", usecols=" + std::to_string(*z) +
+                ").reshape({sides}))\"; if not, open it in CloudCompare (package cloudcompare), "
+                "choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif, or "
+                "depth.tif where Z points away from the camera), and give that",
             lines_of_numbers(file)};
     const char* const what = numbers->between == ' '
                                  ? " holds numbers as text: if they are depth"
                                  : " is a table in text: if its cells are depth";
     return {std::string(what) + ", convert it: " + save +
-            (are_heights(numbers->before) ? "height" : "depth") + ".npy', numpy.genfromtxt(" +
-            arguments + ")" + (numbers->are_rows ? "" : ".reshape(ROWS, COLUMNS)") + ")\""};
+            (are_heights(numbers->before + file.stem().string()) ? "height" : "depth") +
+            ".npy', numpy.genfromtxt(" + arguments + ")" +
+            (numbers->are_rows ? "" : ".reshape(ROWS, COLUMNS)") + ")\""};
 }
 
 }  // namespace dibhr

@@ -28,9 +28,10 @@ using Words = std::span<const std::string_view>;
 // Anywhere in a name.
 constexpr std::array<std::string_view, 6> kColourWords{"colour", "color",   "rgb",
                                                        "albedo", "diffuse", "couleur"};
-constexpr std::array<std::string_view, 8> kDepthWords{"depth",        "disparity", "disparities",
-                                                      "displacement", "heightmap", "profondeur",
-                                                      "profundidad",  "profondita"};
+constexpr std::array<std::string_view, 9> kDepthWords{
+    "depth",        "disparity",  "disparities",
+    "displacement", "heightmap",  "profondeur",
+    "profundidad",  "profondita", "\xe6\xb7\xb1\xe5\xba\xa6"};  // Chinese
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 4> kShortColourWords{"diff", "farbe", "farben", "farbbild"};
 constexpr std::array<std::string_view, 6> kShortDepthWords{"disp",   "height",     "tiefe",

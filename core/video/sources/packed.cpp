@@ -312,16 +312,20 @@ bool has_decoded_levels(const SourceFacts& facts) {
 std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen) {
     if (is_colour_mapped(seen))
         return shown(facts.file) +
-               " is painted in the colours of a map (jet, viridis, ...), neither grey nor a known "
+               " is painted in false colours (such as jet or viridis), neither grey nor a known "
                "code of depth: give the numbers that it was painted from, as an array (.npy) or in "
-               "grey, or take its brightness by --depth-code grey";
+               "grey" +
+               (has_map_of_rising_brightness(seen)
+                    ? ", or take its brightness by --depth-code grey"
+                    : " (--depth-code grey would give a wrong relief)");
+    const std::string lossless_form = facts.still ? "as PNG" : kWithoutLoss;
     const std::string first = is_lossless(facts.codec) || facts.bits == kRealBits
                                   ? ""
                                   : "write it without the losses of " + one_line(facts.codec) +
-                                        ", " + kWithoutLoss + ", and ";
-    return shown(facts.file) +
-           " is in colours that are neither grey nor a known code of depth: give the depth itself, "
-           "as an array (.npy) or in grey, or, if its bytes hold a code, " +
+                                        ", " + lossless_form + ", and ";
+    return shown(facts.file) + (facts.still ? " is a colour picture" : " holds colour pictures") +
+           ", not depth: its colours are neither grey nor a known code of depth; give the depth "
+           "itself, as an array (.npy) or in grey, or, if its bytes hold a code, " +
            first + "name it with --depth-code";
 }
 

@@ -147,7 +147,7 @@ bool is_depth(const KnownPlace& place, const PictureGuess& guess) {
     return !first.empty() && !is_coloured(first.front());
 }
 
-constexpr const char* kAllTheSame = "; if it is depth all the same, say --depth-code grey";
+constexpr const char* kAllTheSame = "; if it is depth all the same, add --depth-code grey";
 
 /// " is named as a mask", by the name of a place or that of the folder of a picture that has only
 /// a number; empty: the names say nothing against depth.
@@ -166,7 +166,32 @@ bool is_below_depth(const fs::path& place) {
             subject_of(folder.parent_path().filename()).empty());
 }
 
-[[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
+/// " is a colour picture": what a place without depth is, after its name.
+std::string content_of_colour(const KnownPlace& place, bool is_grey) {
+    const std::string colour = is_grey ? "grey" : "colour";
+    if (place.is(PictureForm::video)) return " is a " + colour + " video";
+    return place.is(PictureForm::still) ? " is a " + colour + " picture"
+                                        : " holds " + colour + " pictures";
+}
+
+/// What to do about a picture whose alpha is not the same everywhere, so that it may be its depth.
+std::string advice_on_alpha(const KnownPlace& place) {
+    if (!place.is(PictureForm::still)) return {};
+    const std::vector<cv::Mat> pictures = place.open(PictureRole::depth)->samples(1);
+    if (pictures.empty() || pictures.front().channels() != 4) return {};
+    cv::Mat alpha;
+    cv::extractChannel(pictures.front(), alpha, 3);
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxIdx(alpha, &lowest, &highest);
+    if (lowest == highest) return {};
+    return filled_advice(
+        ", take it from its alpha if that is depth (ffmpeg -i {} -vf alphaextract depth.png)",
+        place.path);
+}
+
+[[noreturn]] void refuse_without_depth(const KnownPlace& place, const std::string& looked_for) {
+    const fs::path& colour = place.path;
     constexpr const char* kOrEstimate = ", or let an estimator make it (dibhr help depth)";
     const std::vector<cv::Mat> seen = colour_samples(colour, kKindSamples);
     if (!seen.empty() && has_painted_half(seen.front()))
@@ -176,30 +201,33 @@ bool is_below_depth(const fs::path& place) {
                          "it as the second file");
     if (const std::string named = no_depth_by_name(colour); !named.empty())
         throw DepthMissing(shown(colour) + named +
-                           ", neither as colour nor as depth: give the file of the depth, and "
-                           "before it that of the colour" +
+                           ", neither as colour nor as depth: give the depth file, and before it "
+                           "the colour file" +
                            kAllTheSame);
     const bool is_grey = !seen.empty() && std::none_of(seen.begin(), seen.end(), is_coloured);
     if (is_grey && !named_colour(colour))
-        throw DepthMissing(shown(colour) + " is grey and does not look like depth" + kAllTheSame +
-                           "; if it is the colour, it needs a depth file beside it: give one as "
-                           "the second file" +
+        throw DepthMissing(shown(colour) +
+                           " is grey and does not look like depth: if it is depth, add "
+                           "--depth-code grey; if it is a photo, it needs a depth file beside it: "
+                           "give one as the second file" +
                            kOrEstimate);
     if (!seen.empty() && !is_grey && is_below_depth(colour))
         throw DepthMissing(refusal_of_colours(
             open_picture_source(colour, PictureRole::colour)->facts(), seen.front()));
     if (!seen.empty() && std::all_of(seen.begin(), seen.end(), is_colour_mapped))
         throw DepthMissing(shown(colour) +
-                           " is painted in the colours of a map (jet, viridis, ...) and needs a "
+                           " is painted in false colours (such as jet or viridis) and needs a "
                            "depth file beside it: give the numbers that it was painted from, as an "
                            "array (.npy) or in grey, as the second file");
     if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
         throw DepthMissing(shown(colour) + advice);
     if (jpeg_has_gain_map(colour)) throw DepthMissing(shown(colour) + kGainMapAlone);
-    throw DepthMissing(shown(colour) +
-                       " needs a depth file beside it: give one as the second file" +
+    throw DepthMissing(shown(colour) + content_of_colour(place, is_grey) +
+                       " without depth and needs a depth file beside it: give one as the second "
+                       "file" +
                        (looked_for.empty() ? "" : " (looked for " + looked_for + ")") +
-                       ", name its halves if it holds both (--packing)" + kOrEstimate);
+                       advice_on_alpha(place) + ", name its halves if it holds both (--packing)" +
+                       kOrEstimate);
 }
 
 cv::Mat grey_picture(const cv::Mat& picture) {
@@ -319,9 +347,11 @@ Sources of_the_same_place(const KnownPlace& place, const DepthStatement& stateme
 void require_no_other_content(const KnownPlace& place, const DepthStatement& statement) {
     const std::string_view other = named_other(place.path);
     if (!place.is(PictureForm::arrays) || other.empty() || statement.near || statement.unit) return;
+    // First, as an array of another shape is refused with the step that mends it.
+    const int channels = place.open(PictureRole::depth)->facts().channels;
     throw InputError(shown(place.path) + " is by its name " + std::string(other) +
-                     " and no depth: give the depth that it belongs to, or say what its levels are "
-                     "(--near, --depth-unit)");
+                     " and no depth: give the depth that it belongs to" +
+                     (channels > 1 ? "" : ", or add what its levels are (--near, --depth-unit)"));
 }
 
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
@@ -332,7 +362,7 @@ Sources of_one_place(const KnownPlace& place, const DepthStatement& statement) {
         return of_two_places(place.path, *depth, statement);
     require_no_other_content(place, statement);
     Sources sources = guessed_content(place, statement);
-    if (!sources.depth) refuse_without_depth(place.path, looked_for);
+    if (!sources.depth) refuse_without_depth(place, looked_for);
     return sources;
 }
 

@@ -286,6 +286,31 @@ std::vector<fs::path> folders_of_media(const fs::path& folder) {
     return found;
 }
 
+/// The advice on a file as one on all files of its ending: its command of Python in a loop of the
+/// shell, which saves each under a name of its own. Empty where it has no such command.
+std::string advice_on_each(std::string advice, const fs::path& file) {
+    const std::string ending = file.extension().string();
+    const auto begin = advice.find("python3 -c \"");
+    if (begin == std::string::npos || ending.size() < 2 || !is_bare_name(ending.substr(1)))
+        return {};
+    const auto end = advice.find('"', advice.find('"', begin) + 1) + 1;
+    std::string command = advice.substr(begin, end - begin);
+    const auto replace = [&command](const std::string& part, const std::string& by) {
+        const auto at = command.find(part);
+        if (at != std::string::npos) command.replace(at, part.size(), by);
+        return at != std::string::npos;
+    };
+    if (!replace("'" + file.filename().string() + "'", "'$f'")) return {};
+    if (!replace("'depth.npy'", "'${f%.*}_depth.npy'") &&
+        !replace("'height.npy'", "'${f%.*}_height.npy'"))
+        return {};
+    advice.replace(begin, end - begin, "for f in *" + ending + "; do " + command + "; done");
+    constexpr std::string_view kThat = "and give that";
+    if (const auto at = advice.find(kThat); at != std::string::npos)
+        advice.replace(at, kThat.size(), "and give the folder");
+    return advice;
+}
+
 /// What a folder without pictures holds instead, and what to do, after the words "is a folder
 /// without pictures".
 std::string advice_without_pictures(const fs::path& folder) {
@@ -298,6 +323,8 @@ std::string advice_without_pictures(const fs::path& folder) {
         const auto alike = std::count_if(
             entries.begin(), entries.end(),
             [&](const fs::path& other) { return other.extension() == entry.extension(); });
+        const std::string each = alike > 1 ? advice_on_each(advice, entry) : std::string();
+        if (!each.empty()) return " that are read: " + shown(entry.filename()) + " in it" + each;
         return " that are read: " + shown(entry.filename()) + " in it" + advice +
                (alike > 1 ? " (likewise the others, each under a name of its own)" : "");
     }
@@ -312,8 +339,8 @@ std::string advice_without_pictures(const fs::path& folder) {
     if (folders.size() > kMostNamed)
         names.push_back(std::to_string(folders.size() - kMostNamed) + " more");
     return " of its own, and its folders " + listed(names) +
-           " are not named colour and depth: give the one of the colour first and then the one of "
-           "the depth";
+           " are not named colour and depth: give the colour folder first and then the depth "
+           "folder";
 }
 
 /// The pictures of that role, or those whose names state no role. Throws InputError when there are

@@ -77,7 +77,8 @@ TEST_CASE("inverse depth is disparity, and heights stay heights with their unit"
 }
 
 TEST_CASE("a word for depth is a weak hint at distances, unless it is relative", "[words]") {
-    const std::string weak = GENERATE("depth", "depth_0001", "SceneDepth", "Tiefe", "profondeur");
+    const std::string weak =
+        GENERATE("depth", "depth_0001", "SceneDepth", "Tiefe", "profondeur", "深度");
     CAPTURE(weak);
     const Findings rows = rows_in(weak, 16);
     REQUIRE(rows.size() == 2);

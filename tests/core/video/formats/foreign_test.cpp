@@ -190,7 +190,7 @@ TEST_CASE("the command for a table in text gives its rows, whatever is before an
     const auto [name, text, saved] = GENERATE(table<std::string, std::string, std::string>(
         {{"plain.csv", "1,2,3\n4,5,6\n", "depth.npy"},
          {"高さ.csv", "\"Keyence VK-X\"\n\"高さ\",\"µm\"\n\n1.0,2.0,3.0\n4.0,5.0,6.0\n",
-          "depth.npy"},
+          "height.npy"},
          {"comma.csv", "a;b;c\n1,0;2,0;3,0\n4,0;5,0;6,0\n", "depth.npy"},
          {"afm.txt", "# Channel: Height\n# Units: nm\n1.0\t2.0\t3.0\n4.0\t5.0\t6.0\n",
           "height.npy"},
@@ -225,6 +225,29 @@ TEST_CASE("the command for points in text gives the distances of the pixels", "[
     CHECK(depth.at<float>(119, 7) == 8.5F);
 }
 
+TEST_CASE("the command for a cloud in the order of the pixels gives their distances", "[foreign]") {
+    const TemporaryFolder folder;
+    const auto [name, header] = GENERATE(table<std::string, std::string>(
+        {{"a.ply",
+          "ply\nformat binary_little_endian 1.0\nobj_info Width 3\nobj_info Height 2\n"
+          "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n"},
+         {"a.pcd",
+          "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\n"
+          "HEIGHT 2\nPOINTS 6\nDATA binary\n"}}));
+    CAPTURE(name);
+    std::vector<float> numbers;
+    for (int k = 0; k < 6; ++k)
+        numbers.insert(numbers.end(), {0.0F, 0.0F, 700.0F + static_cast<float>(k)});
+    write_text(folder / name, header + raw_bytes_of(numbers));
+    const std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    CHECK(contains(said, "is a point cloud"));
+    convert(said, folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(3, 2));
+    CHECK(depth.at<float>(1, 2) == 705.0F);
+}
+
 TEST_CASE("the command for a simple field of Gwyddion gives its heights", "[foreign]") {
     const TemporaryFolder folder;
     const std::string head = "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nZUnits = m\n";
@@ -253,10 +276,21 @@ TEST_CASE("a photo with Samsung's map of depth in its trailer says how to take i
     const TemporaryFolder folder;
     const auto file = folder / "IMG_0001.jpg";
     REQUIRE(cv::imwrite(file.string(), cv::Mat(40, 60, CV_8UC3, cv::Scalar(90, 120, 200))));
-    const std::string trailer("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x10\0\0\0\x10\0\0\0SEFT", 28);
-    write_text(file, read_text(file) + trailer);
-    const std::string said = refusal([&] { (void)open_media(file); });
-    CHECK(contains(said, "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    const std::string photo = read_text(file);
+    const std::string block = std::string("\0\0\xb1\x0a\x13\0\0\0", 8) + "DualShot_DepthMap_1";
+    const std::string list("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x7b\0\0\0\x7b\0\0\0", 24);
+    std::string levels;
+    for (char k = 0; k < 12 * 8; ++k) levels += k;
+    const auto said = [&](const std::string& trailer) {
+        write_text(file, photo + trailer + "SEFT");
+        return refusal([&] { (void)open_media(file); });
+    };
+    CHECK(contains(said(list + std::string("\0\0\xb3\x0a", 4)),
+                   "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    convert(said(block + levels + list), folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(12, 8));
+    CHECK(depth.at<std::uint8_t>(1, 2) == 14);
 }
 
 TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {

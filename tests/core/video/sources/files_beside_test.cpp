@@ -171,6 +171,14 @@ TEST_CASE("an array whose name says confidence or a mask is no depth, unless a p
     CHECK(open_depth(file, stated)->next());
 }
 
+TEST_CASE("an array of another shape is refused by its shape, whatever its name", "[beside]") {
+    const TemporaryFolder folder;
+    write_text(folder / "x_conf.npy",
+               npy("<f4", "(40, 60, 2)", std::string(40 * 60 * 2 * 4, '\0')));
+    CHECK(contains(refusal([&, file = folder / "x_conf.npy"] { (void)open_media(file); }),
+                   "[..., 0]"));
+}
+
 TEST_CASE("cameras and poses in arrays hide neither folders of pictures nor become frames",
           "[beside]") {
     const TemporaryFolder folder;
@@ -305,6 +313,8 @@ TEST_CASE("colours of colour maps are told from photographs and from hues of one
     const int map = GENERATE(cv::COLORMAP_JET, cv::COLORMAP_TURBO, cv::COLORMAP_VIRIDIS,
                              cv::COLORMAP_INFERNO, cv::COLORMAP_MAGMA, cv::COLORMAP_PLASMA);
     CHECK(is_colour_mapped(painting(map)));
+    const bool is_rainbow = map == cv::COLORMAP_JET || map == cv::COLORMAP_TURBO;
+    CHECK(has_map_of_rising_brightness(painting(map)) != is_rainbow);
     CHECK_FALSE(is_colour_mapped(scene_photo()));
     CHECK_FALSE(is_colour_mapped(painted(scene_depth(), as_grey)));
     CHECK_FALSE(is_colour_mapped(cv::Mat(60, 60, CV_8UC3, cv::Scalar(0, 0, 255))));
