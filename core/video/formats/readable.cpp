@@ -592,11 +592,11 @@ std::string advice_on_depth_within(const fs::path& file) {
     // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth, of
     // 8 bits, and 0x0ab3 has its size.
     constexpr std::size_t kList_bytes = 4096;
-    constexpr std::string_view kMap = "\0\0\xb1\x0a"sv;
+    constexpr std::string_view kMapBlock = "\0\0\xb1\x0a"sv;
     if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
     const std::string end = end_of(file, kList_bytes);
     const auto list = end.rfind("SEFH");
-    const auto map = list == std::string::npos ? list : end.find(kMap, list);
+    const auto map = list == std::string::npos ? list : end.find(kMapBlock, list);
     if (!end.ends_with("SEFT") || map == std::string::npos) return {};
     // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
     constexpr std::uint64_t kBefore_bytes = 8 + 19;
