@@ -351,7 +351,7 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
                                                 {224, 171},
                                                 {176, 144},
                                                 {160, 120}}};
-    const std::string kInLetters = "ROWS, COLUMNS";
+    constexpr const char* kInLetters = "ROWS, COLUMNS";
     const auto text = [](const Sides& sides) {
         return std::to_string(sides[1]) + ", " + std::to_string(sides[0]);
     };
