@@ -129,6 +129,7 @@ struct DepthOffer {
 struct DepthQuestion {
     std::vector<DepthAlternative> alternatives{};  ///< two to four; the first one is in use
     std::vector<std::uintptr_t> reliefs{};         ///< names of their textures, once they are drawn
+    std::string doubt{};     ///< why it may be no depth; empty: nothing says so
     std::string folder{};    ///< the name of the file's folder; empty: no answer for all its files
     bool for_folder{false};  ///< the answer holds for the other files of the folder, too
     bool answered{false};    ///< the files are being opened by the answer

@@ -44,18 +44,12 @@ Camera camera_over(const DepthImage& depth, double relief_px) {
     return camera;
 }
 
-DepthMeaning meaning_by(const DepthAlternative& alternative, DepthMeaning meaning) {
-    DepthStatement whole = alternative.statement;
-    whole.range = alternative.range;
-    merge_by_priority({{Origin::assumed, whole}}, meaning);
-    return meaning;
-}
-
 }  // namespace
 
 std::optional<DepthQuestion> question_on(const MediaDescription& media) {
     if (media.conclusion.alternatives.size() < 2 || !media.meaning) return std::nullopt;
     return DepthQuestion{.alternatives = media.conclusion.alternatives,
+                         .doubt = media.conclusion.doubt,
                          .folder = folder_of_files(media.depth_path)};
 }
 

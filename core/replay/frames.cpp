@@ -10,8 +10,8 @@
 #include "core/files/plain_text.hpp"
 #include "core/sqlite/database.hpp"
 #include "core/video/cleaning/surface_version.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
 #include "core/video/sources/picture_files.hpp"
-#include "core/video/sources/picture_pattern.hpp"
 #include "core/video/sources/sidecar.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 

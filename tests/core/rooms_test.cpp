@@ -52,6 +52,10 @@ const std::vector<Room> kRooms{
      {"core/video/live/", "core/video/cleaning/", "core/video/depth/", "core/video/formats/",
       "core/video/frames/", "core/video/modules/", "core/av/", "core/files/", "core/realtime/",
       "core/error.hpp"}},
+    {"core/video/sources/layouts/",
+     {"core/video/sources/layouts/", "core/video/sources/media_names.hpp",
+      "core/video/sources/readers.hpp", "core/video/sources/sources.hpp", "core/video/depth/",
+      "core/video/formats/", "core/files/", "core/error.hpp"}},
     {"core/video/sources/",
      {"core/video/sources/", "core/video/cleaning/", "core/video/depth/", "core/video/formats/",
       "core/video/frames/", "core/video/live/", "core/video/modules/", "core/files/",
@@ -298,6 +302,8 @@ TEST_CASE("the checks of the arrows find what they are there to find", "[rooms]"
     CHECK(breaks_arrow({"core/haptics/proxy.cpp", "core/error.hpp", true}));
     CHECK(breaks_arrow({"core/video/playing/player.cpp", "render/camera.hpp", true}));
     CHECK(breaks_arrow({"core/video/any.cpp", "core/video/sources/media.hpp", true}));
+    CHECK(
+        breaks_arrow({"core/video/sources/layouts/any.cpp", "core/video/sources/media.hpp", true}));
     CHECK(breaks_arrow({"core/video/formats/exr.cpp", "core/video/sources/any.hpp", true}));
     CHECK(breaks_arrow({"core/video/depth/camera.cpp", "core/video/formats/any.hpp", true}));
     CHECK(breaks_arrow({"core/video/live/live_feed.cpp", "core/video/playing/player.hpp", true}));

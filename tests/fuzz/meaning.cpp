@@ -17,7 +17,7 @@
 #include "core/video/formats/bags/ros_messages.hpp"
 #include "core/video/formats/camera_files.hpp"
 #include "core/video/sources/depth_finding.hpp"
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/packed.hpp"
 #include "core/video/sources/paired_media.hpp"
 #include "core/video/sources/recorder_metadata.hpp"

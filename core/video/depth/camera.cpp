@@ -59,12 +59,6 @@ std::string text_of(cv::Size size) {
     return std::to_string(size.width) + " x " + std::to_string(size.height);
 }
 
-Intrinsics scaled_camera(const Intrinsics& camera, cv::Size2d from, cv::Size2d to) {
-    return {camera.fx * to.width / from.width, camera.fy * to.height / from.height,
-            (camera.cx + 0.5) * to.width / from.width - 0.5,
-            (camera.cy + 0.5) * to.height / from.height - 0.5};
-}
-
 bool sees_centre(const Intrinsics& camera, cv::Size picture) {
     return camera.cx > -0.5 && camera.cy > -0.5 && camera.cx < picture.width - 0.5 &&
            camera.cy < picture.height - 0.5;
@@ -131,13 +125,17 @@ bool is_placement(const Placement& placement) {
     return off < kRound && cv::norm(placement.shift_mm) < kFarthest_mm;
 }
 
+Intrinsics scaled_camera(const Intrinsics& camera, cv::Size2d from, cv::Size2d to) {
+    return {camera.fx * to.width / from.width, camera.fy * to.height / from.height,
+            (camera.cx + 0.5) * to.width / from.width - 0.5,
+            (camera.cy + 0.5) * to.height / from.height - 0.5};
+}
+
 CameraModel camera_for(cv::Size picture, const CameraModel& camera, cv::Size calibrated) {
     const double scale = 1.0 * picture.width / calibrated.width;
-    const double cut = 0.5 * (calibrated.height * scale - picture.height);
-    const Intrinsics& c = camera.intrinsics();
-    return {Intrinsics{c.fx * scale, c.fy * scale, (c.cx + 0.5) * scale - 0.5,
-                       (c.cy + 0.5) * scale - 0.5 - cut},
-            camera.lens()};
+    Intrinsics scaled = scaled_camera(camera.intrinsics(), {1.0, 1.0}, {scale, scale});
+    scaled.cy -= 0.5 * (calibrated.height * scale - picture.height);
+    return {scaled, camera.lens()};
 }
 
 FittedCamera fit_camera(const Intrinsics& stated, cv::Size calibrated, cv::Size picture) {

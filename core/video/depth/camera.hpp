@@ -97,6 +97,9 @@ struct CameraPair {
     std::string known_from{};  ///< origin of the calibration: "Azure Kinect calibration"
 };
 
+/// Intrinsics for the same pictures in another size.
+[[nodiscard]] Intrinsics scaled_camera(const Intrinsics& camera, cv::Size2d from, cv::Size2d to);
+
 /// The same camera for pictures of another size: as wide a view, cut equally above and below.
 [[nodiscard]] CameraModel camera_for(cv::Size picture, const CameraModel& camera,
                                      cv::Size calibrated);

@@ -22,8 +22,11 @@ constexpr double kFullyClear = 0.5;    ///< at twice these the sureness is nearl
 constexpr double kAllSides = 0.5;      ///< deviations between the middle and each side of a tunnel
 constexpr double kSurestMiddle = 0.8;  ///< people and things in the middle, but also corridors
 constexpr double kSurestFloor = 0.9;
-constexpr double kSurenessOfTunnel = 0.6;
+constexpr double kSurenessOfTunnel = 0.6;  ///< of more than 8 bits: heights of things, too
+constexpr double kSurenessOfTunnelIn8Bits = 0.8;
 constexpr double kSurenessOfLitTunnel = 0.93;
+constexpr double kSurestCustom = 0.93;
+constexpr double kSurenessOfCustom = 0.87;
 constexpr std::size_t kLeastSlopes = 400;
 constexpr double kLeastBent = 0.7;            ///< share of the slopes that bend to one side
 constexpr double kSurestBend = 0.98;          ///< insides of bowls bend the other way
@@ -71,18 +74,16 @@ struct Places {
     }
 };
 
-Places places_of(const std::vector<LevelLattice>& lattices, const std::vector<double>& no_data) {
+template <typename IsData>
+Places places_of(const std::vector<LevelLattice>& lattices, const IsData& is_data) {
     Places places;
     for (const LevelLattice& lattice : lattices) {
         auto level = lattice.levels.begin();
         for (int j = 0; j < lattice.rows; ++j) {
             for (int i = 0; i < lattice.columns; ++i, ++level) {
-                if (!std::isfinite(*level) ||
-                    std::find(no_data.begin(), no_data.end(), static_cast<double>(*level)) !=
-                        no_data.end())
-                    continue;
-                places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
-                           *level);
+                if (is_data(*level))
+                    places.add((i + 0.5) / lattice.columns - 0.5, (j + 0.5) / lattice.rows - 0.5,
+                               *level);
             }
         }
     }
@@ -101,28 +102,48 @@ void add_row_on_area(double deviations, double surest, const std::string& areas,
                         " standard deviations, " + (brighter ? "brighter" : "darker")});
 }
 
+bool has_perspective(const SlopeShape& shape) {
+    return shape.perspective > kLeastPerspective;
+}
+
+/// The larger share of the slopes, of those that bend up and down.
+double bent_share(const SlopeShape& shape) {
+    return std::max(shape.convex, 1.0 - shape.convex);
+}
+
+/// The row on what 8 bits are by custom. It is less sure of a scene, as a camera sees it, where
+/// many slopes could say otherwise and do not; heights without outlines are near white as a rule.
+Finding finding_on_custom(const SlopeShape& shape, bool has_outlines) {
+    const bool is_undecided = has_outlines && shape.slopes >= kLeastSlopes &&
+                              shape.straight <= kLeastStraight && bent_share(shape) < kLeastBent;
+    return {{.near = NearLevels::bright},
+            Evidence::numbers,
+            is_undecided ? kSurenessOfCustom : kSurestCustom,
+            std::string("by custom 8 bits are near white") +
+                (is_undecided ? ", but slopes bend both ways" : "")};
+}
+
 /// The rows on how slopes bend, where they do.
 void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
     if (shape.slopes < kLeastSlopes) return;
     const auto percent = [](double share) { return short_text(100.0 * share, 2) + " %"; };
-    const bool has_perspective = shape.perspective > kLeastPerspective;
-    if (shape.straight > kLeastStraight && has_perspective)
+    if (shape.straight > kLeastStraight && has_perspective(shape))
         return rows.push_back({{.near = NearLevels::bright},
                                Evidence::numbers,
                                kSurenessOfStraight,
                                percent(shape.straight) +
                                    " of the slopes are straight, as where levels are one over the "
                                    "distance"});
-    const bool is_convex = shape.convex > 0.5;
-    const double bent = is_convex ? shape.convex : 1.0 - shape.convex;
+    const double bent = bent_share(shape);
     if (bent < kLeastBent) return;
+    const bool is_convex = shape.convex > 0.5;
     rows.push_back({{.near = is_convex ? NearLevels::dark : NearLevels::bright},
                     Evidence::numbers,
                     0.5 + (kSurestBend - 0.5) * (2.0 * bent - 1.0),
                     percent(bent) + " of the slopes bend as " +
                         (is_convex ? "distances" : "nearness") +
                         " of planes and of convex things"});
-    if (bits > 8 && shape.proportional > kLeastProportional && has_perspective)
+    if (bits > 8 && shape.proportional > kLeastProportional && has_perspective(shape))
         rows.push_back(
             {{.unit = DepthUnit::levels},
              Evidence::numbers,
@@ -134,13 +155,16 @@ void add_rows_on_slopes(const SlopeShape& shape, int bits, Findings& rows) {
 
 int SampledLevels::middle_brighter_than_sides() const {
     constexpr double kLeast = 0.25;  // the light may be faint
-    return places_of(lattices_, no_data_).brighter_than_sides(kLeast);
+    const auto has_level = [this](float level) { return is_data(level); };
+    return places_of(lattices_, has_level).brighter_than_sides(kLeast);
 }
 
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
-    add_rows_on_slopes(slope_shape(), bits_, rows);
-    const Places places = places_of(lattices_, no_data_);
+    const SlopeShape slopes = slope_shape();
+    if (bits_ == 8) rows.push_back(finding_on_custom(slopes, has_outlines()));
+    add_rows_on_slopes(slopes, bits_, rows);
+    const Places places = places_of(lattices_, [this](float level) { return is_data(level); });
     const int than_sides = places.brighter_than_sides(kAllSides);
     const NearLevels of_tunnel = than_sides > 0 ? NearLevels::dark : NearLevels::bright;
     if (than_sides != 0 && middle_of_colour.value_or(0) < 0)
@@ -153,7 +177,7 @@ Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     if (than_sides > 0 && !middle_of_colour)
         rows.push_back({{.near = of_tunnel},
                         Evidence::numbers,
-                        kSurenessOfTunnel,
+                        bits_ == 8 ? kSurenessOfTunnelIn8Bits : kSurenessOfTunnel,
                         "the middle is brighter than all four sides, as the end of a tunnel"});
     if (than_sides != 0) return rows;  // neither floor nor things in the middle are seen
     add_row_on_area(places.brighter(places.middle, places.border), kSurestMiddle,

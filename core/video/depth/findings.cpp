@@ -36,19 +36,14 @@ constexpr double kNearFitsUnit = 0.97;
 constexpr std::size_t kMostAlternatives = 4;
 constexpr double kLeastLikely = 0.02;  ///< less likely kinds are not offered
 
-bool is_distance(DepthUnit unit) {
-    return unit == DepthUnit::mm || unit == DepthUnit::m;
-}
-
 bool same_scale(double a, double b) {
     return std::abs(a - b) <= 1e-6 * std::abs(b);
 }
 
 /// The scale in another unit, where both are of distances; else the same.
 double scale_in(DepthUnit unit, DepthUnit stated, double scale) {
-    constexpr double kMillimetres = 1000.0;  // in a metre
     if (unit == stated || !is_distance(unit) || !is_distance(stated)) return scale;
-    return unit == DepthUnit::mm ? scale * kMillimetres : scale / kMillimetres;
+    return scale * one_in_mm(stated) / one_in_mm(unit);
 }
 
 /// Whether values of one unit and scale are those of the other.
@@ -157,6 +152,22 @@ double scale_beside_numbers(const Findings& findings, DepthUnit unit) {
     return 1.0;
 }
 
+/// Why the pictures may be no depth; null: no row says so, or a person states what the levels are.
+const Finding* doubt_on_depth(const DepthStatement& stated, const Findings& findings) {
+    if (stated.near || stated.unit || stated.range || stated.code) return nullptr;
+    const auto found = std::find_if(findings.begin(), findings.end(),
+                                    [](const Finding& row) { return row.about == kNoDepth; });
+    return found == findings.end() ? nullptr : &*found;
+}
+
+/// The probability that pictures are depth: somebody named or gave them as depth, and they look
+/// like something else.
+double probability_of_depth(const Finding& doubt) {
+    const double depth = kSurenessOfName * (1.0 - doubt.sureness);
+    const double other = (1.0 - kSurenessOfName) * doubt.sureness;
+    return depth / (depth + other);
+}
+
 /// The kinds that what persons state allows, with their probabilities.
 std::vector<DepthHypothesis> possible_kinds(const DepthStatement& stated, Findings findings) {
     if (stated.near)
@@ -241,7 +252,8 @@ std::vector<DepthAlternative> alternatives_of(const std::vector<DepthHypothesis>
     std::vector<DepthAlternative> all;
     if (kinds.front().probability >= kSureEnough) return all;
     for (const DepthHypothesis& kind : kinds) {
-        if (all.size() == kMostAlternatives || kind.probability < kLeastLikely) break;
+        const bool is_likely = kind.probability >= kLeastLikely || all.size() < 2;
+        if (all.size() == kMostAlternatives || !is_likely) break;
         all.push_back(
             {{.near = kind.near, .unit = kind.unit, .scale = kind.scale}, kind.probability});
     }
@@ -282,10 +294,17 @@ std::vector<DepthHypothesis> weigh(const Findings& findings) {
     return kinds;
 }
 
-DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings) {
+DepthMeaning meaning_by(const DepthAlternative& answer, DepthMeaning meaning) {
+    DepthStatement whole = answer.statement;
+    whole.range = answer.range;
+    merge_by_priority({{Origin::assumed, whole}}, meaning);
+    return meaning;
+}
+
+DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings, double least) {
     DepthStatement all = merged(persons);
     for (const Finding& finding : findings)
-        if (finding.sureness >= kSureEnough) all.fill_in(finding.statement);
+        if (finding.sureness >= least) all.fill_in(finding.statement);
     return all;
 }
 
@@ -314,7 +333,11 @@ DepthConclusion conclude(const RankedStatements& persons, const Findings& findin
     take_surest(findings, meaning);
     merge_by_priority(persons, meaning);
     const DepthStatement stated = merged(persons);
-    const std::vector<DepthHypothesis> kinds = possible_kinds(stated, findings);
+    std::vector<DepthHypothesis> kinds = possible_kinds(stated, findings);
+    if (const Finding* const doubt = doubt_on_depth(stated, findings)) {
+        conclusion.doubt = doubt->reason;
+        for (DepthHypothesis& kind : kinds) kind.probability *= probability_of_depth(*doubt);
+    }
     set_kind(kinds, stated, meaning);
     conclusion.sure = kinds.front().probability;
     conclusion.near_sure = probability_of(kinds, same_near);

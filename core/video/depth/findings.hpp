@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/video/depth/depth_meaning.hpp"
@@ -39,6 +40,18 @@ struct UsualDistances {
 
 /// One row of the table: facts that one piece of evidence states.
 struct Finding {
+    Finding() = default;
+    /// No aggregate: of one, GCC 12 destroys members of the nested statement twice where a text
+    /// behind it throws.
+    Finding(DepthStatement stated, Evidence from, double sure, std::string why,
+            std::string subject = {}, UsualDistances expected = {})
+        : statement(std::move(stated)),
+          evidence(from),
+          sureness(sure),
+          reason(std::move(why)),
+          about(std::move(subject)),
+          usual(std::move(expected)) {}
+
     DepthStatement statement{};
     Evidence evidence{Evidence::numbers};
     double sureness{1.0};    ///< probability in (0, 1) that the statement is right, from this alone
@@ -48,6 +61,15 @@ struct Finding {
 };
 
 using Findings = std::vector<Finding>;
+
+/// What a row is about that says that the pictures look like something else than depth. It lowers
+/// the probability of every meaning, as the pictures were given or named as depth.
+inline constexpr std::string_view kNoDepth = "no depth";
+
+/// What a row is about that says that the file is of a kind that holds heights, and other
+/// quantities as well; the numbers of terrain tell a map of heights, and names tell either.
+inline constexpr std::string_view kMap = "map";
+inline constexpr std::string_view kMicrograph = "micrograph";
 
 /// What the metadata of a file state.
 [[nodiscard]] Finding finding_of_metadata(const DepthStatement& statement,
@@ -80,19 +102,26 @@ struct DepthAlternative {
     DepthRange range{};  ///< that the depth has by this answer
 };
 
+/// The meaning by one of the answers, with its range; the other facts stay.
+[[nodiscard]] DepthMeaning meaning_by(const DepthAlternative& answer, DepthMeaning meaning);
+
 /// The table, and how sure the meaning concluded from it is.
 struct DepthConclusion {
     Findings findings{};    ///< those of persons first
     double sure{1.0};       ///< probability that near, unit and scale are all right
     double near_sure{1.0};  ///< of near alone
     double unit_sure{1.0};  ///< of unit and scale
+    /// Why the pictures may be no depth, for people: "it looks like a photograph"; empty: nothing
+    /// says so, or a person states what the levels are.
+    std::string doubt{};
     /// The likeliest two to four answers, by falling probability; the first one is the meaning's.
     /// Empty where it is sure enough, or a person stated near, unit or range.
     std::vector<DepthAlternative> alternatives{};
 };
 
-/// The facts that a person states, or a finding that is sure enough.
-[[nodiscard]] DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings);
+/// The facts that a person states, or a finding of at least that sureness.
+[[nodiscard]] DepthStatement sure_facts(const RankedStatements& persons, const Findings& findings,
+                                        double least = kSureEnough);
 
 /// The reasons of the sure findings that state facts, but of those that look at pictures alone:
 /// "array 'disparity', array 'K'".

@@ -1,10 +1,11 @@
-// Turns bits, divides by disparities, and compares points with the rays of a camera.
+// Turns and parts bits, divides by disparities, and compares points with the rays of a camera.
 #include "core/video/depth/level_code.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <set>
@@ -14,7 +15,8 @@ namespace dibhr {
 namespace {
 
 constexpr int kKinectNone = 2047;
-constexpr std::size_t kPointsZ = 0;  ///< channels of OpenCV's pictures are the last one first
+constexpr int kDistanceBits = 0x1fff;  ///< of depth16; a confidence is above
+constexpr std::size_t kPointsZ = 0;    ///< channels of OpenCV's pictures are the last one first
 constexpr std::size_t kPointsY = 1;
 constexpr std::size_t kPointsX = 2;
 
@@ -187,6 +189,55 @@ bool looks_turned(const cv::Mat& picture) {
     return far >= kMostOfLevels * all;
 }
 
+/// Places of a picture where the three highest bits change from a pixel to the next one.
+struct ConfidenceSteps {
+    double pixels{0.0};
+    double steps{0.0};
+    double even{0.0};  ///< steps over which the other bits go on
+};
+
+/// Where levels are plain distances, the other bits leap there: by all of them where a surface
+/// passes 8192, by any number at an outline.
+ConfidenceSteps confidence_steps(const cv::Mat& picture) {
+    constexpr int kEven_mm = 50;
+    ConfidenceSteps found;
+    found.pixels = static_cast<double>(picture.total());
+    for (int j = 0; j < picture.rows; ++j) {
+        const auto* const row = picture.ptr<std::uint16_t>(j);
+        for (int i = 1; i < picture.cols; ++i) {
+            const int here = row[i] & kDistanceBits;
+            const int before = row[i - 1] & kDistanceBits;
+            const bool is_step = row[i] - here != row[i - 1] - before;
+            if (!is_step || here == 0 || before == 0) continue;
+            found.steps += 1.0;
+            if (std::abs(here - before) <= kEven_mm) found.even += 1.0;
+        }
+    }
+    return found;
+}
+
+bool may_have_confidence(const cv::Mat& picture) {
+    constexpr double kFewSteps = 8.0;
+    constexpr double kMostlyEven = 0.5;
+    const ConfidenceSteps found = confidence_steps(picture);
+    return found.steps >= kFewSteps && found.even >= kMostlyEven * found.steps;
+}
+
+/// Whether distances go on at many places where the confidence changes, and many differ.
+bool looks_confident(const cv::Mat& picture) {
+    constexpr double kManySteps = 32.0;
+    constexpr double kLeastOfPixels = 0.002;
+    constexpr double kMostlyEven = 0.7;
+    constexpr std::size_t kLeastDifferent = 16;
+    const ConfidenceSteps found = confidence_steps(picture);
+    if (found.steps < std::max(kManySteps, kLeastOfPixels * found.pixels) ||
+        found.even < kMostlyEven * found.steps)
+        return false;
+    const cv::Mat distances = few_levels_of(picture) & cv::Scalar(kDistanceBits);
+    return std::set<int>(distances.begin<std::uint16_t>(), distances.end<std::uint16_t>()).size() >=
+           kLeastDifferent;
+}
+
 template <typename Fits>
 bool all_fit(std::span<const cv::Mat> pictures, DepthCode code, const Fits& fits) {
     return !pictures.empty() &&
@@ -199,7 +250,11 @@ bool all_fit(std::span<const cv::Mat> pictures, DepthCode code, const Fits& fits
 
 bool is_of_levels(DepthCode code) noexcept {
     return code == DepthCode::turned16 || code == DepthCode::kinect11 ||
-           code == DepthCode::stereo || code == DepthCode::xyz;
+           code == DepthCode::stereo || code == DepthCode::xyz || code == DepthCode::depth16;
+}
+
+bool has_whole_numbers(DepthCode code) noexcept {
+    return code == DepthCode::turned16 || code == DepthCode::depth16;
 }
 
 bool has_levels(const cv::Mat& picture, DepthCode code) {
@@ -208,10 +263,11 @@ bool has_levels(const cv::Mat& picture, DepthCode code) {
 }
 
 cv::Mat numbers_in_levels(const cv::Mat& picture, DepthCode code, const InverseLevels& law) {
-    const bool is_whole = code == DepthCode::turned16;
+    const bool is_whole = has_whole_numbers(code);
     if (!has_levels(picture, code))
         return {picture.rows, picture.cols, is_whole ? CV_16UC1 : CV_32FC1,
                 cv::Scalar(is_whole ? 0.0 : std::numeric_limits<double>::quiet_NaN())};
+    if (code == DepthCode::depth16) return picture & cv::Scalar(kDistanceBits);
     if (is_whole) return turned_back(picture);
     if (code == DepthCode::xyz) {
         cv::Mat z;
@@ -230,7 +286,7 @@ DepthStatement level_code_meaning(DepthCode code) {
     meaning.code = code;
     meaning.near = NearLevels::dark;
     meaning.no_data.emplace();
-    if (code == DepthCode::turned16) meaning.no_data = std::vector{0.0};
+    if (has_whole_numbers(code)) meaning.no_data = std::vector{0.0};
     if (code == DepthCode::xyz) return meaning;
     meaning.unit = DepthUnit::mm;
     meaning.scale = 1.0;
@@ -249,6 +305,8 @@ bool may_be_of(std::span<const cv::Mat> pictures, DepthCode code) {
             }
             case DepthCode::xyz:
                 return is_of_points(picture);
+            case DepthCode::depth16:
+                return may_have_confidence(picture);
             default:
                 return true;
         }
@@ -259,6 +317,7 @@ std::optional<DepthCode> level_code_in(std::span<const cv::Mat> pictures) {
     if (all_fit(pictures, DepthCode::kinect11, looks_like_kinect)) return DepthCode::kinect11;
     if (all_fit(pictures, DepthCode::xyz, is_of_points)) return DepthCode::xyz;
     if (all_fit(pictures, DepthCode::turned16, looks_turned)) return DepthCode::turned16;
+    if (all_fit(pictures, DepthCode::depth16, looks_confident)) return DepthCode::depth16;
     return std::nullopt;
 }
 

@@ -6,18 +6,23 @@
 #include <array>
 #include <bit>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_bytes.hpp"
+#include "core/video/formats/text_numbers.hpp"
 
 namespace dibhr {
 
@@ -27,7 +32,8 @@ namespace {
 
 using namespace std::string_view_literals;
 
-/// A form that no reader reads, and what to do about it; "{}" stands for the file's name.
+/// A form that no reader reads, and what to do about it; "{}" stands for the file's name, "{sides}"
+/// for "ROWS, COLUMNS" of numbers of 16 bits.
 struct UnsupportedForm {
     std::string_view begins;  ///< magic bytes; empty: none, then the ending decides
     std::string_view ending;  ///< of the name, in small letters; empty: any
@@ -58,21 +64,28 @@ constexpr std::string_view kZipArchive =
 constexpr std::string_view kTar =
     " is an archive of files: unpack it (tar -xf {}) and give the folder or the files in it";
 constexpr std::string_view kHdf5 =
-    " is an HDF5 file: list its arrays with h5ls -r {} (package hdf5-tools), and save that of the "
-    "depth: python3 -c \"import h5py, numpy; numpy.save('depth.npy', h5py.File('{}')['depth'])\"";
+    " is an HDF5 file: save its array of depth, by its name or as the largest: python3 -c \"import "
+    "h5py, numpy; d = []; h5py.File('{}').visititems(lambda n, o: d.append(o) if getattr(o, "
+    "'ndim', 0) > 1 else None); numpy.save('depth.npy', max(d, key=lambda o: ('dep' in "
+    "o.name.lower(), o.size)))\" (package python3-h5py)";
 constexpr std::string_view kMatlab73 =
-    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import h5py, "
-    "numpy; numpy.save('depth.npy', numpy.swapaxes(h5py.File('{}')['depth'], -1, -2))\"";
+    " is a MATLAB file: save its array of depth, by its name or as the largest: python3 -c "
+    "\"import h5py, numpy; d = []; h5py.File('{}').visititems(lambda n, o: d.append(o) if "
+    "getattr(o, 'ndim', 0) > 1 else None); numpy.save('depth.npy', numpy.swapaxes(max(d, "
+    "key=lambda o: ('dep' in o.name.lower(), o.size)), -1, -2))\" (package python3-h5py)";
 constexpr std::string_view kMatlab5 =
-    " is a MATLAB file: save the array of its depth, here called depth: python3 -c \"import "
-    "scipy.io, numpy; numpy.save('depth.npy', scipy.io.loadmat('{}')['depth'])\"";
+    " is a MATLAB file: save its array of depth, by its name or as the largest: python3 -c "
+    "\"import scipy.io, numpy; m = scipy.io.loadmat('{}'); numpy.save('depth.npy', m[max((k for k "
+    "in m if not k.startswith('_')), key=lambda k: ('dep' in k.lower(), m[k].size))])\" (package "
+    "python3-scipy)";
 constexpr std::string_view kTrueMap =
     " is a height map of TrueMap or GelSight: convert it: python3 -c \"import numpy, struct; b = "
     "open('{}', 'rb').read(); o = b.index(b'\\0', 32) + 1; c, r = struct.unpack_from('<2I', b, o); "
     "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
 constexpr std::string_view kPointCloud =
-    " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare, choose Tools, "
-    "Projection, Rasterize, save the heights as GeoTIFF (height.tif), and give that";
+    " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare (package "
+    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif, "
+    "or depth.tif where Z points away from the camera), and give that";
 constexpr std::string_view kLas =
     " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
     "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
@@ -88,18 +101,43 @@ constexpr std::string_view kLayers =
     " is a drawing in layers: export the layer of the depth as a PNG picture of 16 bits, and that "
     "of the colours beside it";
 constexpr std::string_view kNoHeader =
-    " holds numbers without a header, so their size and type are not known: convert it: python3 -c "
-    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape(ROWS, "
-    "COLUMNS))\", "
-    "with its own rows and columns ('<f4' for real numbers)";
+    " holds numbers without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.fromfile('{}', '<u2').reshape({sides}))\"";
+constexpr std::string_view kHeightsNoHeader =
+    " holds heights of 16 bits without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('height.npy', numpy.fromfile('{}', '<u2').reshape({sides}))\"";
 constexpr std::string_view kReals =
-    " real numbers of 32 bits without a header, so its size is not known: convert it: python3 -c "
-    "\"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape(ROWS, "
-    "COLUMNS))\", with its own rows and columns";
-constexpr std::string_view kNumbersInText =
-    " holds numbers as text: if they are depth, convert it: python3 -c \"import numpy; "
-    "numpy.save('depth.npy', numpy.loadtxt('{}').reshape(ROWS, COLUMNS))\", with its own rows and "
-    "columns";
+    " real numbers of 32 bits without a header: convert it: python3 -c \"import numpy; "
+    "numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape({sides}))\"";
+constexpr std::string_view kSurfaceX3p =
+    " is a measured surface (X3P): convert it: python3 -c \"import numpy, re, zipfile; z = "
+    "zipfile.ZipFile('{}'); m = z.read('main.xml').decode(); g = lambda t: re.search(t + "
+    "'>([^<]+)', m, 16)[1].strip(); t = dict(D='<f8', F='<f4', L='<i4', "
+    "I='<i2')[g('<CZ>.*?<DataType')]; numpy.save('height.npy', "
+    "numpy.frombuffer(z.read(g('<PointDataLink')), t).reshape(int(g('<SizeY')), "
+    "int(g('<SizeX'))).astype('<f4'))\", and give that";
+constexpr std::string_view kGwyddionField =
+    " is a measured surface (simple field of Gwyddion): convert it: python3 -c \"import numpy, re; "
+    "b = open('{}', 'rb').read(); c, r = (int(re.search(k + b'Res *= *([0-9]+)', b)[1]) for k in "
+    "(b'X', b'Y')); o = b.index(b'\\0'); numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * "
+    "r, o + 4 - o % 4).reshape(r, c))\", and give that";
+constexpr std::string_view kGwyddion =
+    " is a measured surface (of Gwyddion): open it there (package gwyddion), save its heights as "
+    "Gwyddion Simple Field (height.gsf), and give that";
+// Wilson, "Fast lossless depth image compression" (ISS 2017).
+constexpr std::string_view kRvl =
+    " holds depth packed with RVL, without a header: unpack it: python3 -c \"import numpy; s = "
+    "({sides}); n = iter((numpy.fromfile('{}', '<u4')[:, None] >> numpy.arange(28, -1, -4, 'u4') & "
+    "15).ravel().tolist()); v = lambda: (lambda x: x & 7 | (v() << 3 if x & 8 else 0))(next(n)); d "
+    "= []; p = 0; [d.extend([0] * v()) or [d.append(p := p + (lambda e: e >> 1 ^ -(e & 1))(v())) "
+    "for _ in range(v())] for _ in iter(lambda: len(d) < s[0] * s[1], False)]; "
+    "numpy.save('depth.npy', numpy.array(d, 'u2').reshape(s))\"";
+constexpr std::string_view kLfsPointer =
+    " is a pointer of Git LFS, not the file itself: fetch it with git lfs pull in its clone "
+    "(package git-lfs), or download it again by the Download button of its page";
+constexpr std::string_view kWebPage =
+    " is a web page, not the file itself: download it again by the Download or Raw button of its "
+    "page";
 constexpr std::string_view kSintel =
     " is a depth picture of MPI Sintel: convert it: python3 -c \"import numpy; b = open('{}', "
     "'rb').read(); c, r = numpy.frombuffer(b, '<i4', 2, 4); numpy.save('depth.npy', "
@@ -126,10 +164,6 @@ constexpr std::string_view kSweep =
     "\"import numpy; numpy.savetxt('points.xyz', numpy.fromfile('{}', '<f4').reshape(-1, 5)[:, "
     ":3])\", open that in CloudCompare, choose Tools, Projection, Rasterize, save the heights as "
     "GeoTIFF (height.tif), and give that";
-constexpr std::string_view kTable =
-    " is a table in text: if its cells are depth, convert it: python3 -c \"import numpy; "
-    "numpy.save('depth.npy', numpy.loadtxt('{}', delimiter=','))\"";
-
 // The first entry that fits counts.
 constexpr std::array kUnsupportedForms{
     UnsupportedForm{kZip, ".r3d", kRecord3d},
@@ -140,12 +174,13 @@ constexpr std::array kUnsupportedForms{
     UnsupportedForm{kZip, ".pt", kPyTorch},
     UnsupportedForm{kZip, ".pth", kPyTorch},
     UnsupportedForm{kZip, ".zip", kZipArchive},
+    UnsupportedForm{kZip, ".x3p", kSurfaceX3p},
+    UnsupportedForm{"version https://git-lfs"sv, {}, kLfsPointer},
+    UnsupportedForm{"<!DOCTYPE html"sv, {}, kWebPage},
+    UnsupportedForm{"<!doctype html"sv, {}, kWebPage},
+    UnsupportedForm{"<html"sv, {}, kWebPage},
+    UnsupportedForm{"TERRAGENTERRAIN "sv, {}, kTerrain},
     UnsupportedForm{"\x89MCAP0\r\n"sv, ".svo2", kZed},
-    UnsupportedForm{
-        "#ROSBAG V"sv,
-        {},
-        " is a bag of ROS 1 or RealSense: export its pictures with rs-convert -p, or make a "
-        "bag of ROS 2 (.db3) of it with rosbags-convert"},
     UnsupportedForm{"NI10"sv,
                     {},
                     " is a recording of OpenNI: play it with OpenNI 2 (its Device opens the file) "
@@ -172,6 +207,8 @@ constexpr std::array kUnsupportedForms{
                     " is a PDF document: take its pictures out with pdfimages -png {} picture "
                     "(package poppler-utils), and give the one of depth"},
     UnsupportedForm{"8BPS"sv, {}, kLayers},
+    UnsupportedForm{"Gwyddion Simple Field"sv, {}, kGwyddionField},
+    UnsupportedForm{"GWYP"sv, {}, kGwyddion},
     UnsupportedForm{"gimp xcf"sv, {}, kLayers},
     UnsupportedForm{"\x1f\x8b"sv, ".tgz", kTar},
     UnsupportedForm{"\x1f\x8b"sv, {}, " is packed with gzip: unpack it with gzip -dk {}"},
@@ -241,18 +278,17 @@ constexpr std::array kSizedForms{
 // Of files that no reader accepts.
 constexpr std::array kUnsupportedEndings{
     UnsupportedForm{{}, ".svo", kZed},        UnsupportedForm{{}, ".svo2", kZed},
-    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".csv", kTable},
-    UnsupportedForm{{}, ".asc", kTerrain},    UnsupportedForm{{}, ".hgt", kTerrain},
-    UnsupportedForm{{}, ".dem", kTerrain},    UnsupportedForm{{}, ".bil", kTerrain},
-    UnsupportedForm{{}, ".flt", kTerrain},    UnsupportedForm{{}, ".grd", kTerrain},
-    UnsupportedForm{{}, ".obj", kPointCloud}, UnsupportedForm{{}, ".stl", kPointCloud},
-    UnsupportedForm{{}, ".xyz", kPointCloud}, UnsupportedForm{{}, ".pts", kPointCloud},
-    UnsupportedForm{{}, ".pkl", kPyTorch}};
+    UnsupportedForm{{}, ".pcd.bin", kSweep},  UnsupportedForm{{}, ".asc", kTerrain},
+    UnsupportedForm{{}, ".hgt", kTerrain},    UnsupportedForm{{}, ".dem", kTerrain},
+    UnsupportedForm{{}, ".bil", kTerrain},    UnsupportedForm{{}, ".flt", kTerrain},
+    UnsupportedForm{{}, ".grd", kTerrain},    UnsupportedForm{{}, ".obj", kPointCloud},
+    UnsupportedForm{{}, ".stl", kPointCloud}, UnsupportedForm{{}, ".xyz", kPointCloud},
+    UnsupportedForm{{}, ".pts", kPointCloud}, UnsupportedForm{{}, ".pkl", kPyTorch}};
 
 // Of such files that do not hold text.
-constexpr std::array kHeaderlessEndings{UnsupportedForm{{}, ".raw", kNoHeader},
-                                        UnsupportedForm{{}, ".z16", kNoHeader},
-                                        UnsupportedForm{{}, ".depth", kNoHeader}};
+constexpr std::array kHeaderlessEndings{
+    UnsupportedForm{{}, ".raw", kNoHeader}, UnsupportedForm{{}, ".r16", kHeightsNoHeader},
+    UnsupportedForm{{}, ".z16", kNoHeader}, UnsupportedForm{{}, ".depth", kNoHeader}};
 
 constexpr std::size_t kInspected_bytes = 1 << 16;
 
@@ -266,25 +302,105 @@ bool lists_record3d(const fs::path& file) {
     return hold(end, "rgbd/") && hold(end, "metadata");
 }
 
+/// Of a bag of ROS 1; RealSense names its topics after the device, in the index at the end.
+std::string_view advice_on_bag(const fs::path& file) {
+    if (hold(end_of(file, kInspected_bytes), "/device_0/"))
+        return " is a recording of RealSense (a bag of ROS 1): export its pictures with rs-convert "
+               "-i {} -p depth_ (of librealsense)";
+    return " is a bag of ROS 1: make one of ROS 2 of it with rosbags-convert --src {} --dst ros2 "
+           "(pip install rosbags), and give the folder ros2";
+}
+
 /// Whether a Matroska file's list of tracks has librgbd's depth codecs.
 bool is_of_librgbd(const fs::path& file) {
     const std::string begin = beginning_of(file, kInspected_bytes);
     return hold(begin, "V_TDC1") || hold(begin, "V_RVL");
 }
 
-/// The advice for this file: its name where "{}" stands, or FILE where a shell would need quotes.
-std::string filled(std::string_view advice, const fs::path& file) {
-    const std::string name = file.filename().string();
-    const bool is_plain =
-        !name.starts_with('-') && std::all_of(name.begin(), name.end(), [](char c) {
-            return c == '.' || is_bare_name(std::string_view(&c, 1));
-        });
-    std::string text;
-    for (auto at = advice.find("{}"); at != std::string_view::npos; at = advice.find("{}")) {
-        text += std::string(advice.substr(0, at)) + (is_plain ? name : "FILE");
-        advice.remove_prefix(at + 2);
+/// The name of the file as a word of a shell's command or, where quotes are around it already, as
+/// text within them; FILE where neither can have it.
+std::string name_in_command(const std::string& name, bool is_quoted) {
+    constexpr std::string_view kNeverPlain = "'\"\\$`!";
+    const bool is_text =
+        name == one_line(name) && name.find_first_of(kNeverPlain) == std::string::npos;
+    if (!is_text) return "FILE";
+    const std::string safe = name.starts_with('-') ? "./" + name : name;
+    const bool is_word = std::all_of(name.begin(), name.end(), [](char c) {
+        return c == '.' || is_bare_name(std::string_view(&c, 1));
+    });
+    return is_quoted || is_word ? safe : "'" + safe + "'";
+}
+
+/// The sides of so many numbers, "ROWS, COLUMNS": by "160x120" in the name, by what cameras have,
+/// or as a square. In letters where none fits. Of packed numbers, whose count is not known (0), by
+/// the name alone.
+std::string sides_of(const std::string& name, std::uint64_t numbers) {
+    using Sides = std::array<std::uint64_t, 2>;  // columns, rows
+    constexpr std::array<Sides, 15> kOfCameras{{{640, 480},
+                                                {512, 424},
+                                                {320, 240},
+                                                {320, 288},
+                                                {640, 576},
+                                                {848, 480},
+                                                {640, 360},
+                                                {424, 240},
+                                                {1280, 720},
+                                                {1280, 800},
+                                                {1920, 1080},
+                                                {256, 192},
+                                                {224, 171},
+                                                {176, 144},
+                                                {160, 120}}};
+    constexpr const char* kInLetters = "ROWS, COLUMNS";
+    const auto text = [](const Sides& sides) {
+        return std::to_string(sides[1]) + ", " + std::to_string(sides[0]);
+    };
+    const auto fits = [numbers](const Sides& sides) {
+        return sides[0] > 0 && sides[1] > 0 &&
+               (numbers == 0 || (numbers % sides[0] == 0 && numbers / sides[0] == sides[1]));
+    };
+    for (std::size_t at = name.find_first_of("xX", 1); at != std::string::npos;
+         at = name.find_first_of("xX", at + 1)) {
+        std::size_t first = at;
+        while (first > 0 && is_decimal_digit(name[first - 1])) --first;
+        Sides sides{};
+        std::from_chars(name.data() + first, name.data() + at, sides[0]);
+        std::from_chars(name.data() + at + 1, name.data() + name.size(), sides[1]);
+        if (fits(sides)) return text(sides);
     }
-    return text + std::string(advice);
+    if (numbers == 0) return kInLetters;
+    const auto* const usual = std::find_if(kOfCameras.begin(), kOfCameras.end(), fits);
+    if (usual != kOfCameras.end()) return text(*usual);
+    const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(numbers)));
+    return fits({root, root}) ? text({root, root}) : kInLetters;
+}
+
+/// The sides of so many numbers in the shape of a photo, "ROWS, COLUMNS"; empty where none fit.
+std::string sides_as_of_photo(const fs::path& file, std::uint64_t numbers) {
+    std::ifstream in(file, std::ios::binary);
+    const auto photo = claimed_size(in);
+    if (!photo || photo->columns < 1 || photo->rows < 1) return {};
+    const double shape = static_cast<double>(photo->columns) / static_cast<double>(photo->rows);
+    const auto columns =
+        static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(numbers) * shape)));
+    if (columns == 0 || numbers % columns != 0) return {};
+    return std::to_string(numbers / columns) + ", " + std::to_string(columns);
+}
+
+/// The advice for this file, with its name and the sides of so many numbers.
+std::string filled(std::string_view advice, const fs::path& file, std::uint64_t numbers) {
+    constexpr std::string_view kName = "{}";
+    constexpr std::string_view kSides = "{sides}";
+    const std::string name = file.filename().string();
+    std::string text(advice);
+    for (auto at = text.find(kName); at != std::string::npos; at = text.find(kName, at)) {
+        const std::string word = name_in_command(name, at > 0 && text[at - 1] == '\'');
+        text.replace(at, kName.size(), word);
+        at += word.size();
+    }
+    if (const auto at = text.find(kSides); at != std::string::npos)
+        text.replace(at, kSides.size(), sides_of(name, numbers));
+    return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
 }
 
 /// The rest of a sentence that begins with the file's name: what it is, and what to do. Empty where
@@ -297,26 +413,101 @@ std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs:
         return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
                name.ends_with(form.ending);
     });
-    return found == forms.end() ? std::string() : filled(found->advice, file);
+    return found == forms.end() ? std::string() : filled_advice(found->advice, file);
+}
+
+/// Points in the order of the pixels of a camera, each of some numbers of 32 bits.
+struct PixelPoints {
+    std::uint64_t columns{0};
+    std::uint64_t rows{0};
+    std::uint64_t count{0};              ///< 0: not stated
+    std::vector<std::string> numbers{};  ///< "x", "y", "z", ...
+    bool are_real{true};
+    bool are_binary{false};
+};
+
+/// Takes what a line of a header states: of PLY, with the size as 3D scanners add it, or of PCD.
+/// False at the last line.
+bool take_line(const std::string& line, PixelPoints& points) {
+    std::istringstream in(line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(std::move(word));
+    words.resize(std::max<std::size_t>(words.size(), 3));
+    const std::string& first = words[0];
+    const auto is_all = [&](const char* value) {
+        return std::all_of(words.begin() + 1, words.end(), [value](const std::string& word) {
+            return word.empty() || word == value;
+        });
+    };
+    const bool is_info = first == "obj_info";
+    const std::string key = lower_case(is_info ? words[1] : first);
+    const std::string& value = is_info ? words[2] : words[1];
+    std::uint64_t number = 0;
+    std::from_chars(value.data(), value.data() + value.size(), number);
+    if (key == "width") points.columns = number;
+    if (key == "height") points.rows = number;
+    if (first == "element" && words[1] == "vertex")
+        std::from_chars(words[2].data(), words[2].data() + words[2].size(), points.count);
+    if (first == "property") {
+        points.numbers.push_back(words[2]);
+        points.are_real &= words[1] == "float" || words[1] == "float32";
+    }
+    if (first == "FIELDS") points.numbers.assign(words.begin() + 1, words.end());
+    if ((first == "SIZE" && !is_all("4")) || (first == "COUNT" && !is_all("1")))
+        points.are_real = false;
+    if (first == "format") points.are_binary = words[1] == "binary_little_endian";
+    if (first == "DATA") points.are_binary = words[1] == "binary";
+    return first != "end_header" && first != "DATA";
+}
+
+/// What to do about a cloud whose points are in the order of the pixels; empty for others.
+std::string advice_on_pixel_points(const fs::path& file) {
+    constexpr std::size_t kHeader_bytes = 4096;
+    std::istringstream header(beginning_of(file, kHeader_bytes));
+    PixelPoints points;
+    std::string line;
+    bool is_complete = false;
+    while (!is_complete && std::getline(header, line)) is_complete = !take_line(line, points);
+    if (!is_complete || !header) return {};
+    const auto at = static_cast<std::uint64_t>(header.tellg());
+    const auto z = std::find(points.numbers.begin(), points.numbers.end(), "z");
+    const bool is_picture = points.columns >= 2 && points.rows >= 2 &&
+                            points.columns <= kMostPixels / points.rows &&
+                            (points.count == 0 || points.count == points.columns * points.rows);
+    if (!is_picture || !points.are_real || !points.are_binary || z == points.numbers.end())
+        return {};
+    const std::string sides = std::to_string(points.rows) + ", " + std::to_string(points.columns);
+    const std::string numbers = std::to_string(points.numbers.size());
+    return filled_advice(
+        " is a point cloud in the order of the pixels, not a picture of depth: save its distances: "
+        "python3 -c \"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4', " +
+            std::to_string(points.columns * points.rows) + " * " + numbers +
+            ", offset=" + std::to_string(at) + ").reshape(" + sides + ", " + numbers + ")[..., " +
+            std::to_string(z - points.numbers.begin()) + "])\", and give that",
+        file);
 }
 
 std::string advice_on_unsupported(const fs::path& file) {
     constexpr std::size_t kMagic_bytes = 512;
     const std::string head = beginning_of(file, kMagic_bytes);
+    if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("# .PCD")) {
+        if (std::string advice = advice_on_pixel_points(file); !advice.empty()) return advice;
+    }
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
+    if (head.starts_with("#ROSBAG V")) return filled_advice(advice_on_bag(file), file);
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kZip) && !is_npz(file, head))
         return lower_case(file.extension().string()) == ".npz"
                    ? " is damaged, or holds no array: save it again by numpy.savez"
-                   : filled(kZipArchive, file);
+                   : filled_advice(kZipArchive, file);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     const std::string name = lower_case(file.filename().string());
     const auto* const sized =
         std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
             return name.ends_with(form.ending) && form.fits(head, size_of(file));
         });
-    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+    return sized == kSizedForms.end() ? std::string() : filled_advice(sized->advice, file);
 }
 
 /// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
@@ -343,46 +534,21 @@ bool are_reals(std::string_view bytes) {
     return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
 }
 
-/// Whether the text is numbers and what parts them.
-bool is_of_numbers(std::string_view text) {
-    constexpr std::string_view kOthers = "+-.eE, \t\r\nnaifNAIF";
-    std::size_t digits = 0;
-    std::size_t others = 0;
-    for (const char c : text) {
-        if (is_decimal_digit(c))
-            ++digits;
-        else if (kOthers.find(c) == std::string_view::npos)
-            return false;
-        else
-            others += static_cast<std::size_t>(std::isspace(static_cast<unsigned char>(c)) == 0);
-    }
-    return digits > others;
+std::string advice_by_ending(const fs::path& file) {
+    if (lower_case(file.extension().string()) == ".rvl") return filled(kRvl, file, 0);
+    return advice_of(kUnsupportedEndings, file, {});
 }
 
-constexpr std::size_t kLines_bytes = 512;
-
-std::string advice_on_numbers_in_text(const fs::path& file) {
-    const std::string head = beginning_of(file, kLines_bytes);
-    if (!is_of_numbers(head)) return {};
-    return filled(head.find(',') == std::string::npos ? kNumbersInText : kTable, file);
+std::string filled_advice_on_text(const fs::path& file) {
+    const TextAdvice advice = advice_on_numbers_in_text(file);
+    return advice.words.empty() ? advice.words : filled(advice.words, file, advice.numbers);
 }
 
 std::string advice_on_headerless(const fs::path& file) {
     const std::uint64_t bytes = size_of(file);
     if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
-        return " holds " + std::to_string(bytes / 4) + filled(kReals, file);
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, bytes / 4);
     return advice_of(kHeaderlessEndings, file, {});
-}
-
-/// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
-/// would have the decoder open other files. A video of plain pictures has a header in text.
-bool begins_like_text(const fs::path& file) {
-    const std::string head = beginning_of(file, kLines_bytes);
-    if (head.starts_with("YUV4MPEG2 ")) return false;
-    return std::all_of(head.begin(), head.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
-    });
 }
 
 }  // namespace
@@ -411,14 +577,51 @@ void require_readable(const fs::path& file) {
 
 std::string advice_on_form(const fs::path& file) {
     std::string advice = advice_on_unsupported(file);
-    if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_by_ending(file);
+    if (advice.empty() && lower_case(file.extension().string()) == ".csv")
+        advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     return advice;
 }
 
+std::string filled_advice(std::string_view advice, const fs::path& file) {
+    return filled(advice, file, size_of(file) / 2);
+}
+
+std::string advice_on_depth_within(const fs::path& file) {
+    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth, of
+    // 8 bits, and 0x0ab3 has its size.
+    constexpr std::size_t kList_bytes = 4096;
+    constexpr std::string_view kMapBlock = "\0\0\xb1\x0a"sv;
+    if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
+    const std::string end = end_of(file, kList_bytes);
+    const auto list = end.rfind("SEFH");
+    const auto map = list == std::string::npos ? list : end.find(kMapBlock, list);
+    if (!end.ends_with("SEFT") || map == std::string::npos) return {};
+    // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
+    constexpr std::uint64_t kBefore_bytes = 8 + 19;
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 4; k-- > 0 && map + 8 + k < end.size();)
+        bytes = bytes * 256 + static_cast<unsigned char>(end[map + 8 + k]);
+    if (bytes <= kBefore_bytes || end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
+        return filled_advice(
+            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+            "second file",
+            file);
+    const std::uint64_t levels = bytes - kBefore_bytes;
+    const std::string advice =
+        " holds a map of depth by Samsung, which is not read: take it out with python3 -c \"import "
+        "numpy; b = open('{}', 'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, 'u1', " +
+        std::to_string(levels) + ", b.rindex(b'DualShot_DepthMap_') + 19).reshape(";
+    const std::string rest = "))\", and give that as the second file";
+    const std::string by_photo = sides_as_of_photo(file, levels);
+    return filled(advice + (by_photo.empty() ? "{sides}" : by_photo) + rest, file, levels);
+}
+
 void require_no_other_form(const fs::path& file) {
-    std::string advice = advice_of(kUnsupportedEndings, file, {});
-    if (advice.empty()) advice = advice_on_numbers_in_text(file);
+    std::string advice = advice_by_ending(file);
+    if (advice.empty()) advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     if (!advice.empty()) throw InputError(shown(file) + advice);
     if (begins_like_text(file))

@@ -9,13 +9,16 @@ extern "C" {
 #include <libavutil/pixdesc.h>
 }
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <limits>
 #include <new>
 #include <opencv2/core.hpp>
+#include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
@@ -76,6 +79,12 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
         require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
 }
 
+/// Whether it has the first bytes of MP4 and QuickTime, Matroska, or AVI.
+bool begins_as_video(std::string_view head) {
+    return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp") ||
+           head.starts_with("\x1a\x45\xdf\xa3") || head.starts_with("RIFF");
+}
+
 }  // namespace
 
 VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packets_(file, track) {
@@ -91,10 +100,11 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packe
         opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }
     if (!opened)
-        throw InputError(
-            shown(file) +
-            " cannot be opened as a video: it is cut off, has no video stream or is of "
-            "an unknown kind; record or convert it again");
+        throw InputError(shown(file) + " cannot be opened as a video: " +
+                         (begins_as_video(head_of(file))
+                              ? "it is cut off, or has no video stream; copy or record it again"
+                              : "it is of a kind that is not known here; convert it to pictures "
+                                "(PNG of 16 bits) or to an array (.npy)"));
     quarter_turns_ = quarter_turns(*packets_.stream());
     marks_non_reference_ = marks_non_reference(*packets_.stream()->codecpar);
 }

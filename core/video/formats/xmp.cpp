@@ -3,6 +3,7 @@
 
 #include <expat.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -16,6 +17,7 @@ constexpr XML_Char kBehindNamespace = '\n';  // no namespace holds it
 constexpr std::string_view kListEntry = "http://www.w3.org/1999/02/22-rdf-syntax-ns#\nli";
 constexpr std::string_view kContainerItem = "\nItem";
 constexpr std::size_t kMostProperties = 10000;
+constexpr std::size_t kLongestNamespace = 200;
 constexpr std::size_t kDeepestElement = 100;
 
 struct XmpParserFreed {
@@ -87,11 +89,29 @@ void XMLCALL refuse_document_type(void* user, const XML_Char* /*name*/, const XM
     XML_StopParser(xmp_reading(user).parser, XML_FALSE);
 }
 
+/// Whether a namespace is longer than those of photos. Expat writes it before each name that is in
+/// it, so that a packet of a megabyte could take gigabytes.
+bool has_long_namespace(std::string_view packet) {
+    constexpr std::string_view kDeclaration = "xmlns";  // behind a blank, as an attribute
+    constexpr std::string_view kBlanks = " \t\r\n";
+    for (auto at = packet.find(kDeclaration); at != std::string_view::npos;
+         at = packet.find(kDeclaration, at + 1)) {
+        if (at == 0 || kBlanks.find(packet[at - 1]) == std::string_view::npos) continue;
+        const auto begin = packet.find_first_of("\"'", at);
+        if (begin == std::string_view::npos) return false;
+        const auto end = std::min(packet.find(packet[begin], begin + 1), packet.size());
+        if (end - begin > kLongestNamespace) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 std::vector<XmpProperty> xmp_properties(std::string_view packet) {
-    const XmpParser parser(XML_ParserCreateNS(nullptr, kBehindNamespace));
-    if (parser == nullptr || packet.size() > std::size_t{std::numeric_limits<int>::max()})
+    // The encoding of all packets in JPEG (ISO 16684-1), whatever they state.
+    const XmpParser parser(XML_ParserCreateNS("UTF-8", kBehindNamespace));
+    if (parser == nullptr || packet.size() > std::size_t{std::numeric_limits<int>::max()} ||
+        has_long_namespace(packet))
         return {};
     XmpReading reading;
     reading.parser = parser.get();

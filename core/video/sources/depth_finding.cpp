@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <opencv2/imgproc.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -16,10 +18,11 @@
 #include "core/video/depth/depth_words.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/sources/data_sets.hpp"
 #include "core/video/sources/kept_choices.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/packed.hpp"
+#include "core/video/sources/picture_kind.hpp"
 #include "core/video/sources/readers.hpp"
 #include "core/video/sources/sidecar.hpp"
 
@@ -32,6 +35,7 @@ namespace {
 constexpr int kMostSampled = 24;
 constexpr int kLeastSampled = 4;
 constexpr double kPixelsDecoded = 2.4e7;  ///< decoded in about half a second
+constexpr double kBeyondNumbers = 0.92;   ///< facts as sure need no numbers
 
 DepthStatement sidecars_of(const std::vector<fs::path>& places) {
     DepthStatement said;
@@ -46,8 +50,8 @@ void append(const Findings& more, Findings& rows) {
 }
 
 /// The data set of a source, but for one whose levels are decoded, and say it themselves.
-std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
-    auto set = data_set_of(facts);
+std::optional<DataSetFacts> data_set_beside_codes(Sources& sources) {
+    auto set = sources.data_set.of(sources.depth->facts());
     if (set && set->finding.statement.code) set.reset();
     return set;
 }
@@ -75,7 +79,7 @@ Findings findings_in_folder(const fs::path& folder, int bits) {
 Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
-    if (!facts.live) rows.push_back(finding_on_form(facts));
+    if (sources.reader != nullptr) rows.push_back(finding_on_form(*sources.reader, facts));
     append(facts.findings, rows);
     append(sources.findings, rows);
     if (set) rows.push_back(set->finding);
@@ -84,6 +88,7 @@ Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& 
     const Findings by_name = findings_by_name(facts);
     const bool is_sure = !by_name.empty() && by_name.front().statement.unit;
     if (is_sure || !sure_facts({}, rows).unit) append(by_name, rows);
+    if (!set) append(quantities_in_name(facts.picture().stem().string(), "its name"), rows);
     return rows;
 }
 
@@ -110,11 +115,52 @@ Findings units_beside(const SampledLevels& levels, const Findings& rows) {
     return units;
 }
 
+/// The row on pictures that look like something else than depth, or none. Where a name or metadata
+/// state the levels surely, the look of a photograph says nothing: heights of bark are as rough.
+Findings findings_on_looks(std::span<const cv::Mat> pictures, int bits,
+                           const DepthStatement& known) {
+    constexpr std::size_t kMostInspected = 3;
+    constexpr double kSurenessOfMask = 0.95;  // a flat shape that is to be felt may be so, too
+    pictures = pictures.first(std::min(pictures.size(), kMostInspected));
+    if (pictures.empty() || bits > 16) return {};
+    const auto row = [](double sureness, const char* reason) {
+        return Findings{{{}, Evidence::appearance, sureness, reason, std::string(kNoDepth)}};
+    };
+    if (std::all_of(pictures.begin(), pictures.end(), is_black_and_white))
+        return row(kSurenessOfMask, "it is black and white alone, as a mask is");
+    const auto is_photo = [](const cv::Mat& picture) {
+        cv::Mat grey;
+        cv::cvtColor(grey_of(picture), grey, cv::COLOR_GRAY2BGR);
+        return looks_like_photo(grey);
+    };
+    if (bits > 8 || known.unit || !std::all_of(pictures.begin(), pictures.end(), is_photo))
+        return {};
+    return row(kSurenessOfAppearance, "it looks like a photograph");
+}
+
+/// The row that a map or a micrograph may be of no heights, or none: a name or a layout says what
+/// its levels are, or they are of terrain.
+Findings findings_on_other_quantities(const Findings& rows, const SampledLevels& levels) {
+    constexpr double kSurenessOfOthers = 0.85;
+    const bool is_named = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
+        const bool says_it = row.evidence == Evidence::name || row.evidence == Evidence::layout;
+        return says_it && row.statement.unit && row.sureness >= kSureEnough;
+    });
+    const auto found = std::find_if(rows.begin(), rows.end(), [&levels](const Finding& row) {
+        return row.about == kMicrograph || (row.about == kMap && !levels.may_be_terrain());
+    });
+    if (is_named || found == rows.end()) return {};
+    return {{{}, Evidence::numbers, kSurenessOfOthers, found->reason, std::string(kNoDepth)}};
+}
+
 /// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what other
 /// rows state and they contradict. Returns the levels without those that are no data.
 SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
-    SampledLevels levels(sample_pictures(*sources.depth), sources.depth->facts().bits);
-    const DepthStatement known = sure_facts(persons, rows);
+    const int bits = sources.depth->facts().bits;
+    const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
+    SampledLevels levels(pictures, bits);
+    const DepthStatement known = sure_facts(persons, rows, kBeyondNumbers);
+    append(findings_on_looks(pictures, bits, known), rows);
     const bool names_no_data = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
         return row.statement.no_data.has_value();
     });
@@ -122,6 +168,7 @@ SampledLevels add_numbers(const Sources& sources, const RankedStatements& person
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
+    append(findings_on_other_quantities(rows, levels), rows);
     const Findings contradictions = levels.contradictions(rows);
     if (!known.unit || !contradictions.empty()) append(units_beside(levels, rows), rows);
     append(contradictions, rows);
@@ -206,12 +253,6 @@ void keep_that_fit(const DepthRange& range, std::vector<DepthAlternative>& alter
     if (alternatives.size() < 2) alternatives.clear();
 }
 
-/// `meaning` by that alternative; its range stays.
-DepthMeaning by_alternative(DepthMeaning meaning, const DepthAlternative& alternative) {
-    merge_by_priority({{Origin::assumed, alternative.statement}}, meaning);
-    return meaning;
-}
-
 }  // namespace
 
 Findings findings_by_name(const SourceFacts& facts) {
@@ -221,8 +262,7 @@ Findings findings_by_name(const SourceFacts& facts) {
         const fs::path whole = fs::absolute(place, failed).lexically_normal();
         return whole.has_filename() ? whole : whole.parent_path();
     };
-    const fs::path picture =
-        place_of(facts.first_picture.empty() ? facts.file : facts.first_picture);
+    const fs::path picture = place_of(facts.picture());
     Findings rows;
     if (named_other(picture).empty())
         rows = findings_in_name(picture.stem().string(), facts.bits, "its name");
@@ -255,7 +295,7 @@ DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
     return said;
 }
 
-FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
+FoundScale find_scale(Sources& sources, const DepthRequest& request) {
     PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
@@ -270,14 +310,15 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources, data_set_beside_codes(facts));
+        rows = findings_on(sources, data_set_beside_codes(sources));
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));
     }
     // Sampling a video takes long: only where something is left to find out.
     std::optional<SampledLevels> levels;
-    if (!is_complete(sure_facts(persons, rows))) levels = add_numbers(sources, persons, rows);
+    if (!is_complete(sure_facts(persons, rows, kBeyondNumbers)))
+        levels = add_numbers(sources, persons, rows);
     DepthConclusion conclusion = conclude(persons, rows, meaning);
     const DepthStatement of_folder = folder_choice(conclusion, request, facts.file);
     if (!(of_folder == DepthStatement{})) {
@@ -293,7 +334,7 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
     if (states_range) keep_that_fit(meaning.range.value, conclusion.alternatives);
     for (DepthAlternative& alternative : conclusion.alternatives)
         alternative.range = levels && !states_range
-                                ? levels->range(by_alternative(meaning, alternative))
+                                ? levels->range(meaning_by(alternative, meaning))
                                 : meaning.range.value;
     require_range(meaning, facts.bits, facts.file);
     return {DepthScale(meaning, facts.bits), std::move(conclusion)};

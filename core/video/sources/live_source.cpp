@@ -139,13 +139,17 @@ DepthCode code_of(const PictureGuess& guess, const DepthStatement& statement) {
     return guess.kind == PictureKind::byte_depth ? guess.code : DepthCode::grey;
 }
 
+bool is_of_colours(DepthCode code) {
+    return code == DepthCode::hue || is_of_bytes(code);
+}
+
 /// Decodes depth coded as colours: as the statement says, else as the pictures look.
 Sources decoded(const std::shared_ptr<LiveCursor>& cursor, const PictureGuess& guess,
                 const DepthStatement& statement) {
     Sources sources;
     const DepthCode code = code_of(guess, statement);
     const bool is_ramp = !statement.code && guess.kind == PictureKind::ramp_depth;
-    const bool is_coded = code != DepthCode::grey || is_ramp;
+    const bool is_coded = is_of_colours(code) || is_ramp;
     sources.depth = pictures_of(cursor, is_coded ? Which::depth_as_seen : Which::depth);
     const Finding coded = finding_on_code(code, statement.code.has_value());
     if (code == DepthCode::hue)
@@ -195,15 +199,15 @@ Sources of_one(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& 
     return decoded(cursor, guess, statement);
 }
 
-/// The depth of two connections, told by the statement alone: looking at its pictures would take
+/// The depth of two connections, coded as the statement says: looking at its pictures would take
 /// time.
 Sources of_two(const std::shared_ptr<LiveCursor>& cursor, const DepthStatement& statement) {
     Sources sources = decoded(cursor, {.kind = PictureKind::grey_depth}, statement);
     sources.colour = pictures_of(cursor, Which::colour);
     const LivePicture& first = cursor->pair->depth;
-    const bool is_told = statement.code || statement.packing == DepthPacking::separate;
-    if (!is_told && !first.grey && !first.colour.empty() && is_coloured(first.colour))
-        sources.not_depth = refusal_of_colours(sources.depth->facts());
+    const bool is_stated = statement.code || statement.packing == DepthPacking::separate;
+    if (!is_stated && !first.grey && !first.colour.empty() && is_coloured(first.colour))
+        sources.not_depth = refusal_of_colours(sources.depth->facts(), {});
     return sources;
 }
 
@@ -225,7 +229,7 @@ Sources find_live_sources(const fs::path& colour, const fs::path& depth,
     feed->set_outputs(true, true);
     const auto cursor = std::make_shared<LiveCursor>(LiveCursor{.feed = feed});
     cursor->advance();
-    const bool is_coded = statement.code.value_or(DepthCode::grey) != DepthCode::grey;
+    const bool is_coded = is_of_colours(statement.code.value_or(DepthCode::grey));
     Sources sources;
     if (two) {
         sources = of_two(cursor, statement);

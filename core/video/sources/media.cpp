@@ -17,9 +17,10 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/sources/coded_levels.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
-#include "core/video/sources/layouts.hpp"
+#include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/live_source.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/pair_times.hpp"
@@ -115,28 +116,62 @@ Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthSta
     return colour.empty() ? find_depth(depth, statement) : find_sources(colour, depth, statement);
 }
 
-MediaDescription described(const fs::path& place, const DepthRequest& request,
-                           const std::string& notice) {
+/// What persons state of a place, and its sidecar.
+DepthStatement statement_at(const fs::path& place, const DepthRequest& request) {
     const MediaPlaces places =
         is_live(place) ? MediaPlaces{.colour = place} : places_for(place, {});
-    const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
-    const DepthStatement statement = statement_for(depth, place, request);
+    return statement_for(places.depth.empty() ? places.colour : places.depth, place, request);
+}
+
+/// Adds to sources of colour or depth alone what they lack, where the other place holds it alone.
+void add_partner(const fs::path& other, const DepthRequest& request, Sources& sources) {
+    if (other.empty() || is_live(other) || (sources.colour && sources.depth)) return;
+    try {
+        Sources found = find_content(other, statement_at(other, request));
+        if ((found.colour && found.depth) || !found.not_depth.empty()) return;
+        if (found.depth && !sources.depth) sources.depth = std::move(found.depth);
+        if (found.colour && !sources.colour) sources.colour = std::move(found.colour);
+    } catch (const InputError&) {
+        return;  // the description of that place says why
+    }
+}
+
+/// Of colour that belongs to no depth, or to that of another place.
+MediaDescription described_colour(const fs::path& other, const DepthRequest& request,
+                                  Sources sources) {
+    add_partner(other, request, sources);
+    if (sources.depth) {
+        DepthMeaning meaning;
+        merge_by_priority({{Origin::command_line, statement_at(other, request)}}, meaning);
+        (void)pair_times(sources, meaning, request.find_out);
+    }
+    sources.colour->count_frames(kMostCounted);
+    MediaDescription description;
+    describe_colour(sources.colour->facts(), description);
+    describe_time(sources.colour->facts(), description);
+    describe_timing(sources.colour->facts(), description);
+    description.notice = sources.colour->facts().notice;
+    return description;
+}
+
+MediaDescription described(const fs::path& place, const fs::path& other,
+                           const DepthRequest& request, const std::string& notice) {
+    const DepthStatement statement = statement_at(place, request);
     Sources sources =
         is_live(place) ? sources_of(place, {}, statement, request) : find_content(place, statement);
-    if (sources.depth == nullptr) {
-        sources.colour->count_frames(kMostCounted);
-        MediaDescription description;
-        describe_colour(sources.colour->facts(), description);
-        describe_time(sources.colour->facts(), description);
-        describe_timing(sources.colour->facts(), description);
-        description.notice = sources.colour->facts().notice;
-        return description;
-    }
+    if (sources.depth == nullptr) return described_colour(other, request, std::move(sources));
+    const bool is_of_depth = sources.colour == nullptr;
+    if (!sources.depth->facts().live) add_partner(other, request, sources);
     decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
     const auto media = media_of(std::move(sources), statement, request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
+    if (is_of_depth) {
+        description.colour_path.clear();
+        description.colour_codec.clear();
+        description.colour_columns = description.colour_rows = 0;
+    }
     description.levels_used = levels_used(pictures);
     if (description.meaning) {
         SampledLevels levels(pictures, description.depth_bits);
@@ -194,11 +229,14 @@ std::string doubt_about(const MediaDescription& media, StatedBy way) {
                                   : "the unit is assumed to be " + std::string(name_of(*best.unit));
     if (!is_near && has_scale(best)) assumed += " and the scale " + scale_text(best);
     constexpr double kPercent = 100.0;
-    return shown(media.depth_path) + ": " + assumed + " (" + number_text(kPercent * sure, 0) +
-           " % sure): look at it, or " +
+    const std::string doubt =
+        conclusion.doubt.empty() ? "" : conclusion.doubt + ", so it may be no depth; ";
+    return shown(media.depth_path) + ": " + doubt + assumed + " (" +
+           number_text(kPercent * sure, 0) + " % sure): look at it, or " +
            (way == StatedBy::options ? "say " + listed(ways, " or ")
                                      : "state " + listed(ways, " or ") + " in its sidecar " +
-                                           shown(sidecar_of(media.depth_path)));
+                                           shown(sidecar_of(media.depth_path))) +
+           (doubt.empty() ? "" : ", or give the file of the depth");
 }
 
 std::string motion_trouble(const MediaDescription& media) {
@@ -257,9 +295,10 @@ std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& ask
     });
 }
 
-MediaDescription describe_media(const fs::path& place, const DepthRequest& asked) {
+MediaDescription describe_media(const fs::path& place, const DepthRequest& asked,
+                                const fs::path& other) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        return described(place, request, notice);
+        return described(place, other, request, notice);
     });
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/video/depth/depth_words.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
@@ -27,40 +28,24 @@ using Words = std::span<const std::string_view>;
 // Anywhere in a name.
 constexpr std::array<std::string_view, 6> kColourWords{"colour", "color",   "rgb",
                                                        "albedo", "diffuse", "couleur"};
-constexpr std::array<std::string_view, 8> kDepthWords{"depth",        "disparity", "disparities",
-                                                      "displacement", "heightmap", "profondeur",
-                                                      "profundidad",  "profondita"};
+constexpr std::array<std::string_view, 9> kDepthWords{
+    "depth",        "disparity",  "disparities",
+    "displacement", "heightmap",  "profondeur",
+    "profundidad",  "profondita", "\xe6\xb7\xb1\xe5\xba\xa6"};  // Chinese
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 4> kShortColourWords{"diff", "farbe", "farben", "farbbild"};
 constexpr std::array<std::string_view, 6> kShortDepthWords{"disp",   "height",     "tiefe",
                                                            "tiefen", "tiefenbild", "tiefenkarte"};
-constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",   "im",
-                                                       "left",  "frame",  "frames"};
+constexpr std::array<std::string_view, 11> kMayBeColour{"image",  "images", "img",     "im",
+                                                        "left",   "frame",  "frames",  "src",
+                                                        "source", "input",  "original"};
 // "mono_depth", "depth maps"
 constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
-/// Last words of names of what belongs to a recording, and is neither its colour nor its depth.
-struct OtherContent {
-    std::string_view what;    ///< for people
-    std::string_view words;   ///< each between blanks
-    bool shows_depth{false};  ///< it may be felt, though something else is better
-};
-constexpr std::array kOtherContents{
-    OtherContent{"a mask", " mask masks valid validity "},
-    OtherContent{"confidence", " conf confidence confidences certainty uncertainty "},
-    OtherContent{"normals", " normal normals nor nrm "},
-    OtherContent{"infrared", " ir infra infrared "},
-    OtherContent{"a preview", " thumb thumbs thumbnail thumbnails preview previews poster ", true},
-    OtherContent{"a painting of depth",
-                 " vis viz visualization visualisation visualized visualised colored coloured "
-                 "colorized colourised colormap colourmap ",
-                 true},
-    OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
-    OtherContent{"optical flow", " flow flows "},
-    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
-// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
-constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
-                                                       "px",  "ids",  "occ", "noc"};
+// After the word that decides: "normal_gl_2k", "confidence_image", "labelIds", "normal_pred".
+constexpr std::array<std::string_view, 13> kPassedWords{"map", "maps", "image",     "img", "gl",
+                                                        "dx",  "k",    "px",        "ids", "occ",
+                                                        "noc", "pred", "prediction"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
@@ -70,16 +55,7 @@ constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", 
                                                         ".mpg", ".ogv", ".ts",  ".webm"};
 
 bool ends_as(const fs::path& file, Words endings) {
-    const std::string ending = lower_case(file.extension().string());
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-bool is_one_of(std::string_view word, Words words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_of_digits(const std::string& word) {
-    return std::all_of(word.begin(), word.end(), is_decimal_digit);
+    return is_one_of(lower_case(file.extension().string()), endings);
 }
 
 bool holds(const fs::path& file, Words anywhere, Words whole) {
@@ -131,19 +107,20 @@ std::vector<fs::path> neighbours_of(const fs::path& given) {
 }
 
 /// What the last word of a name that counts says; null: nothing.
-const OtherContent* other_content(const fs::path& file) {
+const OtherContent* named_content(const fs::path& file) {
     // Of a folder the whole name, of a file what is before the ending.
     const bool has_ending = named_media(file) || named_numbers(file);
     const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
     const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
         return !is_of_digits(word) && !is_one_of(word, kPassedWords);
     });
-    if (last == words.rend()) return nullptr;
-    const auto* const found = std::find_if(
-        kOtherContents.begin(), kOtherContents.end(), [&last](const OtherContent& content) {
-            return content.words.find(' ' + *last + ' ') != std::string_view::npos;
-        });
-    return found == kOtherContents.end() ? nullptr : found;
+    return last == words.rend() ? nullptr : other_content_of(*last);
+}
+
+/// The same, but for what serves as the colour, and for quantities, which names of depth hold, too.
+const OtherContent* other_content(const fs::path& file) {
+    const OtherContent* const found = named_content(file);
+    return found != nullptr && (found->shows_scene || found->is_quantity) ? nullptr : found;
 }
 
 /// The name of the first picture in a folder; empty: it holds none, or is no folder.
@@ -282,6 +259,11 @@ std::string_view named_no_depth(const fs::path& place) {
     return found == nullptr || found->shows_depth ? std::string_view() : found->what;
 }
 
+bool named_brightness(const fs::path& file) {
+    const OtherContent* const found = named_content(file);
+    return found != nullptr && found->shows_scene;
+}
+
 std::string_view folder_named_no_depth(const fs::path& file) {
     const auto says_nothing = [](const std::string& word) {
         return is_of_digits(word) || is_one_of(word, kMayBeColour) || is_one_of(word, kPassedWords);
@@ -293,7 +275,7 @@ std::string_view folder_named_no_depth(const fs::path& file) {
     if (found == nullptr || found->shows_depth) return {};
     const std::vector<std::string> words = words_of_name(folder.string());
     const bool is_whole = std::all_of(words.begin(), words.end(), [&](const std::string& word) {
-        return says_nothing(word) || found->words.find(' ' + word + ' ') != std::string_view::npos;
+        return says_nothing(word) || other_content_of(word) == found;
     });
     return is_whole ? found->what : std::string_view();
 }
@@ -354,8 +336,6 @@ std::optional<fs::path> find_depth_beside(const fs::path& given, std::string& lo
                                          : " (or another extension)");
         if (auto found = with_stem(colour, *stem, true)) return found;
     }
-    if (looked_for.empty())
-        looked_for = "nothing, because the name holds neither color, colour nor rgb";
     if (named_depth(colour)) return std::nullopt;
     if (auto found = belonging_to(colour, named_depth, named_depth, true)) return found;
     if (is_folder(colour))

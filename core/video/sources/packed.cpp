@@ -12,9 +12,10 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/byte_code.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/depth/colour_maps.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_times.hpp"
 #include "core/video/sources/picture_kind.hpp"
-#include "core/video/sources/picture_times.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -55,13 +56,6 @@ std::unique_ptr<PictureSource> cropped(std::unique_ptr<PictureSource> whole, con
     return std::make_unique<ChangedPictures>(std::move(whole), crop, [](SourceFacts&) {});
 }
 
-/// Converts intrinsics to another size of the same picture.
-Intrinsics resized(const Intrinsics& camera, cv::Size from, cv::Size to) {
-    const double x = static_cast<double>(to.width) / from.width;
-    const double y = static_cast<double>(to.height) / from.height;
-    return {camera.fx * x, camera.fy * y, (camera.cx + 0.5) * x - 0.5, (camera.cy + 0.5) * y - 0.5};
-}
-
 /// Stretches a half to its own size, and adds how the packing is known.
 std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
                                           const PackedForm& form, PictureRole role) {
@@ -77,7 +71,8 @@ std::unique_ptr<PictureSource> unsqueezed(std::unique_ptr<PictureSource> half,
         finding.statement.packing = form.packing;
         auto& camera = finding.statement.intrinsics;
         if (camera && !form.intrinsics_size.empty())
-            camera = resized(*camera, form.intrinsics_size, {facts.columns, facts.rows});
+            camera =
+                scaled_camera(*camera, form.intrinsics_size, cv::Size(facts.columns, facts.rows));
         facts.findings.push_back(std::move(finding));
     };
     return std::make_unique<ChangedPictures>(std::move(half), change, change_facts);
@@ -102,7 +97,7 @@ bool is_lossless(const std::string& codec) {
     return std::find(kLossless.begin(), kLossless.end(), lower_case(codec)) != kLossless.end();
 }
 
-constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for float32)";
+constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for floats)";
 
 /// Why a source does not hold the numbers of the code; empty: it may. Either its pictures are not
 /// of red, green and blue as the code needs them, or their low bytes are lost.
@@ -121,9 +116,17 @@ std::string missing_bytes(PictureSource& pictures, DepthCode code) {
                ", which is in bytes of red, green, " +
                (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
                ": give the picture as it was first written, or another --depth-code";
-    if (!is_luma && (is_lossless(facts.codec) ||
-                     is_continuous(pictures.samples(kSamples), code).value_or(true)))
-        return {};
+    if (!is_luma) {
+        const std::vector<cv::Mat> samples = pictures.samples(kSamples);
+        const std::optional<bool> continues = is_continuous(samples, code);
+        // Even numbers may be continuous as floats of both orders.
+        if (continues == true && least_channels(code) == 3) return {};
+        const auto other = byte_code_in(samples);
+        if (other && *other != code && (continues != true || have_contrary_bytes(*other, code)))
+            return shown(facts.file) + " has its bytes in another order than " + name +
+                   " has: give --depth-code " + std::string(name_of(*other));
+        if (continues.value_or(true) || is_lossless(facts.codec)) return {};
+    }
     return shown(facts.file) + " does not keep the bytes of red, green and blue (" +
            one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
            ") are lost: write it without loss, " + kWithoutLoss;
@@ -156,19 +159,6 @@ bool names_carla(const fs::path& file) {
         return lower_case(name.filename().string()).find("carla") != std::string::npos;
     };
     return holds(file) || holds(file.parent_path());
-}
-
-/// The runs of letters and digits, in small letters.
-std::vector<std::string> plain_words_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(name)) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            words.back() += c;
-        else if (!words.back().empty())
-            words.emplace_back();
-    }
-    if (words.back().empty()) words.pop_back();
-    return words;
 }
 
 struct PackingWord {
@@ -206,11 +196,6 @@ const PackingWord* packing_word(const std::string& word) {
     return found == kPackingWords.end() ? nullptr : found;
 }
 
-bool is_number(const std::string& word) {
-    return std::all_of(word.begin(), word.end(),
-                       [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 }  // namespace
 
 PackedForm form_by_appearance(const PictureGuess& guess) {
@@ -235,8 +220,10 @@ Finding finding_on_code(DepthCode code, bool is_stated) {
         : code == DepthCode::hue      ? "its colours: pure hues alone"
         : code == DepthCode::kinect11 ? "its levels: 2047 alone above those of a Kinect"
         : code == DepthCode::turned16 ? "its levels: multiples of 8, as of bits turned by three"
-        : code == DepthCode::xyz      ? "its channels, which are points before one camera"
-                                      : "the bytes of its colours, which carry as those of numbers";
+        : code == DepthCode::depth16
+            ? "its levels: distances that go on where the three highest bits change"
+        : code == DepthCode::xyz ? "its channels, which are points before one camera"
+                                 : "the bytes of its colours, which carry as those of numbers";
     return {{.code = code}, Evidence::code, kSurenessOfCode, reason};
 }
 
@@ -288,7 +275,7 @@ std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictu
     }
     coded.statement.fill_in(byte_code_meaning(code));
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
-        facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
+        facts.bits = bits_in_bytes(code);
         facts.channels = 1;
         facts.findings.push_back(coded);
     };
@@ -305,7 +292,7 @@ std::unique_ptr<PictureSource> level_decoded(std::unique_ptr<PictureSource> pict
     coded.statement.code = code;
     coded.statement.fill_in(level_code_meaning(code));
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
-        facts.bits = code == DepthCode::turned16 ? 16 : kRealBits;
+        facts.bits = has_whole_numbers(code) ? 16 : kRealBits;
         facts.channels = 1;
         for (Finding& other : facts.findings) forget_levels(other.statement);
         std::erase_if(facts.findings, [](const Finding& other) {
@@ -322,17 +309,24 @@ bool has_decoded_levels(const SourceFacts& facts) {
     });
 }
 
-std::string refusal_of_colours(const SourceFacts& facts) {
-    const std::string what =
-        shown(facts.file) + " is in colours that are neither grey nor a known code of depth: ";
-    const std::string as_bytes =
-        is_lossless(facts.codec) ? ""
-                                 : "if depth is in their bytes, write them without the losses of " +
-                                       one_line(facts.codec) + ", " + kWithoutLoss + "; else ";
-    return what + as_bytes +
-           "name the code (--depth-code; grey takes the brightness) or the halves (--packing), "
-           "give "
-           "the depth that they were painted from, or let an estimator make it (dibhr help depth)";
+std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen) {
+    if (is_colour_mapped(seen))
+        return shown(facts.file) +
+               " is painted in false colours (such as jet or viridis), neither grey nor a known "
+               "code of depth: give the numbers that it was painted from, as an array (.npy) or in "
+               "grey" +
+               (has_map_of_rising_brightness(seen)
+                    ? ", or take its brightness by --depth-code grey"
+                    : " (--depth-code grey would give a wrong relief)");
+    const std::string lossless_form = facts.still ? "as PNG" : kWithoutLoss;
+    const std::string first = is_lossless(facts.codec) || facts.bits == kRealBits
+                                  ? ""
+                                  : "write it without the losses of " + one_line(facts.codec) +
+                                        ", " + lossless_form + ", and ";
+    return shown(facts.file) + (facts.still ? " is a colour picture" : " holds colour pictures") +
+           ", not depth: its colours are neither grey nor a known code of depth; give the depth "
+           "itself, as an array (.npy) or in grey, or, if its bytes hold a code, " +
+           first + "name it with --depth-code";
 }
 
 bool is_of_halves(DepthPacking packing) noexcept {
@@ -376,7 +370,7 @@ std::optional<NamedPacking> packing_by_name(const fs::path& file) {
     // Only words at the end count: others may mean anything.
     for (auto word = words.rbegin(); word != words.rend(); ++word) {
         const PackingWord* const known = packing_word(*word);
-        if (known == nullptr && !is_number(*word)) break;
+        if (known == nullptr && !is_of_digits(*word)) break;
         if (known == nullptr) continue;
         if (known->packing) said.packing = *known->packing;
         said.half_size = said.half_size || known->half_size;

@@ -71,7 +71,8 @@ struct PackedForm {
 [[nodiscard]] bool has_decoded_levels(const SourceFacts& facts);
 
 /// One line that refuses depth whose colours are no known code: what it is, and what to do.
-[[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts);
+/// `seen`: one of its pictures, 8-bit BGR, or empty.
+[[nodiscard]] std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen);
 
 /// Whether colour and depth are the halves of one picture.
 [[nodiscard]] bool is_of_halves(DepthPacking packing) noexcept;

@@ -75,18 +75,15 @@ void TimeMap::change(SourceFacts& facts) const {
 
 RetimedPictures::RetimedPictures(std::unique_ptr<PictureSource> source, TimeMap times,
                                  Timing timing, double start_s)
-    : source_(std::move(source)),
-      times_(std::move(times)),
-      timing_(std::move(timing)),
-      start_s_(start_s) {
-    update_facts();
+    : source_(std::move(source)), times_(std::move(times)), facts_(source_->facts()) {
+    times_.change(facts_);
+    facts_.timing = std::move(timing);
+    if (!std::isnan(start_s)) facts_.start_s = start_s;
 }
 
 void RetimedPictures::update_facts() {
-    facts_ = source_->facts();
+    facts_.take_progress(source_->facts());
     times_.change(facts_);
-    facts_.timing = timing_;
-    if (!std::isnan(start_s_)) facts_.start_s = start_s_;
 }
 
 std::optional<TimedPicture> RetimedPictures::retimed(std::optional<TimedPicture> taken) {
@@ -184,10 +181,9 @@ OwnedSource at_stated_rate(OwnedSource source, const Known<double>& frames_per_s
                                              std::move(timing), kAsSource);
 }
 
-/// The source at these times of its pictures, in order; they begin at `start_s`.
-OwnedSource at_times(OwnedSource source, std::vector<double> times_s, Timing timing,
-                     double start_s) {
-    std::vector<double> own_s = source->picture_times_s();
+/// The source, whose pictures have the times `own_s`, at these in order; they begin at `start_s`.
+OwnedSource at_times(OwnedSource source, std::vector<double> own_s, std::vector<double> times_s,
+                     Timing timing, double start_s) {
     const double first_s = times_s.front();
     for (double& time_s : times_s) time_s -= first_s;
     return std::make_unique<RetimedPictures>(std::move(source),
@@ -199,12 +195,15 @@ OwnedSource at_times(OwnedSource source, std::vector<double> times_s, Timing tim
 OwnedSource at_stamps(OwnedSource source) {
     Timing timing = source->facts().timing;
     const auto stamps_s = timing.stamps_s;
-    const bool fits = stamps_s && is_surer(timing.stamps_from, timing.from) &&
-                      stamps_s->size() > 1 && source->picture_times_s().size() == stamps_s->size();
-    if (!fits) return source;
+    const bool may_fit =
+        stamps_s && is_surer(timing.stamps_from, timing.from) && stamps_s->size() > 1;
+    if (!may_fit) return source;
+    std::vector<double> own_s = source->picture_times_s();
+    if (own_s.size() != stamps_s->size()) return source;
     timing.from = timing.stamps_from;
     timing.text = timing.stamps_text;
-    return at_times(std::move(source), *stamps_s, std::move(timing), stamps_s->front());
+    return at_times(std::move(source), std::move(own_s), *stamps_s, std::move(timing),
+                    stamps_s->front());
 }
 
 /// Where each picture of a source stands among the frames of another one, in frames.
@@ -297,10 +296,10 @@ bool last_as_long(const SourceFacts& a, const SourceFacts& b) {
 std::optional<double> take_times_of(const PictureSource& other, OwnedSource& source) {
     const SourceFacts& facts = source->facts();
     const std::vector<double> times_s = other.picture_times_s();
-    const std::size_t pictures = source->picture_times_s().size();
-    if (times_s.size() < 2 || pictures < 2) return std::nullopt;
-    const auto positions =
-        positions_of(facts.timing, pictures, times_s.size(), last_as_long(facts, other.facts()));
+    std::vector<double> own_s = source->picture_times_s();
+    if (times_s.size() < 2 || own_s.size() < 2) return std::nullopt;
+    const auto positions = positions_of(facts.timing, own_s.size(), times_s.size(),
+                                        last_as_long(facts, other.facts()));
     if (!positions) return std::nullopt;
     std::vector<double> taken_s;
     for (const double position : positions->at) taken_s.push_back(time_at(times_s, position));
@@ -308,7 +307,7 @@ std::optional<double> take_times_of(const PictureSource& other, OwnedSource& sou
     timing.from = TimesFrom::other;
     timing.text = "those of " + source_name(other.facts()) + ", " + positions->text;
     const double later_s = taken_s.front();
-    source = at_times(std::move(source), std::move(taken_s), std::move(timing),
+    source = at_times(std::move(source), std::move(own_s), std::move(taken_s), std::move(timing),
                       other.facts().start_s + later_s);
     return later_s;
 }
@@ -354,8 +353,9 @@ std::string contradiction(const SourceFacts& depth, const SourceFacts& colour) {
 }
 
 /// Where one source has times and the other has none, or where a person states that they are
-/// paired.
-void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool find_out) {
+/// paired. Returns how much later the colour's own beginning then is; nothing: no times were taken.
+std::optional<double> take_pair_times(Sources& sources, PairTimes& pair, bool is_stated,
+                                      bool find_out) {
     const SourceFacts& depth = sources.depth->facts();
     const SourceFacts& colour = sources.colour->facts();
     const bool depth_has = has_own_times(depth);
@@ -367,7 +367,7 @@ void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool fin
     const bool may_differ =
         (is_stated || !are_numbered) && !is_shared && depth.frames != colour.frames;
     const bool is_paired = is_stated && pair.times.value == DepthTimes::paired;
-    if (!is_paired && (is_stated || !find_out)) return;
+    if (!is_paired && (is_stated || !find_out)) return std::nullopt;
     if (!is_stated && is_shared) pair.times.value = DepthTimes::paired;
     bool depth_takes = !depth_has && colour_has;
     bool colour_takes = depth_has && !colour_has;
@@ -376,13 +376,35 @@ void take_pair_times(Sources& sources, PairTimes& pair, bool is_stated, bool fin
         colour_takes = !depth_takes;
     }
     if (depth_has && colour_has) depth_takes = is_paired;
+    std::optional<double> colour_later_s;
     if (depth_takes) {
         if (const auto later_s = take_times_of(*sources.colour, sources.depth))
-            pair.colour_later_s = -*later_s;
+            colour_later_s = -*later_s;
     } else if (colour_takes) {
-        pair.colour_later_s = take_times_of(*sources.depth, sources.colour);
+        colour_later_s = take_times_of(*sources.depth, sources.colour);
     }
-    if (!is_stated && pair.colour_later_s) pair.times.value = DepthTimes::paired;
+    if (!is_stated && colour_later_s) pair.times.value = DepthTimes::paired;
+    return colour_later_s;
+}
+
+/// Sets how colour and depth with times of their own begin.
+void take_beginnings(const SourceFacts& depth, const SourceFacts& colour, PairTimes& pair) {
+    const bool is_shared = share_clock(depth, colour);
+    if (is_shared) pair.colour_later_s = colour.start_s - depth.start_s;
+    if (!has_own_times(depth) || !has_own_times(colour)) return;
+    const double apart_s = std::fabs(pair.colour_later_s);
+    std::string text = is_shared ? "begins with the depth, by the clock of both"
+                                 : "taken to begin with the depth: they have no common clock";
+    if (apart_s * colour.frames_per_s > kHalfFrame) {
+        text = "begins " + short_text(apart_s, 3) + " s " +
+               (pair.colour_later_s > 0.0 ? "after" : "before") +
+               " the depth, by the clock of both";
+        pair.beginning = "the colour " + text;
+    }
+    Finding row =
+        finding_on_times("colour", is_shared ? colour.timing.from : TimesFrom::assumed, text);
+    row.about = "begin of the colour";
+    pair.findings.push_back(std::move(row));
 }
 
 }  // namespace
@@ -401,14 +423,17 @@ PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_ou
     }
     if (!sources.colour || sources.colour->facts().still || sources.depth->facts().still)
         return pair;
-    take_pair_times(sources, pair, is_stated, find_out);
+    const auto taken_later_s = take_pair_times(sources, pair, is_stated, find_out);
     const SourceFacts& depth = sources.depth->facts();
     const SourceFacts& colour = sources.colour->facts();
-    if (pair.colour_later_s) {
+    if (taken_later_s) {
+        pair.colour_later_s = *taken_later_s;
         const bool of_depth = depth.timing.from == TimesFrom::other;
         pair.findings.push_back(
             finding_on_times(of_depth ? "depth" : "colour", TimesFrom::other,
                              of_depth ? depth.timing.text : colour.timing.text));
+    } else {
+        take_beginnings(depth, colour, pair);
     }
     pair.notice = contradiction(depth, colour);
     return pair;

@@ -58,25 +58,23 @@ class RetimedPictures : public PictureSource {
 
     std::unique_ptr<PictureSource> source_;
     TimeMap times_;
-    Timing timing_;
-    double start_s_;
-    SourceFacts facts_{};
+    SourceFacts facts_;
 };
 
 /// How the frames of a pair go together.
 struct PairTimes {
     Known<DepthTimes> times{};
-    double offset_s{0.0};  ///< the depth is so much later than its times say
-    /// How much later the colour's own beginning is than the depth's, where the times of one are
-    /// those of the other; nothing: by the clocks of their files.
-    std::optional<double> colour_later_s{};
-    std::string notice{};  ///< why both cannot be right; mostly empty
-    Findings findings{};   ///< who says when frames are: of each source the surest counts
+    double offset_s{0.0};        ///< the depth is so much later than its times say
+    double colour_later_s{0.0};  ///< how much later the colour's own beginning is than the depth's
+    std::string beginning{};     ///< that in words; empty: they begin together
+    std::string notice{};        ///< why both cannot be right; mostly empty
+    Findings findings{};         ///< who says when frames are: of each source the surest counts
 };
 
 /// Gives the sources the times that the meaning states, and, where it states none and `find_out`,
 /// those that are found: stamps, then, for pictures without times, the times of the other source's
-/// frames: one by one for as many pictures, by the numbers in their names, or every n-th.
+/// frames: one by one for as many pictures, by the numbers in their names, or every n-th. Else both
+/// begin as the clocks of their files or stamps say, and together where these never meet.
 [[nodiscard]] PairTimes pair_times(Sources& sources, const DepthMeaning& meaning, bool find_out);
 
 }  // namespace dibhr

@@ -25,13 +25,6 @@ namespace {
 constexpr double kSameDistance_s = 4.0 * kTimeTolerance_s;
 constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
 
-/// How much later than the depth the colour begins [s]: by both files' start; 0 without overlap.
-double colour_start_s(const SourceFacts& colour, const SourceFacts& depth) {
-    const double later_s = colour.start_s - depth.start_s;
-    const bool overlap = later_s < depth.duration_s && -later_s < colour.duration_s;
-    return overlap ? later_s : 0.0;
-}
-
 /// Near is light, far is dark, no data is grey.
 ColourImage painted_depth(const DepthImage& depth) {
     const cv::Mat levels = view_of(depth);
@@ -87,8 +80,7 @@ void describe_timing(const SourceFacts& facts, MediaDescription& description) {
 ColourTrack::ColourTrack(std::unique_ptr<PictureSource> source, const SourceFacts& depth,
                          const PairTimes& times)
     : source_(std::move(source)),
-      start_offset_s_(times.colour_later_s.value_or(colour_start_s(source_->facts(), depth)) -
-                      times.offset_s),
+      start_offset_s_(times.colour_later_s - times.offset_s),
       interval_s_(std::min(interval_of(depth), interval_of(source_->facts()))),
       half_s_(0.5 * interval_of(source_->facts())) {}
 
@@ -206,6 +198,7 @@ void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) 
         description_.times_from = name_of(TimesFrom::other);
         description_.timing += "; of the colour: " + colour->timing.text;
     }
+    if (!times.beginning.empty()) description_.timing += "; " + times.beginning;
     if (times.offset_s != 0.0) {
         description_.times_from = name_of(TimesFrom::stated);
         description_.timing += "; " + short_text(times.offset_s) + " s later";
@@ -216,7 +209,7 @@ void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) 
 void PairedMedia::take_range() {
     const auto& meaning = description_.meaning;
     if (!meaning || !meaning->is_metric()) return;
-    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
+    const double unit_mm = one_in_mm(meaning->unit.value);
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
 }
 

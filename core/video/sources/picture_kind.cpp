@@ -413,6 +413,25 @@ bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey) {
     return shared.inside >= kLeastInside || shared.all >= kLeastInAll;
 }
 
+bool looks_like_photo(const cv::Mat& picture) {
+    // Depth: texture to 0.01 with the noise of a sensor, edges to 0.1. Photographs: mostly from
+    // 0.012 and 0.17 on.
+    constexpr double kLeastTexture = 0.012;
+    constexpr double kLeastEdges = 0.12;
+    constexpr int kLeast_px = 64;
+    if (picture.type() != CV_8UC3 || std::min(picture.cols, picture.rows) < kLeast_px) return false;
+    const SurfaceStatistics brightness = picture_statistics(picture).brightness;
+    return brightness.texture >= kLeastTexture && brightness.edges >= kLeastEdges;
+}
+
+bool is_black_and_white(const cv::Mat& picture) {
+    if (picture.empty() || (picture.depth() != CV_8U && picture.depth() != CV_16U)) return false;
+    const cv::Mat levels = grey_of(picture);
+    const int black = cv::countNonZero(levels == 0.0);
+    const int white = cv::countNonZero(levels == highest_level(picture.depth() == CV_8U ? 8 : 16));
+    return black > 0 && white > 0 && black + white == static_cast<int>(levels.total());
+}
+
 PictureGuess guess_kind(std::span<const cv::Mat> pictures) {
     pictures = pictures.first(std::min(pictures.size(), kMostKindSamples));
     if (pictures.empty() || !std::all_of(pictures.begin(), pictures.end(), is_large_enough))

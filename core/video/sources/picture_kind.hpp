@@ -73,6 +73,13 @@ struct PictureGuess {
 /// structure is that of the colour. Both 8-bit BGR.
 [[nodiscard]] bool is_photo_of_scene(const cv::Mat& colour, const cv::Mat& grey);
 
+/// Whether a grey picture looks like a photograph: fine structure and many edges. Noise of a sensor
+/// alone has few edges. False for one below 64 pixels. 8-bit BGR.
+[[nodiscard]] bool looks_like_photo(const cv::Mat& picture);
+
+/// Whether a picture has 0 and the highest level, and nothing else, as a mask has. 8 or 16 bits.
+[[nodiscard]] bool is_black_and_white(const cv::Mat& picture);
+
 /// `pictures`: 8-bit BGR, sampled across one file. Uses up to 24, reduced to 320 pixels. In doubt,
 /// or without pictures, the answer is photographs.
 [[nodiscard]] PictureGuess guess_kind(std::span<const cv::Mat> pictures);

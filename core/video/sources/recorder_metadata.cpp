@@ -65,13 +65,6 @@ Json asset_of(const std::string& text) {
     return asset;
 }
 
-std::optional<double> number_in(const Json& object, const char* key) {
-    const auto found = object.find(key);
-    if (found == object.end() || !found->is_number()) return std::nullopt;
-    const double number = found->get<double>();
-    return std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
 struct Pair {
     double x{0.0}, y{0.0};
 };
@@ -81,8 +74,8 @@ std::optional<Pair> pair_in(const Json& object, const char* key, const char* x =
                             const char* y = "y") {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_object()) return std::nullopt;
-    const auto first = number_in(*found, x);
-    const auto second = number_in(*found, y);
+    const auto first = finite_number_in(*found, x);
+    const auto second = finite_number_in(*found, y);
     if (!first || !second) return std::nullopt;
     return Pair{*first, *second};
 }
@@ -143,7 +136,8 @@ std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, 
     if (nested && perspectives->size() != 1) return std::nullopt;
     const Json& camera = nested ? perspectives->front() : metadata;
     if (!camera.is_object()) return std::nullopt;
-    const auto range = range_of(number_in(camera, "nearClip"), number_in(camera, "farClip"));
+    const auto range =
+        range_of(finite_number_in(camera, "nearClip"), finite_number_in(camera, "farClip"));
     const auto crop = crop_of(camera);
     if (!range || !crop || !(of_that_name || has_proportions(picture, *crop))) return std::nullopt;
     PackedForm form;
@@ -210,6 +204,9 @@ std::optional<PackedForm> form_inside(const fs::path& video, cv::Size picture) {
 constexpr std::array<std::string_view, 4> kMetadataEndings{".metadata.asset", "_meta.txt",
                                                            "metadata.json", "metadata.txt"};
 
+/// Endings that also other texts have: only of the video's own name.
+constexpr std::array<std::string_view, 2> kPlainEndings{".txt", ".json"};
+
 /// The video's name in the name of a metadata file: "take" of "take_meta.txt"; else nothing.
 std::optional<std::string> described_by(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
@@ -225,34 +222,46 @@ struct MetadataFile {
     bool of_that_name{false};
 };
 
-/// The metadata file with the video's name, else the only one.
-std::optional<MetadataFile> metadata_beside(const fs::path& video) {
+/// The files that may describe the video, the likeliest first: the metadata file with its name;
+/// else a text with its name, and the only metadata file.
+std::vector<MetadataFile> metadata_beside(const fs::path& video) {
     const std::string stem = lower_case(video.stem().string());
-    std::vector<fs::path> found;
+    std::vector<MetadataFile> own;
+    std::vector<MetadataFile> others;
     std::error_code failed;
     const fs::path folder = video.has_parent_path() ? video.parent_path() : fs::path(".");
     for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end;
          entry.increment(failed)) {
-        const auto described = described_by(entry->path());
-        if (!described) continue;
-        if (*described == stem) return MetadataFile{entry->path(), true};
-        found.push_back(entry->path());
+        const fs::path& file = entry->path();
+        const auto described = described_by(file);
+        if (described == stem) return {{file, true}};
+        const std::string ending = lower_case(file.extension().string());
+        const bool is_plain =
+            std::find(kPlainEndings.begin(), kPlainEndings.end(), ending) != kPlainEndings.end();
+        if (described)
+            others.push_back({file, false});
+        else if (is_plain && lower_case(file.stem().string()) == stem)
+            own.push_back({file, true});
     }
-    if (found.size() != 1) return std::nullopt;
-    return MetadataFile{found.front(), false};
+    if (others.size() == 1) own.push_back(others.front());
+    return own;
+}
+
+std::optional<PackedForm> form_in(const MetadataFile& beside, cv::Size picture) {
+    const std::string text = beginning_of(beside.file, kMostText);
+    const bool is_asset = lower_case(beside.file.extension().string()) == ".asset";
+    const Json metadata = is_asset ? asset_of(text) : parsed_json(text);
+    if (!metadata.is_object()) return std::nullopt;
+    auto form = depthkit_form(metadata, picture, beside.of_that_name);
+    if (!form) form = record3d_form(metadata, picture);
+    if (form) form->finding.reason = shown(beside.file.filename());
+    return form;
 }
 
 std::optional<PackedForm> form_beside(const fs::path& video, cv::Size picture) {
-    const auto beside = metadata_beside(video);
-    if (!beside) return std::nullopt;
-    const std::string text = beginning_of(beside->file, kMostText);
-    const bool is_asset = lower_case(beside->file.extension().string()) == ".asset";
-    const Json metadata = is_asset ? asset_of(text) : parsed_json(text);
-    if (!metadata.is_object()) return std::nullopt;
-    auto form = depthkit_form(metadata, picture, beside->of_that_name);
-    if (!form) form = record3d_form(metadata, picture);
-    if (form) form->finding.reason = shown(beside->file.filename());
-    return form;
+    for (const MetadataFile& beside : metadata_beside(video))
+        if (auto form = form_in(beside, picture)) return form;
+    return std::nullopt;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <zstd.h>
 
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <stdexcept>
 #include <string_view>
@@ -200,8 +201,10 @@ std::string image(double stamp_s, int columns, int rows, const std::string& enco
 }
 
 std::string depth_image(double stamp_s, int level, int columns, int rows) {
-    std::string data;
-    for (int k = 0; k < columns * rows; ++k) data += little(static_cast<std::uint16_t>(level));
+    const std::vector<std::uint16_t> levels(static_cast<std::size_t>(columns * rows),
+                                            static_cast<std::uint16_t>(level));
+    std::string data(2 * levels.size(), '\0');
+    std::memcpy(data.data(), levels.data(), data.size());
     return image(stamp_s, columns, rows, "16UC1", 2 * columns, data);
 }
 

@@ -23,9 +23,13 @@ inline constexpr int kSceneRows = 240;
 [[nodiscard]] cv::Vec3b as_grey(float depth);  ///< white near, black none
 [[nodiscard]] cv::Vec3b as_ramp(float depth);  ///< white, cyan, blue, black
 
-/// Numbers in the bytes of the channels, as 8-bit BGR, for float32 BGRA; not finite: all bytes 0.
+/// Numbers in the bytes of the channels, as 8-bit BGR, for floats BGRA; not finite: all bytes 0.
 /// `numbers`: CV_32F; metres for terrain.
 [[nodiscard]] cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code);
+
+/// Millimetres in 13 of 16 bits, below a confidence that changes every few pixels, as Android has
+/// them; 0: no data.
+[[nodiscard]] cv::Mat below_confidence(const cv::Mat& millimetres);
 
 /// Surfaces of other colours with a rough texture, seen from `to_the_right` pixels further right.
 [[nodiscard]] cv::Mat scene_photo(double to_the_right = 0.0);

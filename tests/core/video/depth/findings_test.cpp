@@ -181,6 +181,23 @@ TEST_CASE("what a person states beats every finding, and nobody is asked again",
     CHECK(other.sure > 0.9);
 }
 
+TEST_CASE("a row that it is no depth lowers every meaning, and none that a person states",
+          "[findings]") {
+    Findings findings{row({.near = NearLevels::bright, .unit = DepthUnit::levels}, 0.99),
+                      row({}, 0.85, Evidence::appearance)};
+    CHECK(concluded(findings).conclusion.alternatives.empty());
+    findings[1].about = kNoDepth;
+    const auto [meaning, conclusion] = concluded(findings);
+    CHECK(conclusion.doubt == "a reason");
+    CHECK(conclusion.sure < kSureEnough);
+    CHECK(conclusion.sure > 0.5);  // somebody named it depth
+    CHECK(conclusion.alternatives.size() >= 2);
+    CHECK(meaning.near == Known<NearLevels>{NearLevels::bright, Origin::assumed});
+    for (const DepthStatement& stated :
+         {kBright, kMillimetres, DepthStatement{.code = DepthCode::grey}})
+        CHECK(concluded(findings, {{Origin::panel, stated}}).conclusion.doubt.empty());
+}
+
 TEST_CASE("a person's near tells of the unit where only the numbers speak of it", "[findings]") {
     const Findings weak{row({.unit = DepthUnit::levels}, 0.6), row(kDisparity, 0.5)};
     CHECK(concluded(weak, {{Origin::panel, kDark}}).meaning.unit.value != DepthUnit::disparity);

@@ -139,6 +139,41 @@ TEST_CASE("levels that are all multiples of 8 show bits turned by three", "[leve
               .meaning->code.value == DepthCode::grey);
 }
 
+TEST_CASE("distances that go on where the three highest bits change have a confidence there",
+          "[levels]") {
+    const cv::Mat millimetres = whole(scene_m() * 1000.0, 0);
+    const cv::Mat confident = below_confidence(millimetres);
+    CHECK(found(confident) == DepthCode::depth16);
+    const cv::Mat back = numbers_in_levels(confident, DepthCode::depth16, {});
+    CHECK(cv::countNonZero(back != millimetres) == 0);
+    CHECK(level_code_meaning(DepthCode::depth16).no_data == std::vector<double>{0.0});
+    // Distances that pass 8192, and outlines before what is far behind them.
+    CHECK_FALSE(found(whole(scene_m() * 4000.0, 0)).has_value());
+    CHECK_FALSE(found(whole(scene_m() * 17000.0, 0)).has_value());
+    CHECK_FALSE(found(below_confidence(cv::Mat(90, 90, CV_16UC1, cv::Scalar(900)))).has_value());
+    // A name alone makes no code, but a few such places are enough beside it.
+    CHECK_FALSE(may_be_of({&millimetres, 1}, DepthCode::depth16));
+    cv::Mat few = millimetres.clone();
+    few.rowRange(100, 130).colRange(10, 40) += cv::Scalar(8192 * 5);
+    CHECK_FALSE(found(few).has_value());
+    CHECK(may_be_of({&few, 1}, DepthCode::depth16));
+    const TemporaryFolder folder;
+    picture(confident)(folder / "a_depth.png");
+    const DepthMeaning meaning =
+        *open_depth(folder / "a_depth.png", {.find_out = true})->description().meaning;
+    CHECK(meaning.code == Known<DepthCode>{DepthCode::depth16, Origin::found});
+    CHECK(meaning.unit == Known<DepthUnit>{DepthUnit::mm, Origin::found});
+    CHECK_THAT(meaning.range.value.far, WithinRel(1000.0 * kFarthest_m, 0.1));
+    picture(confident)(folder / "a_depth_mm.png");
+    CHECK(open_depth(folder / "a_depth_mm.png", {.find_out = true})
+              ->description()
+              .meaning->code.value == DepthCode::depth16);
+    picture(confident)(folder / "a_disparity.png");
+    CHECK(open_depth(folder / "a_disparity.png", {.find_out = true})
+              ->description()
+              .meaning->code.value == DepthCode::grey);
+}
+
 TEST_CASE("found levels are felt as distances, unless a person says what they are", "[levels]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "a.png";

@@ -315,14 +315,14 @@ TEST_CASE("a large picture is read, and one that says more than it holds is told
     const BagForm form = GENERATE(from_range(bag_forms()));
     const fs::path file = folder / ("l" + form.ending);
     CAPTURE(form.name());
-    {
+    {  // larger than any block in which bags are read and unpacked
         Bag bag(file, form);
         const int depth = bag.topic("/depth", "Image");
-        bag.add(depth, depth_image(1.0, 11, 1600, 1200));
-        bag.add(depth, image(1.1, 1600, 1200, "16UC1", 3200, "short"));
+        bag.add(depth, depth_image(1.0, 11, 800, 600));
+        bag.add(depth, image(1.1, 800, 600, "16UC1", 1600, "short"));
         bag.add(depth, image(1.2, 2'000'000'000, 2'000'000'000, "16UC1", 0, "short"));
-        bag.add(depth, depth_image(1.3, 12, 1600, 1200).substr(0, 70));
-        bag.add(depth, depth_image(1.4, 13, 1600, 1200));
+        bag.add(depth, depth_image(1.3, 12, 800, 600).substr(0, 70));
+        bag.add(depth, depth_image(1.4, 13, 800, 600));
     }
     const auto media = open_depth(file);
     CHECK(depths_of(*media) == std::vector<float>{11.0F, 11.0F, 11.0F, 11.0F, 13.0F});
@@ -376,7 +376,7 @@ TEST_CASE("a compressed picture of a bag beyond the bound is refused", "[bag][me
     const BagForm form = GENERATE(from_range(bag_forms()));
     const fs::path file = folder / ("large" + form.ending);
     CAPTURE(form.name());
-    const std::string png = encoded(".png", cv::Mat::zeros(5800, 5800, CV_16UC1));
+    static const std::string png = encoded(".png", cv::Mat::zeros(5800, 5800, CV_16UC1));
     CHECK(png.size() < 200'000);
     {
         Bag bag(file, form);

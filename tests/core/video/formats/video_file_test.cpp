@@ -213,6 +213,7 @@ TEST_CASE("pictures that wait for others to be decoded are no later for it", "[m
     make_flat_clip(folder / ("clip_color." + ending), 20, 10, waiting + container);
     make_flat_clip(folder / "clip_depth.mkv", 20, 10, kLossless);
     const auto media = open_media(folder / ("clip_color." + ending), folder / "clip_depth.mkv");
+    CHECK(media->description().timing == "in the file");
     int told = 0;
     while (const auto frame = media->next()) {
         CHECK(std::lround(frame->colour.rgb[frame->colour.rgb.size() / 2] / 5.0) ==

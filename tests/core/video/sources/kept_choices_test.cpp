@@ -285,7 +285,7 @@ TEST_CASE(
     CHECK(takes.opened(height).meaning->near == known(NearLevels::bright, Origin::found));
     // What is said on the panel of other things does not withdraw it.
     const DepthRequest whole{.find_out = true,
-                             .panel = {.finger_mm = 2.0},
+                             .panel = DepthStatement{.finger_mm = 2.0},
                              .kept_in = takes.choices,
                              .panel_is_whole = true};
     const MediaDescription again = open_depth(takes.second, whole)->description();

@@ -1,8 +1,10 @@
 // Depth is told from what is not, by content alone; in doubt pictures are photographs.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -34,6 +36,25 @@ cv::Mat in_grey(const cv::Mat& picture) {
     cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
     cv::cvtColor(grey, grey, cv::COLOR_GRAY2BGR);
     return grey;
+}
+
+/// As a sensor's.
+cv::Mat with_noise(const cv::Mat& picture) {
+    cv::Mat noise(picture.size(), CV_8UC1);
+    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
+    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
+    return picture + noise;
+}
+
+/// Things of any brightness, each of a rough material.
+cv::Mat grey_photo() {
+    constexpr int kThing_px = 12;
+    cv::Mat things(20, 26, CV_8UC1);
+    cv::RNG(5).fill(things, cv::RNG::UNIFORM, 20, 220);
+    cv::Mat photo;
+    cv::resize(things, photo, {}, kThing_px, kThing_px, cv::INTER_NEAREST);
+    cv::cvtColor(photo, photo, cv::COLOR_GRAY2BGR);
+    return with_noise(photo);
 }
 
 cv::Mat blurred(const cv::Mat& picture, double by) {
@@ -313,6 +334,47 @@ TEST_CASE("colour and depth in halves are told, with packing and code", "[kind]"
     CHECK(guessed.code == code);
 }
 
+TEST_CASE("depth alone of a packed picture is its half, as beside its colour", "[kind]") {
+    const TemporaryFolder folder;
+    const auto [code, paint] = GENERATE(table<DepthCode, cv::Vec3b (*)(float)>(
+        {{DepthCode::grey, as_grey}, {DepthCode::hue, as_hue}}));
+    CAPTURE(name_of(code));
+    const cv::Mat depth = painted(scene_depth(), paint);
+    const std::filesystem::path file = folder / "both.png";
+    cv::imwrite(file.string(),
+                GENERATE_COPY(beside(scene_photo(), depth), above(depth, scene_photo())));
+    const DepthRequest request{.find_out = true};
+    const std::unique_ptr<Media> alone = open_depth(file, request);
+    const std::unique_ptr<Media> both = open_media(file, {}, request);
+    const std::unique_ptr<Media> twice = open_media(file, file, request);
+    CHECK(alone->description().depth_columns == kSceneColumns);
+    CHECK(alone->description().depth_rows == kSceneRows);
+    CHECK(alone->description().colour_columns == 0);
+    REQUIRE(alone->description().meaning);
+    REQUIRE(both->description().meaning);
+    const DepthMeaning& meaning = *alone->description().meaning;
+    CHECK(meaning.code.value == code);
+    CHECK(meaning.packing.value == both->description().meaning->packing.value);
+    const std::vector<float> levels = alone->next().value().depth.levels;
+    const auto is_same = [](float a, float b) { return a == b || (a != a && b != b); };
+    CHECK(std::ranges::equal(levels, both->next().value().depth.levels, is_same));
+    CHECK(std::ranges::equal(levels, twice->next().value().depth.levels, is_same));
+}
+
+TEST_CASE("a packed picture that is said to be all depth is not split, given once or twice",
+          "[kind]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "both.png";
+    cv::imwrite(file.string(), beside(scene_photo(), painted(scene_depth(), as_grey)));
+    DepthRequest request{.find_out = true};
+    request.command_line.packing = DepthPacking::separate;
+    request.command_line.code = DepthCode::grey;
+    CHECK(open_depth(file, request)->description().depth_columns == 2 * kSceneColumns);
+    CHECK(open_media(file, file, request)->description().depth_columns == 2 * kSceneColumns);
+    request.command_line.packing.reset();
+    CHECK(open_depth(file, request)->description().depth_columns == kSceneColumns);
+}
+
 TEST_CASE("depth is told in compressed video, too", "[kind]") {
     const TemporaryFolder folder;
     const cv::Mat depth = scene_depth();
@@ -334,11 +396,7 @@ TEST_CASE("depth is told in compressed video, too", "[kind]") {
 TEST_CASE("another photograph of the scene is told from its depth", "[kind]") {
     const cv::Mat colour = scene_photo();
     const cv::Mat depth = painted(scene_depth(), as_grey);
-    cv::Mat noisy;
-    cv::Mat noise(depth.size(), CV_8UC1);
-    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
-    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
-    cv::add(depth, noise, noisy);
+    const cv::Mat noisy = with_noise(depth);
     cv::Mat steps = sheet(60);
     cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
     cv::Mat darker;
@@ -393,11 +451,7 @@ TEST_CASE("grey depth is opened beside colour, whatever it is called", "[kind]")
     const TemporaryFolder folder;
     cv::Mat steps = sheet(60);
     cv::rectangle(steps, {100, 60, 90, 120}, cv::Scalar::all(200), cv::FILLED);
-    cv::Mat noisy;
-    cv::Mat noise(steps.size(), CV_8UC1);
-    cv::RNG(3).fill(noise, cv::RNG::UNIFORM, 0, 24);
-    cv::cvtColor(noise, noise, cv::COLOR_GRAY2BGR);
-    cv::add(painted(scene_depth(), as_grey), noise, noisy);
+    const cv::Mat noisy = with_noise(painted(scene_depth(), as_grey));
     const auto [name, picture] = GENERATE_COPY(
         table<std::string, cv::Mat>({{"b.png", painted(scene_depth(), as_grey)},
                                      {"b.png", steps},
@@ -414,16 +468,73 @@ TEST_CASE("grey depth is opened beside colour, whatever it is called", "[kind]")
     CHECK(media->description().depth_bits == 8);
 }
 
+TEST_CASE("a photograph has fine structure and edges, noisy depth has fine structure alone",
+          "[kind]") {
+    const cv::Mat photo = grey_photo();
+    CHECK(looks_like_photo(photo));
+    CHECK_FALSE(looks_like_photo(photo(cv::Rect(0, 0, 60, 60))));
+    const cv::Mat depth = painted(scene_depth(), as_grey);
+    for (const cv::Mat& surface :
+         {depth, with_noise(depth), with_noise(sheet(90)), grey_gradient(), sheet(0)})
+        CHECK_FALSE(looks_like_photo(surface));
+}
+
+TEST_CASE("black and white alone are a mask's levels, with a third one they are not", "[kind]") {
+    const auto [type, white] = GENERATE(table<int, double>({{CV_8U, 255.0}, {CV_16U, 65535.0}}));
+    cv::Mat mask(60, 80, type, cv::Scalar(0.0));
+    CHECK_FALSE(is_black_and_white(mask));
+    mask(cv::Rect(20, 20, 30, 30)) = cv::Scalar(white);
+    CHECK(is_black_and_white(mask));
+    mask.row(3) = cv::Scalar(1.0);
+    CHECK_FALSE(is_black_and_white(mask));
+    CHECK_FALSE(is_black_and_white(cv::Mat(60, 80, CV_32F, cv::Scalar(1.0))));
+    CHECK_FALSE(is_black_and_white(cv::Mat()));
+}
+
+TEST_CASE("what is named depth and looks like something else is asked about", "[kind]") {
+    const TemporaryFolder folder;
+    cv::Mat mask = sheet(0);
+    cv::rectangle(mask, {100, 60, 90, 120}, cv::Scalar::all(255), cv::FILLED);
+    const auto [name, picture, doubt] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
+        {{"depth.png", grey_photo(), "looks like a photograph"},
+         {"depth_0.png", mask, "black and white alone"},
+         {"wall_height.png", grey_photo(), ""},
+         {"depth.png", with_noise(painted(scene_depth(), as_grey)), ""}}));
+    CAPTURE(name);
+    const auto file = folder / name;
+    cv::Mat grey;
+    cv::cvtColor(picture, grey, cv::COLOR_BGR2GRAY);
+    REQUIRE(cv::imwrite(file.string(), grey));
+    DepthRequest request{.find_out = true};
+    const MediaDescription media = describe_media(file, request);
+    CHECK(contains(media.conclusion.doubt, doubt));
+    CHECK(media.conclusion.doubt.empty() == doubt.empty());
+    request.command_line.code = DepthCode::grey;
+    CHECK(describe_media(file, request).conclusion.doubt.empty());
+    if (doubt.empty()) return;
+    CHECK(media.conclusion.alternatives.size() >= 2);
+    CHECK(contains(doubt_about(media), "it may be no depth; near is assumed"));
+    CHECK(contains(doubt_about(media), "or give the file of the depth"));
+}
+
 TEST_CASE("a grey picture and one of something else are refused as what they are", "[kind]") {
     const TemporaryFolder folder;
     const cv::Mat photo = scene_photo();
+    cv::Mat painting;
+    cv::applyColorMap(painted(scene_depth(), as_grey), painting, cv::COLORMAP_VIRIDIS);
+    cv::Mat in_jet;
+    cv::applyColorMap(painted(scene_depth(), as_grey), in_jet, cv::COLORMAP_JET);
     const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
         {{"cam0_000012.png", in_grey(photo), "is grey and does not look like depth"},
          {"frame_0001_normal.png", photo, "named as normals"},
          {"aachen_gtFine_labelIds.png", chessboard(24), "named as labels"},
          {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
-         {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
-         {"IMG_0001.png", photo, "needs a depth file"}}));
+         {"disparities/alley_1/frame_0001.png", photo, "is a colour picture, not depth"},
+         {"vis/depth_viridis.png", painting, "take its brightness by --depth-code grey"},
+         {"vis/depth_jet.png", in_jet, "--depth-code grey would give a wrong relief"},
+         {"thermal.png", painting, "give the numbers that it was painted from"},
+         {"IMG_0001.png", photo,
+          "is a colour picture without depth and needs a depth file beside it"}}));
     CAPTURE(name);
     const auto file = folder / name;
     std::filesystem::create_directories(file.parent_path());

@@ -1,5 +1,5 @@
 // Lists of pictures with times, as TUM's benchmark has them.
-#include "core/video/sources/picture_lists.hpp"
+#include "core/video/sources/layouts/picture_lists.hpp"
 
 #include <algorithm>
 #include <cmath>

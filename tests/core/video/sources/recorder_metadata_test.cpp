@@ -62,7 +62,8 @@ TEST_CASE("Depthkit's asset beside a video says clips, camera and that hue below
 
 TEST_CASE("Depthkit's JSON is read, whether its camera stands alone or in a list", "[recorder]") {
     const TemporaryFolder folder;
-    const std::string name = GENERATE("take_meta.txt", "take_metadata.json", "take.metadata.json");
+    const std::string name = GENERATE("take_meta.txt", "take_metadata.json", "take.metadata.json",
+                                      "take.txt", "Take.JSON");
     const bool listed = GENERATE(false, true);
     CAPTURE(name, listed);
     write_text(folder / name, listed ? R"({"perspectives": [)" + json() + "]}" : json());
@@ -101,6 +102,13 @@ TEST_CASE("metadata of another video in the folder is not taken", "[recorder]") 
         write_text(folder / "b_meta.txt", json());
         CHECK_FALSE(form_by_recorder(folder / "c.mp4", {320, 960}));
         CHECK(form_by_recorder(folder / "b.mp4", {320, 960}));
+    }
+    SECTION("a text of another kind with its name, beside the only one") {
+        write_text(folder / "c.txt", "WEBVTT");
+        write_text(folder / "a_meta.txt", json());
+        const auto form = form_by_recorder(folder / "c.mp4", {320, 960});
+        REQUIRE(form);
+        CHECK(form->finding.reason == "'a_meta.txt'");
     }
     SECTION("of a camera that looks beside the picture") {
         write_text(folder / "metadata.json", record3d());

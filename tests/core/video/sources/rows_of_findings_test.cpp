@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "core/video/sources/media.hpp"
+#include "tests/core/video/asks.hpp"
 #include "tests/core/video/coded_scene.hpp"
 #include "tests/core/video/depth_photos.hpp"
 #include "tests/core/video/form_writers.hpp"
@@ -30,6 +32,13 @@ cv::Mat in_16_bits(double nearest, double farthest) {
     cv::Mat levels = scene_between(nearest, farthest);
     levels.setTo(0.0F, ~(levels == levels));
     levels.convertTo(levels, CV_16U);
+    return levels;
+}
+
+/// The scene in the size of a spinning LiDAR's pictures.
+cv::Mat of_spinning_lidar() {
+    cv::Mat levels;
+    cv::resize(in_16_bits(1600.0, 9000.0), levels, {1024, 64}, 0.0, 0.0, cv::INTER_NEAREST);
     return levels;
 }
 
@@ -175,6 +184,26 @@ std::vector<Row> rows() {
          Evidence::numbers,
          {.unit = DepthUnit::m, .scale = 1.0},
          "a scene has no depth from"},
+        {"Shot01_WorldDepth.0001.exr",
+         exr("R", metres * 100.0),
+         Evidence::layout,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .scale = 10.0},
+         "Unreal Engine's world depth"},
+        {"log_depth.npy",
+         text(npy("<f4", "(240, 320)", bytes_of(metres))),
+         Evidence::name,
+         {.near = NearLevels::dark, .unit = DepthUnit::levels},
+         "a logarithm of depth in its name"},
+        {"a_disp.pfm",
+         text(pfm(metres - 3.0, "-1", true)),
+         Evidence::numbers,
+         {.near = NearLevels::bright, .unit = DepthUnit::levels},
+         "disparities about a plane"},
+        {"a.npy",
+         text(npy("<f4", "(240, 320)", bytes_of(metres + 10.0))),
+         Evidence::numbers,
+         {.unit = DepthUnit::mm, .scale = 1.0},
+         "a close-up in millimetres"},
         {"inv_depth.npy",
          text(npy("<f4", "(240, 320)", bytes_of(metres))),
          Evidence::name,
@@ -215,6 +244,16 @@ std::vector<Row> rows() {
          Evidence::code,
          {.near = NearLevels::dark, .unit = DepthUnit::mm, .code = DepthCode::turned16},
          "multiples of 8"},
+        {"a.png",
+         picture(below_confidence(in_16_bits(900.0, 4000.0))),
+         Evidence::code,
+         {.near = NearLevels::dark, .unit = DepthUnit::mm, .code = DepthCode::depth16},
+         "three highest bits"},
+        {"a.png",
+         picture(of_spinning_lidar()),
+         Evidence::numbers,
+         {.unit = DepthUnit::mm, .scale = 4.0},
+         "a row a laser"},
         {"a.png",
          picture(painted(scene_depth(), as_ramp)),
          Evidence::appearance,
@@ -273,6 +312,22 @@ TEST_CASE("each kind of evidence gives its row", "[rows]") {
         expected.write(folder / expected.file);
         const Findings table = table_of(folder / expected.file);
         CHECK(has_row(table, expected));
+    }
+}
+
+TEST_CASE("numbers in the size of a spinning LiDAR's pictures are asked about: 1 or 4 mm",
+          "[rows]") {
+    const TemporaryFolder folder;
+    picture(of_spinning_lidar())(folder / "range.png");
+    const MediaDescription media =
+        open_media(folder / "range.png", {}, {.find_out = true})->description();
+    CHECK(asks(media));
+    for (const double scale : {1.0, 4.0}) {
+        const std::vector<DepthAlternative>& all = media.conclusion.alternatives;
+        CHECK(std::any_of(all.begin(), all.end(), [scale](const DepthAlternative& answer) {
+            return answer.statement.unit == DepthUnit::mm && answer.statement.scale == scale &&
+                   answer.statement.near == NearLevels::dark;
+        }));
     }
 }
 

@@ -1,6 +1,6 @@
 // The folders that scanner apps of phones export are opened as colour and depth in millimetres, and
 // with the camera of the colour pictures.
-#include "core/video/sources/scanner_layouts.hpp"
+#include "core/video/sources/layouts/scanner_layouts.hpp"
 
 #include <filesystem>
 #include <string>
@@ -109,6 +109,20 @@ TEST_CASE("3D Scanner App's frames go with its depth by their numbers, its confi
     CHECK(shown[0].depth == 3);
     CHECK(shown[1].depth == 6);
     CHECK(shown[1].colour == 30);
+}
+
+TEST_CASE("a camera whose centre is not that of an app's pictures is of smaller ones",
+          "[scanners]") {
+    const TemporaryFolder folder;
+    write_lidar(folder / "depth_00003.png", 3);
+    write_lidar(folder / "depth_00006.png", 6);
+    write_colour(folder / "frame_00003.jpg", 30);
+    write_text(folder / "frame_00003.json",
+               R"({"intrinsics": [192, 0, 127.5, 0, 192, 95.5, 0, 0, 1]})");
+    write_text(folder / "info.json", "{}");
+    const auto media = open_media(folder.path(), {}, {.find_out = true});
+    CHECK(media->description().meaning->intrinsics.value == kLidarCamera);
+    CHECK_FALSE(contains(media->description().notice, "scaled"));
 }
 
 TEST_CASE("ARKitScenes' folders say millimetres and the camera of a line", "[scanners]") {

@@ -79,12 +79,16 @@ Brought polycam(const fs::path& folder) {
 }
 
 Brought scanner_app(const fs::path& folder) {
-    const Brought brought =
+    Brought brought =
         rows_in(folder, {.colour = "frame_#####.jpg", .depth = "depth_#####.png", .holes = false});
     for (int k = 0; k < kRowFrames; ++k) {
         save(folder / numbered_name("conf_#####.png", k), cv::Mat(kView, CV_8UC1, cv::Scalar(2)));
-        save_text(folder / numbered_name("frame_#####.json", k), R"({"intrinsics": [106.7]})");
+        save_text(folder / numbered_name("frame_#####.json", k),
+                  R"({"time": )" + number_text(500.0 + 0.1 * k, 3) +
+                      R"(, "intrinsics": [106.7, 0, 63.5, 0, 106.7, 47.5, 0, 0, 1]})");
     }
+    brought.truth.times_s = even_times(kRowFrames, 10.0);
+    brought.truth.colour_times_s = brought.truth.times_s;
     save(folder / "thumb_00000.jpg", brought.truth.colour.front());
     return brought;
 }
@@ -147,6 +151,15 @@ Brought android_jpeg(const fs::path& folder) {
     inverse.convertTo(levels, CV_8U, -255.0 / span, 255.0 / kNear_m / span);
     save_gdepth(folder / "PXL_0043.jpg", view.colour, levels, kNear_m, kFar_m);
     return brought_of(folder / "PXL_0043.jpg", view.farness, view.colour);
+}
+
+/// Millimetres below a confidence in three bits; `name` may say so.
+Form android_depth16(const std::string& name) {
+    return {"Android DEPTH16, " + name, [=](const fs::path& folder) {
+                const cv::Mat farness = with_hole(view_of(Place::room).farness);
+                save(folder / name, below_confidence(in_mm(farness)));
+                return Brought{folder / name, {}, truth_of(farness, Knows::metric)};
+            }};
 }
 
 // Depth cameras.
@@ -232,18 +245,27 @@ Brought azure_kinect(const fs::path& folder) {
 }
 
 /// Colour above, hues below, between two clips that a text beside it states.
-Brought depthkit(const fs::path& folder) {
+Brought depthkit(const fs::path& folder, const std::string& metadata) {
     const Film film = film_of(Place::portrait, 12);
     Pictures packed;
     for (std::size_t k = 0; k < film.farness.size(); ++k)
         packed.push_back(above(film.colour[k], painted((film.farness[k] - 0.5) / 3.0, as_hue)));
     save_video(folder / "take.mp4", {{packed, 30.0, "-c:v libx264 -crf:v 6 -pix_fmt:v yuv444p"}});
-    save_text(folder / "take_meta.txt",
+    save_text(folder / metadata,
               R"({"_versionMajor": 0, "format": "perpixel", "depthImageSize": {"x": 128, "y": 96},
                   "depthPrincipalPoint": {"x": 63.5, "y": 47.5},
                   "depthFocalLength": {"x": 106.7, "y": 106.7}, "farClip": 3.5, "nearClip": 0.5,
                   "crop": {"x": 0, "y": 0, "z": 1, "w": 1}})");
     return timed_film(folder / "take.mp4", film, Knows::metric, 30.0);
+}
+
+/// A row a laser, in units of 4 mm, as Ouster's driver writes range images.
+Brought spinning_lidar(const fs::path& folder) {
+    const View view = view_of(Place::street, 0.3, {512, 64});
+    save(folder / "range.png", in_16_bits(view.farness, 250.0));
+    Brought brought{folder / "range.png", {}, truth_of(view.farness, Knows::metric)};
+    brought.truth.sky = true;
+    return brought;
 }
 
 /// A thumbnail beside the recording.
@@ -271,6 +293,8 @@ Forms forms_of_devices() {
         {"iPhone portrait, HEIC", iphone_heic},
         {"iPhone portrait, JPEG", iphone_jpeg},
         {"Android portrait, GDepth", android_jpeg},
+        android_depth16("depth16_000123.png"),
+        android_depth16("scan_depth.png"),
         {"Kinect v1, raw disparity", kinect_raw},
         {"Kinect v2", kinect_v2},
         {"RealSense, snapshot", realsense_snapshot},
@@ -285,7 +309,10 @@ Forms forms_of_devices() {
          [](const fs::path& folder) { return ros_recording(folder / "walk.mcap"); }},
         {"Azure Kinect", azure_kinect},
         {"recording beside its thumbnail", with_thumbnail},
-        {"Depthkit", depthkit}};
+        {"Depthkit", [](const fs::path& folder) { return depthkit(folder, "take_meta.txt"); }},
+        {"Depthkit, text of the same name",
+         [](const fs::path& folder) { return depthkit(folder, "take.txt"); }},
+        {"spinning LiDAR, 4 mm", spinning_lidar}};
 }
 
 }  // namespace dibhr::test::zoo

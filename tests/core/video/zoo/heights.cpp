@@ -3,6 +3,7 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "tests/core/video/coded_scene.hpp"
 #include "tests/core/video/zoo/zoo.hpp"
 
 namespace dibhr::test::zoo {
@@ -45,6 +46,21 @@ Brought geotiff(const fs::path& folder) {
     return {folder / "dem.tif", {}, heights(farness)};
 }
 
+/// Nothing but the numbers says that the map is of heights.
+Brought nameless_geotiff(const fs::path& folder) {
+    const cv::Mat farness = with_hole(view_of(Place::terrain).farness);
+    save_tiff(folder / "n46_e011.tif", with_no_data_as(terrain_m(farness), -9999.0), "-9999");
+    return {folder / "n46_e011.tif", {}, heights(farness)};
+}
+
+/// Micrometres, as ImageJ saves them: imagej.net, TIFF of ImageJ.
+Brought micrograph(const fs::path& folder) {
+    const View view = view_of(Place::gel);
+    save_tiff(folder / "topo_sample3.tif", (2.0 - view.farness) * 6.0 + 1.0, {},
+              "ImageJ=1.53t\nunit=micron\nspacing=0.277\n");
+    return {folder / "topo_sample3.tif", {}, heights(view.farness)};
+}
+
 /// (65536 R + 256 G + B) / 10 - 10000: docs.mapbox.com, terrain-RGB.
 Brought terrain_rgb(const fs::path& folder) {
     const View view = view_of(Place::terrain);
@@ -71,6 +87,15 @@ Brought material(const fs::path& folder) {
     Brought brought{folder / "Rock_albedo.jpg", {}, heights(view.farness)};
     brought.truth.colour = {view.colour};
     return brought;
+}
+
+/// Grain around the middle grey, as of leather.
+Brought grain(const fs::path& folder) {
+    const cv::Mat levels = rough(kView.width, kView.height, 77);
+    save(folder / "leather_BUMP.png", levels);
+    cv::Mat farness;
+    levels.convertTo(farness, CV_32F, -1.0);
+    return {folder / "leather_BUMP.png", {}, heights(farness)};
 }
 
 /// Millimetres of a tactile sensor.
@@ -109,8 +134,11 @@ Forms forms_of_heights() {
             height_numbers_form("heightmap.npy"),
             height_numbers_form("alps_height.npy"),
             {"GeoTIFF", geotiff},
+            {"GeoTIFF without a word for height", nameless_geotiff},
+            {"ImageJ, micrometres", micrograph},
             {"terrain-RGB", terrain_rgb},
             {"material", material},
+            {"leather_BUMP.png", grain},
             {"DIGIT", tactile_numbers},
             {"GelSight (.tmd)", gelsight}};
 }

@@ -355,8 +355,9 @@ Verdict judge_answers(const Brought& brought, const std::vector<DepthAlternative
     return likeliest;
 }
 
-/// Whether a refusal of what cannot be read names it, and of what could be is not misleading.
+/// Whether what cannot be read is refused by its name, and not in misleading words.
 bool is_refused_truly(const Truth& truth, const std::string& line) {
+    if (truth.refused_as.empty()) return false;
     const std::string words = lower_case(line);
     for (const char* const misleading :
          {"cut off", "damaged", "holds text", "needs a depth file"}) {

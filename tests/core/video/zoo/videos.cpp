@@ -73,6 +73,22 @@ Brought millimetre_video(const fs::path& folder) {
     return timed(folder / "take_color.mkv", film, 30.0, Knows::metric);
 }
 
+/// Two videos by one clock, of which the depth begins later.
+Brought late_depth_video(const fs::path& folder) {
+    constexpr int kLater = 6;
+    const Film film = film_of(Place::room, kVideoFrames);
+    Pictures levels;
+    Brought brought = timed(folder / "take_color.mkv", film, 30.0, Knows::metric);
+    Truth& truth = brought.truth;
+    truth.farness.erase(truth.farness.begin(), truth.farness.begin() + kLater);
+    for (const cv::Mat& farness : truth.farness) levels.push_back(in_16_bits(farness, 1000.0));
+    truth.times_s = even_times(levels.size(), 30.0);
+    for (double& time_s : truth.colour_times_s) time_s -= kLater / 30.0;
+    save_video(folder / "take_color.mkv", {{film.colour, 30.0, kGoodH264}});
+    save_video(folder / "take_depth.mkv", {{levels, 30.0, kGrey16}}, "-output_ts_offset 0.2");
+    return brought;
+}
+
 Brought twelve_bit_video(const fs::path& folder) {
     const Film film = film_of(Place::room, kVideoFrames);
     const Pictures levels = each(film.farness, [](const cv::Mat& farness) {
@@ -124,6 +140,7 @@ Forms forms_of_videos() {
             {"two videos of an organ, near is dark",
              [](const fs::path& folder) { return grey_video(folder, true, Place::organ); }},
             {"two videos, millimetres in FFV1", millimetre_video},
+            {"two videos, the depth begins later", late_depth_video},
             {"disparity in HEVC of 12 bits", twelve_bit_video},
             {"video at 60 a second and pictures",
              [](const fs::path& folder) { return video_and_pictures(folder, 60, 1, 60.0, ""); }},

@@ -1,5 +1,5 @@
 // Matches names with patterns.
-#include "core/video/sources/picture_pattern.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 
@@ -47,7 +47,7 @@ std::optional<double> number_of(const std::string& name, const NumberPattern& pa
     if (!fits) return std::nullopt;
     const std::string digits = name.substr(
         pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
-    if (!std::all_of(digits.begin(), digits.end(), is_decimal_digit)) return std::nullopt;
+    if (!is_of_digits(digits)) return std::nullopt;
     return number_of_text(digits);
 }
 

@@ -1,5 +1,5 @@
 // Parses lists line by line, and ignores lines that do not name a time and a picture.
-#include "core/video/sources/picture_lists.hpp"
+#include "core/video/sources/layouts/picture_lists.hpp"
 
 #include <algorithm>
 #include <array>

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // A table of layouts, and the comparison of a folder with it.
-#include "core/video/sources/scanner_layouts.hpp"
+#include "core/video/sources/layouts/scanner_layouts.hpp"
 
 #include <array>
 #include <optional>
@@ -9,8 +9,8 @@
 
 #include "core/files/names.hpp"
 #include "core/video/formats/camera_files.hpp"
+#include "core/video/sources/layouts/picture_pattern.hpp"
 #include "core/video/sources/media_names.hpp"
-#include "core/video/sources/picture_pattern.hpp"
 
 namespace dibhr {
 
@@ -69,6 +69,15 @@ PictureRow row_in(const fs::path& folder, std::string_view place) {
     return row;
 }
 
+/// Whether the camera's centre is near the middle of the layout's usual pictures: who makes them
+/// smaller has smaller cameras.
+bool may_see(const Intrinsics& camera, const ScannerLayout& layout) {
+    const auto is_middle = [](double centre, int side) {
+        return centre > 0.3 * side && centre < 0.7 * side;
+    };
+    return is_middle(camera.cx, layout.camera_columns) && is_middle(camera.cy, layout.camera_rows);
+}
+
 LayoutFacts facts_in(const fs::path& folder, const ScannerLayout& layout) {
     LayoutFacts facts;
     facts.finding.statement = {.unit = DepthUnit::mm, .scale = 1.0, .no_data = std::vector{0.0}};
@@ -77,9 +86,13 @@ LayoutFacts facts_in(const fs::path& folder, const ScannerLayout& layout) {
     const auto camera = cameras.empty() ? std::nullopt : layout.read_camera(cameras.front());
     if (!camera) return facts;
     facts.finding.statement.intrinsics = camera->intrinsics;
-    const bool states_size = camera->columns > 0 && camera->rows > 0;
-    facts.columns = states_size ? camera->columns : layout.camera_columns;
-    facts.rows = states_size ? camera->rows : layout.camera_rows;
+    if (camera->columns > 0 && camera->rows > 0) {
+        facts.columns = camera->columns;
+        facts.rows = camera->rows;
+    } else if (may_see(camera->intrinsics, layout)) {
+        facts.columns = layout.camera_columns;
+        facts.rows = layout.camera_rows;
+    }
     return facts;
 }
 

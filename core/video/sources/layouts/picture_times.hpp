@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/video/formats/picture_source.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 
@@ -22,6 +22,7 @@ namespace dibhr {
 struct ListedTimes {
     std::vector<double> times_s{};  ///< one a picture, rising
     std::filesystem::path file{};
+    bool is_of_frame{false};  ///< the file is that of the first frame: each has one
 };
 
 /// Reads one file of stamps: a table of text (one time a line; columns of times and of names or
@@ -33,7 +34,7 @@ struct ListedTimes {
 
 /// The stamps that recorders and data sets leave beside pictures, in their folder or the one above:
 /// timestamps.txt, times.txt, data.csv, odometry.csv, frames.json, depth_timestamps.csv and the
-/// like.
+/// like; else in JSON files, one a frame, of the pictures' names or numbers.
 [[nodiscard]] std::optional<ListedTimes> times_beside(const PictureRow& row);
 
 /// How the times of a row are known, as times_s() gives them, with the stamps that are found for

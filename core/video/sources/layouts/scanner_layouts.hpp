@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 

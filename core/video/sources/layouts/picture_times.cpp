@@ -1,9 +1,8 @@
 // Searches and parses files of stamps, and recognises stamps in names.
-#include "core/video/sources/picture_times.hpp"
+#include "core/video/sources/layouts/picture_times.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -11,11 +10,13 @@
 #include <memory>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "core/files/json.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
@@ -49,14 +50,16 @@ bool is_cell_end(char c) {
     return c == ',' || c == ';' || c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Without quotation marks and brackets around a cell.
+/// Without quotation marks and brackets around a cell; the first ones of a line.
 Cells stamp_cells(std::string_view line) {
+    constexpr std::size_t kMostCells = 256;
     Cells cells;
     std::string cell;
     const auto end_cell = [&] {
         if (!cell.empty()) cells.push_back(std::exchange(cell, {}));
     };
     for (const char c : line) {
+        if (cells.size() == kMostCells) return cells;
         if (is_cell_end(c))
             end_cell();
         else if (c != '"' && c != '\'' && c != '[' && c != ']')
@@ -137,27 +140,20 @@ StampTable stamp_table(std::string_view text) {
     return table;
 }
 
-/// The words of a column's title: "timestamp [ns]" and "timestamp_ns" have two.
-std::vector<std::string> title_words(const std::string& title) {
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(title)) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            words.back() += c;
-        else
-            words.emplace_back();
-    }
-    return words;
-}
-
+/// The title of a column: "timestamp [ns]" and "timestamp_ns" have two words.
 bool names_time(const std::string& title) {
-    const std::vector<std::string> words = title_words(title);
-    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+    const std::vector<std::string> words = plain_words_of(title);
+    const bool is_entry =  // "t_00" of a matrix
+        std::any_of(words.begin(), words.end(), [](const std::string& word) {
+            return std::all_of(word.begin(), word.end(), is_decimal_digit);
+        });
+    return !is_entry && std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word == "t" || word == "ts" || word.starts_with("time") || word.ends_with("stamp");
     });
 }
 
 bool names_frame(const std::string& title) {
-    const std::vector<std::string> words = title_words(title);
+    const std::vector<std::string> words = plain_words_of(title);
     return std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word.starts_with("frame") || word == "index" || word == "id" || word == "number";
     });
@@ -165,7 +161,7 @@ bool names_frame(const std::string& title) {
 
 /// The unit that a title states [s].
 std::optional<double> titled_unit_s(const std::string& title) {
-    for (const std::string& word : title_words(title)) {
+    for (const std::string& word : plain_words_of(title)) {
         if (word == "ns" || word.starts_with("nano")) return 1e-9;
         if (word == "us" || word.starts_with("micro")) return 1e-6;
         if (word == "ms" || word.starts_with("milli")) return 1e-3;
@@ -214,11 +210,6 @@ std::optional<std::vector<double>> stamps_for(const PictureRow& row,
     return stamps;
 }
 
-bool is_rising(const std::vector<double>& times) {
-    return std::adjacent_find(times.begin(), times.end(),
-                              [](double a, double b) { return !(a < b); }) == times.end();
-}
-
 /// Whether numbers of a column without a title may as well count frames, some of them left out.
 bool may_count_frames(const std::vector<double>& stamps, bool titled) {
     constexpr double kLeastStep = 8.0;  // of ms: 120 frames a second
@@ -250,14 +241,21 @@ struct StampColumns {
     bool titled{false};  ///< the header names the column of times
 };
 
-/// Whether the column holds the names of the row's pictures, with or without folders and endings.
-bool holds_names(const StampTable& table, std::size_t column, const PictureRow& row) {
+/// The names of pictures with and without their endings.
+std::set<std::string> names_of(const PictureRow& row) {
+    std::set<std::string> names;
+    for (const NumberedPicture& picture : row) {
+        names.insert(picture.file.filename().string());
+        names.insert(picture.file.stem().string());
+    }
+    return names;
+}
+
+/// Whether the column holds names of pictures, with or without folders.
+bool holds_names(const StampTable& table, std::size_t column,
+                 const std::set<std::string>& pictures) {
     const Cells& first = table.lines.front();
-    if (column >= first.size()) return false;
-    const std::string name = fs::path(first[column]).filename().string();
-    return std::any_of(row.begin(), row.end(), [&name](const NumberedPicture& picture) {
-        return name == picture.file.filename() || name == picture.file.stem();
-    });
+    return column < first.size() && pictures.contains(fs::path(first[column]).filename().string());
 }
 
 /// Whether the column counts 0, 1, 2 or 1, 2, 3.
@@ -291,9 +289,11 @@ std::optional<StampColumns> stamp_columns(const StampTable& table, const Picture
     const bool is_counted = !titled && count > 1 && counts_lines(table, 0);
     if (is_counted) columns.time = 1;
     if (titled) columns.unit_s = titled_unit_s(table.header[columns.time]);
+    const std::set<std::string> pictures = names_of(row);
     for (std::size_t k = count; k-- > 0;) {
         const bool is_number = titled && names_frame(table.header[k]);
-        if (k != columns.time && (holds_names(table, k, row) || is_number)) columns.picture = k;
+        if (k != columns.time && (holds_names(table, k, pictures) || is_number))
+            columns.picture = k;
     }
     if (columns.picture) return columns;
     if (is_counted)
@@ -369,11 +369,7 @@ std::string name_in(const Json& frame, const std::set<std::string>& pictures) {
 std::optional<std::vector<double>> stamps_in_json(const std::string& text, const PictureRow& row) {
     const Json json = parsed_json(text);
     if (json.is_discarded()) return std::nullopt;
-    std::set<std::string> pictures;
-    for (const NumberedPicture& picture : row) {
-        pictures.insert(picture.file.filename().string());
-        pictures.insert(picture.file.stem().string());
-    }
+    const std::set<std::string> pictures = names_of(row);
     const Json& frames = frames_in(json);
     std::vector<StampEntry> entries;
     std::optional<double> unit_s;
@@ -410,6 +406,63 @@ std::vector<fs::path> stamp_files(const fs::path& folder) {
             files.push_back(place / name);
     }
     return files;
+}
+
+/// Where the last digits of a name begin, and how many they are.
+std::pair<std::size_t, std::size_t> last_digits(const std::string& name) {
+    constexpr const char* kDigits = "0123456789";
+    const std::size_t last = name.find_last_of(kDigits);
+    if (last == std::string::npos) return {name.size(), 0};
+    const std::size_t first = name.find_last_not_of(kDigits, last) + 1;  // npos + 1 is 0
+    return {first, last + 1 - first};
+}
+
+/// The JSON files beside a row that may be of its first frame: of the picture's name, then those of
+/// its number ("frame_00000.json" of "depth_00000.png").
+std::vector<fs::path> first_frame_files(const NumberedPicture& first) {
+    const fs::path own = fs::path(first.file).replace_extension(".json");
+    const fs::path folder = own.has_parent_path() ? own.parent_path() : fs::path(".");
+    std::vector<fs::path> files;
+    std::error_code failed;
+    for (fs::directory_iterator entry(folder, failed), end;
+         first.number && !first.decimal && !failed && entry != end; entry.increment(failed)) {
+        const fs::path& file = entry->path();
+        const bool is_json = lower_case(file.extension().string()) == ".json";
+        if (is_json && file != own && numbered(file).number == first.number) files.push_back(file);
+    }
+    std::sort(files.begin(), files.end());
+    files.insert(files.begin(), own);
+    return files;
+}
+
+/// The file named as `first`, with the last digits of a picture's name.
+fs::path frame_file(const fs::path& first, const fs::path& picture) {
+    const std::string own = picture.stem().string();
+    std::string name = first.stem().string();
+    const auto [own_begin, own_count] = last_digits(own);
+    const auto [begin, count] = last_digits(name);
+    name.replace(begin, count, own, own_begin, own_count);
+    return first.parent_path() / (name + first.extension().string());
+}
+
+/// The stamps in JSON files beside a row, one a frame.
+std::optional<ListedTimes> times_of_frames(const PictureRow& row) {
+    for (const fs::path& first : first_frame_files(row.front())) {
+        std::vector<double> stamps;
+        std::optional<double> unit_s;
+        for (const NumberedPicture& picture : row) {
+            const fs::path file = frame_file(first, picture.file);
+            const Json frame = parsed_json(small_text_in(file).value_or(""));
+            const auto stamp = frame.is_object() ? stamp_of(frame) : std::nullopt;
+            if (!stamp) break;
+            stamps.push_back(stamp->first);
+            unit_s = stamp->second;
+        }
+        if (stamps.size() != row.size()) continue;
+        if (auto times = in_seconds(std::move(stamps), unit_s, true))
+            return ListedTimes{std::move(*times), first, true};
+    }
+    return std::nullopt;
 }
 
 std::shared_ptr<const std::vector<double>> kept_numbers(std::vector<double> numbers) {
@@ -453,7 +506,7 @@ std::optional<ListedTimes> times_beside(const PictureRow& row) {
     for (const fs::path& file : stamp_files(row.front().file.parent_path())) {
         if (auto stamps = read_stamps(file, row)) return ListedTimes{std::move(*stamps), file};
     }
-    return std::nullopt;
+    return times_of_frames(row);
 }
 
 Timing timing_of(const PictureRow& row, const PictureRow& other, const fs::path& list) {
@@ -475,7 +528,8 @@ Timing timing_of(const PictureRow& row, const PictureRow& other, const fs::path&
     if (auto beside = list.empty() ? times_beside(row) : std::nullopt) {
         timing.stamps_s = kept_numbers(std::move(beside->times_s));
         timing.stamps_from = TimesFrom::list;
-        timing.stamps_text = "stamps in " + shown(beside->file.filename());
+        timing.stamps_text = "stamps in " + shown(beside->file.filename()) +
+                             (beside->is_of_frame ? " and the like, one a frame" : "");
         return timing;
     }
     if (numbers.size() < 2) return timing;

@@ -1,5 +1,5 @@
 // The table, and the comparison of a picture's path with it.
-#include "core/video/sources/data_sets.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/depth/picture_levels.hpp"
-#include "core/video/sources/picture_folder.hpp"
+#include "core/video/sources/layouts/picture_folder.hpp"
 
 namespace dibhr {
 
@@ -101,6 +101,13 @@ constexpr Values kByCalibration{"disparities, with the cameras' calib.txt", Near
                                 DepthUnit::mm, 1.0, kNotStated};
 constexpr Values kTurned{"millimetres, whose bits are turned by three", NearLevels::dark,
                          DepthUnit::mm, 1.0, 0.0};
+constexpr Values kBelowConfidence{"millimetres in 13 bits, a confidence above",
+                                  NearLevels::dark,
+                                  DepthUnit::mm,
+                                  1.0,
+                                  0.0,
+                                  0.02,
+                                  8.2};
 constexpr Values kRawKinect{"raw disparities of a Kinect", NearLevels::dark, DepthUnit::mm, 1.0,
                             kNotStated};
 
@@ -125,19 +132,14 @@ struct DataSet {
 
 void take_levels_per_m(const CameraFile& camera, DataSetFacts& found) {
     if (!camera.levels_per_m) return;
-    const bool is_mm = found.finding.statement.unit == DepthUnit::mm;
-    found.finding.statement.scale = (is_mm ? 1000.0 : 1.0) / *camera.levels_per_m;
-}
-
-int number_of(const SourceFacts& facts) {
-    const fs::path& picture = facts.first_picture.empty() ? facts.file : facts.first_picture;
-    constexpr double kMost = 1e9;
-    const double number = numbered(picture).number.value_or(0.0);
-    return number < kMost ? static_cast<int>(number) : 0;
+    const double metre_mm = one_in_mm(DepthUnit::m);
+    const DepthUnit unit = found.finding.statement.unit.value_or(DepthUnit::mm);
+    found.finding.statement.scale = metre_mm / one_in_mm(unit) / *camera.levels_per_m;
 }
 
 bool read_bop(const fs::path& folder, const SourceFacts& facts, DataSetFacts& found) {
-    found.camera = read_camera_bop(folder / ".." / "scene_camera.json", number_of(facts));
+    found.camera =
+        read_camera_bop(folder / ".." / "scene_camera.json", number_in_name(facts.picture()));
     if (!found.camera || !found.camera->levels_per_m) return false;
     take_levels_per_m(*found.camera, found);
     return true;
@@ -172,9 +174,10 @@ bool read_nyu(const fs::path& /*folder*/, const SourceFacts& /*facts*/, DataSetF
 // github.com/StanfordVL/taskonomy; cs.nyu.edu/~silberman (toolbox); kaldir.vc.in.tum.de/scannetpp;
 // durrlab.github.io/C3VD; github.com/anitarau/simcol; github.com/CapsuleEndoscope/EndoSLAM;
 // github.com/UZ-SLAMLab/Endo-Depth-and-Motion (Hamlyn); endovissub2019-scared.grand-challenge.org;
-// microsoft.github.io/AirSim (image APIs); docs.unrealengine.com (SceneDepthWorldUnits);
-// github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from scene to scene);
-// github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold; roboimagedata.compute.dtu.dk.
+// github.com/stepjam/RLBench; microsoft.github.io/AirSim (image APIs); docs.unrealengine.com
+// (SceneDepthWorldUnits); github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from
+// scene to scene); github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold;
+// roboimagedata.compute.dtu.dk.
 constexpr std::array kDataSets{
     // Streets.
     DataSet{"KITTI depth completion", "proj_depth/groundtruth/image_#/#.png", "", 16, kStreet,
@@ -194,10 +197,12 @@ constexpr std::array kDataSets{
     DataSet{"TartanAir", "depth_left/#_left_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir", "depth_right/#_right_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir V2", "depth_?cam_*/#_?cam_*_depth.png", "", kRealBits, kMetres, 0.995},
+    DataSet{"RLBench", "*_depth/#.png", "../*_rgb ../*_mask", kRealBits, kFarBright, 0.97},
     DataSet{"AirSim", "*_depthplanar_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "*_depthperspective_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "images/img_*.pfm", "../airsim_rec.txt", kRealBits, kMetresToSky, 0.99},
     DataSet{"Unreal Engine's scene depth", "*scenedepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
+    DataSet{"Unreal Engine's world depth", "*worlddepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
     // Rooms.
     DataSet{"SUN RGB-D", "depth*/*.png", "../depth_bfx ../image ../intrinsics.txt", 16, kTurned,
             0.99, DepthCode::turned16},
@@ -240,6 +245,9 @@ constexpr std::array kDataSets{
     DataSet{"Hamlyn", "depth0#/#.png", "../image0#", 16, kOrgan, 0.95},
     DataSet{"SCARED", "*_depth_map.tiff", "left_image.png", kRealBits, kPoints, 0.98,
             DepthCode::xyz},
+    // Phones.
+    DataSet{"Android's DEPTH16", "*depth16*", "", 16, kBelowConfidence, 0.97, DepthCode::depth16},
+    DataSet{"Android's DEPTH16", "*arcore*", "", 16, kBelowConfidence, 0.97, DepthCode::depth16},
     // Programs that estimate depth.
     DataSet{"MiDaS", "*-dpt_*.png", "", 16, kNearBright, 0.95},
     DataSet{"MiDaS", "*-midas_*.png", "", 16, kNearBright, 0.95},
@@ -248,6 +256,7 @@ constexpr std::array kDataSets{
     DataSet{"Marigold", "depth_npy*/*_pred.npy", "", kRealBits, kFarBright, 0.97},
     DataSet{"Marigold", "depth_bw*/*_pred.png", "", 16, kFarBright, 0.97},
     DataSet{"Depth Anything", "vis_depth/*.png", "", 8, kNearBright, 0.95},
+    DataSet{"ZoeDepth", "*zoe*.png", "", 16, kEstimated, 0.85, DepthCode::grey, nullptr, true},
     DataSet{"ZoeDepth", "*_depth.png", "short.j*g", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
             true},
     DataSet{"ZoeDepth", "*_depth.png", "short.png", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
@@ -255,22 +264,33 @@ constexpr std::array kDataSets{
 
 // Comparison.
 
-/// Whether a name is as a pattern says; both in small letters.
+/// The number of letters that the first letter of a pattern stands for; 0: it does not fit.
+std::size_t letters_of(char first, std::string_view name) {
+    if (first == '#') return std::min(name.find_first_not_of("0123456789"), name.size());
+    return !name.empty() && (first == '?' || first == name.front()) ? 1 : 0;
+}
+
+/// Whether a name fits a pattern; both in small letters. Only the last star is tried again with
+/// more letters: a file's own name may be the pattern, with any number of stars.
 bool fits_pattern(std::string_view name, std::string_view pattern) {
-    if (pattern.empty()) return name.empty();
-    const std::string_view rest = pattern.substr(1);
-    if (pattern.front() == '*') {
-        for (std::size_t k = 0; k <= name.size(); ++k)
-            if (fits_pattern(name.substr(k), rest)) return true;
-        return false;
+    std::optional<std::string_view> behind_star;
+    std::string_view untried;  // of the name, behind the letters of that star
+    while (!name.empty() || !pattern.empty()) {
+        if (pattern.starts_with('*')) {
+            pattern.remove_prefix(1);
+            behind_star = pattern;
+            untried = name;
+        } else if (const auto count = pattern.empty() ? 0 : letters_of(pattern.front(), name)) {
+            pattern.remove_prefix(1);
+            name.remove_prefix(count);
+        } else {
+            if (!behind_star || untried.empty()) return false;
+            untried.remove_prefix(1);
+            name = untried;
+            pattern = *behind_star;
+        }
     }
-    if (name.empty()) return false;
-    if (pattern.front() == '#') {
-        const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
-        return digits > 0 && fits_pattern(name.substr(digits), rest);
-    }
-    return (pattern.front() == '?' || pattern.front() == name.front()) &&
-           fits_pattern(name.substr(1), rest);
+    return true;
 }
 
 std::string name_in_small(const fs::path& place) {
@@ -334,8 +354,7 @@ DepthStatement statement_of(const DataSet& set) {
 
 std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
     std::error_code failed;
-    const fs::path& named = facts.first_picture.empty() ? facts.file : facts.first_picture;
-    const fs::path picture = fs::absolute(named, failed).lexically_normal();
+    const fs::path picture = fs::absolute(facts.picture(), failed).lexically_normal();
     for (const DataSet& set : kDataSets) {
         if (set.bits != facts.bits || !has_path(picture, set.path) ||
             !are_beside(picture, set.beside))
@@ -351,6 +370,14 @@ std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
         return found;
     }
     return std::nullopt;
+}
+
+const std::optional<DataSetFacts>& KnownDataSet::of(const SourceFacts& facts) {
+    if (picture_ == facts.picture() && bits_ == facts.bits) return found_;
+    found_ = data_set_of(facts);
+    picture_ = facts.picture();
+    bits_ = facts.bits;
+    return found_;
 }
 
 }  // namespace dibhr
