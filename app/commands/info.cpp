@@ -466,7 +466,7 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     add_depth_options(app, options.request.command_line);
     add_sure_option(app, options.must_be_sure);
     app.footer(
-        "Two files, one of colour and one of depth, are described as they open together.\n"
+        "Of two files, one of colour and one of depth, the depth is described as they open.\n"
         "Examples:\n"
         "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
         "  dibhr info depth.png --why\n"

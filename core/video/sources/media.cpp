@@ -123,28 +123,19 @@ DepthStatement statement_at(const fs::path& place, const DepthRequest& request) 
     return statement_for(places.depth.empty() ? places.colour : places.depth, place, request);
 }
 
-/// Adds to sources of colour or depth alone what they lack, where the other place holds it alone.
-void add_partner(const fs::path& other, const DepthRequest& request, Sources& sources) {
-    if (other.empty() || is_live(other) || (sources.colour && sources.depth)) return;
+/// Adds the colour of the other place to depth alone, where that place holds colour alone.
+void add_colour(const fs::path& other, const DepthRequest& request, Sources& sources) {
+    if (other.empty() || is_live(other) || sources.colour) return;
     try {
         Sources found = find_content(other, statement_at(other, request));
-        if ((found.colour && found.depth) || !found.not_depth.empty()) return;
-        if (found.depth && !sources.depth) sources.depth = std::move(found.depth);
-        if (found.colour && !sources.colour) sources.colour = std::move(found.colour);
+        if (!found.depth && found.not_depth.empty()) sources.colour = std::move(found.colour);
     } catch (const InputError&) {
         return;  // the description of that place says why
     }
 }
 
-/// Of colour that belongs to no depth, or to that of another place.
-MediaDescription described_colour(const fs::path& other, const DepthRequest& request,
-                                  Sources sources) {
-    add_partner(other, request, sources);
-    if (sources.depth) {
-        DepthMeaning meaning;
-        merge_by_priority({{Origin::command_line, statement_at(other, request)}}, meaning);
-        (void)pair_times(sources, meaning, request.find_out);
-    }
+/// Of colour alone.
+MediaDescription described_colour(const Sources& sources) {
     sources.colour->count_frames(kMostCounted);
     MediaDescription description;
     describe_colour(sources.colour->facts(), description);
@@ -159,9 +150,9 @@ MediaDescription described(const fs::path& place, const fs::path& other,
     const DepthStatement statement = statement_at(place, request);
     Sources sources =
         is_live(place) ? sources_of(place, {}, statement, request) : find_content(place, statement);
-    if (sources.depth == nullptr) return described_colour(other, request, std::move(sources));
+    if (sources.depth == nullptr) return described_colour(sources);
     const bool is_of_depth = sources.colour == nullptr;
-    if (!sources.depth->facts().live) add_partner(other, request, sources);
+    if (!sources.depth->facts().live) add_colour(other, request, sources);
     decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
     const auto media = media_of(std::move(sources), statement, request, false, notice);

@@ -168,7 +168,7 @@ class Media {
 /// Describes one place of any kind, without its partner (`dibhr info FILE`): depth fills the depth
 /// fields, other files the colour fields, a place of both all of them. Videos of up to a few
 /// thousand frames are read to their end, so that the numbers are exact. `other`: a second place;
-/// where one holds colour and the other depth, meaning and times are those of the two together.
+/// where it holds colour alone, depth has the meaning and the times of the two together.
 [[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place,
                                               const DepthRequest& request = {.find_out = true},
                                               const std::filesystem::path& other = {});
