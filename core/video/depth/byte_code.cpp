@@ -336,7 +336,8 @@ std::optional<DepthCode> byte_code_in(std::span<const cv::Mat> pictures) {
     for (const DepthCode code :
          {DepthCode::float32, DepthCode::float32_bgra, DepthCode::terrain, DepthCode::rg16,
           DepthCode::gb16, DepthCode::rgb24, DepthCode::bgr24}) {
-        const bool fits = is_continuous(pictures, code).value_or(false) && none_contradicts(code) &&
+        // The first picture alone tells of most codes that the colours are none.
+        const bool fits = none_contradicts(code) && is_continuous(pictures, code).value_or(false) &&
                           is_plausible(pictures, code);
         if (!fits) continue;
         if (!found)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <set>
@@ -65,6 +66,11 @@ constexpr double kOutlier = 1.0;  ///< of the span of the nearest kNearest: beyo
 
 bool holds(const std::vector<double>& levels, double level) {
     return std::find(levels.begin(), levels.end(), level) != levels.end();
+}
+
+std::vector<float> without(std::vector<float> levels, const std::vector<double>& no_data) {
+    std::erase_if(levels, [&no_data](float level) { return holds(no_data, level); });
+    return levels;
 }
 
 /// Quantile of values in rising order; `share` in [0, 1].
@@ -217,7 +223,10 @@ SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : b
     if (!pictures.empty()) picture_ = pictures.front().size();
     lattices_.reserve(pictures.size());
     for (const cv::Mat& picture : pictures) lattices_.push_back(lattice_of(picture));
-    levels_ = rising_without({});
+    for (const LevelLattice& lattice : lattices_)
+        std::copy_if(lattice.levels.begin(), lattice.levels.end(), std::back_inserter(levels_),
+                     [](float level) { return std::isfinite(level); });
+    std::sort(levels_.begin(), levels_.end());
 }
 
 LevelLattice SampledLevels::lattice_of(const cv::Mat& picture) {
@@ -242,20 +251,9 @@ bool SampledLevels::is_data(float level) const {
     return std::isfinite(level) && !holds(no_data_, level);
 }
 
-std::vector<float> SampledLevels::rising_without(const std::vector<double>& no_data) const {
-    std::vector<float> levels;
-    for (const LevelLattice& lattice : lattices_) {
-        for (const float level : lattice.levels) {
-            if (std::isfinite(level) && !holds(no_data, level)) levels.push_back(level);
-        }
-    }
-    std::sort(levels.begin(), levels.end());
-    return levels;
-}
-
 void SampledLevels::leave_out(const std::vector<double>& no_data) {
     no_data_ = no_data;
-    levels_ = rising_without(no_data);
+    levels_ = without(std::move(levels_), no_data);
 }
 
 // No data.
@@ -287,7 +285,7 @@ std::vector<double> SampledLevels::outlying_integers() const {
                    : std::vector<double>{};
     }
     const double highest = highest_level(bits_);
-    const std::vector<float> others = rising_without({0.0, highest});
+    const std::vector<float> others = without(levels_, {0.0, highest});
     if (others.empty()) return zeros > 0.0 ? std::vector{0.0} : std::vector<double>{};
     const double nearest = quantile(others, kTail);
     std::vector<double> none;

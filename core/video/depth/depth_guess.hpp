@@ -69,7 +69,6 @@ class SampledLevels {
   private:
     [[nodiscard]] static LevelLattice lattice_of(const cv::Mat& picture);
     [[nodiscard]] bool is_data(float level) const;
-    [[nodiscard]] std::vector<float> rising_without(const std::vector<double>& no_data) const;
     [[nodiscard]] double share_of_border(double level) const;
     [[nodiscard]] std::vector<double> outlying_integers() const;
     [[nodiscard]] std::vector<double> outlying_numbers() const;

@@ -97,11 +97,11 @@ bool is_complete(const DepthStatement& known) {
     return known.no_data && known.unit && known.scale && known.near && known.range;
 }
 
-/// Whether the middle of the colour pictures is brighter than their sides; nothing: no colour.
+/// Whether the middle of the first colour picture is brighter than its sides; nothing: no colour.
+/// The first is decoded already; more would double the time that a pair takes to open.
 std::optional<int> middle_of_colour(const Sources& sources) {
     if (!sources.colour) return {};
-    constexpr int kMostColours = 3;
-    return SampledLevels(sources.colour->samples(kMostColours), 8).middle_brighter_than_sides();
+    return SampledLevels(sources.colour->samples(1), 8).middle_brighter_than_sides();
 }
 
 /// The rows on units, but for those of values that another row has usual distances for.

@@ -37,6 +37,7 @@ struct LiveCursor {
     std::shared_ptr<const LivePair> pair{};
     double first_s{0.0};     ///< stamp of the first depth picture
     std::int64_t index{-1};  ///< of the pair, counted from the first
+    bool is_read{false};     ///< next() has returned a pair
 
     /// Waits for the next pair. Throws InputError when none arrives.
     void advance() {
@@ -95,9 +96,10 @@ class LivePictures : public PictureSource {
     }
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
-    /// The depth source advances to the next pair; the colour source gives the present pair.
+    /// The depth source begins with the pair that the opening inspected last, as a stream may have
+    /// ended since, and then advances to the next pair; the colour source gives the present pair.
     std::optional<TimedPicture> next() override {
-        if (which_ != Which::colour) cursor_->advance();
+        if (which_ != Which::colour && std::exchange(cursor_->is_read, true)) cursor_->advance();
         const double time_s = cursor_->pair->depth.stamp_s - cursor_->first_s;
         TimedPicture taken{mat(), time_s, cursor_->index};
         taken.pair = cursor_->pair;

@@ -465,6 +465,31 @@ std::optional<ListedTimes> times_of_frames(const PictureRow& row) {
     return std::nullopt;
 }
 
+/// The unit of names without a word that rise as milliseconds do at a usual rate: by 33 and 34, or
+/// by 40. Whoever keeps each tenth or hundredth frame counts by other steps.
+std::optional<double> unit_of_usual_rate_s(const std::vector<double>& numbers) {
+    constexpr double kMostRounded = 1.0;
+    constexpr double kMostOffMean = 0.4;
+    constexpr double kMostMissing = 0.25;  // of the steps, where frames were dropped
+    constexpr std::size_t kLeastNumbers = 5;
+    const auto steps = static_cast<double>(numbers.size()) - 1.0;
+    for (const double rate : {15.0, 24.0, 25.0, 30.0, 60.0}) {
+        const double period_ms = 1000.0 / rate;
+        double count = 0.0;
+        double sum = 0.0;
+        for (std::size_t k = 1; k < numbers.size(); ++k) {
+            const double step = numbers[k] - numbers[k - 1];
+            if (std::fabs(step - period_ms) >= kMostRounded) continue;
+            count += 1.0;
+            sum += step;
+        }
+        const bool is_usual =
+            numbers.size() >= kLeastNumbers && count >= (1.0 - kMostMissing) * steps;
+        if (is_usual && std::fabs(sum / count - period_ms) < kMostOffMean) return 1e-3;
+    }
+    return std::nullopt;
+}
+
 std::shared_ptr<const std::vector<double>> kept_numbers(std::vector<double> numbers) {
     return std::make_shared<const std::vector<double>>(std::move(numbers));
 }
@@ -533,9 +558,9 @@ Timing timing_of(const PictureRow& row, const PictureRow& other, const fs::path&
         return timing;
     }
     if (numbers.size() < 2) return timing;
-    const auto unit_s = decimal
-                            ? std::optional(1.0)
-                            : stamp_unit_s(numbers.front(), numbers.back(), numbers.size(), false);
+    auto unit_s = decimal ? std::optional(1.0)
+                          : stamp_unit_s(numbers.front(), numbers.back(), numbers.size(), false);
+    if (!unit_s) unit_s = unit_of_usual_rate_s(numbers);
     if (!unit_s) return timing;
     for (double& number : numbers) number *= *unit_s;
     const bool is_video = is_rising(numbers) && numbers.back() - numbers.front() <= kMostSpan_s;

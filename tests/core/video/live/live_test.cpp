@@ -152,13 +152,14 @@ TEST_CASE("a stream is seen from its first key frame on, however seldom one come
         {"-f mpegts 'tcp://127.0.0.1:" + port + "?listen'", "tcp://127.0.0.1:" + port}};
     const auto& [to, from] = ways[GENERATE(some_of<std::size_t>({0, 1}, 2))];
     CAPTURE(from);
-    const Ffmpeg sender(
+    auto sender = std::make_unique<Ffmpeg>(
         "-re -f lavfi -i testsrc2=s=96x64:r=30,format=gray,boxblur=4 -c:v libx264 -preset "
         "ultrafast -tune zerolatency -g 9999 -pix_fmt yuvj420p " +
         to);
     if (contains(to, "listen")) REQUIRE(comes_to_listen(number));
-    const auto media = open_media(from, {}, as_sent());
-    CHECK(media->next());  // there is no other key frame
+    const auto media = open_media(from, {}, as_sent());  // there is no other key frame
+    sender.reset();
+    CHECK(media->next());  // the picture that the opening inspected last
 }
 
 TEST_CASE("streams open by whatever protocol they come, and from a pipe", "[live]") {

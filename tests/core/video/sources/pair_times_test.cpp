@@ -331,6 +331,20 @@ TEST_CASE("stamps in names are times, whatever their unit", "[pair_times]") {
     check_pair(*media, pair.times_s);
 }
 
+TEST_CASE("names that rise as milliseconds do at a usual rate are times, other steps count frames",
+          "[pair_times]") {
+    const Pair pair("rgb.mp4", 60, "30", kH264);
+    const bool is_time = GENERATE(true, false);
+    // Each second frame, by the clock, from 120 ms on; or each 40th and 60th alternately.
+    for (int k = 0; k < 30; ++k)
+        pair.depth(is_time ? std::to_string(120 + std::lround(2000.0 * k / 30.0))
+                           : std::to_string(100 * (k / 2) + 40 * (k % 2)),
+                   2 * k);
+    const MediaDescription media = pair.open()->description();
+    CHECK((media.times_from == "names") == is_time);
+    if (is_time) CHECK_THAT(media.duration_s, WithinAbs(2.0, 0.05));
+}
+
 TEST_CASE("a file beside pictures states their times", "[pair_times]") {
     const Pair pair("rgb.mp4", 50, "25", kH264);
     const auto [name, kind] = GENERATE(table<std::string, int>({{"depth/timestamps.txt", 0},
