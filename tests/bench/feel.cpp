@@ -31,6 +31,8 @@ constexpr int kSmoothed_px = 4;  ///< to each side, before the slope is taken
 constexpr double kSteepest = 0.8;
 constexpr int kTries = 300;  ///< at finding such a stroke
 
+constexpr std::size_t kBlemishesEvery = 15;  ///< frames
+
 /// A part of a recording.
 struct Stretch {
     std::vector<Frame> frames{};    ///< cleaned
@@ -176,10 +178,13 @@ class Toucher {
             rest(stretch, anywhere % stretch.raw.front().levels.size(), Way::rest_anywhere);
             if (const auto stroke = flat_stroke(stretch, of_stroke)) slide(stretch, *stroke);
         }
+        for (std::size_t k = 0; k + 1 < stretch.frames.size(); k += kBlemishesEvery)
+            blemishes_.add(*stretch.frames[k].depth, *stretch.frames[k + 1].depth);
     }
 
     [[nodiscard]] Feel feel() const {
-        Feel feel{.columns = survey_.columns(),
+        Feel feel{.blemishes = blemishes_.blemishes(),
+                  .columns = survey_.columns(),
                   .rows = survey_.rows(),
                   .frames = survey_.frames(),
                   .seconds = survey_.seconds()};
@@ -264,6 +269,7 @@ class Toucher {
     TouchParameters parameters_;
     std::mt19937 random_;
     std::array<FeelSums, kWays.size()> sums_{};
+    BlemishMeter blemishes_{};
 };
 
 }  // namespace

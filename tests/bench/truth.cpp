@@ -273,19 +273,28 @@ Nearness NearnessMeter::nearness() const {
             .flicker_px = flicker_px()};
 }
 
-Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
-                        CleaningPreset preset) {
+std::string each_cleaned(const std::vector<DepthImage>& recorded, CleaningPreset preset,
+                         const std::function<void(const DepthImage&)>& take,
+                         std::vector<ColourImage> colours) {
     const CleaningOptions options{.preset = preset};
     auto media = std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate);
     SparseMeter sparse;
     sparse.add(recorded.front());
     media->set_sparse(sparse.sparse_share());
+    media->set_colours(std::move(colours));
     FrameReader reader(std::move(media));
     reader.set_cleaning(options);
-    NearnessMeter meter(truth);
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s))
-        meter.add(*frame->depth);
-    return {meter.nearness(), in_words(options, reader.plan())};
+        take(*frame->depth);
+    return in_words(options, reader.plan());
+}
+
+Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
+                        CleaningPreset preset) {
+    NearnessMeter meter(truth);
+    std::string words =
+        each_cleaned(recorded, preset, [&](const DepthImage& depth) { meter.add(depth); });
+    return {meter.nearness(), std::move(words)};
 }
 
 }  // namespace dibhr::bench

@@ -72,6 +72,15 @@ std::vector<cv::Mat> colour_samples(const fs::path& place, int most, int track =
     }
 }
 
+/// The stated code of the depth takes the place of the one that was found.
+void state_code(PackedForm& form, const DepthStatement& statement) {
+    const bool is_hue = statement.code == DepthCode::hue;
+    if (!statement.code || (is_hue && form.hue)) return;
+    form.hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
+    if (is_of_bytes(*statement.code)) form.bytes = *statement.code;
+    form.coded = finding_on_code(*statement.code, true);
+}
+
 /// The packing in halves by the statement, a recorder's metadata or the name; else nothing.
 std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& statement) {
     std::optional<PackedForm> form;
@@ -90,18 +99,29 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
     }
     if (!form) return form;
     form->packing = statement.packing.value_or(form->packing);
-    const bool is_hue = statement.code == DepthCode::hue;
-    if (!statement.code || (is_hue && form->hue)) return form;
-    form->hue = is_hue ? std::optional(HueCode{}) : std::nullopt;
-    if (is_of_bytes(*statement.code)) form->bytes = *statement.code;
-    form->coded = finding_on_code(*statement.code, true);
+    state_code(*form, statement);
     return form;
 }
 
+/// What the pictures of a place look like; of a bag, which names its topics: nothing.
+PictureGuess guess_of(const Place& place) {
+    if (place.is(PictureForm::bag)) return {};
+    return guess_kind(colour_samples(place.path, kKindSamples));
+}
+
 /// The halves, where the pictures look packed; else nothing.
-std::optional<Sources> halves_by_appearance(const fs::path& place, const PictureGuess& guess) {
+std::optional<Sources> halves_as_guessed(const Place& place, const PictureGuess& guess,
+                                         const DepthStatement& statement) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
-    return open_packed(place, form_by_appearance(guess));
+    PackedForm form = form_by_appearance(guess);
+    state_code(form, statement);
+    return open_packed(place.path, form);
+}
+
+/// The same, unless a packing is stated.
+std::optional<Sources> halves_by_appearance(const Place& place, const DepthStatement& statement) {
+    if (statement.packing) return std::nullopt;
+    return halves_as_guessed(place, guess_of(place), statement);
 }
 
 /// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
@@ -398,10 +418,9 @@ Sources both_as_stated(const Place& place, const DepthStatement& statement) {
 
 /// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
 Sources guessed_content(const Place& place, const DepthStatement& statement) {
-    PictureGuess guess;
-    if (!place.is(PictureForm::bag)) guess = guess_kind(colour_samples(place.path, kKindSamples));
+    const PictureGuess guess = guess_of(place);
     if (!statement.packing) {
-        if (auto halves = halves_by_appearance(place.path, guess)) return std::move(*halves);
+        if (auto halves = halves_as_guessed(place, guess, statement)) return std::move(*halves);
     }
     if (is_depth(place, guess) || statement.code) {
         Sources depth = depth_in(place, statement);
@@ -412,11 +431,10 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
 }
 
 /// The same place was given twice: it holds both, else its pictures are colour and depth at once.
-Sources of_the_same_place(const fs::path& place, const DepthStatement& statement) {
-    if (Sources both = both_as_stated(Place(place), statement); both.depth) return both;
-    const PictureGuess guess = guess_kind(colour_samples(place, kKindSamples));
-    if (auto halves = halves_by_appearance(place, guess)) return std::move(*halves);
-    return of_two_places(place, place, statement);
+Sources of_the_same_place(const Place& place, const DepthStatement& statement) {
+    if (Sources both = both_as_stated(place, statement); both.depth) return both;
+    auto halves = halves_by_appearance(place, statement);
+    return halves ? std::move(*halves) : of_two_places(place.path, place.path, statement);
 }
 
 /// Throws InputError for an array that is by its name a mask, confidence, ..., unless a person says
@@ -511,7 +529,7 @@ Sources find_sources(const fs::path& colour, const fs::path& depth,
     if (places.depth.empty())
         sources = of_one_place(Place(places.colour), statement);
     else if (places.depth == places.colour)
-        sources = of_the_same_place(places.colour, statement);
+        sources = of_the_same_place(Place(places.colour), statement);
     else
         sources = of_two_places(places.colour, places.depth, statement);
     add_clause(sources.notice, places.notice);
@@ -525,7 +543,8 @@ Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     Sources sources = both_as_stated(depth, statement);
     if (!sources.depth) {
         require_no_other_content(depth, statement);
-        sources = depth_in(depth, statement);
+        auto halves = halves_by_appearance(depth, statement);
+        sources = halves ? std::move(*halves) : depth_in(depth, statement);
     }
     sources.colour.reset();
     return sources;

@@ -1,8 +1,10 @@
 // Depth is told from what is not, by content alone; in doubt pictures are photographs.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -330,6 +332,47 @@ TEST_CASE("colour and depth in halves are told, with packing and code", "[kind]"
     CHECK(guessed.kind == PictureKind::packed);
     CHECK(guessed.packing == packing);
     CHECK(guessed.code == code);
+}
+
+TEST_CASE("depth alone of a packed picture is its half, as beside its colour", "[kind]") {
+    const TemporaryFolder folder;
+    const auto [code, paint] = GENERATE(table<DepthCode, cv::Vec3b (*)(float)>(
+        {{DepthCode::grey, as_grey}, {DepthCode::hue, as_hue}}));
+    CAPTURE(name_of(code));
+    const cv::Mat depth = painted(scene_depth(), paint);
+    const std::filesystem::path file = folder / "both.png";
+    cv::imwrite(file.string(),
+                GENERATE_COPY(beside(scene_photo(), depth), above(depth, scene_photo())));
+    const DepthRequest request{.find_out = true};
+    const std::unique_ptr<Media> alone = open_depth(file, request);
+    const std::unique_ptr<Media> both = open_media(file, {}, request);
+    const std::unique_ptr<Media> twice = open_media(file, file, request);
+    CHECK(alone->description().depth_columns == kSceneColumns);
+    CHECK(alone->description().depth_rows == kSceneRows);
+    CHECK(alone->description().colour_columns == 0);
+    REQUIRE(alone->description().meaning);
+    REQUIRE(both->description().meaning);
+    const DepthMeaning& meaning = *alone->description().meaning;
+    CHECK(meaning.code.value == code);
+    CHECK(meaning.packing.value == both->description().meaning->packing.value);
+    const std::vector<float> levels = alone->next().value().depth.levels;
+    const auto is_same = [](float a, float b) { return a == b || (a != a && b != b); };
+    CHECK(std::ranges::equal(levels, both->next().value().depth.levels, is_same));
+    CHECK(std::ranges::equal(levels, twice->next().value().depth.levels, is_same));
+}
+
+TEST_CASE("a packed picture that is said to be all depth is not split, given once or twice",
+          "[kind]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path file = folder / "both.png";
+    cv::imwrite(file.string(), beside(scene_photo(), painted(scene_depth(), as_grey)));
+    DepthRequest request{.find_out = true};
+    request.command_line.packing = DepthPacking::separate;
+    request.command_line.code = DepthCode::grey;
+    CHECK(open_depth(file, request)->description().depth_columns == 2 * kSceneColumns);
+    CHECK(open_media(file, file, request)->description().depth_columns == 2 * kSceneColumns);
+    request.command_line.packing.reset();
+    CHECK(open_depth(file, request)->description().depth_columns == kSceneColumns);
 }
 
 TEST_CASE("depth is told in compressed video, too", "[kind]") {
