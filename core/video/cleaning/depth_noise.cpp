@@ -121,6 +121,7 @@ std::string text_of(const DepthNoise& noise) {
     for (const float value : {noise.character.kept, noise.character.fixed, noise.step.constant,
                               noise.step.linear, noise.step.square})
         character += " " + text(value);
+    for (const float share : noise.character.standing) character += " " + text(share);
     return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
            text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0") + character;
 }
@@ -136,6 +137,7 @@ std::optional<DepthNoise> noise_in(const std::string& text) {
     for (float& share : whole.character.bands) words >> share;
     words >> whole.character.kept >> whole.character.fixed >> whole.step.constant >>
         whole.step.linear >> whole.step.square;
+    for (float& share : whole.character.standing) words >> share;
     return words ? whole : noise;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -16,6 +17,7 @@ constexpr int kMiddleColumns = 640, kMiddleRows = 480;
 constexpr std::size_t kCharacterBins = 16;  ///< of levels
 constexpr std::size_t kTilesOfBin = 4;      ///< in fewer, motion may be in most of them
 constexpr std::size_t kFramesBetween = 3;   ///< every third frame is enough for what stands still
+constexpr std::size_t kFirstFrames = 5;     ///< half of those that are measured
 constexpr std::size_t kFramesOfSteps = 3;   ///< frames whose levels are compared
 constexpr int kStepSample = 3;              ///< every third of their pixels
 constexpr double kQuietTiles = 0.4;         ///< quantile, as of NoiseMeter
@@ -24,6 +26,13 @@ constexpr double kSmoothestTiles = 0.2;     ///< quantile: tiles without shapes 
 constexpr float kDip = 0.9F;                ///< deviation of the second band in that of the first
 constexpr float kEvenNoise = 1.7F;          ///< median in the smoothest tiles' deviation
 constexpr float kMostKept = 0.9F;
+constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
+constexpr float kMostStanding = 4.0F;     ///< of the moving noise: beyond, it is shape
+constexpr double kVerySmoothTiles = 0.1;  ///< quantile: also where a picture is full of shapes
+/// What stands still differs from place to place, unlike what moves.
+constexpr float kStandingVaries = 6.0F;
+/// It is hardly coarser than what moves: what a coarser band has beyond that is shape.
+constexpr float kMostRise = 2.0F;
 constexpr std::size_t kLeastLevels = 500, kLeastGaps = 2;
 constexpr std::size_t kRepeatsPerGap = 2;  ///< levels in steps repeat; continuous ones do not
 constexpr double kTypicalGap = 0.3;        ///< quantile: some levels in between do not occur
@@ -48,6 +57,18 @@ std::array<float, Count> medians_of(const std::vector<std::array<float, Count>>&
         medians[b] = median_of(std::move(values));
     }
     return medians;
+}
+
+float square(float value) {
+    return value * value;
+}
+
+template <typename Value>
+float mean_of_part(const BandPicture& of, int left, int top, int side, const Value& value) {
+    double sum = 0.0;
+    for (int j = top; j < top + side; ++j)
+        for (int i = left; i < left + side; ++i) sum += static_cast<double>(value(of.row(j)[i]));
+    return static_cast<float>(sum / (side * side));
 }
 
 /// The share of its variance that noise with this correlation from frame to frame shows in second
@@ -103,6 +124,16 @@ void NoiseCharacterMeter::add(const DepthImage& frame) {
         for (std::size_t k = 0; k < now_.data.size(); k += kStepSample)
             if (now_.data[k] != 0) some_levels_.push_back(now_.picture.values[k]);
     if (count_ >= 2) compare_frames();
+    if (count_ == kFirstFrames) sum_of_first_ = sum_;
+    if (count_ == 0) {
+        sum_ = now_.picture;
+        seen_all_ = now_.data;
+    } else {
+        for (std::size_t k = 0; k < seen_all_.size(); ++k) {
+            sum_.values[k] += now_.picture.values[k];
+            seen_all_[k] &= now_.data[k];
+        }
+    }
     ++count_;
     std::swap(before_last_, last_);
     std::swap(last_, now_);
@@ -122,45 +153,93 @@ void NoiseCharacterMeter::compare_frames() {
     measure(change_, known_, true);
 }
 
+/// Whether a tile, and what its finer bands depend on, has data all over.
+bool NoiseCharacterMeter::has_data(const std::vector<std::uint8_t>& data, std::size_t tile) const {
+    const auto tile_columns = static_cast<std::size_t>(columns_);
+    const int left = static_cast<int>(tile % tile_columns) * kCharacterTile_px;
+    const int top = static_cast<int>(tile / tile_columns) * kCharacterTile_px;
+    const int columns = now_.picture.columns;
+    const int right = std::min(left + kCharacterTile_px + kAroundTile_px, columns);
+    const int bottom = std::min(top + kCharacterTile_px + kAroundTile_px, now_.picture.rows);
+    for (int j = std::max(top - kAroundTile_px, 0); j < bottom; ++j) {
+        const auto row = data.begin() + std::ptrdiff_t{j} * columns;
+        if (std::find(row + std::max(left - kAroundTile_px, 0), row + right, 0) != row + right)
+            return false;
+    }
+    return true;
+}
+
+NoiseCharacterMeter::Energies NoiseCharacterMeter::energies_of(const NoiseBands& bands, int x,
+                                                               int y) {
+    Energies energies{};
+    for (std::size_t b = 0; b < kNoiseBands; ++b) {
+        const int side = kCharacterTile_px >> b;
+        energies[b] = mean_of_part(bands.band(b), x * side, y * side, side, square);
+    }
+    return energies;
+}
+
+/// What the mean of all frames has in each band, beyond the part of moving noise that is left in
+/// it, over a frame's moving noise: of the smoothest tiles, since shapes can only add to it. The
+/// part that is left is known by how the means of the first and the last frames differ. `moving`:
+/// the shares of the bands; `shown`: the share of its variance that moving noise shows.
+NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& moving,
+                                                            float shown) const {
+    Energies standing{};
+    if (count_ <= kFirstFrames) return standing;
+    constexpr auto kFirst = static_cast<float>(kFirstFrames);
+    const auto all = static_cast<float>(count_);
+    BandPicture mean = sum_;
+    BandPicture change = sum_of_first_;
+    for (std::size_t k = 0; k < mean.values.size(); ++k) {
+        change.values[k] =
+            change.values[k] / kFirst - (mean.values[k] - change.values[k]) / (all - kFirst);
+        mean.values[k] /= all;
+    }
+    const float left = 1.0F / all / (1.0F / kFirst + 1.0F / (all - kFirst));
+    NoiseBands of_mean;
+    NoiseBands of_change;
+    of_mean.split(mean);
+    of_change.split(change);
+    std::array<std::vector<float>, kNoiseBands> shares;
+    for (std::size_t k = 0; k < tiles_.size(); ++k) {
+        if (tiles_[k].variances.empty() || !has_data(seen_all_, k)) continue;
+        const float variance = median_of(tiles_[k].variances) / shown;
+        if (!(variance > 0.0F)) continue;
+        const auto at = static_cast<int>(k);
+        const Energies whole = energies_of(of_mean, at % columns_, at / columns_);
+        const Energies changing = energies_of(of_change, at % columns_, at / columns_);
+        for (std::size_t b = 0; b < kNoiseBands; ++b)
+            shares[b].push_back((whole[b] - left * changing[b]) / variance);
+    }
+    float most = std::numeric_limits<float>::infinity();
+    for (std::size_t b = 0; b < kNoiseBands; ++b) {
+        if (shares[b].size() < kTilesOfBin || !(moving[b] > 0.0F)) continue;
+        const float share = std::max(quantile_of(std::move(shares[b]), kVerySmoothTiles), 0.0F);
+        const float ratio = std::min(share / moving[b], most);
+        most = std::min(most, kMostRise * ratio);
+        standing[b] = std::min(kStandingVaries * ratio * moving[b], kMostStanding);
+    }
+    return standing;
+}
+
 void NoiseCharacterMeter::measure(const BandPicture& picture, const std::vector<std::uint8_t>& data,
                                   bool in_time) {
     split_.split(picture);
-    const auto has_data = [&](int left, int top) {
-        const int right = std::min(left + kCharacterTile_px + kAroundTile_px, picture.columns);
-        const int bottom = std::min(top + kCharacterTile_px + kAroundTile_px, picture.rows);
-        for (int j = std::max(top - kAroundTile_px, 0); j < bottom; ++j) {
-            const auto row = data.begin() + std::ptrdiff_t{j} * picture.columns;
-            if (std::find(row + std::max(left - kAroundTile_px, 0), row + right, 0) != row + right)
-                return false;
-        }
-        return true;
-    };
-    const auto mean = [](const BandPicture& of, int left, int top, int side, const auto& value) {
-        double sum = 0.0;
-        for (int j = top; j < top + side; ++j)
-            for (int i = left; i < left + side; ++i)
-                sum += static_cast<double>(value(of.row(j)[i]));
-        return static_cast<float>(sum / (side * side));
-    };
-    const auto square = [](float value) { return value * value; };
     for (int y = 0; y < rows_; ++y) {
         for (int x = 0; x < columns_; ++x) {
             const int left = x * kCharacterTile_px;
             const int top = y * kCharacterTile_px;
-            if (!has_data(left, top)) continue;
-            Tile& tile = tiles_[static_cast<std::size_t>(y * columns_ + x)];
-            Energies energies{};
-            for (std::size_t b = 0; b < kNoiseBands; ++b) {
-                const int side = kCharacterTile_px >> b;
-                energies[b] = mean(split_.band(b), x * side, y * side, side, square);
-            }
-            (in_time ? tile.in_time : tile.in_space).push_back(energies);
+            const auto number = static_cast<std::size_t>(y * columns_ + x);
+            if (!has_data(data, number)) continue;
+            Tile& tile = tiles_[number];
+            (in_time ? tile.in_time : tile.in_space).push_back(energies_of(split_, x, y));
             if (!in_time) {
                 const auto same = [](float value) { return value; };
-                tile.levels.push_back(mean(picture, left, top, kCharacterTile_px, same));
+                tile.levels.push_back(mean_of_part(picture, left, top, kCharacterTile_px, same));
                 continue;
             }
-            tile.variances.push_back(mean(picture, left, top, kCharacterTile_px, square));
+            tile.variances.push_back(mean_of_part(picture, left, top, kCharacterTile_px, square));
             double one = 0.0;
             double two = 0.0;
             for (int j = top; j < top + kCharacterTile_px; ++j) {
@@ -213,6 +292,8 @@ NoiseCharacter NoiseCharacterMeter::character() const {
     if (!ratios.empty()) {
         for (std::size_t b = 0; b < kNoiseBands; ++b) character.bands[b] = median_of(shares[b]);
         character.kept = std::clamp(median_of(ratios) - 1.0F, 0.0F, kMostKept);
+        character.standing =
+            standing(character.bands, std::max(shown_in_time(character.kept), kShownAtLeast));
     }
     // What the finest band has in space beyond time and rounding stands still. A texture has more
     // in the coarser bands, or varies from place to place: it is no noise.

@@ -19,6 +19,8 @@ struct NoiseCharacter {
     std::array<float, kNoiseBands> bands{kWhiteBands};
     float kept{0.0F};   ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
     float fixed{0.0F};  ///< deviation of grain that stands still [parts of the highest level]
+    /// What stands still in each band, all over the picture, of the variance of what does not.
+    std::array<float, kNoiseBands> standing{};
 
     bool operator==(const NoiseCharacter&) const = default;
 };
@@ -55,6 +57,9 @@ class NoiseCharacterMeter {
     struct Bin;
 
     void look(const DepthImage& frame, Seen& seen) const;
+    [[nodiscard]] bool has_data(const std::vector<std::uint8_t>& data, std::size_t tile) const;
+    [[nodiscard]] static Energies energies_of(const NoiseBands& bands, int x, int y);
+    [[nodiscard]] Energies standing(const Energies& moving, float shown) const;
     void measure(const BandPicture& picture, const std::vector<std::uint8_t>& data, bool in_time);
     void compare_frames();
     [[nodiscard]] std::vector<Bin> bins() const;
@@ -68,7 +73,9 @@ class NoiseCharacterMeter {
     std::vector<std::uint8_t> known_{};
     NoiseBands split_{};
     std::vector<Tile> tiles_{};
-    std::vector<float> some_levels_{};  ///< of a few frames, for the steps
+    std::vector<float> some_levels_{};      ///< of a few frames, for the steps
+    BandPicture sum_{}, sum_of_first_{};    ///< of all frames, of the first half
+    std::vector<std::uint8_t> seen_all_{};  ///< 1: had data in all of them
 };
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -193,6 +194,29 @@ TEST_CASE("a texture is no noise that stands still", "[noise]") {
         return 2.0F * small.levels[pixel] + 6.0F * large.levels[pixel];
     }));
     CHECK(noise.character.fixed == 0.0F);
+}
+
+TEST_CASE(
+    "what stands still all over the picture is noise of its band, what does here and there is not",
+    "[noise]") {
+    const DepthImage pattern = correlated(99, 0);
+    const double share = GENERATE(1.0, 0.3);  // of the picture that has it
+    std::vector<DepthImage> frames = NoisyScene{tilted, [](double) { return 1.0; }}.frames(10);
+    for (DepthImage& frame : frames)
+        for (std::size_t p = 0; p < frame.levels.size(); ++p)
+            if (static_cast<double>(p) < share * static_cast<double>(frame.levels.size()))
+                frame.levels[p] += 0.5F * pattern.levels[p];
+    const NoiseCharacter character = measured(frames).character;
+    const float whole = std::accumulate(character.standing.begin(), character.standing.end(), 0.0F);
+    if (share < 1.0) {
+        CHECK(whole < 0.05F);
+    } else {
+        CHECK(character.standing[0] > 0.5F);  // six times a quarter, as it varies
+        CHECK(character.standing[0] < 2.0F);
+        CHECK(character.standing[0] > 5.0F * character.standing[1]);
+    }
+    const auto clean = measured(NoisyScene{tilted, [](double) { return 1.0; }}.frames(10));
+    for (const float band : clean.character.standing) CHECK(band < 0.02F);
 }
 
 TEST_CASE("steps of levels are measured: whole levels, and disparities that grow with distance",
