@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/video/cleaning/single_frame_depth.hpp"
 #include "core/video/frames/cleaning_options.hpp"
 #include "tests/bench/blemishes.hpp"
 #include "tests/bench/carried.hpp"
@@ -21,10 +22,10 @@ namespace dibhr::bench {
 namespace {
 
 constexpr std::uint32_t kSeed = 1;
-constexpr std::size_t kSettled = 30;  ///< frames before the first that is measured
-constexpr std::size_t kMeasured = 6;  ///< frames
-constexpr std::size_t kAfter = 6;     ///< frames that cleaning may look ahead
-constexpr std::size_t kMeanOf = 11;   ///< frames, the yardstick
+constexpr std::size_t kSettled = 30;          ///< frames before the first that is measured
+constexpr std::size_t kMeasured = 6;          ///< frames
+constexpr std::size_t kAfter = kReachInTime;  ///< frames that cleaning looks ahead
+constexpr std::size_t kMeanOf = 11;           ///< frames, the yardstick
 
 struct Frames {
     std::vector<DepthImage> depth{};

@@ -1,6 +1,8 @@
 // The steps of cleaning, one after the other.
 #include "core/video/cleaning/cleaning_chain.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -145,7 +147,8 @@ void CleaningChain::close_holes(SingleFrameDepth& single_frame, bool fill,
 SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan& plan,
                                             std::span<const HeldLevel> held,
                                             const ColourImage* colour) {
-    SingleFrameDepth single_frame{std::move(image), {}, {}};
+    static std::atomic<std::uint64_t> made{0};
+    SingleFrameDepth single_frame{std::move(image), {}, {}, -1, ++made};
     const bool touchable = is_touchable(single_frame.depth);
     interpolated_.clear();
     if (touchable && plan.steps.densify && has_holes(single_frame.depth)) {
@@ -153,7 +156,8 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
         held = in_holes(held, single_frame.depth);
     }
     spikes_.forget();
-    if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth);
+    const float noise = plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
+    if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth, noise);
     if (has_holes(single_frame.depth))
         close_holes(single_frame, touchable && plan.steps.fill_holes, held);
     if (!interpolated_.empty()) {
@@ -164,8 +168,6 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
     free_if_large(pixels, sparse_, interpolated_, spikes_, seen_, held_, small_holes_,
                   large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
-        const float noise =
-            plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
         silhouettes_.sharpen(single_frame.depth, plan.steps.colour_edges ? colour : nullptr, noise);
         free_if_large(pixels, silhouettes_);
     }
@@ -181,19 +183,25 @@ Frame CleaningChain::clean_and_finish(DepthImage image, const CleaningPlan& plan
 
 DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                            std::size_t now, const DepthNoise& noise) {
-    if (noise.per_frame_scale) frames = scale_.on_one_scale(frames, now);
+    if (noise.per_frame_scale) {  // farther frames have scales of their own
+        const std::size_t first = now - std::min(now, kNearInTime);
+        frames =
+            frames.subspan(first, std::min(frames.size() - first, now - first + kNearInTime + 1));
+        now -= first;
+        frames = scale_.on_one_scale(frames, now);
+    }
     return temporal_.filtered(frames, now, noise);
 }
 
 Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                                   const CleaningPlan& plan, Frame frame) {
     const SingleFrameDepth& here = *frames[now];
-    DepthImage depth = plan.steps.steady && frames.size() > 1
-                           ? filtered_in_time(frames, now, plan.noise)
-                           : here.depth;
+    const bool steady = plan.steps.steady && frames.size() > 1;
+    DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
-        if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
+        if (plan.steps.smooth_noise)
+            noise_.smooth(depth, plan.noise, steady ? temporal_.evidence() : TimeEvidence{});
     }
     if (!here.unseen.empty())
         frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);

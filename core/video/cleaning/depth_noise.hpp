@@ -64,6 +64,7 @@ inline constexpr const char* kBitsTag = "DIBHR_BITS";
 class NoiseBound {
   public:
     NoiseBound() = default;
+    bool operator==(const NoiseBound&) const = default;
     /// `least`: lower limit of the constant part, in parts of the highest level.
     NoiseBound(const DepthNoise& noise, float deviations, float least, double highest_level)
         : per_level_(1.0F / static_cast<float>(highest_level)) {
@@ -82,6 +83,15 @@ class NoiseBound {
   private:
     float constant_{0.0F}, linear_{0.0F}, square_{0.0F};
     float per_level_{1.0F};
+};
+
+/// What a frame's neighbours in time tell of its pixels. Empty: there are none.
+struct TimeEvidence {
+    static constexpr int kTile_px = 8;
+
+    std::vector<float> weights{};  ///< of each pixel: how many frames its level is the mean of
+    /// The variance of one frame's levels, of tiles of kTile_px, row-major [levels^2].
+    std::vector<float> variances{};
 };
 
 /// Measures the noise of surfaces that stand still or move evenly.

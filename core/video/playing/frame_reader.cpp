@@ -19,8 +19,10 @@ namespace {
 
 constexpr std::size_t kMostKept = 48;
 constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beside what cleaning needs
-constexpr double kMostReadBack = 12.0;                     ///< frames read at once to step back
-constexpr double kReach_s = 0.5;                           ///< farther frames do not clean this one
+/// Frames read at once to step back: all that clean the frame before.
+constexpr auto kMostReadBack = static_cast<double>(kReachInTime + 1);
+/// Farther frames do not clean this one: all that could at 30 frames/s are nearer.
+constexpr double kReach_s = 0.55;
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
 /// After so many frames in a row, more than a window holds, the media counts as playing.
 constexpr int kPlaysAfter = static_cast<int>(FrameWindow::kFrames);
@@ -55,6 +57,7 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
       frames_since_skip_(kKeepsUpAfter) {
     assembly_.set_number(number);
+    assembly_.set_interval(interval_s(description()));
 }
 
 double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
@@ -150,7 +153,8 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 }
 
 std::size_t FrameReader::reach() const {
-    return plan().steps.steady ? kReachInTime : 0;
+    if (!plan().steps.steady) return 0;
+    return plan().noise.per_frame_scale ? kNearInTime : kReachInTime;
 }
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
