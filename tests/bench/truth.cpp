@@ -198,7 +198,7 @@ void NearnessMeter::keep_moving() {
 
 /// Of the moving pixels from the truth so many frames before, where the chain sees to both sides.
 double NearnessMeter::squares_from_truth(double late_frames) const {
-    const int reach = static_cast<int>(kReachInTime);
+    const int reach = static_cast<int>(kNearInTime);
     const auto columns = static_cast<std::size_t>(now_.columns);
     double squares = 0.0;
     for (std::size_t n = 0; n < moving_.size(); ++n) {
@@ -217,7 +217,7 @@ double NearnessMeter::squares_from_truth(double late_frames) const {
 
 /// Where a parabola through the least squares and those beside them is lowest.
 double NearnessMeter::lag_frames() const {
-    if (moving_.empty() || frame_ <= 2 * static_cast<int>(kReachInTime)) return Nearness::kNone;
+    if (moving_.empty() || frame_ <= 2 * static_cast<int>(kNearInTime)) return Nearness::kNone;
     std::vector<double> squares;
     for (int shift = -kShifts; shift <= kShifts; ++shift)
         squares.push_back(squares_from_truth(kShift_frames * shift));

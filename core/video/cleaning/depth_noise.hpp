@@ -85,7 +85,7 @@ class NoiseBound {
     float per_level_{1.0F};
 };
 
-/// What a frame's neighbours in time tell of its pixels. Empty: there are none.
+/// What a frame's neighbours in time tell of its pixels. Without variances: there are none.
 struct TimeEvidence {
     static constexpr int kTile_px = 8;
 

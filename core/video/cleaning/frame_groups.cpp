@@ -12,6 +12,7 @@ namespace {
 
 /// Deviations between the lowest and the highest of four levels: noise is beyond it once in 10,000.
 constexpr float kMostApart = 6.4F;
+constexpr float kMiddle = 0.5F * static_cast<float>(kGroupInTime - 1);
 
 DIBHR_VECTOR_CLONES void average_four(const float* a, const float* b, const float* c,
                                       const float* d, const NoiseBound& deviation,
@@ -33,8 +34,8 @@ DIBHR_VECTOR_CLONES void leave_out(const std::uint8_t* filled, float* __restrict
 
 }  // namespace
 
-std::span<const float* const> FrameGroups::around(std::span<const SingleFrameDepth* const> frames,
-                                                  std::size_t now, const NoiseBound& noise) {
+std::span<const FrameGroup> FrameGroups::around(std::span<const SingleFrameDepth* const> frames,
+                                                std::size_t now, const NoiseBound& noise) {
     if (noise != std::exchange(noise_, noise)) groups_.clear();
     const std::size_t first = now - std::min(now, kReachInTime);
     const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
@@ -58,7 +59,9 @@ std::span<const float* const> FrameGroups::around(std::span<const SingleFrameDep
             return are_alike(one->depth, frames[now]->depth);
         };
         if (std::all_of(four.begin(), four.end(), is_alike))
-            around_.push_back(group_of(four, noise));
+            around_.push_back({group_of(four, noise),
+                               static_cast<float>(begin) - static_cast<float>(now) + kMiddle,
+                               static_cast<float>(kGroupInTime)});
     }
     // Those that are near now are far again soon.
     const auto is_left = [&](const Group& group) {
@@ -69,7 +72,19 @@ std::span<const float* const> FrameGroups::around(std::span<const SingleFrameDep
     for (Group& group : groups_)
         if (group.ids[0] != 0 && is_left(group)) kept_.push_back(std::move(group));
     groups_.swap(kept_);
+    balance();
     return around_;
+}
+
+/// Groups begin where their numbers do: where they are farther on one side they weigh less, so that
+/// what moves evenly is neither late nor early.
+void FrameGroups::balance() {
+    float before = 0.0F;
+    float after = 0.0F;
+    for (const FrameGroup& group : around_) (group.later < 0.0F ? before : after) += group.later;
+    if (!(before < 0.0F && after > 0.0F)) return;
+    const float mean = 0.5F * (after - before);
+    for (FrameGroup& group : around_) group.weight *= (group.later < 0.0F ? after : -before) / mean;
 }
 
 const float* FrameGroups::group_of(const Four& frames, const NoiseBound& noise) {

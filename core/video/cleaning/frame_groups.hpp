@@ -12,6 +12,12 @@
 
 namespace dibhr {
 
+struct FrameGroup {
+    const float* levels{nullptr};
+    float later{0.0F};   ///< its middle, in frames after the one that is cleaned
+    float weight{0.0F};  ///< of its levels: about that of its frames
+};
+
 /// Frames with the same quarter of their number are a group, however they were reached: it has the
 /// same bits in the cleaning of every frame around it, and is computed once.
 class FrameGroups {
@@ -23,7 +29,7 @@ class FrameGroups {
     /// to kNearInTime from it, in order of time. Frames alike to that one only. Where a group's
     /// frames differ by more than noise, or were filled, it has no level. Valid until the next
     /// call.
-    [[nodiscard]] std::span<const float* const> around(
+    [[nodiscard]] std::span<const FrameGroup> around(
         std::span<const SingleFrameDepth* const> frames, std::size_t now, const NoiseBound& noise);
 
   private:
@@ -34,10 +40,11 @@ class FrameGroups {
     };
 
     [[nodiscard]] const float* group_of(const Four& frames, const NoiseBound& noise);
+    void balance();
 
     NoiseBound noise_{};
     std::vector<Group> groups_{}, kept_{};
-    std::vector<const float*> around_{};
+    std::vector<FrameGroup> around_{};
 };
 
 }  // namespace dibhr

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -33,6 +34,7 @@ constexpr double kVerySmoothTiles = 0.1;  ///< quantile: also where a picture is
 constexpr float kStandingVaries = 6.0F;
 /// It is hardly coarser than what moves: what a coarser band has beyond that is shape.
 constexpr float kMostRise = 2.0F;
+constexpr float kMoves = 2.0F;  ///< times the change that noise makes of the means of frames
 constexpr std::size_t kLeastLevels = 500, kLeastGaps = 2;
 constexpr std::size_t kRepeatsPerGap = 2;  ///< levels in steps repeat; continuous ones do not
 constexpr double kTypicalGap = 0.3;        ///< quantile: some levels in between do not occur
@@ -184,8 +186,10 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::energies_of(const NoiseBands&
 /// part that is left is known by how the means of the first and the last frames differ. `moving`:
 /// the shares of the bands; `shown`: the share of its variance that moving noise shows.
 NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& moving,
-                                                            float shown) const {
+                                                            float kept) const {
     Energies standing{};
+    const float shown = std::max(shown_in_time(kept), kShownAtLeast);
+    const float shared = (1.0F + kept) / (1.0F - kept);
     if (count_ <= kFirstFrames) return standing;
     constexpr auto kFirst = static_cast<float>(kFirstFrames);
     const auto all = static_cast<float>(count_);
@@ -209,6 +213,9 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& movi
         const auto at = static_cast<int>(k);
         const Energies whole = energies_of(of_mean, at % columns_, at / columns_);
         const Energies changing = energies_of(of_change, at % columns_, at / columns_);
+        // What moves is in the change, and not in the mean: it would be taken for little noise.
+        const float moved = left * std::accumulate(changing.begin(), changing.end(), 0.0F);
+        if (moved > kMoves * variance * std::min(shared / all, 1.0F)) continue;
         for (std::size_t b = 0; b < kNoiseBands; ++b)
             shares[b].push_back((whole[b] - left * changing[b]) / variance);
     }
@@ -292,8 +299,7 @@ NoiseCharacter NoiseCharacterMeter::character() const {
     if (!ratios.empty()) {
         for (std::size_t b = 0; b < kNoiseBands; ++b) character.bands[b] = median_of(shares[b]);
         character.kept = std::clamp(median_of(ratios) - 1.0F, 0.0F, kMostKept);
-        character.standing =
-            standing(character.bands, std::max(shown_in_time(character.kept), kShownAtLeast));
+        character.standing = standing(character.bands, character.kept);
     }
     // What the finest band has in space beyond time and rounding stands still. A texture has more
     // in the coarser bands, or varies from place to place: it is no noise.

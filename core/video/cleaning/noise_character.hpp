@@ -59,7 +59,7 @@ class NoiseCharacterMeter {
     void look(const DepthImage& frame, Seen& seen) const;
     [[nodiscard]] bool has_data(const std::vector<std::uint8_t>& data, std::size_t tile) const;
     [[nodiscard]] static Energies energies_of(const NoiseBands& bands, int x, int y);
-    [[nodiscard]] Energies standing(const Energies& moving, float shown) const;
+    [[nodiscard]] Energies standing(const Energies& moving, float kept) const;
     void measure(const BandPicture& picture, const std::vector<std::uint8_t>& data, bool in_time);
     void compare_frames();
     [[nodiscard]] std::vector<Bin> bins() const;

@@ -107,9 +107,9 @@ DIBHR_VECTOR_CLONES void add_changes(const float* now_above, const float* before
         changes[i] = 0.5F * ((now_above[i] - before_above[i]) + (now_below[i] - before_below[i]));
 }
 
-DIBHR_VECTOR_CLONES void subtract_from(const float* before, float* __restrict levels,
-                                       std::ptrdiff_t count) {
-    for (std::ptrdiff_t i = 0; i < count; ++i) levels[i] = before[i] - levels[i];
+DIBHR_VECTOR_CLONES void find_taken(const float* before, const float* now, float* __restrict taken,
+                                    std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) taken[i] = before[i] - now[i];
 }
 
 DIBHR_VECTOR_CLONES void add_within(const float* base, const float* shapes, float lowest,
@@ -303,7 +303,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
         const int bottom = std::min((y + 1) * kHalf, left_.moving.rows);
         for (int j = y * kHalf; j < bottom; ++j) {
             float* const out = left_.moving.row(j);
-            if (evidence.weights.empty())
+            if (evidence.variances.empty())
                 std::copy_n(row_.begin(), left_.moving.columns, out);
             else
                 share_among(row_.data(), evidence.weights.data() + image.index(0, 2 * j),
@@ -468,8 +468,7 @@ void NoiseSmoother::put_back(DepthImage& image) {
         find_range(image.levels.data() + image.index(0, j), lows_.data(), highs_.data(),
                    image.columns);
     taken_.set_size(image.columns, image.rows);
-    std::copy(base.begin(), base.end(), taken_.values.begin());
-    subtract_from(image.levels.data(), taken_.values.data(), count);
+    find_taken(image.levels.data(), base.data(), taken_.values.data(), count);
     bands_.keep_shapes(taken_, left_);
     add_within(base.data(), taken_.values.data(), *std::min_element(lows_.begin(), lows_.end()),
                *std::max_element(highs_.begin(), highs_.end()), image.levels.data(), count);
@@ -486,17 +485,22 @@ void NoiseSmoother::take_medians(DepthImage& image, const DepthNoise& noise) {
     const auto picture = [&](std::vector<float>& levels, int top, int bottom) {
         return cv::Mat(bottom - top, image.columns, CV_32F, levels.data() + image.index(0, top));
     };
-    for (int y = 0; y < tile_rows_; ++y) {
+    const auto has_few = [&](int y) {
         const auto few = few_frames_.begin() + y * tile_columns;
-        if (std::find(few, few + tile_columns, 1) == few + tile_columns) continue;
-        // With the rows around, whose medians of before are not read; levels stay as they were
-        // given until all medians are known.
-        const int top = std::max(y * kTile_px - kBorder_px, 0);
-        const int bottom = std::min((y + 1) * kTile_px + kBorder_px, image.rows);
+        return y < tile_rows_ && std::find(few, few + tile_columns, 1) != few + tile_columns;
+    };
+    for (int y = 0; y < tile_rows_; ++y) {
+        const int first = y;
+        while (has_few(y)) ++y;
+        if (y == first) continue;
+        // With the rows beside them that medians of medians depend on.
+        const int top = std::max(first * kTile_px - kBorder_px, 0);
+        const int bottom = std::min(y * kTile_px + kBorder_px, image.rows);
         cv::Mat medians;
         cv::medianBlur(picture(image.levels, top, bottom), medians, 3);
         cv::medianBlur(medians, medians, 3);
-        for (int j = y * kTile_px; j < std::min((y + 1) * kTile_px, image.rows); ++j)
+        const int end = std::min(y * kTile_px, image.rows);
+        for (int j = first * kTile_px; j < end; ++j)
             std::copy_n(medians.ptr<float>(j - top), image.columns,
                         medians_.begin() + static_cast<std::ptrdiff_t>(image.index(0, j)));
     }

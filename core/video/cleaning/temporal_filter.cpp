@@ -19,7 +19,8 @@ namespace {
 
 constexpr std::size_t kMedianReach = 2;  ///< frames to each side
 constexpr float kAlike = 3.0F;  ///< standard deviations; beyond, a level may be another surface
-constexpr float kApart = 5.0F;  ///< beyond, levels do not mix; between both they do ever less
+/// From here on levels mix ever less, and not at all beyond that.
+constexpr float kMixes = 2.0F, kApart = 4.0F;
 constexpr float kGroupsApart = 1.5F;          ///< of groups' levels, which have half the deviation
 constexpr int kTile_px = 16;                  ///< rows that are averaged together
 constexpr std::size_t kStillTile_px = 32;     ///< their columns that stand still or not as a whole
@@ -102,10 +103,10 @@ DIBHR_VECTOR_CLONES void invert(const float* reference, const NoiseBound& bound,
     for (std::size_t i = 0; i < count; ++i) per_bound[i] = 1.0F / of(reference[i]);
 }
 
-/// 1 up to kAlike, 0 from kApart on: a mean of levels with equal weights has the least noise.
+/// 1 up to kMixes, 0 from kApart on: a mean of levels with equal weights has the least noise.
 /// `per_bound`: 1 over the deviations between the two.
 inline float weight_of(float off, float per_bound) {
-    constexpr float kZero = kApart / (kApart - kAlike);
+    constexpr float kZero = kApart / (kApart - kMixes);
     return std::min(std::max(kZero - std::fabs(off) * per_bound, 0.0F), 1.0F);
 }
 
@@ -193,41 +194,70 @@ DIBHR_VECTOR_CLONES void add_one(const float* levels, const std::uint8_t* filled
     }
 }
 
-/// Each of a group's levels counts as its frames do.
-inline float weight_of_group(float off, float per_bound) {
-    return static_cast<float>(kGroupInTime) * weight_of(off, kGroupsApart * per_bound);
+/// All of the nearest frames at once, to sums of 0: the most common case.
+using Near = std::array<const float*, 2 * kNearInTime + 1>;
+
+DIBHR_VECTOR_CLONES void add_near_frames(const Near& rows, const float* reference,
+                                         const float* per_bound, float* __restrict sum,
+                                         float* __restrict weights, float* __restrict squares,
+                                         std::size_t count) {
+    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4], *f = rows[5];
+    const float *g = rows[6], *h = rows[7], *k = rows[8], *l = rows[9], *m = rows[10];
+    for (std::size_t i = 0; i < count; ++i) {
+        Mean mean{0.0F, 0.0F, 0.0F};
+        mean.add(a[i], reference[i], per_bound[i]);
+        mean.add(b[i], reference[i], per_bound[i]);
+        mean.add(c[i], reference[i], per_bound[i]);
+        mean.add(d[i], reference[i], per_bound[i]);
+        mean.add(e[i], reference[i], per_bound[i]);
+        mean.add(f[i], reference[i], per_bound[i]);
+        mean.add(g[i], reference[i], per_bound[i]);
+        mean.add(h[i], reference[i], per_bound[i]);
+        mean.add(k[i], reference[i], per_bound[i]);
+        mean.add(l[i], reference[i], per_bound[i]);
+        mean.add(m[i], reference[i], per_bound[i]);
+        sum[i] = mean.sum;
+        weights[i] = mean.weight;
+        squares[i] = mean.squares;
+    }
 }
 
-DIBHR_VECTOR_CLONES void add_group(const float* levels, const float* reference,
+inline float weight_in_group(float off, float per_bound) {
+    return weight_of(off, kGroupsApart * per_bound);
+}
+
+DIBHR_VECTOR_CLONES void add_group(const float* levels, float weight, const float* reference,
                                    const float* per_bound, float* __restrict sum,
                                    float* __restrict weights, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
         const float off = levels[i] - reference[i];
-        const float more = weight_of_group(off, per_bound[i]);
+        const float more = weight * weight_in_group(off, per_bound[i]);
         sum[i] += more * off;
         weights[i] += more;
     }
 }
 
-DIBHR_VECTOR_CLONES void add_four_groups(const Four& rows, const float* reference,
-                                         const float* per_bound, float* __restrict sum,
-                                         float* __restrict weights, std::size_t count) {
+DIBHR_VECTOR_CLONES void add_four_groups(const Four& rows, const std::array<float, 4>& each,
+                                         const float* reference, const float* per_bound,
+                                         float* __restrict sum, float* __restrict weights,
+                                         std::size_t count) {
     const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
+    const float of_a = each[0], of_b = each[1], of_c = each[2], of_d = each[3];
     for (std::size_t i = 0; i < count; ++i) {
         float whole = sum[i];
-        float weight = weights[i];
-        const auto add = [&](float level) {
+        float all = weights[i];
+        const auto add = [&](float level, float weight) {
             const float off = level - reference[i];
-            const float more = weight_of_group(off, per_bound[i]);
+            const float more = weight * weight_in_group(off, per_bound[i]);
             whole += more * off;
-            weight += more;
+            all += more;
         };
-        add(a[i]);
-        add(b[i]);
-        add(c[i]);
-        add(d[i]);
+        add(a[i], of_a);
+        add(b[i], of_b);
+        add(c[i], of_c);
+        add(d[i], of_d);
         sum[i] = whole;
-        weights[i] = weight;
+        weights[i] = all;
     }
 }
 
@@ -279,9 +309,11 @@ void TemporalFilter::gather(std::span<const SingleFrameDepth* const> frames, std
     const std::size_t end = std::min(frames.size(), now + kNearInTime + 1);
     count_ = 0;
     nearest_ = 0;
+    any_filled_ = false;
     for (std::size_t k = first; k < end; ++k) {
         if (!are_alike(frames[k]->depth, here.depth)) continue;
         const std::size_t away = k > now ? k - now : now - k;
+        any_filled_ = any_filled_ || !frames[k]->filled.empty();
         if (away <= kMedianReach && nearest_++ == 0) first_near_ = count_;
         neighbours_[count_++] = {frames[k]->depth.levels.data(),
                                  frames[k]->filled.empty() ? nullptr : frames[k]->filled.data()};
@@ -303,10 +335,12 @@ void TemporalFilter::find_reference(const float* here, std::size_t at, std::size
     }
 }
 
-void TemporalFilter::Sums::set_size(std::size_t count) {
+void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
     reference.resize(count);
     per_bound.resize(count);
-    for (std::vector<float>* sums : {&sum, &weights, &squares}) sums->assign(count, 0.0F);
+    sum.resize(count);
+    squares.resize(count);
+    weights = weights_there;
 }
 
 /// Averages tiles side by side together, so that their rows stay in the cache. Returns whether any
@@ -321,7 +355,7 @@ bool TemporalFilter::average_rows(const SingleFrameDepth& here, DepthImage& out)
         for (int j = 0; j < rows; ++j) {
             const std::size_t at = out.index(0, top + j);
             Sums& sums = rows_[static_cast<std::size_t>(j)];
-            sums.set_size(columns);
+            sums.start(columns, evidence_.weights.data() + at);
             find_reference(here.depth.levels.data(), at, columns, sums.reference.data());
             if (mark_other(here.depth.levels.data() + at, sums.reference.data(), bound_,
                            other_.data() + at, columns)) {
@@ -349,9 +383,9 @@ void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
         off_.assign(columns, 0.0F);
         counted_.assign(columns, 0.0F);
         const int bottom = std::min(part + kPart, rows);
-        for (int j = part; j < bottom; ++j) {
+        for (int j = part; j < bottom; j += 2) {  // every second row tells
             const Sums& sums = rows_[static_cast<std::size_t>(j)];
-            add_variances(sums.sum.data(), sums.weights.data(), sums.squares.data(), off_.data(),
+            add_variances(sums.sum.data(), sums.weights, sums.squares.data(), off_.data(),
                           counted_.data(), columns);
         }
         const Sums& middle = rows_[static_cast<std::size_t>((part + bottom) / 2)];
@@ -366,49 +400,47 @@ void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
             }
             const float law = bound_(middle.reference[(left + right) / 2]) / kAlike;
             const auto pixels =
-                static_cast<float>(right - left) * static_cast<float>(bottom - part);
+                static_cast<float>(right - left) * static_cast<float>((bottom - part + 1) / 2);
             evidence_.variances.push_back(2.0F * counted < pixels ? law * law : variance / counted);
         }
     }
 }
 
-/// Adds groups of frames where the tile stands still: else what moves slowly would be smeared.
+/// Adds groups of frames where the tile stands still: else what moves slowly would be smeared. All
+/// of them or none, since those of one side alone would be late.
 void TemporalFilter::add_groups(int top, int rows, const DepthImage& out) {
     if (far_.empty()) return;
     const std::size_t tiles =
         (static_cast<std::size_t>(out.columns) + kStillTile_px - 1) / kStillTile_px;
-    still_.assign(tiles, 0U);
-    for (std::size_t k = 0; k < far_.size(); ++k) find_still(far_[k], top, rows, out, 1U << k);
-    const unsigned all = (1U << far_.size()) - 1U;
-    for (std::size_t x = 0; x < tiles;) {
-        std::size_t end = x + 1;
-        while (end < tiles && still_[end] == still_[x]) ++end;
-        const unsigned still = still_[x];
-        const std::size_t left = kStillTile_px * std::exchange(x, end);
-        const std::size_t count =
-            std::min(kStillTile_px * end, static_cast<std::size_t>(out.columns)) - left;
-        for (int j = 0; still != 0 && j < rows; ++j) {
+    still_.assign(tiles, 1);
+    for (const FrameGroup& group : far_) find_still(group.levels, top, rows, out);
+    visit_marked(still_.data(), static_cast<int>(tiles), [&](int begin, int end) {
+        const std::size_t left = kStillTile_px * static_cast<std::size_t>(begin);
+        const std::size_t count = std::min(kStillTile_px * static_cast<std::size_t>(end),
+                                           static_cast<std::size_t>(out.columns)) -
+                                  left;
+        for (int j = 0; j < rows; ++j) {
             Sums& sums = rows_[static_cast<std::size_t>(j)];
             const float* const reference = sums.reference.data() + left;
             const float* const per_bound = sums.per_bound.data() + left;
             const std::size_t at = out.index(static_cast<int>(left), top + j);
-            if (still == all && far_.size() == 4) {
-                add_four_groups({far_[0] + at, far_[1] + at, far_[2] + at, far_[3] + at}, reference,
-                                per_bound, sums.sum.data() + left, sums.weights.data() + left,
-                                count);
-                continue;
+            std::size_t k = 0;
+            for (; k + 4 <= far_.size(); k += 4) {
+                const FrameGroup* g = far_.data() + k;
+                add_four_groups(
+                    {g[0].levels + at, g[1].levels + at, g[2].levels + at, g[3].levels + at},
+                    {g[0].weight, g[1].weight, g[2].weight, g[3].weight}, reference, per_bound,
+                    sums.sum.data() + left, sums.weights + left, count);
             }
-            for (std::size_t k = 0; k < far_.size(); ++k)
-                if ((still >> k & 1U) != 0)
-                    add_group(far_[k] + at, reference, per_bound, sums.sum.data() + left,
-                              sums.weights.data() + left, count);
+            for (; k < far_.size(); ++k)
+                add_group(far_[k].levels + at, far_[k].weight, reference, per_bound,
+                          sums.sum.data() + left, sums.weights + left, count);
         }
-    }
+    });
 }
 
-/// Sets the bit of tiles that stand still from that group to the frame.
-void TemporalFilter::find_still(const float* group, int top, int rows, const DepthImage& out,
-                                unsigned bit) {
+/// Unmarks tiles that do not stand still from that group to the frame.
+void TemporalFilter::find_still(const float* group, int top, int rows, const DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
     for (std::vector<float>* sums : {&off_, &squared_off_, &counted_}) sums->assign(columns, 0.0F);
     for (int j = kRowStep_px / 2; j < rows; j += kRowStep_px) {
@@ -430,7 +462,10 @@ void TemporalFilter::find_still(const float* group, int top, int rows, const Dep
             squared += squared_off_[i];
             counted += counted_[i];
         }
-        if (counted < kLeastCounted) continue;
+        if (counted < kLeastCounted) {
+            still_[x] = 0;
+            continue;
+        }
         float variance = 0.0F;
         float count = 0.0F;
         for (int y = 0; y * kPart < rows; ++y)
@@ -440,9 +475,9 @@ void TemporalFilter::find_still(const float* group, int top, int rows, const Dep
         const float of_group = std::min(shared_ / static_cast<float>(kGroupInTime), 1.0F);
         const float of_median = std::min(shared_ * kOfMedian, 1.0F);
         const float mean = off / counted;
-        if (mean * mean <= kStillMean * kStillMean * variance &&
-            squared / counted <= kStillSquares * (of_group + of_median) * variance)
-            still_[x] |= bit;
+        if (mean * mean > kStillMean * kStillMean * variance ||
+            squared / counted > kStillSquares * (of_group + of_median) * variance)
+            still_[x] = 0;
     }
 }
 
@@ -657,29 +692,35 @@ bool TemporalFilter::is_held(const DepthImage& here, const Held& held, int i, in
 /// first pixel on.
 void TemporalFilter::average(const float* reference, std::size_t at, std::size_t count,
                              DepthImage& out) {
-    run_.set_size(count);
+    run_.start(count, evidence_.weights.data() + at);
     std::copy_n(reference, count, run_.reference.begin());
     add_near(run_, at);
     take_mean(run_, at, out);
 }
 
 void TemporalFilter::take_mean(const Sums& sums, std::size_t at, DepthImage& out) {
-    divide(sums.reference.data(), sums.sum.data(), sums.weights.data(), out.levels.data() + at,
+    divide(sums.reference.data(), sums.sum.data(), sums.weights, out.levels.data() + at,
            sums.sum.size());
-    if (count_ > 1)
-        std::copy(sums.weights.begin(), sums.weights.end(),
-                  evidence_.weights.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-/// Adds the nearest frames to sums of 0, of pixels from `at` on.
+/// The sums of the nearest frames, of pixels from `at` on.
 void TemporalFilter::add_near(Sums& sums, std::size_t at) {
     const std::size_t count = sums.sum.size();
     const float* const reference = sums.reference.data();
     float* const per_bound = sums.per_bound.data();
     invert(reference, mixing_, per_bound, count);
     float* const sum = sums.sum.data();
-    float* const weights = sums.weights.data();
+    float* const weights = sums.weights;
     float* const squares = sums.squares.data();
+    if (count_ == neighbours_.size() && !any_filled_) {
+        Near rows{};
+        for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = neighbours_[k].levels + at;
+        add_near_frames(rows, reference, per_bound, sum, weights, squares, count);
+        return;
+    }
+    std::fill_n(sum, count, 0.0F);
+    std::fill_n(weights, count, 0.0F);
+    std::fill_n(squares, count, 0.0F);
     std::size_t k = 0;
     for (; k + 4 <= count_; k += 4) {
         const Neighbour* n = neighbours_.data() + k;
@@ -711,7 +752,7 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     DepthImage out{here.depth.columns, here.depth.rows, here.depth.highest_level, {}};
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
-    mixing_ = NoiseBound(noise, kApart - kAlike, kLeastNoise, here.depth.highest_level);
+    mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
     const float kept = noise.character.kept;
     shared_ = (1.0F + kept) / (1.0F - kept);
     gather(frames, now);
@@ -719,7 +760,7 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     if (count_ > 1)
         far_ = groups_.around(frames, now,
                               NoiseBound(noise, 1.0F, kLeastNoise, here.depth.highest_level));
-    evidence_.weights.resize(count_ > 1 ? out.levels.size() : 0);
+    evidence_.weights.resize(out.levels.size());
     evidence_.variances.clear();
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
     if (average_rows(here, out)) follow_parts(here, out);

@@ -39,9 +39,11 @@ class TemporalFilter {
   private:
     /// A row's sums of the mean, beside the level that others are compared with.
     struct Sums {
-        std::vector<float> reference{}, per_bound{}, sum{}, weights{}, squares{};
+        std::vector<float> reference{}, per_bound{}, sum{}, squares{};
+        float* weights{nullptr};  ///< in the evidence
 
-        void set_size(std::size_t count);
+        /// Of `count` pixels.
+        void start(std::size_t count, float* weights_there);
     };
     struct Neighbour {
         const float* levels;
@@ -67,7 +69,7 @@ class TemporalFilter {
     void take_mean(const Sums& sums, std::size_t at, DepthImage& out);
     void measure_variances(int rows, const DepthImage& out);
     void add_groups(int top, int rows, const DepthImage& out);
-    void find_still(const float* group, int top, int rows, const DepthImage& out, unsigned bit);
+    void find_still(const float* group, int top, int rows, const DepthImage& out);
     [[nodiscard]] const std::uint8_t* filled_of(const Neighbour& n, std::size_t at) const;
     void follow_parts(const SingleFrameDepth& here, DepthImage& out);
     void follow_motion(const SingleFrameDepth& here, DepthImage& out);
@@ -89,6 +91,7 @@ class TemporalFilter {
     NoiseBound mixing_{};  ///< from full weight to none
     std::array<Neighbour, 2 * kNearInTime + 1> neighbours_{};
     std::size_t count_{0};
+    bool any_filled_{false};                  ///< of the neighbours' pixels
     std::size_t first_near_{0}, nearest_{0};  ///< the neighbours in the median: first, count
     std::vector<std::uint8_t> other_{};       ///< where the frame's own level is another surface
     std::vector<std::uint8_t> inner_{};       ///< where that is so all around, too
@@ -98,8 +101,8 @@ class TemporalFilter {
     Sums run_{};
     std::vector<Sums> rows_{};  ///< of a row of tiles
     FrameGroups groups_{};
-    std::span<const float* const> far_{};  ///< groups of frames
-    std::vector<unsigned> still_{};        ///< of a row of tiles: a bit for each group
+    std::span<const FrameGroup> far_{};  ///< groups of frames
+    std::vector<std::uint8_t> still_{};  ///< 1: of a row of tiles, those that all groups agree on
     std::vector<float> off_{}, squared_off_{}, counted_{};  ///< of columns
     float shared_{1.0F};  ///< variance of a mean of frames, over that of frames without correlation
     TimeEvidence evidence_{};
