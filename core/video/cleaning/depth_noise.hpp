@@ -89,6 +89,7 @@ class NoiseBound {
 struct TimeEvidence {
     static constexpr int kTile_px = 8;
 
+    std::size_t near_frames{0};    ///< of those that count one by one: with this one
     std::vector<float> weights{};  ///< of each pixel: how many frames its level is the mean of
     /// The variance of one frame's levels, of tiles of kTile_px, row-major [levels^2].
     std::vector<float> variances{};

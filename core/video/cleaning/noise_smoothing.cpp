@@ -20,9 +20,10 @@ constexpr std::size_t kScales = 5;            ///< pairs up to 2 * 2 * 2^4 = 64 
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level
 constexpr float kBound = 4.0F;                ///< standard deviations
 constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
-/// With so few frames the image's own roughness tells of noise, with so many only time does: what
-/// stands still is shape.
-constexpr float kFewFrames = 4.0F, kManyFrames = 8.0F;
+/// Where fewer frames agree than that, of those that are, the image's own roughness tells of noise,
+/// too: what stands still in more is shape. At least kLeastMany, so that one picture is rough.
+constexpr float kManyFrames = 8.0F, kManyShare = 0.75F, kLeastMany = 4.0F;
+
 /// Factor for the roughness, since its tails are heavier than a normal distribution's.
 constexpr float kRoughShare = 2.5F;
 /// For a normal distribution: the mean of absolute values cut at twice that mean, times the
@@ -285,6 +286,8 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
     const NoiseCharacter& character = noise.character;
     left_.moving_shares = character.bands;
     left_.standing_shares = character.standing;
+    const float many =
+        std::clamp(kManyShare * static_cast<float>(evidence.near_frames), kLeastMany, kManyFrames);
     left_.stated = kStatedNoise * static_cast<float>(image.highest_level);
     float stands = 0.0F;
     for (const float share : character.standing) stands += share;
@@ -318,7 +321,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
             const int width = std::min(kHalf, left_.moving.columns - x * kHalf);
             float& left = tiles_[static_cast<std::size_t>(x)];
             left /= static_cast<float>(width * (bottom - y * kHalf));
-            const std::uint8_t few = variances[x] < kManyFrames * left ? 1 : 0;
+            const std::uint8_t few = variances[x] < many * left ? 1 : 0;
             few_frames_[static_cast<std::size_t>(y * tile_columns_ + x)] = few;
             any |= few;
         }
@@ -327,8 +330,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
             for (int x = 0; x < tile_columns_; ++x) {
                 const auto at = static_cast<std::size_t>(x);
                 const float frames = variances[x] / tiles_[at];
-                const float share =
-                    std::clamp((kManyFrames - frames) / (kManyFrames - kFewFrames), 0.0F, 1.0F);
+                const float share = std::clamp(2.0F - 2.0F * frames / many, 0.0F, 1.0F);
                 const float rough = share * caps_[at];
                 tiles_[at] += rough;
                 std::fill_n(row_.begin() + std::ptrdiff_t{x} * kHalf, kHalf, rough);

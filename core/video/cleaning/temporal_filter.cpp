@@ -21,6 +21,8 @@ constexpr std::size_t kMedianReach = 2;  ///< frames to each side
 constexpr float kAlike = 3.0F;  ///< standard deviations; beyond, a level may be another surface
 /// From here on levels mix ever less, and not at all beyond that.
 constexpr float kMixes = 2.0F, kApart = 4.0F;
+/// By which their variance is larger than that of those that mix.
+constexpr float kCutOff = 1.1F;
 constexpr float kGroupsApart = 1.5F;          ///< of groups' levels, which have half the deviation
 constexpr int kTile_px = 16;                  ///< rows that are averaged together
 constexpr std::size_t kStillTile_px = 32;     ///< their columns that stand still or not as a whole
@@ -29,8 +31,8 @@ constexpr float kFilledShare = 0.05F;         ///< weight of a filled pixel agai
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
 // A tile stands still if a group differs from the median of the nearest frames as noise does: by
 // its mean in deviations, and by its mean square in those of what both have.
-constexpr float kStillMean = 0.5F;
-constexpr float kStillSquares = 1.8F;
+constexpr float kStillMean = 0.8F;
+constexpr float kStillSquares = 2.5F;
 constexpr float kOfMedian = 0.29F;      ///< variance of a median of five
 constexpr float kLeastCounted = 32.0F;  ///< pixels of a tile
 constexpr float kLeastFrames = 3.0F;    ///< for a variance
@@ -401,7 +403,8 @@ void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
             const float law = bound_(middle.reference[(left + right) / 2]) / kAlike;
             const auto pixels =
                 static_cast<float>(right - left) * static_cast<float>((bottom - part + 1) / 2);
-            evidence_.variances.push_back(2.0F * counted < pixels ? law * law : variance / counted);
+            evidence_.variances.push_back(2.0F * counted < pixels ? law * law
+                                                                  : kCutOff * variance / counted);
         }
     }
 }
@@ -760,6 +763,7 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     if (count_ > 1)
         far_ = groups_.around(frames, now,
                               NoiseBound(noise, 1.0F, kLeastNoise, here.depth.highest_level));
+    evidence_.near_frames = count_;
     evidence_.weights.resize(out.levels.size());
     evidence_.variances.clear();
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);

@@ -97,6 +97,7 @@ TEST_CASE("noise that stands still is smoothed, too", "[smoothing]") {
     const NoisyScene scene{plane, [](double) { return 0.5; }};
     // As if the noise were the same in all of 27 frames.
     TimeEvidence evidence;
+    evidence.near_frames = 11;
     evidence.weights.assign(std::size_t{160} * 120, 27.0F);
     evidence.variances.assign(std::size_t{20} * 15, 0.25F);
     DepthImage image = scene.frames(1)[0];
