@@ -325,8 +325,8 @@ void print_depth(const MediaDescription& media) {
     print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
 }
 
-void describe_pictures(const fs::path& file, const InfoOptions& options) {
-    const MediaDescription media = describe_media(file, options.request);
+void describe_pictures(const fs::path& file, const fs::path& other, const InfoOptions& options) {
+    const MediaDescription media = describe_media(file, options.request, other);
     report_doubt(media, options.must_be_sure);
     const bool is_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
@@ -426,21 +426,28 @@ Json json_of_session(const fs::path& file) {
 }
 
 /// One object a line, so that a file that cannot be read does not spoil the next one's.
-void print_json(const fs::path& file, const InfoOptions& options) {
+void print_json(const fs::path& file, const fs::path& other, const InfoOptions& options) {
     if (is_session_file(file)) {
         std::cout << json_line(json_of_session(file)) << '\n';
         return;
     }
-    const MediaDescription media = describe_media(file, options.request);
+    const MediaDescription media = describe_media(file, options.request, other);
     report_doubt(media, options.must_be_sure);
     std::cout << json_line(json_of(file, media, options.why)) << '\n';
 }
 
-void describe(const fs::path& file, const InfoOptions& options) {
+void describe(const fs::path& file, const fs::path& other, const InfoOptions& options) {
     if (is_session_file(file))
         describe_session(file);
     else
-        describe_pictures(file, options);
+        describe_pictures(file, other, options);
+}
+
+/// The other one of two places that may be colour and depth; empty: none.
+fs::path other_of(const fs::path& file, const std::vector<std::string>& files) {
+    if (files.size() != 2) return {};
+    const fs::path other = file == files.front() ? files.back() : files.front();
+    return other == file || is_session_file(other) ? fs::path() : other;
 }
 
 }  // namespace
@@ -459,6 +466,7 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     add_depth_options(app, options.request.command_line);
     add_sure_option(app, options.must_be_sure);
     app.footer(
+        "Of two files, one of colour and one of depth, the depth is described as they open.\n"
         "Examples:\n"
         "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
         "  dibhr info depth.png --why\n"
@@ -467,7 +475,8 @@ int run_info(CLI::App& app, const Arguments& arguments) {
     int exit_code = 0;
     for (const fs::path file : files) {
         try {
-            options.json ? print_json(file, options) : describe(file, options);
+            const fs::path other = other_of(file, files);
+            options.json ? print_json(file, other, options) : describe(file, other, options);
         } catch (const Error& error) {
             std::cout.flush();
             print_error_line(error.what());

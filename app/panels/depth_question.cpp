@@ -18,15 +18,13 @@ constexpr float kNarrowestRelief_em = 12.0F;
 constexpr float kReliefShape = 0.75F;    // height over width
 constexpr float kShareOfWindow = 0.94F;  // of its width and height
 
-bool is_distance(const DepthAlternative& alternative) {
-    return alternative.statement.unit == DepthUnit::mm ||
-           alternative.statement.unit == DepthUnit::m;
+bool has_distances(const DepthAlternative& alternative) {
+    return is_distance(alternative.statement.unit.value_or(DepthUnit::levels));
 }
 
 /// One level in millimetres.
 double level_mm(const DepthStatement& statement) {
-    constexpr double kMillimetres = 1000.0;
-    return statement.scale.value_or(1.0) * (statement.unit == DepthUnit::m ? kMillimetres : 1.0);
+    return statement.scale.value_or(1.0) * one_in_mm(*statement.unit);
 }
 
 bool is_about(double value, double wanted) {
@@ -50,13 +48,14 @@ std::string two_digits(double value) {
 
 /// "0.4 to 3.1 m".
 std::string distance_text(const DepthAlternative& alternative) {
-    const bool is_m = alternative.statement.unit == DepthUnit::m;
-    const double near_m = alternative.range.near * (is_m ? 1.0 : 0.001);
-    const double far_m = alternative.range.far * (is_m ? 1.0 : 0.001);
-    constexpr double kLeast_m = 0.1;  // below, in millimetres
-    if (far_m < kLeast_m)
-        return two_digits(1000.0 * near_m) + " to " + two_digits(1000.0 * far_m) + " mm";
-    return two_digits(near_m) + " to " + two_digits(far_m) + " m";
+    const double unit_mm = one_in_mm(*alternative.statement.unit);
+    const double near_mm = alternative.range.near * unit_mm;
+    const double far_mm = alternative.range.far * unit_mm;
+    constexpr double kLeastInMetres_mm = 100.0;
+    if (far_mm < kLeastInMetres_mm)
+        return two_digits(near_mm) + " to " + two_digits(far_mm) + " mm";
+    const double metre_mm = one_in_mm(DepthUnit::m);
+    return two_digits(near_mm / metre_mm) + " to " + two_digits(far_mm / metre_mm) + " m";
 }
 
 /// Whether some, but not all of the alternatives are so.
@@ -184,7 +183,7 @@ void draw_foot(ViewerState& state, DepthQuestion& question) {
         "Not sure: go on with 1" + state.keys.in_brackets(Action::close_topmost);
     if (!question.folder.empty()) {
         const std::string other =
-            "Also for the other files in " + one_line(question.folder, 24) + " (0)###folder";
+            "Also for the other files in " + one_line(question.folder, 24) + " (key 0)###folder";
         ImGui::Checkbox(other.c_str(), &question.for_folder);
         add_tooltip("Files of this folder that leave the same open are not asked about again");
         ImGui::SameLine();
@@ -205,18 +204,18 @@ std::vector<std::string> labels_of(const std::vector<DepthAlternative>& alternat
     const auto is_of = [](DepthUnit unit) {
         return [unit](const DepthAlternative& one) { return one.statement.unit == unit; };
     };
-    const bool has_distances = tells_apart(alternatives, is_distance);
+    const bool are_some_distances = tells_apart(alternatives, has_distances);
     const bool has_disparity = tells_apart(alternatives, is_of(DepthUnit::disparity));
     std::vector<std::string> labels;
     for (const DepthAlternative& one : alternatives) {
-        if (is_distance(one)) {
+        if (has_distances(one)) {
             labels.push_back(unit_text(one.statement) + ", " + distance_text(one));
             continue;
         }
         std::string label = "Near is " + std::string(name_of(*one.statement.near));
         if (one.statement.unit == DepthUnit::disparity) {
             label += ", as 1 / distance";
-        } else if (has_distances) {
+        } else if (are_some_distances) {
             label += ", size not known";
         } else if (has_disparity) {
             label += ", in equal steps";

@@ -77,6 +77,11 @@ std::string clause_by_line(const std::string& clauses) {
     return lines;
 }
 
+/// Whether the times are the file's own, and colour and depth begin together.
+bool has_plain_times(const MediaDescription& media) {
+    return media.times_from == "file" && media.timing.find("; ") == std::string::npos;
+}
+
 void draw_files(const MediaDescription& media) {
     if (media.depth_path.empty()) return;  // nothing is open
     if (media.colour_path.empty()) {
@@ -90,7 +95,7 @@ void draw_files(const MediaDescription& media) {
              formatted("%d x %d, %s", media.depth_columns, media.depth_rows,
                        media.has_real_numbers() ? "real numbers"
                                                 : formatted("%d bit", media.depth_bits).c_str()));
-    if (!media.timing.empty() && media.times_from != "file" && !media.live)
+    if (!media.timing.empty() && !has_plain_times(media) && !media.live)
         fact_row("Frame times", clause_by_line(media.timing),
                  "Who says when each frame is; to be changed below: Depth, Times, Offset, Rate");
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));

@@ -193,8 +193,8 @@ std::string progress_text(const EstimatorCommand& command, const EstimateFolder&
 DepthStatement meaning_of(const DepthStatement& said, const DepthStatement& levels) {
     DepthStatement meaning = said;
     if (!meaning.unit) meaning.unit = DepthUnit::levels;
-    const bool distance = meaning.unit == DepthUnit::m || meaning.unit == DepthUnit::mm;
-    if (!meaning.near) meaning.near = distance ? NearLevels::dark : NearLevels::bright;
+    if (!meaning.near)
+        meaning.near = is_distance(*meaning.unit) ? NearLevels::dark : NearLevels::bright;
     meaning.scale = said.scale.value_or(1.0) * levels.scale.value_or(1.0);
     if (levels.no_data) meaning.no_data = levels.no_data;
     if (!meaning.no_data) meaning.no_data.emplace();

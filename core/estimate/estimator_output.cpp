@@ -35,16 +35,16 @@ int rank_of_form(const fs::path& file) {
     return static_cast<int>(form - kForms.begin());
 }
 
-/// Whether a word in the name, or in that of a folder above, is for other output of estimators than
-/// depth levels.
+/// Whether the name, or that of a folder above, is for something else than depth levels: colour,
+/// also in the words of estimators for it, or other output.
 bool names_other_content(const fs::path& relative) {
-    constexpr std::array<std::string_view, 4> kOthers{"src", "input", "normal", "confidence"};
+    constexpr std::array<std::string_view, 2> kInputs{"src", "input"};
     for (const fs::path& part : relative) {
         const std::string name = lower_case(part.string());
         const auto in_name = [&name](std::string_view word) {
             return name.find(word) != std::string::npos;
         };
-        if (std::any_of(kOthers.begin(), kOthers.end(), in_name) || named_colour(part) ||
+        if (std::any_of(kInputs.begin(), kInputs.end(), in_name) || named_colour(part) ||
             !named_other(part).empty())
             return true;
     }

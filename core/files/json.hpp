@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -23,6 +24,9 @@ template <typename Items, typename ToJson>
 
 /// Likewise in one line, without a line break.
 [[nodiscard]] std::string json_line(const Json& json);
+
+/// The finite number of that name; nothing where an object has none, or for another value.
+[[nodiscard]] std::optional<double> finite_number_in(const Json& object, const char* name);
 
 /// A discarded value when the text is no JSON.
 [[nodiscard]] Json parsed_json(std::string_view text);

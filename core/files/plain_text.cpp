@@ -112,10 +112,30 @@ bool is_decimal_digit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
+bool is_of_digits(std::string_view text) {
+    return std::all_of(text.begin(), text.end(), is_decimal_digit);
+}
+
+bool is_one_of(std::string_view word, std::span<const std::string_view> words) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
+}
+
+std::vector<std::string> plain_words_of(std::string_view text) {
+    std::vector<std::string> words(1);
+    for (const char c : lower_case(std::string(text))) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
+            words.back() += c;
+        else if (!words.back().empty())
+            words.emplace_back();
+    }
+    if (words.back().empty()) words.pop_back();
+    return words;
 }
 
 std::string escaped_text(std::string_view text) {

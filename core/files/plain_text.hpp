@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -23,8 +24,16 @@ namespace dibhr {
 /// The text with A to Z as a to z.
 [[nodiscard]] std::string lower_case(std::string text);
 
+/// The runs of letters and digits of ASCII, in small letters. "Timestamp [ns]" has two.
+[[nodiscard]] std::vector<std::string> plain_words_of(std::string_view text);
+
 /// 0 to 9.
 [[nodiscard]] bool is_decimal_digit(char c);
+
+/// Whether the text has nothing else; also of an empty one.
+[[nodiscard]] bool is_of_digits(std::string_view text);
+
+[[nodiscard]] bool is_one_of(std::string_view word, std::span<const std::string_view> words);
 
 /// The whole text in printable ASCII on one line: other bytes as \x1b, a backslash doubled, and of
 /// adjacent blanks all but the first as \x20. Different texts look different.

@@ -74,24 +74,23 @@ bool is_on(const Colours& map, const cv::Vec3b& colour) {
     });
 }
 
-}  // namespace
-
-bool is_colour_mapped(const cv::Mat& picture) {
+/// The colour map that has the most of the picture's colours; null: none has nearly all of them.
+const Colours* colour_map_of(const cv::Mat& picture) {
     constexpr double kNearlyAllOfMap = 0.93;
     constexpr double kColoured = 0.5;
     constexpr int kGreyChroma = 24;
     constexpr int kLeastSpan = 60;  // of a channel: less is a plain picture of one colour
-    if (picture.type() != CV_8UC3 || picture.empty()) return false;
+    if (picture.type() != CV_8UC3 || picture.empty()) return nullptr;
     static const std::vector<Colours> maps = made_maps();
     Colours samples = samples_of(picture);
     // Black is no data in most paintings.
     std::erase_if(samples, [](const cv::Vec3b& c) { return std::max({c[0], c[1], c[2]}) < 8; });
     const auto count = static_cast<double>(samples.size());
-    if (count < 0.1 * kSamplesAlong * kSamplesAlong) return false;
+    if (count < 0.1 * kSamplesAlong * kSamplesAlong) return nullptr;
     const auto coloured = std::count_if(samples.begin(), samples.end(), [](const cv::Vec3b& c) {
         return std::max({c[0], c[1], c[2]}) - std::min({c[0], c[1], c[2]}) >= kGreyChroma;
     });
-    if (static_cast<double>(coloured) < kColoured * count) return false;
+    if (static_cast<double>(coloured) < kColoured * count) return nullptr;
     int span = 0;
     for (int channel = 0; channel < 3; ++channel) {
         const auto [low, high] = std::minmax_element(
@@ -99,11 +98,34 @@ bool is_colour_mapped(const cv::Mat& picture) {
             [channel](const cv::Vec3b& a, const cv::Vec3b& b) { return a[channel] < b[channel]; });
         span = std::max(span, (*high)[channel] - (*low)[channel]);
     }
-    if (span < kLeastSpan) return false;
-    return std::any_of(maps.begin(), maps.end(), [&](const Colours& map) {
-        const auto on_map = std::count_if(samples.begin(), samples.end(),
-                                          [&](const cv::Vec3b& c) { return is_on(map, c); });
-        return static_cast<double>(on_map) >= kNearlyAllOfMap * count;
+    if (span < kLeastSpan) return nullptr;
+    const Colours* best = nullptr;
+    double most = kNearlyAllOfMap * count;
+    for (const Colours& map : maps) {
+        const auto on_map = static_cast<double>(std::count_if(
+            samples.begin(), samples.end(), [&](const cv::Vec3b& c) { return is_on(map, c); }));
+        if (on_map < most) continue;
+        best = &map;
+        most = on_map;
+    }
+    return best;
+}
+
+}  // namespace
+
+bool is_colour_mapped(const cv::Mat& picture) {
+    return colour_map_of(picture) != nullptr;
+}
+
+bool has_map_of_rising_brightness(const cv::Mat& picture) {
+    const Colours* const map = colour_map_of(picture);
+    if (map == nullptr) return false;
+    constexpr double kMostFall = 8.0;  // levels, by rounding: jet, turbo and Spectral fall by 100
+    double highest = 0.0;
+    return std::all_of(map->begin(), map->end(), [&highest](const cv::Vec3b& c) {
+        const double brightness = 0.114 * c[0] + 0.587 * c[1] + 0.299 * c[2];
+        highest = std::max(highest, brightness);
+        return brightness >= highest - kMostFall;
     });
 }
 

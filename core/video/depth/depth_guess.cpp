@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <set>
 #include <string>
@@ -38,13 +39,19 @@ constexpr double kSurenessOfMark = 0.95;
 constexpr double kSurenessOfNoMark = 0.8;  ///< holes may look like data
 
 // Unit.
-constexpr double kReachesEnd = 0.02;    ///< of 1, for values normalised to 0 to 1
-constexpr double kReachesZero = 0.005;  ///< of the highest: no distance of a scene is as near
-constexpr double kReachesTop = 0.9;     ///< of the highest level of the bits
-constexpr double kMostScattered = 0.4;  ///< share of pixels with data without data beside them
-constexpr double kFlat = 1.3;           ///< farthest to nearest of what is hardly a scene
-constexpr double kFar_mm = 3000.0;      ///< so far away hardly anything is flat
-constexpr double kClose_mm = 1000.0;    ///< numbers below may be centimetres of a room as well
+constexpr double kReachesEnd = 0.02;     ///< of 1, for values normalised to 0 to 1
+constexpr double kReachesZero = 0.005;   ///< of the highest: no distance of a scene is as near
+constexpr double kReachesTop = 0.9;      ///< of the highest level of the bits
+constexpr double kMostScattered = 0.4;   ///< share of pixels with data without data beside them
+constexpr double kFlat = 1.3;            ///< farthest to nearest of what is hardly a scene
+constexpr double kFar_mm = 3000.0;       ///< so far away hardly anything is flat
+constexpr double kClose_mm = 1000.0;     ///< numbers below may be centimetres of a room as well
+constexpr double kTooClose_mm = 100.0;   ///< sensors of scenes do not see as near
+constexpr double kManyTimes = 10.0;      ///< as far as the nearest is what no close-up has
+constexpr double kLeastOfCloseUp = 5.0;  ///< scenes in metres mostly begin nearer
+constexpr double kMostOfSmall = 30.0;
+constexpr double kMostOfCloseUp = 100.0;  ///< a larger one is as flat as this:
+constexpr double kFlatCloseUp = 4.0;      ///< farthest to nearest
 constexpr double kImplausible = 0.05;
 constexpr double kHardlyPlausible = 0.35;
 
@@ -97,15 +104,17 @@ struct IntegerScale {
     double scale;
     const Sizes& sizes;
     double sureness;
-    double of_flat;   ///< the same for a picture of hardly any depth
-    double of_sky;    ///< the same where the highest level is no data
-    double of_close;  ///< the same where all is within a metre, without the holes of a sensor
+    double of_flat;  ///< the same for a picture of hardly any depth
+    double of_sky;   ///< the same where the highest level is no data
+    /// The same where all is within a metre, or some of a scene too near for a sensor, without the
+    /// holes of one.
+    double of_close;
     double of_laser;  ///< the same where single pixels have data that fit a street
     double of_turn;   ///< the same in the size of a spinning LiDAR's pictures
 };
 
 constexpr std::array<IntegerScale, 5> kIntegerScales{{
-    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.7, 0.6, 0.5, 0.4, 0.4},
+    {DepthUnit::mm, 1.0, kRoom, 0.86, 0.74, 0.6, 0.5, 0.4, 0.4},
     {DepthUnit::mm, 0.2, kRoom, 0.1, 0.1, 0.1, 0.1, 0.1, 0.02},           // TUM: 5000 a metre
     {DepthUnit::m, 1.0 / 256.0, kStreet, 0.1, 0.1, 0.1, 0.1, 0.9, 0.05},  // street data sets
     {DepthUnit::mm, 10.0, kLand, 0.06, 0.1, 0.3, 0.3, 0.06, 0.05},        // simulators: centimetres
@@ -154,11 +163,16 @@ double farthest_of(const std::vector<double>& nearness, double nearest, bool has
     return quantile(std::vector<double>(first, nearness.end()), kTail);
 }
 
-/// Makes the ends of a range differ, for a picture of one plane.
-DepthRange not_empty(DepthRange range, const DepthMeaning& meaning) {
+/// Makes the ends of a range differ, for a picture of one plane: upwards, but for levels that are
+/// the `highest` of their bits.
+DepthRange not_empty(DepthRange range, const DepthMeaning& meaning, double highest) {
     if (range.near != range.far) return range;
+    const bool is_bright = meaning.near.value == NearLevels::bright;
     const double some = std::max(std::fabs(range.far), meaning.scale.value);
-    (meaning.near.value == NearLevels::bright ? range.near : range.far) += some;
+    if (meaning.unit.value == DepthUnit::levels && range.far >= highest * meaning.scale.value)
+        (is_bright ? range.far : range.near) -= some;
+    else
+        (is_bright ? range.near : range.far) += some;
     return range;
 }
 
@@ -376,7 +390,8 @@ Findings SampledLevels::units_of_integers() const {
                         is_full ? "the levels reach the highest of their bits"
                                 : "without holes, so few bits are levels"});
     if (!has_holes && bits_ < 16) return rows;
-    const bool is_close = farthest < kClose_mm;
+    const bool is_close =
+        farthest < kClose_mm || (nearest < kTooClose_mm && farthest > kManyTimes * nearest);
     const bool is_flat = farthest < kFlat * nearest;
     const bool is_of_laser =
         kStreet.plausibility(nearest / 256.0, farthest / 256.0) == 1.0 && is_scattered();
@@ -431,13 +446,20 @@ Findings SampledLevels::units_of_numbers() const {
     const std::string ends = short_text(lowest, 3) + " to " + short_text(highest, 3);
     const bool in_room = lowest >= 0.05 && highest > 1.0 && highest <= 30.0;
     const bool in_street = lowest >= 1.5 && lowest <= 15.0 && highest <= 100.0;
-    const bool in_metres = in_room || in_street;
+    // So far away, and so flat: it is as likely a tooth or a part in millimetres.
+    const bool is_close_up = lowest >= kLeastOfCloseUp && highest <= kMostOfCloseUp &&
+                             (highest <= kMostOfSmall || highest <= kFlatCloseUp * lowest);
+    const bool in_metres = (in_room || in_street) && !is_close_up;
     add({.unit = DepthUnit::m, .scale = 1.0},
         in_metres           ? 0.9
         : highest <= 100.0  ? 0.4
         : highest <= 1000.0 ? 0.2
                             : 0.02,
         ends + (in_metres ? " is a scene in metres" : " is hardly a scene in metres"));
+    if (is_close_up) {
+        add({.unit = DepthUnit::mm, .scale = 1.0}, 0.4, ends + " is a close-up in millimetres");
+        return rows;
+    }
     const bool in_millimetres = lowest >= 50.0 && highest > 100.0 && highest <= 20000.0;
     const bool in_centimetres = lowest >= 20.0 && highest > 100.0 && highest < kClose_mm;
     add({.unit = DepthUnit::mm, .scale = 1.0},
@@ -454,7 +476,33 @@ Findings SampledLevels::contradictions(const Findings& findings) const {
     Findings rows;
     for (const Finding& finding : findings)
         for (Finding& row : contradiction(finding)) rows.push_back(std::move(row));
+    for (Finding& row : signed_disparity(findings)) rows.push_back(std::move(row));
     return rows;
+}
+
+/// Disparities about a plane, which is no infinity: those in front of it are above 0.
+Findings SampledLevels::signed_disparity(const Findings& findings) const {
+    constexpr double kLeastBelow = 0.02;  // share of pixels, and of the highest; else it is noise
+    constexpr double kNoDisparity = 0.001;
+    const auto is_disparity = [](const Finding& row) {
+        return row.statement.unit == DepthUnit::disparity && row.sureness > 0.5;
+    };
+    const Finding* surest = nullptr;
+    for (const Finding& row : findings)
+        if (is_disparity(row) && (surest == nullptr || row.sureness > surest->sureness))
+            surest = &row;
+    if (surest == nullptr || bits_ != kRealBits || levels_.empty()) return {};
+    const double highest = quantile(levels_, 1.0 - kTail);
+    const double low = quantile(levels_, kLeastBelow);
+    if (highest <= 0.0 || low >= -kLeastBelow * highest) return {};
+    return {{{.unit = DepthUnit::disparity},
+             Evidence::numbers,
+             kNoDisparity,
+             "some are below 0: not one over distances"},
+            {{.near = NearLevels::bright, .unit = DepthUnit::levels},
+             Evidence::numbers,
+             surest->sureness,
+             "disparities about a plane"}};
 }
 
 /// One row, or none.
@@ -497,7 +545,53 @@ DepthRange SampledLevels::range(const DepthMeaning& meaning) const {
         near = nearness.back();
         far = nearness.front();
     }
-    return not_empty({value(near), value(far)}, meaning);
+    const double highest =
+        bits_ == kRealBits ? std::numeric_limits<double>::infinity() : highest_level(bits_);
+    return not_empty({value(near), value(far)}, meaning, highest);
+}
+
+/// Differences of levels side by side, both of them data.
+std::vector<double> SampledLevels::steps() const {
+    std::vector<double> steps;
+    for (const LevelLattice& lattice : lattices_)
+        for (std::size_t k = 0; k < lattice.levels.size(); ++k)
+            if (is_data(lattice.levels[k]) && is_data(lattice.beside[k]))
+                steps.push_back(std::fabs(static_cast<double>(lattice.levels[k]) -
+                                          static_cast<double>(lattice.beside[k])));
+    return steps;
+}
+
+/// Whether levels jump at places, as at outlines of things that a camera sees.
+bool SampledLevels::has_outlines() const {
+    constexpr double kLeastOfSpan = 0.1;
+    constexpr double kLeastOfSteps = 0.002;
+    if (levels_.empty()) return false;
+    const double jump = kLeastOfSpan * (quantile(levels_, 1.0 - kTail) - quantile(levels_, kTail));
+    const std::vector<double> all = steps();
+    const auto jumps =
+        std::count_if(all.begin(), all.end(), [jump](double step) { return step > jump; });
+    return static_cast<double>(jumps) > kLeastOfSteps * static_cast<double>(all.size());
+}
+
+bool SampledLevels::may_be_terrain() const {
+    constexpr double kDeepest_m = -11000.0;
+    constexpr double kHighest_m = 8900.0;
+    constexpr double kMostOfOthers = 100.0;
+    constexpr double kAboutZero = 1.0;
+    constexpr double kColdest_K = 220.0;
+    constexpr double kHottest_K = 345.0;
+    constexpr double kRough = 0.03;  // of the span, a pixel; terrain 0.005 to 0.022, slopes 0.06
+    constexpr std::size_t kLeastHeights = 64;
+    if (different_values(levels_) < kLeastHeights) return false;
+    const double lowest = quantile(levels_, kTail);
+    const double highest = quantile(levels_, 1.0 - kTail);
+    const bool in_metres = lowest >= kDeepest_m && highest <= kHighest_m &&
+                           (lowest < -kMostOfOthers || highest > kMostOfOthers);
+    const bool in_kelvin = lowest >= kColdest_K && highest <= kHottest_K;
+    Mean step;
+    for (const double each : steps()) step.add(each);
+    const bool is_smooth = step.count > 0.0 && step.value() <= kRough * (highest - lowest);
+    return in_metres && !in_kelvin && std::fabs(lowest) > kAboutZero && is_smooth;
 }
 
 double SampledLevels::holes_share() const {

@@ -38,7 +38,8 @@ class SampledLevels {
     /// a scene would have in each unit.
     [[nodiscard]] Findings units() const;
 
-    /// The rows that contradict statements on the unit whose distances are not the usual ones.
+    /// The rows that contradict statements on the unit: distances that are not the usual ones, and
+    /// disparities below 0.
     [[nodiscard]] Findings contradictions(const Findings& findings) const;
 
     /// Near, by how slopes bend (SlopeShape), and by where the picture is brighter: things are
@@ -57,6 +58,11 @@ class SampledLevels {
     /// span of the nearest nine tenths do not count.
     [[nodiscard]] DepthRange range(const DepthMeaning& meaning) const;
 
+    /// Whether the numbers may be metres of terrain, and are none of the other quantities that maps
+    /// hold: degrees, shares, decibels and classes lie below 100, densities and rain reach 0,
+    /// temperatures are near 300 K, and light and noise jump from pixel to pixel.
+    [[nodiscard]] bool may_be_terrain() const;
+
     /// The share of pixels without data, in [0, 1].
     [[nodiscard]] double holes_share() const;
 
@@ -69,6 +75,9 @@ class SampledLevels {
     [[nodiscard]] std::vector<double> outlying_numbers() const;
     [[nodiscard]] bool is_scattered() const;
     [[nodiscard]] Findings contradiction(const Finding& finding) const;
+    [[nodiscard]] Findings signed_disparity(const Findings& findings) const;
+    [[nodiscard]] std::vector<double> steps() const;
+    [[nodiscard]] bool has_outlines() const;
     [[nodiscard]] SlopeShape slope_shape() const;
     [[nodiscard]] Findings units_of_integers() const;
     [[nodiscard]] Findings units_of_numbers() const;

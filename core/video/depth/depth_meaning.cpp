@@ -18,8 +18,8 @@ constexpr std::array<Name, kDepthUnits.size()> kUnitNames{"levels", "disparity",
 constexpr std::array<Name, kDepthPackings.size()> kPackingNames{
     "separate", "left-right", "right-left", "top-bottom", "bottom-top", "tracks"};
 constexpr std::array<Name, kDepthCodes.size()> kCodeNames{
-    "grey",     "hue",      "rg16",   "rgb24", "float32", "terrain",
-    "turned16", "kinect11", "stereo", "xyz",   "depth16"};
+    "grey",     "hue",    "rg16", "rgb24",   "float32", "terrain", "turned16",
+    "kinect11", "stereo", "xyz",  "depth16", "gb16",    "bgr24",   "float32-bgra"};
 constexpr std::array<Name, kDepthTimes.size()> kTimesNames{"counted", "own", "paired"};
 constexpr std::array<Name, 7> kOriginNames{"assumed", "found",        "folder",  "sidecar",
                                            "panel",   "command line", "recorded"};

@@ -37,7 +37,10 @@ enum class DepthCode {
     kinect11,
     stereo,
     xyz,
-    depth16
+    depth16,
+    gb16,
+    bgr24,
+    float32_bgra
 };
 
 /// `relief`: the picture plane plus elevation, as in the paper. `true_shape`: the shape in
@@ -56,6 +59,15 @@ enum class DepthTimes { counted, own, paired };
 [[nodiscard]] std::string_view name_of(Geometry value) noexcept;
 [[nodiscard]] std::string_view name_of(DepthTimes value) noexcept;
 
+/// Whether its values are distances from the camera.
+[[nodiscard]] constexpr bool is_distance(DepthUnit unit) noexcept {
+    return unit == DepthUnit::mm || unit == DepthUnit::m;
+}
+/// A value of 1 in that unit of distances, in millimetres.
+[[nodiscard]] constexpr double one_in_mm(DepthUnit unit) noexcept {
+    return unit == DepthUnit::m ? 1000.0 : 1.0;
+}
+
 inline constexpr std::array kNearLevels{NearLevels::bright, NearLevels::dark};
 inline constexpr std::array kDepthUnits{DepthUnit::levels, DepthUnit::disparity, DepthUnit::mm,
                                         DepthUnit::m};
@@ -63,9 +75,10 @@ inline constexpr std::array kDepthPackings{DepthPacking::separate,   DepthPackin
                                            DepthPacking::right_left, DepthPacking::top_bottom,
                                            DepthPacking::bottom_top, DepthPacking::tracks};
 inline constexpr std::array kDepthCodes{
-    DepthCode::grey,    DepthCode::hue,     DepthCode::rg16,     DepthCode::rgb24,
-    DepthCode::float32, DepthCode::terrain, DepthCode::turned16, DepthCode::kinect11,
-    DepthCode::stereo,  DepthCode::xyz,     DepthCode::depth16};
+    DepthCode::grey,    DepthCode::hue,         DepthCode::rg16,     DepthCode::rgb24,
+    DepthCode::float32, DepthCode::terrain,     DepthCode::turned16, DepthCode::kinect11,
+    DepthCode::stereo,  DepthCode::xyz,         DepthCode::depth16,  DepthCode::gb16,
+    DepthCode::bgr24,   DepthCode::float32_bgra};
 inline constexpr std::array kGeometries{Geometry::relief, Geometry::true_shape};
 inline constexpr std::array kDepthTimes{DepthTimes::counted, DepthTimes::own, DepthTimes::paired};
 
@@ -164,9 +177,7 @@ struct DepthMeaning {
     Known<double> frames_per_s{0.0};  ///< 0: not stated
     std::string found_in{};           ///< where `found` facts are from: "TUM lists"; empty: none
 
-    [[nodiscard]] bool is_metric() const {
-        return unit.value == DepthUnit::mm || unit.value == DepthUnit::m;
-    }
+    [[nodiscard]] bool is_metric() const { return is_distance(unit.value); }
     /// All facts as one statement, for a recording or a sidecar.
     [[nodiscard]] DepthStatement statement() const;
 };

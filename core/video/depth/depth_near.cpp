@@ -111,11 +111,11 @@ double bent_share(const SlopeShape& shape) {
     return std::max(shape.convex, 1.0 - shape.convex);
 }
 
-/// The row on what 8 bits are by custom, less sure where many slopes could say otherwise and do
-/// not.
-Finding finding_on_custom(const SlopeShape& shape) {
-    const bool is_undecided = shape.slopes >= kLeastSlopes && shape.straight <= kLeastStraight &&
-                              bent_share(shape) < kLeastBent;
+/// The row on what 8 bits are by custom. It is less sure of a scene, as a camera sees it, where
+/// many slopes could say otherwise and do not; heights without outlines are near white as a rule.
+Finding finding_on_custom(const SlopeShape& shape, bool has_outlines) {
+    const bool is_undecided = has_outlines && shape.slopes >= kLeastSlopes &&
+                              shape.straight <= kLeastStraight && bent_share(shape) < kLeastBent;
     return {{.near = NearLevels::bright},
             Evidence::numbers,
             is_undecided ? kSurenessOfCustom : kSurestCustom,
@@ -162,7 +162,7 @@ int SampledLevels::middle_brighter_than_sides() const {
 Findings SampledLevels::near(std::optional<int> middle_of_colour) const {
     Findings rows;
     const SlopeShape slopes = slope_shape();
-    if (bits_ == 8) rows.push_back(finding_on_custom(slopes));
+    if (bits_ == 8) rows.push_back(finding_on_custom(slopes, has_outlines()));
     add_rows_on_slopes(slopes, bits_, rows);
     const Places places = places_of(lattices_, [this](float level) { return is_data(level); });
     const int than_sides = places.brighter_than_sides(kAllSides);

@@ -23,7 +23,7 @@ constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 double in_mm(DepthUnit unit, double distance) {
-    return unit == DepthUnit::m ? 1000.0 * distance : distance;
+    return one_in_mm(unit) * distance;
 }
 
 template <typename Level>

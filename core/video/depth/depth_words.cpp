@@ -31,7 +31,19 @@ constexpr std::array kOtherContents{
                  true},
     OtherContent{"labels", " semantic semantics seg segmentation label labels instance instances "},
     OtherContent{"optical flow", " flow flows "},
-    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "}};
+    OtherContent{"another map of the material", " ao rough roughness metallic metalness opacity "},
+    OtherContent{"temperature",
+                 " temperature temperatures celsius kelvin fahrenheit thermal sst lst ", false,
+                 false, true},
+    OtherContent{"speed", " speed speeds velocity velocities wind ", false, false, true},
+    OtherContent{"density", " density densities population ", false, false, true},
+    OtherContent{"pressure", " pressure pressures ", false, false, true},
+    OtherContent{"water", " humidity moisture precipitation rainfall salinity ", false, false,
+                 true},
+    OtherContent{"reflected light", " ndvi ndwi ndmi ndsi evi savi reflectance ", false, false,
+                 true},
+    OtherContent{"radar", " backscatter sar ", false, false, true},
+    OtherContent{"slope", " slope slopes aspect curvature hillshade ", false, false, true}};
 
 /// A word for values that are near where bright.
 struct NearnessWord {
@@ -56,7 +68,9 @@ constexpr std::array kNearnessWords{
     NearnessWord{"bumpmap", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"dem", DepthUnit::levels, 0.92},  // also a German article
     NearnessWord{"dsm", DepthUnit::levels, 0.92}, NearnessWord{"dtm", DepthUnit::levels, 0.92},
-    NearnessWord{"terrain", DepthUnit::levels, 0.92},
+    NearnessWord{"terrain", DepthUnit::levels, 0.92}, NearnessWord{"srtm", DepthUnit::levels, 0.92},
+    NearnessWord{"chm", DepthUnit::levels, 0.92}, NearnessWord{"topo", DepthUnit::levels, 0.92},
+    NearnessWord{"topography", DepthUnit::levels, kSurenessOfName},
     NearnessWord{"nearness", std::nullopt, kSurenessOfName},
     NearnessWord{"closeness", std::nullopt, kSurenessOfName}};
 
@@ -71,6 +85,8 @@ struct DistanceWord {
 
 constexpr double kDarkOfDepth = 0.75;
 constexpr double kLevelsOfDepth = 0.3;
+constexpr std::string_view kChineseDepth = "\xe6\xb7\xb1\xe5\xba\xa6";
+constexpr std::string_view kChineseMap = "\xe6\xb7\xb1\xe5\xba\xa6\xe5\x9b\xbe";  // of depth
 constexpr std::array kDistanceWords{DistanceWord{"lidar", 0.97, 0.1, 0.9},
                                     DistanceWord{"velodyne", 0.97, 0.1, 0.9},
                                     DistanceWord{"metric", 0.97, 0.05, 0.0},
@@ -87,7 +103,9 @@ constexpr std::array kDistanceWords{DistanceWord{"lidar", 0.97, 0.1, 0.9},
                                     DistanceWord{"tiefenkarte", kDarkOfDepth, kLevelsOfDepth, 0.0},
                                     DistanceWord{"profondeur", kDarkOfDepth, kLevelsOfDepth, 0.0},
                                     DistanceWord{"profundidad", kDarkOfDepth, kLevelsOfDepth, 0.0},
-                                    DistanceWord{"profondita", kDarkOfDepth, kLevelsOfDepth, 0.0}};
+                                    DistanceWord{"profondita", kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{kChineseDepth, kDarkOfDepth, kLevelsOfDepth, 0.0},
+                                    DistanceWord{kChineseMap, kDarkOfDepth, kLevelsOfDepth, 0.0}};
 
 /// Beside these, a word for depth does not mean distances.
 constexpr std::array<std::string_view, 13> kRelativeWords{
@@ -122,6 +140,13 @@ bool is_of_inverse(NameWords words) {
         return word == "inv" || word == "inverse" || word == "reciprocal";
     };
     const auto at = std::find_if(words.begin(), words.end(), is_inverse);
+    return at != words.end() && at + 1 != words.end() &&
+           (at[1] == "depth" || at[1] == "distance" || at[1] == "z");
+}
+
+/// "log_depth", "logDepth".
+bool is_of_logarithm(NameWords words) {
+    const auto at = std::find(words.begin(), words.end(), "log");
     return at != words.end() && at + 1 != words.end() &&
            (at[1] == "depth" || at[1] == "distance" || at[1] == "z");
 }
@@ -213,12 +238,36 @@ Findings findings_in_name(std::string_view name, int bits, std::string_view whos
                      known.sureness,
                      quoted_word(known.word, whose)}};
     if (bits <= 8) return {};
+    if (is_of_logarithm(words))
+        return {{{.near = NearLevels::dark, .unit = DepthUnit::levels},
+                 Evidence::name,
+                 kSurenessOfName,
+                 "a logarithm of depth in " + std::string(whose)}};
     if (Findings rows = findings_on_unit(words, bits, whose); !rows.empty()) return rows;
     const bool is_relative =
         std::any_of(kRelativeWords.begin(), kRelativeWords.end(),
                     [words](std::string_view word) { return has_name_word(words, word); });
     const DistanceWord* const distance = is_relative ? nullptr : distance_word(words);
     return distance == nullptr ? Findings{} : findings_on_distance(*distance, bits, whose);
+}
+
+Findings quantities_in_name(std::string_view name, std::string_view whose) {
+    const std::vector<std::string> words = words_of_name(name);
+    for (auto word = words.rbegin(); word != words.rend(); ++word) {
+        const OtherContent* const other = other_content_of(*word);
+        if (other != nullptr && other->is_quantity)
+            return {{{},
+                     Evidence::name,
+                     kSurenessOfName,
+                     std::string(whose) + " speaks of " + std::string(other->what) + " (" +
+                         in_quotes(*word) + ")",
+                     std::string(kNoDepth)}};
+        const auto names_it = [word](const auto& known) { return known.word == *word; };
+        if (std::any_of(kNearnessWords.begin(), kNearnessWords.end(), names_it) ||
+            std::any_of(kDistanceWords.begin(), kDistanceWords.end(), names_it))
+            break;
+    }
+    return {};
 }
 
 }  // namespace dibhr

@@ -15,6 +15,8 @@ struct OtherContent {
     std::string_view words;   ///< that name it, in small letters, each between blanks
     bool shows_depth{false};  ///< it may be felt, though something else is better
     bool shows_scene{false};  ///< a picture of it serves as the colour
+    /// Numbers of another kind: a file is asked about, for "ski_slope" may well be depth.
+    bool is_quantity{false};
 };
 
 /// What this word of a name, in small letters, says; null: nothing of that.
@@ -24,5 +26,9 @@ struct OtherContent {
 /// distance, or that it is a distance at all. Empty: it says nothing. `bits`: of the levels; words
 /// for distances count for more than 8. `whose`: for people, "its name".
 [[nodiscard]] Findings findings_in_name(std::string_view name, int bits, std::string_view whose);
+
+/// The row that it may be no depth (kNoDepth), where the last word of a name that tells what its
+/// numbers are is that of another quantity; empty: it is not.
+[[nodiscard]] Findings quantities_in_name(std::string_view name, std::string_view whose);
 
 }  // namespace dibhr

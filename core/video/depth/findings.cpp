@@ -36,19 +36,14 @@ constexpr double kNearFitsUnit = 0.97;
 constexpr std::size_t kMostAlternatives = 4;
 constexpr double kLeastLikely = 0.02;  ///< less likely kinds are not offered
 
-bool is_distance(DepthUnit unit) {
-    return unit == DepthUnit::mm || unit == DepthUnit::m;
-}
-
 bool same_scale(double a, double b) {
     return std::abs(a - b) <= 1e-6 * std::abs(b);
 }
 
 /// The scale in another unit, where both are of distances; else the same.
 double scale_in(DepthUnit unit, DepthUnit stated, double scale) {
-    constexpr double kMillimetres = 1000.0;  // in a metre
     if (unit == stated || !is_distance(unit) || !is_distance(stated)) return scale;
-    return unit == DepthUnit::mm ? scale * kMillimetres : scale / kMillimetres;
+    return scale * one_in_mm(stated) / one_in_mm(unit);
 }
 
 /// Whether values of one unit and scale are those of the other.

@@ -66,6 +66,11 @@ using Findings = std::vector<Finding>;
 /// the probability of every meaning, as the pictures were given or named as depth.
 inline constexpr std::string_view kNoDepth = "no depth";
 
+/// What a row is about that says that the file is of a kind that holds heights, and other
+/// quantities as well; the numbers of terrain tell a map of heights, and names tell either.
+inline constexpr std::string_view kMap = "map";
+inline constexpr std::string_view kMicrograph = "micrograph";
+
 /// What the metadata of a file state.
 [[nodiscard]] Finding finding_of_metadata(const DepthStatement& statement,
                                           const std::string& reason);

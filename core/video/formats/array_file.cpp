@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -41,10 +40,12 @@ constexpr std::array<std::string_view, 5> kCameraNames{"k", "intrinsics", "intri
                                                        "camk"};
 constexpr std::size_t kMostExamined = 256;  ///< arrays whose headers are read
 
-// Words of the names of arrays, each between blanks.
-constexpr std::string_view kWordsOfDepth = " depths disp disps disparities idepth ";
-constexpr std::string_view kWordsOfDistance =
-    " z zbuffer range distance distances dist pred prediction predictions predicted ";
+// Words of the names of arrays.
+constexpr std::array<std::string_view, 5> kWordsOfDepth{"depths", "disp", "disps", "disparities",
+                                                        "idepth"};
+constexpr std::array<std::string_view, 10> kWordsOfDistance{
+    "z",    "zbuffer", "range",      "distance",    "distances",
+    "dist", "pred",    "prediction", "predictions", "predicted"};
 
 /// The array with the first of these names, in any case; nothing when there is none.
 std::optional<std::string> named(const NamedArrays& arrays, Words words) {
@@ -54,16 +55,11 @@ std::optional<std::string> named(const NamedArrays& arrays, Words words) {
     return std::nullopt;
 }
 
-bool is_one_of(const std::string& name, Words words) {
-    return std::find(words.begin(), words.end(), lower_case(name)) != words.end();
-}
-
 /// Whether one of the words of a name is in a list.
-bool has_word(const std::string& name, std::string_view words) {
+bool has_word(const std::string& name, Words words) {
     const std::vector<std::string> all = words_of_name(name);
-    return std::any_of(all.begin(), all.end(), [words](const std::string& word) {
-        return words.find(' ' + word + ' ') != std::string_view::npos;
-    });
+    return std::any_of(all.begin(), all.end(),
+                       [words](const std::string& word) { return is_one_of(word, words); });
 }
 
 bool names_depth(const std::string& name) {
@@ -116,7 +112,7 @@ Candidates candidates_in(const NamedArrays& arrays, PictureRole role) {
         const bool is_colour = is_of_coloured_bytes(*header);
         if (role == PictureRole::colour) {
             if (is_colour && !names_depth(name)) found.others.push_back(name);
-        } else if (!is_colour && !is_one_of(name, kColourNames)) {
+        } else if (!is_colour && !is_one_of(lower_case(name), kColourNames)) {
             (names_depth(name)                  ? found.named
              : has_word(name, kWordsOfDistance) ? found.likely
                                                 : found.others)
@@ -126,14 +122,14 @@ Candidates candidates_in(const NamedArrays& arrays, PictureRole role) {
     return found;
 }
 
-/// The array of that role by its name, or as the only one that can be; nothing else.
-std::optional<std::string> found_array(const NamedArrays& arrays, PictureRole role) {
-    const bool is_depth = role == PictureRole::depth;
-    auto called = is_depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
-    if (called) return called;
-    const Candidates candidates = candidates_in(arrays, role);
-    if (candidates.surest().size() != 1) return std::nullopt;
-    return candidates.surest().front();
+/// The array that has a name of that role.
+std::optional<std::string> called_as(const NamedArrays& arrays, PictureRole role) {
+    return role == PictureRole::depth ? named(arrays, kDepthNames) : named(arrays, kColourNames);
+}
+
+/// Whether one is of that role by its name, or as the only one that can be.
+bool holds_array(const NamedArrays& arrays, PictureRole role) {
+    return called_as(arrays, role) || candidates_in(arrays, role).surest().size() == 1;
 }
 
 /// The first names, for people.
@@ -157,16 +153,17 @@ std::string some_of(const std::vector<std::string>& names) {
 /// The array of that role. Throws InputError when none, or more than one, is possible.
 std::string chosen(const NamedArrays& arrays, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
-    if (const auto found = found_array(arrays, role)) return *found;
-    if (is_depth) {
-        const Candidates candidates = candidates_in(arrays, role);
-        if (candidates.surest().size() > 1) refuse_several(arrays, candidates.surest());
-    }
+    if (const auto called = called_as(arrays, role)) return *called;
+    const Candidates candidates = candidates_in(arrays, role);
+    const std::vector<std::string>& surest = candidates.surest();
+    if (surest.size() == 1) return surest.front();
+    if (is_depth && surest.size() > 1) refuse_several(arrays, surest);
     std::vector<std::string> left;
     std::copy_if(arrays.names().begin(), arrays.names().end(), std::back_inserter(left),
                  [](const std::string& name) {
-                     return !is_one_of(name, kTimeNames) && !is_one_of(name, kRateNames) &&
-                            !is_one_of(name, kCameraNames);
+                     const std::string small = lower_case(name);
+                     return !is_one_of(small, kTimeNames) && !is_one_of(small, kRateNames) &&
+                            !is_one_of(small, kCameraNames);
                  });
     if (left.size() == 1) return left.front();
     throw InputError(shown(arrays.file()) + " holds " + std::to_string(left.size()) + " arrays, " +
@@ -190,11 +187,6 @@ std::vector<double> numbers_of(const NamedArrays& arrays, Words words, std::int6
     } catch (const InputError&) {
         return {};  // the depth is readable without these
     }
-}
-
-bool rises(const std::vector<double>& times) {
-    return std::all_of(times.begin(), times.end(), [](double t) { return std::isfinite(t); }) &&
-           std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
 }
 
 /// The first nine numbers as a matrix, row by row. Estimators also state it in parts of the picture
@@ -231,7 +223,7 @@ bool is_array_file(const fs::path& file, std::string_view head) {
 bool arrays_have_colour_and_depth(const fs::path& file) {
     if (!is_npz(file, head_of(file))) return false;
     const NamedArrays arrays(file);
-    return found_array(arrays, PictureRole::colour) && found_array(arrays, PictureRole::depth);
+    return holds_array(arrays, PictureRole::colour) && holds_array(arrays, PictureRole::depth);
 }
 
 bool may_be_picture(const fs::path& file) {
@@ -297,7 +289,7 @@ void ArrayFile::read_times(const NamedArrays& arrays) {
     const double frames_per_s = usable ? rate[0] : kPicturesPerSecond;
     std::vector<double> times_s = numbers_of(arrays, kTimeNames, shape_.frames);
     facts_.timing = {.from = TimesFrom::list, .text = "in the file"};
-    if (std::cmp_not_equal(times_s.size(), shape_.frames) || !rises(times_s)) {
+    if (std::cmp_not_equal(times_s.size(), shape_.frames) || !is_rising(times_s)) {
         times_s.clear();
         facts_.timing = assumed_timing();
         if (usable) facts_.timing = {.from = TimesFrom::stated, .text = "by the rate in the file"};

@@ -54,15 +54,9 @@ Json json_of(const std::string& text) {
     return parsed_json(text.substr(0, text.find('\0')));
 }
 
-std::optional<double> number_in(const Json& json, const char* name) {
-    const auto found = json.find(name);
-    if (found == json.end() || !found->is_number()) return std::nullopt;
-    return found->get<double>();
-}
-
 int whole_in(const Json& json, const char* name) {
     constexpr double kMost = 1e6;
-    const double number = number_in(json, name).value_or(0.0);
+    const double number = finite_number_in(json, name).value_or(0.0);
     return number > 0.0 && number < kMost ? static_cast<int>(number) : 0;
 }
 
@@ -111,12 +105,14 @@ std::optional<Intrinsics> intrinsics_in(const Json& json) {
     const std::vector<double> m = matrix_in(json, "intrinsic_matrix");
     if (m.size() == 9)  // column by column or row by row: the other two are 0
         return Intrinsics{m[0], m[4], m[2] + m[6], m[5] + m[7]};
-    const auto centre_x = json.contains("cx") ? number_in(json, "cx") : number_in(json, "ppx");
-    const auto centre_y = json.contains("cy") ? number_in(json, "cy") : number_in(json, "ppy");
+    const auto centre_x =
+        json.contains("cx") ? finite_number_in(json, "cx") : finite_number_in(json, "ppx");
+    const auto centre_y =
+        json.contains("cy") ? finite_number_in(json, "cy") : finite_number_in(json, "ppy");
     const bool has_lengths = json.contains("fx") && (json.contains("cx") || json.contains("ppx"));
     if (has_lengths) {
-        const double fx = number_in(json, "fx").value_or(0.0);
-        const double fy = json.contains("fy") ? number_in(json, "fy").value_or(0.0) : fx;
+        const double fx = finite_number_in(json, "fx").value_or(0.0);
+        const double fy = json.contains("fy") ? finite_number_in(json, "fy").value_or(0.0) : fx;
         return Intrinsics{fx, fy, centre_x.value_or(0.0), centre_y.value_or(0.0)};
     }
     for (const char* const name : kMatrixNames) {
@@ -130,8 +126,8 @@ std::optional<Intrinsics> intrinsics_in(const Json& json) {
 void read_scale(const Json& json, bool is_camera_object, CameraFile& camera) {
     std::optional<double> stated;
     for (const std::string_view name : kScaleNames)
-        if (!stated) stated = number_in(json, std::string(name).c_str());
-    if (!stated && is_camera_object) stated = number_in(json, "scale");
+        if (!stated) stated = finite_number_in(json, std::string(name).c_str());
+    if (!stated && is_camera_object) stated = finite_number_in(json, "scale");
     const auto level_mm = stated ? level_mm_of(*stated, false) : std::nullopt;
     if (level_mm) take_scale(camera, 1000.0 / *level_mm);
 }
@@ -222,7 +218,7 @@ std::optional<CameraModel> unit_camera(const Json& camera) {
     Lens lens;
     if (p.size() >= kParameters) {
         lens = {{p[4], p[5], p[6], p[7], p[8], p[9]}, p[13], p[12], kUsualRadius};
-        const double radius = number_in(camera, "MetricRadius").value_or(0.0);
+        const double radius = finite_number_in(camera, "MetricRadius").value_or(0.0);
         if (radius > 0.0001) lens.widest = radius;
     }
     const bool finite =
@@ -294,7 +290,7 @@ std::optional<CameraFile> read_camera_bop(const fs::path& file, int number) {
     CameraFile camera;
     const std::vector<double> rows = numbers_in(picture, "cam_K");
     if (rows.size() == 9) camera.intrinsics = {rows[0], rows[4], rows[2], rows[5]};
-    take_scale(camera, 1000.0 / number_in(picture, "depth_scale").value_or(0.0));
+    take_scale(camera, 1000.0 / finite_number_in(picture, "depth_scale").value_or(0.0));
     return camera;
 }
 

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace dibhr {
 
@@ -40,6 +41,10 @@ void require_no_other_form(const std::filesystem::path& file);
 
 /// Likewise of a photo that has depth in it which no reader reads.
 [[nodiscard]] std::string advice_on_depth_within(const std::filesystem::path& file);
+
+/// Advice with the file's name, as a word of a shell's command, in place of each "{}", and with the
+/// sides of numbers of 16 bits, which are the whole file, in place of "{sides}".
+[[nodiscard]] std::string filled_advice(std::string_view advice, const std::filesystem::path& file);
 
 /// Throws InputError when a picture is too small to touch or show (less than 2 x 2).
 void require_size(const std::filesystem::path& file, int columns, int rows);

@@ -117,12 +117,24 @@ StillPicture read_colour(const heif_image_handle& primary, const fs::path& file)
     return {picture, 8, "HEIC"};
 }
 
+/// What a photo without depth has instead, by the types of the pictures in the file's directory,
+/// which is its beginning.
+const char* refusal_without_depth(const fs::path& file) {
+    constexpr std::size_t kDirectory_bytes = 1 << 16;
+    const std::string directory = beginning_of(file, kDirectory_bytes);
+    const auto holds = [&directory](const char* type) {
+        return directory.find(type) != std::string::npos;
+    };
+    if (holds("aux:hdrgainmap")) return kGainMapAlone;
+    if (holds("aux:portraiteffectsmatte") || holds("aux:semantic"))
+        return " is a photo that has only a mask of the person in it, and no depth: give a "
+               "portrait photo that kept its depth, or give the depth file as the second file";
+    return " is a photo without depth: give a portrait photo, or a depth file beside it";
+}
+
 StillPicture read_depth(const heif_image_handle& primary, const fs::path& file) {
     const auto id = depth_id(primary);
-    if (!id)
-        throw InputError(shown(file) +
-                         " is a photo without depth: give a portrait photo, or a depth file "
-                         "beside it");
+    if (!id) throw InputError(shown(file) + refusal_without_depth(file));
     heif_image_handle* found = nullptr;
     require_done(heif_image_handle_get_depth_image_handle(&primary, *id, &found), file);
     const Handle depth(found);

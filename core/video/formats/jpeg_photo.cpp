@@ -202,19 +202,24 @@ bool is_apple_depth(const Properties& properties) {
            value_in(properties, kPixelData, "AuxiliaryImageSubType").empty();
 }
 
+/// Whether a picture is a gain map, or has one: by its metadata or a segment of ISO 21496.
+bool names_gain_map(const JpegSegments& segments, const std::string& metadata) {
+    constexpr std::string_view kIsoGainMap = "urn:iso:std:iso:ts:21496";
+    const std::string small = small_letters(metadata);
+    return small.find("gainmap") != std::string::npos || small.find("hdrgm") != std::string::npos ||
+           std::any_of(segments.begin(), segments.end(), [&](const JpegSegment& segment) {
+               return segment.payload.starts_with(kIsoGainMap);
+           });
+}
+
 /// Whether a further picture without metadata is likely depth: grey, of no stated type, beside a
 /// photo in colour without a gain map, which is grey as well.
 bool is_lone_grey(const FurtherPicture& picture, const JpegSegments& segments,
                   const std::string& metadata, const DepthPhoto& photo,
                   const std::string& metadata_of_photo) {
-    constexpr std::string_view kIsoGainMap = "urn:iso:std:iso:ts:21496";
-    const auto holds_gain_map = [&](const JpegSegment& segment) {
-        return segment.payload.starts_with(kIsoGainMap);
-    };
     return picture.type == 0 && metadata.empty() && jpeg_frame(segments).channels == 1 &&
-           photo.frame.channels > 1 && metadata_of_photo.find("GainMap") == std::string::npos &&
-           metadata_of_photo.find("hdrgm") == std::string::npos &&
-           std::none_of(segments.begin(), segments.end(), holds_gain_map);
+           photo.frame.channels > 1 && !names_gain_map({}, metadata_of_photo) &&
+           !names_gain_map(segments, {});
 }
 
 /// The first further picture that is depth; `metadata`: the photo's own. False without one.
@@ -339,6 +344,17 @@ StillPicture read_jpeg_photo(const fs::path& file, PictureRole role) {
                          " is a photo whose depth map is damaged: copy the photo again from where "
                          "it was taken, or give a depth file as the second file");
     return in_coding(levels, *photo);
+}
+
+bool jpeg_has_gain_map(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    const JpegSegments segments = jpeg_segments(in);
+    if (names_gain_map(segments, xmp_packets(segments).standard)) return true;
+    const std::vector<FurtherPicture> further = further_pictures(segments);
+    return std::any_of(further.begin(), further.end(), [&in](const FurtherPicture& picture) {
+        const JpegSegments own = jpeg_segments(in, picture.at);
+        return names_gain_map(own, xmp_packets(own).standard);
+    });
 }
 
 bool jpeg_has_depth(const fs::path& file) {

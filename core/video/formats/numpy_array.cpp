@@ -75,6 +75,24 @@ bool read_type(std::string_view text, NumpyHeader& header) {
     return std::find(kTypes.begin(), kTypes.end(), text.substr(2, 2)) != kTypes.end();
 }
 
+/// What an array is whose type is not read, after the name of its file. Those within an archive
+/// have no file of their own for a command.
+std::string advice_on_type(const fs::path& file, const std::string& dictionary) {
+    const std::string_view type = value_of(dictionary, "descr");
+    if (type.starts_with("'|b1'"))
+        return " holds no plain numbers but true and false, as a mask does, and no depth: give the "
+               "depth that it belongs to";
+    if (type.starts_with("'|O'") && value_of(dictionary, "shape").starts_with("()") &&
+        file.extension() == ".npy")
+        return filled_advice(
+            " holds Python objects and no plain numbers: if you trust the file, save its depth: "
+            "python3 -c \"import numpy; d = numpy.load('{}', allow_pickle=True).item(); "
+            "numpy.save('depth.npy', d[max(d, key=lambda k: 'dep' in k.lower())])\"",
+            file);
+    return " holds no array of plain numbers: save its depth as float32 by numpy.save (Python "
+           "objects are read by numpy.load with allow_pickle=True, if you trust the file)";
+}
+
 /// The dictionary of a header, and where it ends. Throws InputError.
 std::pair<std::string, std::uint64_t> dictionary_of(const fs::path& file, ArrayBytes& bytes) {
     std::array<std::uint8_t, 12> head{};
@@ -101,10 +119,7 @@ NumpyHeader read_header(const fs::path& file, ArrayBytes& bytes) {
     header.fortran = value_of(dictionary, "fortran_order").starts_with("True");
     const auto shape = shape_of(value_of(dictionary, "shape"));
     if (!shape || !read_type(value_of(dictionary, "descr"), header))
-        throw InputError(shown(file) +
-                         " holds no array of plain numbers: save its depth as float32 by "
-                         "numpy.save (Python objects are read by numpy.load with "
-                         "allow_pickle=True, if you trust the file)");
+        throw InputError(shown(file) + advice_on_type(file, dictionary));
     header.shape = *shape;
     return header;
 }
@@ -274,10 +289,13 @@ PictureShape NumpyArray::pictures() {
     if (is_list(sides))
         throw InputError(
             shown(file_) + " holds numbers in the shape " + text_of(sides) +
-            ", a list of points or poses, and no picture: save points as text "
-            "(numpy.savetxt), open that in CloudCompare (package cloudcompare), choose "
-            "Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
-            "and give that");
+            filled_advice(
+                ", a list of points or poses, and no picture: save points as text with python3 -c "
+                "\"import numpy; numpy.savetxt('points.xyz', numpy.load('{}')[:, :3])\", open "
+                "that in CloudCompare (package cloudcompare), choose Tools, Projection, Rasterize, "
+                "save the heights as GeoTIFF (height.tif, or depth.tif where Z points away from "
+                "the camera), and give that",
+                file_));
     const bool of_colours = header_.kind == 'u' && header_.number_bytes == 1;
     PictureShape shape;
     // Estimators' batches: [1, frames, ...]

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <functional>
 #include <utility>
 
 #include "core/files/plain_text.hpp"
@@ -20,6 +22,13 @@ std::string_view name_of(TimesFrom value) noexcept {
     constexpr std::array<std::string_view, 6> kNames{"file",  "names",  "list",
                                                      "other", "stated", "assumed"};
     return kNames[static_cast<std::size_t>(value)];
+}
+
+bool is_rising(const std::vector<double>& times_s) {
+    return std::all_of(times_s.begin(), times_s.end(),
+                       [](double time_s) { return std::isfinite(time_s); }) &&
+           std::adjacent_find(times_s.begin(), times_s.end(), std::greater_equal<>()) ==
+               times_s.end();
 }
 
 Timing assumed_timing() {
@@ -42,26 +51,24 @@ std::vector<cv::Mat> PictureSource::samples(int most) {
     return pictures;
 }
 
-ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change,
-                                 ChangeFacts change_facts)
-    : source_(std::move(source)),
-      change_(std::move(change)),
-      change_facts_(std::move(change_facts)) {
-    first_ = changed(source_->next());
-    if (first_) {
-        facts_.columns = first_->picture.cols;
-        facts_.rows = first_->picture.rows;
-    }
-    update_facts();
-    require_size(facts_.file, facts_.columns, facts_.rows);
+void SourceFacts::take_progress(const SourceFacts& read) {
+    duration_s = read.duration_s;
+    frames_per_s = read.frames_per_s;
+    frames = read.frames;
+    frames_exact = read.frames_exact;
+    trouble = read.trouble;
 }
 
-void ChangedPictures::update_facts() {
-    const cv::Size size(facts_.columns, facts_.rows);
+ChangedPictures::ChangedPictures(std::unique_ptr<PictureSource> source, Change change,
+                                 const ChangeFacts& change_facts)
+    : source_(std::move(source)), change_(std::move(change)) {
+    first_ = changed(source_->next());
     facts_ = source_->facts();
+    const cv::Size size = first_ ? first_->picture.size() : cv::Size();
     facts_.columns = size.width;
     facts_.rows = size.height;
-    change_facts_(facts_);
+    change_facts(facts_);
+    require_size(facts_.file, facts_.columns, facts_.rows);
 }
 
 std::optional<TimedPicture> ChangedPictures::changed(std::optional<TimedPicture> taken) const {
@@ -72,27 +79,27 @@ std::optional<TimedPicture> ChangedPictures::changed(std::optional<TimedPicture>
 std::optional<TimedPicture> ChangedPictures::next() {
     if (first_) return std::exchange(first_, std::nullopt);
     std::optional<TimedPicture> taken = changed(source_->next());
-    update_facts();
+    facts_.take_progress(source_->facts());
     return taken;
 }
 
 std::optional<TimedPicture> ChangedPictures::next_from(double earliest_s) {
     if (first_) return PictureSource::next_from(earliest_s);
     std::optional<TimedPicture> taken = changed(source_->next_from(earliest_s));
-    update_facts();
+    facts_.take_progress(source_->facts());
     return taken;
 }
 
 void ChangedPictures::seek(double time_s) {
     first_.reset();
     source_->seek(time_s);
-    update_facts();
+    facts_.take_progress(source_->facts());
 }
 
 void ChangedPictures::seek_near(double time_s) {
     first_.reset();
     source_->seek_near(time_s);
-    update_facts();
+    facts_.take_progress(source_->facts());
 }
 
 std::vector<cv::Mat> ChangedPictures::samples(int most) {
@@ -104,7 +111,7 @@ std::vector<cv::Mat> ChangedPictures::samples(int most) {
 
 void ChangedPictures::count_frames(std::int64_t most) {
     source_->count_frames(most);
-    update_facts();
+    facts_.take_progress(source_->facts());
 }
 
 void IndexedPictures::take_times(std::vector<double> times_s) {

@@ -75,6 +75,8 @@ struct SourceFacts {
     bool other_camera{false};           ///< its colour is from another camera at another place
     std::shared_ptr<const CameraPair> cameras{};  ///< calibrated together; null: not known
 
+    /// Takes what reading changes: how much there is, and why less is readable.
+    void take_progress(const SourceFacts& read);
     /// The file that is read first.
     [[nodiscard]] const std::filesystem::path& picture() const {
         return first_picture.empty() ? file : first_picture;
@@ -115,9 +117,10 @@ class ChangedPictures : public PictureSource {
     using ChangeFacts = std::function<void(SourceFacts&)>;
 
     /// The last function adapts the source's facts to the change, except the size, which is that of
-    /// the first changed picture. Reads that picture. Throws InputError when it is too small to
-    /// touch.
-    ChangedPictures(std::unique_ptr<PictureSource> source, Change change, ChangeFacts change_facts);
+    /// the first changed picture, and what reading changes. Reads that picture. Throws InputError
+    /// when it is too small to touch.
+    ChangedPictures(std::unique_ptr<PictureSource> source, Change change,
+                    const ChangeFacts& change_facts);
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
     std::optional<TimedPicture> next() override;
@@ -131,15 +134,16 @@ class ChangedPictures : public PictureSource {
     }
 
   private:
-    void update_facts();
     std::optional<TimedPicture> changed(std::optional<TimedPicture> taken) const;
 
     std::unique_ptr<PictureSource> source_;
     Change change_;
-    ChangeFacts change_facts_;
     SourceFacts facts_{};
     std::optional<TimedPicture> first_{};  ///< read already, given out next
 };
+
+/// Whether times are finite, and each is later than the one before.
+[[nodiscard]] bool is_rising(const std::vector<double>& times_s);
 
 /// Rate of pictures without times [1/s].
 inline constexpr double kPicturesPerSecond = 30.0;

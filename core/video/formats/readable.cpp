@@ -12,14 +12,17 @@
 #include <cstdint>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "core/error.hpp"
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/video/formats/array_bytes.hpp"
+#include "core/video/formats/text_numbers.hpp"
 
 namespace dibhr {
 
@@ -81,8 +84,8 @@ constexpr std::string_view kTrueMap =
     "numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * r, o + 24).reshape(r, c))\"";
 constexpr std::string_view kPointCloud =
     " is a point cloud or a mesh, not a picture of depth: open it in CloudCompare (package "
-    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif), "
-    "and give that";
+    "cloudcompare), choose Tools, Projection, Rasterize, save the heights as GeoTIFF (height.tif, "
+    "or depth.tif where Z points away from the camera), and give that";
 constexpr std::string_view kLas =
     " is a point cloud, not a picture of depth: make a map of its heights with pdal translate {} "
     "height.tif --writers.gdal.resolution=0.5 --writers.gdal.output_type=max, and give that";
@@ -107,8 +110,28 @@ constexpr std::string_view kReals =
     " real numbers of 32 bits without a header: convert it: python3 -c \"import numpy; "
     "numpy.save('depth.npy', numpy.fromfile('{}', '<f4').reshape({sides}))\"";
 constexpr std::string_view kSurfaceX3p =
-    " is a measured surface (X3P): open it in Gwyddion (package gwyddion), save it as OpenEXR "
-    "(height.exr), and give that";
+    " is a measured surface (X3P): convert it: python3 -c \"import numpy, re, zipfile; z = "
+    "zipfile.ZipFile('{}'); m = z.read('main.xml').decode(); g = lambda t: re.search(t + "
+    "'>([^<]+)', m, 16)[1].strip(); t = dict(D='<f8', F='<f4', L='<i4', "
+    "I='<i2')[g('<CZ>.*?<DataType')]; numpy.save('height.npy', "
+    "numpy.frombuffer(z.read(g('<PointDataLink')), t).reshape(int(g('<SizeY')), "
+    "int(g('<SizeX'))).astype('<f4'))\", and give that";
+constexpr std::string_view kGwyddionField =
+    " is a measured surface (simple field of Gwyddion): convert it: python3 -c \"import numpy, re; "
+    "b = open('{}', 'rb').read(); c, r = (int(re.search(k + b'Res *= *([0-9]+)', b)[1]) for k in "
+    "(b'X', b'Y')); o = b.index(b'\\0'); numpy.save('height.npy', numpy.frombuffer(b, '<f4', c * "
+    "r, o + 4 - o % 4).reshape(r, c))\", and give that";
+constexpr std::string_view kGwyddion =
+    " is a measured surface (of Gwyddion): open it there (package gwyddion), save its heights as "
+    "Gwyddion Simple Field (height.gsf), and give that";
+// Wilson, "Fast lossless depth image compression" (ISS 2017).
+constexpr std::string_view kRvl =
+    " holds depth packed with RVL, without a header: unpack it: python3 -c \"import numpy; s = "
+    "({sides}); n = iter((numpy.fromfile('{}', '<u4')[:, None] >> numpy.arange(28, -1, -4, 'u4') & "
+    "15).ravel().tolist()); v = lambda: (lambda x: x & 7 | (v() << 3 if x & 8 else 0))(next(n)); d "
+    "= []; p = 0; [d.extend([0] * v()) or [d.append(p := p + (lambda e: e >> 1 ^ -(e & 1))(v())) "
+    "for _ in range(v())] for _ in iter(lambda: len(d) < s[0] * s[1], False)]; "
+    "numpy.save('depth.npy', numpy.array(d, 'u2').reshape(s))\"";
 constexpr std::string_view kLfsPointer =
     " is a pointer of Git LFS, not the file itself: fetch it with git lfs pull in its clone "
     "(package git-lfs), or download it again by the Download button of its page";
@@ -184,6 +207,8 @@ constexpr std::array kUnsupportedForms{
                     " is a PDF document: take its pictures out with pdfimages -png {} picture "
                     "(package poppler-utils), and give the one of depth"},
     UnsupportedForm{"8BPS"sv, {}, kLayers},
+    UnsupportedForm{"Gwyddion Simple Field"sv, {}, kGwyddionField},
+    UnsupportedForm{"GWYP"sv, {}, kGwyddion},
     UnsupportedForm{"gimp xcf"sv, {}, kLayers},
     UnsupportedForm{"\x1f\x8b"sv, ".tgz", kTar},
     UnsupportedForm{"\x1f\x8b"sv, {}, " is packed with gzip: unpack it with gzip -dk {}"},
@@ -307,10 +332,11 @@ std::string name_in_command(const std::string& name, bool is_quoted) {
 }
 
 /// The sides of so many numbers, "ROWS, COLUMNS": by "160x120" in the name, by what cameras have,
-/// or as a square. In letters where none fits.
+/// or as a square. In letters where none fits. Of packed numbers, whose count is not known (0), by
+/// the name alone.
 std::string sides_of(const std::string& name, std::uint64_t numbers) {
     using Sides = std::array<std::uint64_t, 2>;  // columns, rows
-    constexpr std::array<Sides, 12> kOfCameras{{{640, 480},
+    constexpr std::array<Sides, 15> kOfCameras{{{640, 480},
                                                 {512, 424},
                                                 {320, 240},
                                                 {320, 288},
@@ -321,12 +347,17 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
                                                 {1280, 720},
                                                 {1280, 800},
                                                 {1920, 1080},
-                                                {256, 192}}};
+                                                {256, 192},
+                                                {224, 171},
+                                                {176, 144},
+                                                {160, 120}}};
+    constexpr const char* kInLetters = "ROWS, COLUMNS";
     const auto text = [](const Sides& sides) {
         return std::to_string(sides[1]) + ", " + std::to_string(sides[0]);
     };
     const auto fits = [numbers](const Sides& sides) {
-        return sides[0] > 0 && numbers % sides[0] == 0 && numbers / sides[0] == sides[1];
+        return sides[0] > 0 && sides[1] > 0 &&
+               (numbers == 0 || (numbers % sides[0] == 0 && numbers / sides[0] == sides[1]));
     };
     for (std::size_t at = name.find_first_of("xX", 1); at != std::string::npos;
          at = name.find_first_of("xX", at + 1)) {
@@ -337,14 +368,27 @@ std::string sides_of(const std::string& name, std::uint64_t numbers) {
         std::from_chars(name.data() + at + 1, name.data() + name.size(), sides[1]);
         if (fits(sides)) return text(sides);
     }
+    if (numbers == 0) return kInLetters;
     const auto* const usual = std::find_if(kOfCameras.begin(), kOfCameras.end(), fits);
     if (usual != kOfCameras.end()) return text(*usual);
     const auto root = static_cast<std::uint64_t>(std::sqrt(static_cast<double>(numbers)));
-    return fits({root, root}) ? text({root, root}) : "ROWS, COLUMNS";
+    return fits({root, root}) ? text({root, root}) : kInLetters;
 }
 
-/// The advice for this file, with its name and the sides of its numbers.
-std::string filled(std::string_view advice, const fs::path& file, std::uint64_t number_bytes = 2) {
+/// The sides of so many numbers in the shape of a photo, "ROWS, COLUMNS"; empty where none fit.
+std::string sides_as_of_photo(const fs::path& file, std::uint64_t numbers) {
+    std::ifstream in(file, std::ios::binary);
+    const auto photo = claimed_size(in);
+    if (!photo || photo->columns < 1 || photo->rows < 1) return {};
+    const double shape = static_cast<double>(photo->columns) / static_cast<double>(photo->rows);
+    const auto columns =
+        static_cast<std::uint64_t>(std::llround(std::sqrt(static_cast<double>(numbers) * shape)));
+    if (columns == 0 || numbers % columns != 0) return {};
+    return std::to_string(numbers / columns) + ", " + std::to_string(columns);
+}
+
+/// The advice for this file, with its name and the sides of so many numbers.
+std::string filled(std::string_view advice, const fs::path& file, std::uint64_t numbers) {
     constexpr std::string_view kName = "{}";
     constexpr std::string_view kSides = "{sides}";
     const std::string name = file.filename().string();
@@ -355,7 +399,7 @@ std::string filled(std::string_view advice, const fs::path& file, std::uint64_t 
         at += word.size();
     }
     if (const auto at = text.find(kSides); at != std::string::npos)
-        text.replace(at, kSides.size(), sides_of(name, size_of(file) / number_bytes));
+        text.replace(at, kSides.size(), sides_of(name, numbers));
     return hold(text, "(ROWS, COLUMNS)") ? text + ", with its own rows and columns" : text;
 }
 
@@ -369,27 +413,101 @@ std::string advice_of(const std::array<UnsupportedForm, count>& forms, const fs:
         return head.size() >= form.at && head.substr(form.at).starts_with(form.begins) &&
                name.ends_with(form.ending);
     });
-    return found == forms.end() ? std::string() : filled(found->advice, file);
+    return found == forms.end() ? std::string() : filled_advice(found->advice, file);
+}
+
+/// Points in the order of the pixels of a camera, each of some numbers of 32 bits.
+struct PixelPoints {
+    std::uint64_t columns{0};
+    std::uint64_t rows{0};
+    std::uint64_t count{0};              ///< 0: not stated
+    std::vector<std::string> numbers{};  ///< "x", "y", "z", ...
+    bool are_real{true};
+    bool are_binary{false};
+};
+
+/// Takes what a line of a header states: of PLY, with the size as 3D scanners add it, or of PCD.
+/// False at the last line.
+bool take_line(const std::string& line, PixelPoints& points) {
+    std::istringstream in(line);
+    std::vector<std::string> words;
+    for (std::string word; in >> word;) words.push_back(std::move(word));
+    words.resize(std::max<std::size_t>(words.size(), 3));
+    const std::string& first = words[0];
+    const auto is_all = [&](const char* value) {
+        return std::all_of(words.begin() + 1, words.end(), [value](const std::string& word) {
+            return word.empty() || word == value;
+        });
+    };
+    const bool is_info = first == "obj_info";
+    const std::string key = lower_case(is_info ? words[1] : first);
+    const std::string& value = is_info ? words[2] : words[1];
+    std::uint64_t number = 0;
+    std::from_chars(value.data(), value.data() + value.size(), number);
+    if (key == "width") points.columns = number;
+    if (key == "height") points.rows = number;
+    if (first == "element" && words[1] == "vertex")
+        std::from_chars(words[2].data(), words[2].data() + words[2].size(), points.count);
+    if (first == "property") {
+        points.numbers.push_back(words[2]);
+        points.are_real &= words[1] == "float" || words[1] == "float32";
+    }
+    if (first == "FIELDS") points.numbers.assign(words.begin() + 1, words.end());
+    if ((first == "SIZE" && !is_all("4")) || (first == "COUNT" && !is_all("1")))
+        points.are_real = false;
+    if (first == "format") points.are_binary = words[1] == "binary_little_endian";
+    if (first == "DATA") points.are_binary = words[1] == "binary";
+    return first != "end_header" && first != "DATA";
+}
+
+/// What to do about a cloud whose points are in the order of the pixels; empty for others.
+std::string advice_on_pixel_points(const fs::path& file) {
+    constexpr std::size_t kHeader_bytes = 4096;
+    std::istringstream header(beginning_of(file, kHeader_bytes));
+    PixelPoints points;
+    std::string line;
+    bool is_complete = false;
+    while (!is_complete && std::getline(header, line)) is_complete = !take_line(line, points);
+    if (!is_complete || !header) return {};
+    const auto at = static_cast<std::uint64_t>(header.tellg());
+    const auto z = std::find(points.numbers.begin(), points.numbers.end(), "z");
+    const bool is_picture = points.columns >= 2 && points.rows >= 2 &&
+                            points.columns <= kMostPixels / points.rows &&
+                            (points.count == 0 || points.count == points.columns * points.rows);
+    if (!is_picture || !points.are_real || !points.are_binary || z == points.numbers.end())
+        return {};
+    const std::string sides = std::to_string(points.rows) + ", " + std::to_string(points.columns);
+    const std::string numbers = std::to_string(points.numbers.size());
+    return filled_advice(
+        " is a point cloud in the order of the pixels, not a picture of depth: save its distances: "
+        "python3 -c \"import numpy; numpy.save('depth.npy', numpy.fromfile('{}', '<f4', " +
+            std::to_string(points.columns * points.rows) + " * " + numbers +
+            ", offset=" + std::to_string(at) + ").reshape(" + sides + ", " + numbers + ")[..., " +
+            std::to_string(z - points.numbers.begin()) + "])\", and give that",
+        file);
 }
 
 std::string advice_on_unsupported(const fs::path& file) {
     constexpr std::size_t kMagic_bytes = 512;
     const std::string head = beginning_of(file, kMagic_bytes);
+    if (head.starts_with("ply\n") || head.starts_with("ply\r") || head.starts_with("# .PCD")) {
+        if (std::string advice = advice_on_pixel_points(file); !advice.empty()) return advice;
+    }
     if (std::string advice = advice_of(kUnsupportedForms, file, head); !advice.empty())
         return advice;
-    if (head.starts_with("#ROSBAG V")) return filled(advice_on_bag(file), file);
+    if (head.starts_with("#ROSBAG V")) return filled_advice(advice_on_bag(file), file);
     if (head.starts_with(kZip) && lists_record3d(file)) return std::string(kRecord3d);
     if (head.starts_with(kZip) && !is_npz(file, head))
         return lower_case(file.extension().string()) == ".npz"
                    ? " is damaged, or holds no array: save it again by numpy.savez"
-                   : filled(kZipArchive, file);
+                   : filled_advice(kZipArchive, file);
     if (head.starts_with(kMatroska) && is_of_librgbd(file)) return std::string(kLibrgbd);
     const std::string name = lower_case(file.filename().string());
     const auto* const sized =
         std::find_if(kSizedForms.begin(), kSizedForms.end(), [&](const SizedForm& form) {
             return name.ends_with(form.ending) && form.fits(head, size_of(file));
         });
-    return sized == kSizedForms.end() ? std::string() : filled(sized->advice, file);
+    return sized == kSizedForms.end() ? std::string() : filled_advice(sized->advice, file);
 }
 
 /// Whether the bytes are real numbers of 32 bits from the first one on, as far as depth has them;
@@ -416,94 +534,20 @@ bool are_reals(std::string_view bytes) {
     return count >= kLeast && usual >= count / 20 && unusual <= count / 20;
 }
 
-/// Whether the file begins like text: no zero and no control bytes. Also true for playlists, which
-/// would have the decoder open other files. A video of plain pictures has a header in text.
-bool begins_like_text(const fs::path& file) {
-    constexpr std::size_t kLines_bytes = 512;
-    const std::string head = beginning_of(file, kLines_bytes);
-    if (head.starts_with("YUV4MPEG2 ")) return false;
-    return std::all_of(head.begin(), head.end(), [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return byte >= 32 || (byte >= '\t' && byte <= '\r') || byte == 27;
-    });
+std::string advice_by_ending(const fs::path& file) {
+    if (lower_case(file.extension().string()) == ".rvl") return filled(kRvl, file, 0);
+    return advice_of(kUnsupportedEndings, file, {});
 }
 
-/// Numbers in text, after lines of other text.
-struct NumbersInText {
-    std::string before{};  ///< the other lines
-    std::size_t lines_before{0};
-    char between{' '};       ///< a comma, a semicolon or a blank
-    bool has_commas{false};  ///< in the numbers, for points
-    bool are_rows{false};    ///< each line is a row of a picture
-};
-
-/// Whether the line has what numbers are written with, and nothing else.
-bool is_of_numbers(std::string_view line) {
-    return line.find_first_not_of("+-.eE,; \t\rnaifNAIF0123456789") == std::string_view::npos &&
-           (line.find_first_of("0123456789") != std::string_view::npos ||
-            line.find("nan") != std::string_view::npos ||
-            line.find("NaN") != std::string_view::npos);
-}
-
-std::optional<NumbersInText> find_numbers_in_text(std::string_view text) {
-    constexpr std::size_t kMostLinesBefore = 40;
-    NumbersInText found;
-    std::array<std::string_view, 2> lines{};
-    std::size_t taken = 0;
-    while (!text.empty() && taken < lines.size() && found.lines_before <= kMostLinesBefore) {
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const std::string_view line = text.substr(0, end);
-        text.remove_prefix(std::min(end + 1, text.size()));
-        if (is_of_numbers(line)) {
-            lines[taken++] = line;
-        } else if (taken > 0) {
-            return std::nullopt;  // a table with words in it
-        } else {
-            found.before += line;
-            ++found.lines_before;
-        }
-    }
-    if (taken == 0) return std::nullopt;
-    const std::string_view first = lines[0];
-    const auto digits = std::count_if(first.begin(), first.end(), is_decimal_digit);
-    const auto others = std::count_if(first.begin(), first.end(), [](char c) {
-        return std::string_view("+-.eE").find(c) != std::string_view::npos;
-    });
-    if (digits < others) return std::nullopt;
-    const bool has_semicolons = first.find(';') != std::string_view::npos;
-    found.has_commas = has_semicolons && first.find(',') != std::string_view::npos;
-    found.between = has_semicolons ? ';' : first.find(',') != std::string_view::npos ? ',' : ' ';
-    found.are_rows =
-        taken == lines.size() &&
-        first.find_first_of(",; \t", first.find_first_not_of(" \t")) != std::string_view::npos;
-    return found;
-}
-
-std::string advice_on_numbers_in_text(const fs::path& file) {
-    if (!begins_like_text(file)) return {};
-    const auto numbers = find_numbers_in_text(beginning_of(file, kInspected_bytes));
-    if (!numbers) return {};
-    const bool are_heights = hold(lower_case(numbers->before), "height");
-    std::string load = numbers->has_commas
-                           ? "[line.replace(',', '.') for line in open('{}', encoding='latin-1')]"
-                           : "'{}'";
-    if (numbers->between != ' ') load += std::string(", delimiter='") + numbers->between + "'";
-    if (numbers->lines_before > 0)
-        load += ", skiprows=" + std::to_string(numbers->lines_before) +
-                (numbers->has_commas ? "" : ", encoding='latin-1'");
-    const char* const what = numbers->between == ' '
-                                 ? " holds numbers as text: if they are depth"
-                                 : " is a table in text: if its cells are depth";
-    return filled(std::string(what) + ", convert it: python3 -c \"import numpy; numpy.save('" +
-                      (are_heights ? "height" : "depth") + ".npy', numpy.loadtxt(" + load + ")" +
-                      (numbers->are_rows ? "" : ".reshape(ROWS, COLUMNS)") + ")\"",
-                  file);
+std::string filled_advice_on_text(const fs::path& file) {
+    const TextAdvice advice = advice_on_numbers_in_text(file);
+    return advice.words.empty() ? advice.words : filled(advice.words, file, advice.numbers);
 }
 
 std::string advice_on_headerless(const fs::path& file) {
     const std::uint64_t bytes = size_of(file);
     if (bytes % 4 == 0 && are_reals(beginning_of(file, kInspected_bytes)))
-        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, 4);
+        return " holds " + std::to_string(bytes / 4) + filled(kReals, file, bytes / 4);
     return advice_of(kHeaderlessEndings, file, {});
 }
 
@@ -533,32 +577,51 @@ void require_readable(const fs::path& file) {
 
 std::string advice_on_form(const fs::path& file) {
     std::string advice = advice_on_unsupported(file);
-    if (advice.empty()) advice = advice_of(kUnsupportedEndings, file, {});
+    if (advice.empty()) advice = advice_by_ending(file);
     if (advice.empty() && lower_case(file.extension().string()) == ".csv")
-        advice = advice_on_numbers_in_text(file);
+        advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     return advice;
 }
 
+std::string filled_advice(std::string_view advice, const fs::path& file) {
+    return filled(advice, file, size_of(file) / 2);
+}
+
 std::string advice_on_depth_within(const fs::path& file) {
-    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth.
+    // Samsung's trailer: a list of blocks with their types, of which 0x0ab1 is the map of depth, of
+    // 8 bits, and 0x0ab3 has its size.
     constexpr std::size_t kList_bytes = 4096;
+    constexpr std::string_view kMapBlock = "\0\0\xb1\x0a"sv;
     if (!head_of(file).starts_with("\xff\xd8\xff")) return {};
     const std::string end = end_of(file, kList_bytes);
     const auto list = end.rfind("SEFH");
-    if (!end.ends_with("SEFT") || list == std::string::npos ||
-        end.find("\0\0\xb1\x0a"sv, list) == std::string::npos)
-        return {};
-    return filled(
-        " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
-        "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
-        "second file",
-        file);
+    const auto map = list == std::string::npos ? list : end.find(kMapBlock, list);
+    if (!end.ends_with("SEFT") || map == std::string::npos) return {};
+    // A block is its type, the length of its name, the name, "DualShot_DepthMap_1", and its data.
+    constexpr std::uint64_t kBefore_bytes = 8 + 19;
+    std::uint64_t bytes = 0;
+    for (std::size_t k = 4; k-- > 0 && map + 8 + k < end.size();)
+        bytes = bytes * 256 + static_cast<unsigned char>(end[map + 8 + k]);
+    if (bytes <= kBefore_bytes || end.find("\0\0\xb3\x0a"sv, list) != std::string::npos)
+        return filled_advice(
+            " holds a map of depth by Samsung, which is not read: take it out with exiftool -b "
+            "-DepthMapTiff {} > depth.tif (package libimage-exiftool-perl), and give that as the "
+            "second file",
+            file);
+    const std::uint64_t levels = bytes - kBefore_bytes;
+    const std::string advice =
+        " holds a map of depth by Samsung, which is not read: take it out with python3 -c \"import "
+        "numpy; b = open('{}', 'rb').read(); numpy.save('depth.npy', numpy.frombuffer(b, 'u1', " +
+        std::to_string(levels) + ", b.rindex(b'DualShot_DepthMap_') + 19).reshape(";
+    const std::string rest = "))\", and give that as the second file";
+    const std::string by_photo = sides_as_of_photo(file, levels);
+    return filled(advice + (by_photo.empty() ? "{sides}" : by_photo) + rest, file, levels);
 }
 
 void require_no_other_form(const fs::path& file) {
-    std::string advice = advice_of(kUnsupportedEndings, file, {});
-    if (advice.empty()) advice = advice_on_numbers_in_text(file);
+    std::string advice = advice_by_ending(file);
+    if (advice.empty()) advice = filled_advice_on_text(file);
     if (advice.empty()) advice = advice_on_headerless(file);
     if (!advice.empty()) throw InputError(shown(file) + advice);
     if (begins_like_text(file))

@@ -2,6 +2,7 @@
 #include "core/video/formats/still_picture.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +14,7 @@
 #include <span>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/error.hpp"
@@ -86,12 +88,53 @@ cv::Mat decoded(const fs::path& file, int flags) {
     return picture;
 }
 
-/// Adds what the tags of a TIFF file of one channel tell: GeoTIFF holds heights seen from above.
+/// The text between `begin` and the first of the letters `ends`; empty: it is not there.
+std::string_view text_behind(std::string_view text, std::string_view begin, std::string_view ends) {
+    const auto at = text.find(begin);
+    if (at == std::string_view::npos) return {};
+    const std::string_view rest = text.substr(at + begin.size());
+    return rest.substr(0, rest.find_first_of(ends));
+}
+
+/// Whether GDAL says that the levels have a unit of length, as heights have.
+bool has_unit_of_heights(const TiffTags& tags) {
+    constexpr std::array<std::string_view, 8> kUnits{"m",      "metre", "meter", "metres",
+                                                     "meters", "ft",    "foot",  "feet"};
+    const std::string unit =
+        lower_case(std::string(text_behind(tags.gdal_metadata, "role=\"unittype\">", "<")));
+    return std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+}
+
+/// Whether its sides are measured in micrometres or less, as ImageJ and OME state it: whatever the
+/// levels are, no metres from a camera.
+bool is_of_microscope(const TiffTags& tags) {
+    constexpr std::array<std::string_view, 8> kUnits{"micron", "microns",  "um",        "\xc2\xb5m",
+                                                     "\xb5m",  "\\u00B5m", "\xce\xbcm", "nm"};
+    if (tags.description.find("<OME ") != std::string::npos) return true;
+    const std::string_view unit = text_behind(tags.description, "\nunit=", "\r\n");
+    return tags.description.starts_with("ImageJ=") &&
+           std::find(kUnits.begin(), kUnits.end(), unit) != kUnits.end();
+}
+
+/// Adds what the tags of a TIFF file of one channel tell. What is seen from above is near where it
+/// is high; but maps, and pictures of microscopes, hold other quantities than heights, too.
 void add_tags(const fs::path& file, StillPicture& still) {
+    constexpr double kSurenessOfHeights = 0.92;  // of what a microscope measures and is felt
+    const DepthStatement heights{.near = NearLevels::bright, .unit = DepthUnit::levels};
     const TiffTags tags = picture_codecs().tiff_tags(file.string());
+    const auto add_kind = [&still](std::string_view about, const char* reason) {
+        still.findings.push_back(
+            {{}, Evidence::metadata, kSurenessOfMetadata, reason, std::string(about)});
+    };
     if (tags.is_geographic)
-        still.findings.push_back(finding_of_metadata(
-            {.near = NearLevels::bright, .unit = DepthUnit::levels}, "GeoTIFF tags: heights"));
+        still.findings.push_back(finding_of_metadata(heights, "GeoTIFF tags: heights"));
+    if (tags.is_geographic && !tags.is_vertical && !has_unit_of_heights(tags))
+        add_kind(kMap, "it is a map that need not be of heights");
+    if (is_of_microscope(tags)) {
+        still.findings.push_back(
+            {heights, Evidence::metadata, kSurenessOfHeights, "TIFF tags: micrometres"});
+        add_kind(kMicrograph, "it may show the light in a microscope");
+    }
     const auto mark = number_of_text(tags.gdal_no_data);
     if (!mark || std::abs(*mark) > std::numeric_limits<float>::max()) return;
     const bool is_real = still.bits == kRealBits;

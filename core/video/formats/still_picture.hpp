@@ -74,4 +74,11 @@ struct StillPicture {
 /// Reads only the metadata of a plain photo. False when the file cannot be read.
 [[nodiscard]] bool jpeg_has_depth(const std::filesystem::path& file);
 
+/// Whether the photo has a gain map, by which bright screens show it (HDR), and which is no depth.
+[[nodiscard]] bool jpeg_has_gain_map(const std::filesystem::path& file);
+/// The rest of a sentence that begins with the name of such a photo.
+inline constexpr const char* kGainMapAlone =
+    " has a second picture that is a gain map for bright screens (HDR), and no depth: give a depth "
+    "file as the second file, or let an estimator make it (dibhr help depth)";
+
 }  // namespace dibhr

@@ -377,10 +377,7 @@ std::vector<double> VideoFile::picture_times_s() const {
     }
     std::sort(times_s.begin(), times_s.end());
     if (!times_s.empty()) times_s.front() = std::max(times_s.front(), 0.0);
-    const bool repeats = std::adjacent_find(times_s.begin(), times_s.end(), [](double a, double b) {
-                             return !(a < b);
-                         }) != times_s.end();
-    return repeats ? std::vector<double>{} : times_s;
+    return is_rising(times_s) ? times_s : std::vector<double>{};
 }
 
 void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {

@@ -9,8 +9,11 @@ namespace dibhr {
 
 /// Tags of the first page of a TIFF file.
 struct TiffTags {
-    std::string gdal_no_data{};  ///< GDAL_NODATA as written: "-9999"; empty: none
-    bool is_geographic{false};   ///< GeoTIFF: it has a place on the earth
+    std::string gdal_no_data{};   ///< GDAL_NODATA as written: "-9999"; empty: none
+    bool is_geographic{false};    ///< GeoTIFF: it has a place on the earth
+    bool is_vertical{false};      ///< GeoTIFF: it names a datum or a unit of heights
+    std::string gdal_metadata{};  ///< GDAL_METADATA, XML
+    std::string description{};    ///< ImageDescription
 };
 
 /// Functions of OpenCV's imgcodecs, with its arguments, results and errors.

@@ -50,8 +50,8 @@ void append(const Findings& more, Findings& rows) {
 }
 
 /// The data set of a source, but for one whose levels are decoded, and say it themselves.
-std::optional<DataSetFacts> data_set_beside_codes(const SourceFacts& facts) {
-    auto set = data_set_of(facts);
+std::optional<DataSetFacts> data_set_beside_codes(Sources& sources) {
+    auto set = sources.data_set.of(sources.depth->facts());
     if (set && set->finding.statement.code) set.reset();
     return set;
 }
@@ -79,7 +79,7 @@ Findings findings_in_folder(const fs::path& folder, int bits) {
 Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& set) {
     const SourceFacts& facts = sources.depth->facts();
     Findings rows;
-    if (!facts.live) rows.push_back(finding_on_form(facts));
+    if (sources.reader != nullptr) rows.push_back(finding_on_form(*sources.reader, facts));
     append(facts.findings, rows);
     append(sources.findings, rows);
     if (set) rows.push_back(set->finding);
@@ -88,6 +88,7 @@ Findings findings_on(const Sources& sources, const std::optional<DataSetFacts>& 
     const Findings by_name = findings_by_name(facts);
     const bool is_sure = !by_name.empty() && by_name.front().statement.unit;
     if (is_sure || !sure_facts({}, rows).unit) append(by_name, rows);
+    if (!set) append(quantities_in_name(facts.picture().stem().string(), "its name"), rows);
     return rows;
 }
 
@@ -137,6 +138,21 @@ Findings findings_on_looks(std::span<const cv::Mat> pictures, int bits,
     return row(kSurenessOfAppearance, "it looks like a photograph");
 }
 
+/// The row that a map or a micrograph may be of no heights, or none: a name or a layout says what
+/// its levels are, or they are of terrain.
+Findings findings_on_other_quantities(const Findings& rows, const SampledLevels& levels) {
+    constexpr double kSurenessOfOthers = 0.85;
+    const bool is_named = std::any_of(rows.begin(), rows.end(), [](const Finding& row) {
+        const bool says_it = row.evidence == Evidence::name || row.evidence == Evidence::layout;
+        return says_it && row.statement.unit && row.sureness >= kSureEnough;
+    });
+    const auto found = std::find_if(rows.begin(), rows.end(), [&levels](const Finding& row) {
+        return row.about == kMicrograph || (row.about == kMap && !levels.may_be_terrain());
+    });
+    if (is_named || found == rows.end()) return {};
+    return {{{}, Evidence::numbers, kSurenessOfOthers, found->reason, std::string(kNoDepth)}};
+}
+
 /// Adds the rows of the numbers on facts that nobody states yet, or not surely, and on what other
 /// rows state and they contradict. Returns the levels without those that are no data.
 SampledLevels add_numbers(const Sources& sources, const RankedStatements& persons, Findings& rows) {
@@ -152,6 +168,7 @@ SampledLevels add_numbers(const Sources& sources, const RankedStatements& person
     DepthMeaning meaning;
     static_cast<void>(conclude(persons, rows, meaning));
     levels.leave_out(meaning.no_data.value);
+    append(findings_on_other_quantities(rows, levels), rows);
     const Findings contradictions = levels.contradictions(rows);
     if (!known.unit || !contradictions.empty()) append(units_beside(levels, rows), rows);
     append(contradictions, rows);
@@ -278,7 +295,7 @@ DepthStatement statement_for(const fs::path& depth, const fs::path& colour,
     return said;
 }
 
-FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
+FoundScale find_scale(Sources& sources, const DepthRequest& request) {
     PictureSource& depth = *sources.depth;
     const SourceFacts& facts = depth.facts();
     const bool said =
@@ -293,7 +310,7 @@ FoundScale find_scale(const Sources& sources, const DepthRequest& request) {
         if (sources.colour) places.push_back(sources.colour->facts().file);
         persons.insert(persons.end(),
                        {{Origin::panel, request.panel}, {Origin::sidecar, sidecars_of(places)}});
-        rows = findings_on(sources, data_set_beside_codes(facts));
+        rows = findings_on(sources, data_set_beside_codes(sources));
         merge_by_priority({{Origin::found, default_statement()}}, meaning);
     } else {
         persons.emplace_back(Origin::assumed, as_in_file(request, facts.bits));

@@ -32,7 +32,7 @@ struct FoundScale {
 /// The meaning of the levels, found before the first frame is shown: the one place where all
 /// findings are collected and concluded from. Reads pictures from all over the depth, then starts
 /// it again. Throws InputError for a sidecar that cannot be parsed, and for an impossible range.
-[[nodiscard]] FoundScale find_scale(const Sources& sources, const DepthRequest& request);
+[[nodiscard]] FoundScale find_scale(Sources& sources, const DepthRequest& request);
 
 /// As many sample pictures of a source as can be decoded within about half a second.
 [[nodiscard]] std::vector<cv::Mat> sample_pictures(PictureSource& source);

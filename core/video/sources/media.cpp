@@ -17,6 +17,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/video/cleaning/sparse_meter.hpp"
 #include "core/video/depth/depth_guess.hpp"
+#include "core/video/sources/coded_levels.hpp"
 #include "core/video/sources/depth_finding.hpp"
 #include "core/video/sources/kept_choices.hpp"
 #include "core/video/sources/layouts/layouts.hpp"
@@ -115,28 +116,53 @@ Sources sources_of(const fs::path& colour, const fs::path& depth, const DepthSta
     return colour.empty() ? find_depth(depth, statement) : find_sources(colour, depth, statement);
 }
 
-MediaDescription described(const fs::path& place, const DepthRequest& request,
-                           const std::string& notice) {
+/// What persons state of a place, and its sidecar.
+DepthStatement statement_at(const fs::path& place, const DepthRequest& request) {
     const MediaPlaces places =
         is_live(place) ? MediaPlaces{.colour = place} : places_for(place, {});
-    const fs::path& depth = places.depth.empty() ? places.colour : places.depth;
-    const DepthStatement statement = statement_for(depth, place, request);
+    return statement_for(places.depth.empty() ? places.colour : places.depth, place, request);
+}
+
+/// Adds the colour of the other place to depth alone, where that place holds colour alone.
+void add_colour(const fs::path& other, const DepthRequest& request, Sources& sources) {
+    if (other.empty() || is_live(other) || sources.colour) return;
+    try {
+        Sources found = find_content(other, statement_at(other, request));
+        if (!found.depth && found.not_depth.empty()) sources.colour = std::move(found.colour);
+    } catch (const InputError&) {
+        return;  // the description of that place says why
+    }
+}
+
+/// Of colour alone.
+MediaDescription described_colour(const Sources& sources) {
+    sources.colour->count_frames(kMostCounted);
+    MediaDescription description;
+    describe_colour(sources.colour->facts(), description);
+    describe_time(sources.colour->facts(), description);
+    describe_timing(sources.colour->facts(), description);
+    description.notice = sources.colour->facts().notice;
+    return description;
+}
+
+MediaDescription described(const fs::path& place, const fs::path& other,
+                           const DepthRequest& request, const std::string& notice) {
+    const DepthStatement statement = statement_at(place, request);
     Sources sources =
         is_live(place) ? sources_of(place, {}, statement, request) : find_content(place, statement);
-    if (sources.depth == nullptr) {
-        sources.colour->count_frames(kMostCounted);
-        MediaDescription description;
-        describe_colour(sources.colour->facts(), description);
-        describe_time(sources.colour->facts(), description);
-        describe_timing(sources.colour->facts(), description);
-        description.notice = sources.colour->facts().notice;
-        return description;
-    }
+    if (sources.depth == nullptr) return described_colour(sources);
+    const bool is_of_depth = sources.colour == nullptr;
+    if (!sources.depth->facts().live) add_colour(other, request, sources);
     decode_levels(sources, statement, request.find_out);
     const std::vector<cv::Mat> pictures = sample_pictures(*sources.depth);
     const auto media = media_of(std::move(sources), statement, request, false, notice);
     media->count_frames(kMostCounted);
     MediaDescription description = media->description();
+    if (is_of_depth) {
+        description.colour_path.clear();
+        description.colour_codec.clear();
+        description.colour_columns = description.colour_rows = 0;
+    }
     description.levels_used = levels_used(pictures);
     if (description.meaning) {
         SampledLevels levels(pictures, description.depth_bits);
@@ -260,9 +286,10 @@ std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& ask
     });
 }
 
-MediaDescription describe_media(const fs::path& place, const DepthRequest& asked) {
+MediaDescription describe_media(const fs::path& place, const DepthRequest& asked,
+                                const fs::path& other) {
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
-        return described(place, request, notice);
+        return described(place, other, request, notice);
     });
 }
 

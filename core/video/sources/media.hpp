@@ -54,7 +54,7 @@ struct DepthRequest {
     /// folder of media. Empty: not used.
     std::filesystem::path kept_in{};
     bool panel_is_whole{false};  ///< earlier choices for this media do not complete `panel`
-    DepthStatement recorded{};  ///< of a session; beats all others
+    DepthStatement recorded{};   ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
     std::shared_ptr<LiveFeed> live{};
     bool paints{true};  ///< depth alone is shown in colours of its own
@@ -167,8 +167,10 @@ class Media {
 
 /// Describes one place of any kind, without its partner (`dibhr info FILE`): depth fills the depth
 /// fields, other files the colour fields, a place of both all of them. Videos of up to a few
-/// thousand frames are read to their end, so that the numbers are exact.
+/// thousand frames are read to their end, so that the numbers are exact. `other`: a second place;
+/// where it holds colour alone, depth has the meaning and the times of the two together.
 [[nodiscard]] MediaDescription describe_media(const std::filesystem::path& place,
-                                              const DepthRequest& request = {.find_out = true});
+                                              const DepthRequest& request = {.find_out = true},
+                                              const std::filesystem::path& other = {});
 
 }  // namespace dibhr

@@ -28,21 +28,24 @@ using Words = std::span<const std::string_view>;
 // Anywhere in a name.
 constexpr std::array<std::string_view, 6> kColourWords{"colour", "color",   "rgb",
                                                        "albedo", "diffuse", "couleur"};
-constexpr std::array<std::string_view, 8> kDepthWords{"depth",        "disparity", "disparities",
-                                                      "displacement", "heightmap", "profondeur",
-                                                      "profundidad",  "profondita"};
+constexpr std::array<std::string_view, 9> kDepthWords{
+    "depth",        "disparity",  "disparities",
+    "displacement", "heightmap",  "profondeur",
+    "profundidad",  "profondita", "\xe6\xb7\xb1\xe5\xba\xa6"};  // Chinese
 // Between other letters they mean something else: "display", "different".
 constexpr std::array<std::string_view, 4> kShortColourWords{"diff", "farbe", "farben", "farbbild"};
 constexpr std::array<std::string_view, 6> kShortDepthWords{"disp",   "height",     "tiefe",
                                                            "tiefen", "tiefenbild", "tiefenkarte"};
-constexpr std::array<std::string_view, 7> kMayBeColour{"image", "images", "img",   "im",
-                                                       "left",  "frame",  "frames"};
+constexpr std::array<std::string_view, 11> kMayBeColour{"image",  "images", "img",     "im",
+                                                        "left",   "frame",  "frames",  "src",
+                                                        "source", "input",  "original"};
 // "mono_depth", "depth maps"
 constexpr std::array<std::string_view, 3> kNeutralWords{"map", "maps", "mono"};
 
-// After the word that decides: "normal_gl_2k", "confidence_map", "labelIds", "flow_occ".
-constexpr std::array<std::string_view, 9> kPassedWords{"map", "maps", "gl",  "dx", "k",
-                                                       "px",  "ids",  "occ", "noc"};
+// After the word that decides: "normal_gl_2k", "confidence_image", "labelIds", "normal_pred".
+constexpr std::array<std::string_view, 13> kPassedWords{"map", "maps", "image",     "img", "gl",
+                                                        "dx",  "k",    "px",        "ids", "occ",
+                                                        "noc", "pred", "prediction"};
 
 constexpr std::array<std::string_view, 5> kNumberEndings{".exr", ".npy", ".npz", ".pfm", ".raw"};
 constexpr std::array<std::string_view, 18> kPictureEndings{
@@ -52,16 +55,7 @@ constexpr std::array<std::string_view, 9> kVideoEndings{".avi", ".m4v", ".mkv", 
                                                         ".mpg", ".ogv", ".ts",  ".webm"};
 
 bool ends_as(const fs::path& file, Words endings) {
-    const std::string ending = lower_case(file.extension().string());
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
-}
-
-bool is_one_of(std::string_view word, Words words) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-bool is_of_digits(const std::string& word) {
-    return std::all_of(word.begin(), word.end(), is_decimal_digit);
+    return is_one_of(lower_case(file.extension().string()), endings);
 }
 
 bool holds(const fs::path& file, Words anywhere, Words whole) {
@@ -113,15 +107,20 @@ std::vector<fs::path> neighbours_of(const fs::path& given) {
 }
 
 /// What the last word of a name that counts says; null: nothing.
-const OtherContent* other_content(const fs::path& file) {
+const OtherContent* named_content(const fs::path& file) {
     // Of a folder the whole name, of a file what is before the ending.
     const bool has_ending = named_media(file) || named_numbers(file);
     const auto words = words_of_name((has_ending ? file.stem() : file.filename()).string());
     const auto last = std::find_if(words.rbegin(), words.rend(), [](const std::string& word) {
         return !is_of_digits(word) && !is_one_of(word, kPassedWords);
     });
-    const OtherContent* const found = last == words.rend() ? nullptr : other_content_of(*last);
-    return found != nullptr && found->shows_scene ? nullptr : found;
+    return last == words.rend() ? nullptr : other_content_of(*last);
+}
+
+/// The same, but for what serves as the colour, and for quantities, which names of depth hold, too.
+const OtherContent* other_content(const fs::path& file) {
+    const OtherContent* const found = named_content(file);
+    return found != nullptr && (found->shows_scene || found->is_quantity) ? nullptr : found;
 }
 
 /// The name of the first picture in a folder; empty: it holds none, or is no folder.
@@ -258,6 +257,11 @@ std::string_view named_other(const fs::path& file) {
 std::string_view named_no_depth(const fs::path& place) {
     const OtherContent* const found = other_content(place);
     return found == nullptr || found->shows_depth ? std::string_view() : found->what;
+}
+
+bool named_brightness(const fs::path& file) {
+    const OtherContent* const found = named_content(file);
+    return found != nullptr && found->shows_scene;
 }
 
 std::string_view folder_named_no_depth(const fs::path& file) {

@@ -32,6 +32,9 @@ namespace dibhr {
 /// numbers and words as frame: "confidence/0000.png".
 [[nodiscard]] std::string_view folder_named_no_depth(const std::filesystem::path& file);
 
+/// Whether its last word says that a picture of it serves as the colour: amplitude, intensity.
+[[nodiscard]] bool named_brightness(const std::filesystem::path& file);
+
 /// Whether the name of the file or folder says that it holds colour, and nothing else: color,
 /// colour, rgb, albedo, diffuse, also in German, French, Spanish and Italian.
 [[nodiscard]] bool named_colour(const std::filesystem::path& file);
@@ -39,7 +42,7 @@ namespace dibhr {
 /// of their own.
 [[nodiscard]] bool named_depth(const std::filesystem::path& file);
 /// Whether the name means colour only beside depth: image, img, im, frame, left (the view of a
-/// disparity).
+/// disparity), src, source, input, original (what an estimator was given).
 [[nodiscard]] bool may_name_colour(const std::filesystem::path& file);
 
 /// Whether the name ends as that of an array or picture of numbers does, whose levels are not

@@ -97,7 +97,7 @@ bool is_lossless(const std::string& codec) {
     return std::find(kLossless.begin(), kLossless.end(), lower_case(codec)) != kLossless.end();
 }
 
-constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for float32)";
+constexpr const char* kWithoutLoss = "as PNG, or as FFV1 with -pix_fmt bgr0 (bgra for floats)";
 
 /// Why a source does not hold the numbers of the code; empty: it may. Either its pictures are not
 /// of red, green and blue as the code needs them, or their low bytes are lost.
@@ -116,9 +116,17 @@ std::string missing_bytes(PictureSource& pictures, DepthCode code) {
                ", which is in bytes of red, green, " +
                (least_channels(code) == 4 ? "blue and alpha" : "and blue") +
                ": give the picture as it was first written, or another --depth-code";
-    if (!is_luma && (is_lossless(facts.codec) ||
-                     is_continuous(pictures.samples(kSamples), code).value_or(true)))
-        return {};
+    if (!is_luma) {
+        const std::vector<cv::Mat> samples = pictures.samples(kSamples);
+        const std::optional<bool> continues = is_continuous(samples, code);
+        // Even numbers may be continuous as floats of both orders.
+        if (continues == true && least_channels(code) == 3) return {};
+        const auto other = byte_code_in(samples);
+        if (other && *other != code && (continues != true || have_contrary_bytes(*other, code)))
+            return shown(facts.file) + " has its bytes in another order than " + name +
+                   " has: give --depth-code " + std::string(name_of(*other));
+        if (continues.value_or(true) || is_lossless(facts.codec)) return {};
+    }
     return shown(facts.file) + " does not keep the bytes of red, green and blue (" +
            one_line(facts.codec) + "), so that the low bytes of its depth (" + name +
            ") are lost: write it without loss, " + kWithoutLoss;
@@ -151,19 +159,6 @@ bool names_carla(const fs::path& file) {
         return lower_case(name.filename().string()).find("carla") != std::string::npos;
     };
     return holds(file) || holds(file.parent_path());
-}
-
-/// The runs of letters and digits, in small letters.
-std::vector<std::string> plain_words_of(const std::string& name) {
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(name)) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            words.back() += c;
-        else if (!words.back().empty())
-            words.emplace_back();
-    }
-    if (words.back().empty()) words.pop_back();
-    return words;
 }
 
 struct PackingWord {
@@ -199,11 +194,6 @@ const PackingWord* packing_word(const std::string& word) {
         std::find_if(kPackingWords.begin(), kPackingWords.end(),
                      [&](const PackingWord& known) { return known.word == word; });
     return found == kPackingWords.end() ? nullptr : found;
-}
-
-bool is_number(const std::string& word) {
-    return std::all_of(word.begin(), word.end(),
-                       [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 }  // namespace
@@ -285,7 +275,7 @@ std::unique_ptr<PictureSource> byte_decoded(std::unique_ptr<PictureSource> pictu
     }
     coded.statement.fill_in(byte_code_meaning(code));
     const auto change_facts = [code, coded = std::move(coded)](SourceFacts& facts) {
-        facts.bits = code == DepthCode::rg16 ? 16 : kRealBits;
+        facts.bits = bits_in_bytes(code);
         facts.channels = 1;
         facts.findings.push_back(coded);
     };
@@ -322,16 +312,20 @@ bool has_decoded_levels(const SourceFacts& facts) {
 std::string refusal_of_colours(const SourceFacts& facts, const cv::Mat& seen) {
     if (is_colour_mapped(seen))
         return shown(facts.file) +
-               " is painted in the colours of a map (jet, viridis, ...), neither grey nor a known "
+               " is painted in false colours (such as jet or viridis), neither grey nor a known "
                "code of depth: give the numbers that it was painted from, as an array (.npy) or in "
-               "grey, or take its brightness by --depth-code grey";
+               "grey" +
+               (has_map_of_rising_brightness(seen)
+                    ? ", or take its brightness by --depth-code grey"
+                    : " (--depth-code grey would give a wrong relief)");
+    const std::string lossless_form = facts.still ? "as PNG" : kWithoutLoss;
     const std::string first = is_lossless(facts.codec) || facts.bits == kRealBits
                                   ? ""
                                   : "write it without the losses of " + one_line(facts.codec) +
-                                        ", " + kWithoutLoss + ", and ";
-    return shown(facts.file) +
-           " is in colours that are neither grey nor a known code of depth: give the depth itself, "
-           "as an array (.npy) or in grey, or, if its bytes hold a code, " +
+                                        ", " + lossless_form + ", and ";
+    return shown(facts.file) + (facts.still ? " is a colour picture" : " holds colour pictures") +
+           ", not depth: its colours are neither grey nor a known code of depth; give the depth "
+           "itself, as an array (.npy) or in grey, or, if its bytes hold a code, " +
            first + "name it with --depth-code";
 }
 
@@ -376,7 +370,7 @@ std::optional<NamedPacking> packing_by_name(const fs::path& file) {
     // Only words at the end count: others may mean anything.
     for (auto word = words.rbegin(); word != words.rend(); ++word) {
         const PackingWord* const known = packing_word(*word);
-        if (known == nullptr && !is_number(*word)) break;
+        if (known == nullptr && !is_of_digits(*word)) break;
         if (known == nullptr) continue;
         if (known->packing) said.packing = *known->packing;
         said.half_size = said.half_size || known->half_size;

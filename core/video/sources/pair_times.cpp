@@ -75,18 +75,15 @@ void TimeMap::change(SourceFacts& facts) const {
 
 RetimedPictures::RetimedPictures(std::unique_ptr<PictureSource> source, TimeMap times,
                                  Timing timing, double start_s)
-    : source_(std::move(source)),
-      times_(std::move(times)),
-      timing_(std::move(timing)),
-      start_s_(start_s) {
-    update_facts();
+    : source_(std::move(source)), times_(std::move(times)), facts_(source_->facts()) {
+    times_.change(facts_);
+    facts_.timing = std::move(timing);
+    if (!std::isnan(start_s)) facts_.start_s = start_s;
 }
 
 void RetimedPictures::update_facts() {
-    facts_ = source_->facts();
+    facts_.take_progress(source_->facts());
     times_.change(facts_);
-    facts_.timing = timing_;
-    if (!std::isnan(start_s_)) facts_.start_s = start_s_;
 }
 
 std::optional<TimedPicture> RetimedPictures::retimed(std::optional<TimedPicture> taken) {
@@ -184,10 +181,9 @@ OwnedSource at_stated_rate(OwnedSource source, const Known<double>& frames_per_s
                                              std::move(timing), kAsSource);
 }
 
-/// The source at these times of its pictures, in order; they begin at `start_s`.
-OwnedSource at_times(OwnedSource source, std::vector<double> times_s, Timing timing,
-                     double start_s) {
-    std::vector<double> own_s = source->picture_times_s();
+/// The source, whose pictures have the times `own_s`, at these in order; they begin at `start_s`.
+OwnedSource at_times(OwnedSource source, std::vector<double> own_s, std::vector<double> times_s,
+                     Timing timing, double start_s) {
     const double first_s = times_s.front();
     for (double& time_s : times_s) time_s -= first_s;
     return std::make_unique<RetimedPictures>(std::move(source),
@@ -199,12 +195,15 @@ OwnedSource at_times(OwnedSource source, std::vector<double> times_s, Timing tim
 OwnedSource at_stamps(OwnedSource source) {
     Timing timing = source->facts().timing;
     const auto stamps_s = timing.stamps_s;
-    const bool fits = stamps_s && is_surer(timing.stamps_from, timing.from) &&
-                      stamps_s->size() > 1 && source->picture_times_s().size() == stamps_s->size();
-    if (!fits) return source;
+    const bool may_fit =
+        stamps_s && is_surer(timing.stamps_from, timing.from) && stamps_s->size() > 1;
+    if (!may_fit) return source;
+    std::vector<double> own_s = source->picture_times_s();
+    if (own_s.size() != stamps_s->size()) return source;
     timing.from = timing.stamps_from;
     timing.text = timing.stamps_text;
-    return at_times(std::move(source), *stamps_s, std::move(timing), stamps_s->front());
+    return at_times(std::move(source), std::move(own_s), *stamps_s, std::move(timing),
+                    stamps_s->front());
 }
 
 /// Where each picture of a source stands among the frames of another one, in frames.
@@ -297,10 +296,10 @@ bool last_as_long(const SourceFacts& a, const SourceFacts& b) {
 std::optional<double> take_times_of(const PictureSource& other, OwnedSource& source) {
     const SourceFacts& facts = source->facts();
     const std::vector<double> times_s = other.picture_times_s();
-    const std::size_t pictures = source->picture_times_s().size();
-    if (times_s.size() < 2 || pictures < 2) return std::nullopt;
-    const auto positions =
-        positions_of(facts.timing, pictures, times_s.size(), last_as_long(facts, other.facts()));
+    std::vector<double> own_s = source->picture_times_s();
+    if (times_s.size() < 2 || own_s.size() < 2) return std::nullopt;
+    const auto positions = positions_of(facts.timing, own_s.size(), times_s.size(),
+                                        last_as_long(facts, other.facts()));
     if (!positions) return std::nullopt;
     std::vector<double> taken_s;
     for (const double position : positions->at) taken_s.push_back(time_at(times_s, position));
@@ -308,7 +307,7 @@ std::optional<double> take_times_of(const PictureSource& other, OwnedSource& sou
     timing.from = TimesFrom::other;
     timing.text = "those of " + source_name(other.facts()) + ", " + positions->text;
     const double later_s = taken_s.front();
-    source = at_times(std::move(source), std::move(taken_s), std::move(timing),
+    source = at_times(std::move(source), std::move(own_s), std::move(taken_s), std::move(timing),
                       other.facts().start_s + later_s);
     return later_s;
 }

@@ -58,9 +58,7 @@ class RetimedPictures : public PictureSource {
 
     std::unique_ptr<PictureSource> source_;
     TimeMap times_;
-    Timing timing_;
-    double start_s_;
-    SourceFacts facts_{};
+    SourceFacts facts_;
 };
 
 /// How the frames of a pair go together.

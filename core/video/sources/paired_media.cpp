@@ -209,7 +209,7 @@ void PairedMedia::take_times(const PairTimes& times, const SourceFacts* colour) 
 void PairedMedia::take_range() {
     const auto& meaning = description_.meaning;
     if (!meaning || !meaning->is_metric()) return;
-    const double unit_mm = meaning->unit.value == DepthUnit::m ? 1000.0 : 1.0;
+    const double unit_mm = one_in_mm(meaning->unit.value);
     range_mm_ = {meaning->range.value.near * unit_mm, meaning->range.value.far * unit_mm};
 }
 

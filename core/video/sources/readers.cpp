@@ -153,8 +153,7 @@ const Reader& reader_of(const fs::path& place) {
     return *found;
 }
 
-Finding finding_on_form(const SourceFacts& facts) {
-    const Reader& reader = reader_of(facts.file);
+Finding finding_on_form(const Reader& reader, const SourceFacts& facts) {
     const char* const by =
         reader.decided_by == Evidence::magic ? ", by its first bytes" : ", by the files there";
     return {{},
@@ -166,9 +165,25 @@ Finding finding_on_form(const SourceFacts& facts) {
 
 std::unique_ptr<PictureSource> open_picture_source(const fs::path& place, PictureRole role) {
     set_up_libraries();
-    const Reader& reader = reader_of(place);
-    if (reader.open != nullptr) return reader.open(place, role);
-    return std::make_unique<StillFile>(place, reader.read(place, role));
+    return KnownPlace(place).open(role);
+}
+
+std::unique_ptr<PictureSource> KnownPlace::open(PictureRole role) const {
+    if (reader.open != nullptr) return reader.open(path, role);
+    return std::make_unique<StillFile>(path, reader.read(path, role));
+}
+
+std::unique_ptr<PictureSource> open_as_colour(const fs::path& place, int track) {
+    if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
+    return open_picture_source(place, PictureRole::colour);
+}
+
+std::vector<cv::Mat> colour_samples(const fs::path& place, int most, int track) {
+    try {
+        return open_as_colour(place, track)->samples(most);
+    } catch (const InputError&) {
+        return {};  // depth in a form without colours
+    }
 }
 
 /// A file that no other reader accepts goes to OpenCV's codecs without a check.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string_view>
+#include <vector>
 
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/picture_source.hpp"
@@ -39,12 +40,35 @@ struct Reader {
 /// The first reader that accepts the place. Throws InputError for a file that none can read.
 [[nodiscard]] const Reader& reader_of(const std::filesystem::path& place);
 
-/// Which reader takes the file of a source, and by what.
-[[nodiscard]] Finding finding_on_form(const SourceFacts& facts);
+/// That it takes the file of a source, and by what.
+[[nodiscard]] Finding finding_on_form(const Reader& reader, const SourceFacts& facts);
 
 /// Opens a still image, a video or a folder of pictures, by content. Throws InputError.
 [[nodiscard]] std::unique_ptr<PictureSource> open_picture_source(const std::filesystem::path& place,
                                                                  PictureRole role);
+
+/// A place and its reader.
+struct KnownPlace {
+    explicit KnownPlace(const std::filesystem::path& named)
+        : path(named), reader(reader_of(named)) {}
+
+    [[nodiscard]] bool is(PictureForm form) const { return reader.form == form; }
+    /// As open_picture_source().
+    [[nodiscard]] std::unique_ptr<PictureSource> open(PictureRole role) const;
+
+    const std::filesystem::path& path;
+    const Reader& reader;
+};
+
+/// Opens a place as colour pictures; of a video that track.
+[[nodiscard]] std::unique_ptr<PictureSource> open_as_colour(const std::filesystem::path& place,
+                                                            int track = 0);
+
+inline constexpr int kKindSamples = 6;  ///< pictures used to guess their kind
+
+/// Sample pictures of a place as colour; none of depth in real numbers, which has no colours.
+[[nodiscard]] std::vector<cv::Mat> colour_samples(const std::filesystem::path& place, int most,
+                                                  int track = 0);
 
 /// Reads a still image, or the first picture of an array. Depth keeps its levels and channels,
 /// colour becomes 8-bit BGR. Throws InputError.

@@ -65,13 +65,6 @@ Json asset_of(const std::string& text) {
     return asset;
 }
 
-std::optional<double> number_in(const Json& object, const char* key) {
-    const auto found = object.find(key);
-    if (found == object.end() || !found->is_number()) return std::nullopt;
-    const double number = found->get<double>();
-    return std::isfinite(number) ? std::optional(number) : std::nullopt;
-}
-
 struct Pair {
     double x{0.0}, y{0.0};
 };
@@ -81,8 +74,8 @@ std::optional<Pair> pair_in(const Json& object, const char* key, const char* x =
                             const char* y = "y") {
     const auto found = object.find(key);
     if (found == object.end() || !found->is_object()) return std::nullopt;
-    const auto first = number_in(*found, x);
-    const auto second = number_in(*found, y);
+    const auto first = finite_number_in(*found, x);
+    const auto second = finite_number_in(*found, y);
     if (!first || !second) return std::nullopt;
     return Pair{*first, *second};
 }
@@ -143,7 +136,8 @@ std::optional<PackedForm> depthkit_form(const Json& metadata, cv::Size picture, 
     if (nested && perspectives->size() != 1) return std::nullopt;
     const Json& camera = nested ? perspectives->front() : metadata;
     if (!camera.is_object()) return std::nullopt;
-    const auto range = range_of(number_in(camera, "nearClip"), number_in(camera, "farClip"));
+    const auto range =
+        range_of(finite_number_in(camera, "nearClip"), finite_number_in(camera, "farClip"));
     const auto crop = crop_of(camera);
     if (!range || !crop || !(of_that_name || has_proportions(picture, *crop))) return std::nullopt;
     PackedForm form;

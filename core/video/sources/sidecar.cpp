@@ -150,6 +150,15 @@ auto word_of(const toml::node& node, const Values& values) {
     return named;
 }
 
+/// "is none of counted, own, paired".
+template <typename Values>
+std::string is_none_of(const Values& values) {
+    std::string names;
+    for (const auto value : values)
+        names += (names.empty() ? "" : ", ") + std::string(name_of(value));
+    return "is none of " + names;
+}
+
 /// "depth-unit", "depth_unit" and "unit" are one name.
 std::string plain_name(std::string_view key) {
     std::string name(key);
@@ -160,7 +169,7 @@ std::string plain_name(std::string_view key) {
 
 /// Stores one fact. Returns what is wrong with it; empty: nothing.
 std::string take(const std::string& name, const toml::node& node, DepthStatement& said) {
-    const auto keep = [](auto& fact, auto value, const char* lacking) -> std::string {
+    const auto keep = [](auto& fact, auto value, const std::string& lacking) -> std::string {
         if (!value) return lacking;
         fact = *value;
         return {};
@@ -169,17 +178,14 @@ std::string take(const std::string& name, const toml::node& node, DepthStatement
     if (automatic) return {};
     if (name == "near")
         return keep(said.near, word_of(node, kNearLevels), "is neither bright nor dark");
-    if (name == "unit")
-        return keep(said.unit, word_of(node, kDepthUnits), "is none of levels, disparity, mm, m");
+    if (name == "unit") return keep(said.unit, word_of(node, kDepthUnits), is_none_of(kDepthUnits));
     if (name == "packing")
-        return keep(said.packing, word_of(node, kDepthPackings), "is not the name of a packing");
-    if (name == "code")
-        return keep(said.code, word_of(node, kDepthCodes),
-                    "is none of grey, hue, rg16, rgb24, float32, terrain");
+        return keep(said.packing, word_of(node, kDepthPackings), is_none_of(kDepthPackings));
+    if (name == "code") return keep(said.code, word_of(node, kDepthCodes), is_none_of(kDepthCodes));
     if (name == "geometry")
         return keep(said.geometry, word_of(node, kGeometries), "is neither relief nor true");
     if (name == "times")
-        return keep(said.times, word_of(node, kDepthTimes), "is none of counted, own, paired");
+        return keep(said.times, word_of(node, kDepthTimes), is_none_of(kDepthTimes));
     if (name == "intrinsics")
         return keep(
             said.intrinsics, intrinsics_of(node),

@@ -2,8 +2,6 @@
 #include "core/video/sources/sources.hpp"
 
 #include <algorithm>
-#include <iterator>
-#include <limits>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -23,9 +21,8 @@
 #include "core/video/formats/bags/ros_bag.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
-#include "core/video/formats/video_file.hpp"
+#include "core/video/sources/coded_colours.hpp"
 #include "core/video/sources/depth_finding.hpp"
-#include "core/video/sources/layouts/data_sets.hpp"
 #include "core/video/sources/layouts/layouts.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
@@ -40,36 +37,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int kKindSamples = 6;  ///< pictures used to guess their kind
-
-/// A place and its reader.
-struct Place {
-    explicit Place(const fs::path& named) : path(named), reader(reader_of(named)) {}
-
-    [[nodiscard]] bool is(PictureForm form) const { return reader.form == form; }
-
-    const fs::path& path;
-    const Reader& reader;
-};
-
-cv::Size picture_size(const fs::path& place) {
-    const auto source = open_picture_source(place, PictureRole::colour);
+cv::Size picture_size(const KnownPlace& place) {
+    const auto source = place.open(PictureRole::colour);
     return {source->facts().columns, source->facts().rows};
-}
-
-/// Opens a place as colour pictures; of a video that track.
-std::unique_ptr<PictureSource> open_as_colour(const fs::path& place, int track = 0) {
-    if (track > 0) return std::make_unique<VideoFile>(place, PictureRole::colour, track);
-    return open_picture_source(place, PictureRole::colour);
-}
-
-/// Sample pictures of a place as colour; none of depth in real numbers, which has no colours.
-std::vector<cv::Mat> colour_samples(const fs::path& place, int most, int track = 0) {
-    try {
-        return open_as_colour(place, track)->samples(most);
-    } catch (const InputError&) {
-        return {};  // depth in a form without colours
-    }
 }
 
 /// The stated code of the depth takes the place of the one that was found.
@@ -82,10 +52,10 @@ void state_code(PackedForm& form, const DepthStatement& statement) {
 }
 
 /// The packing in halves by the statement, a recorder's metadata or the name; else nothing.
-std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& statement) {
+std::optional<PackedForm> packed_form(const KnownPlace& place, const DepthStatement& statement) {
     std::optional<PackedForm> form;
     if (statement.packing && !is_of_halves(*statement.packing)) return form;
-    if (place.is(PictureForm::video)) form = form_by_recorder(place.path, picture_size(place.path));
+    if (place.is(PictureForm::video)) form = form_by_recorder(place.path, picture_size(place));
     const auto named = packing_by_name(place.path);
     if (!form && named && (named->names_depth || statement.packing))
         form = PackedForm{
@@ -104,144 +74,50 @@ std::optional<PackedForm> packed_form(const Place& place, const DepthStatement& 
 }
 
 /// What the pictures of a place look like; of a bag, which names its topics: nothing.
-PictureGuess guess_of(const Place& place) {
+PictureGuess guess_of(const KnownPlace& place) {
     if (place.is(PictureForm::bag)) return {};
     return guess_kind(colour_samples(place.path, kKindSamples));
 }
 
+Sources halves_of(const KnownPlace& place, const PackedForm& form) {
+    Sources halves = open_packed(place.path, form);
+    halves.reader = &place.reader;
+    return halves;
+}
+
 /// The halves, where the pictures look packed; else nothing.
-std::optional<Sources> halves_as_guessed(const Place& place, const PictureGuess& guess,
+std::optional<Sources> halves_as_guessed(const KnownPlace& place, const PictureGuess& guess,
                                          const DepthStatement& statement) {
     if (guess.kind != PictureKind::packed) return std::nullopt;
     PackedForm form = form_by_appearance(guess);
     state_code(form, statement);
-    return open_packed(place.path, form);
+    return halves_of(place, form);
 }
 
 /// The same, unless a packing is stated.
-std::optional<Sources> halves_by_appearance(const Place& place, const DepthStatement& statement) {
+std::optional<Sources> halves_by_appearance(const KnownPlace& place,
+                                            const DepthStatement& statement) {
     if (statement.packing) return std::nullopt;
     return halves_as_guessed(place, guess_of(place), statement);
 }
 
-/// 8-bit blue, green and red of a depth picture, for statistics; empty where it has none.
-cv::Mat seen_colours(const cv::Mat& picture) {
-    if (picture.channels() < 3) return {};
-    cv::Mat colours = picture;
-    if (picture.channels() == 4) cv::cvtColor(picture, colours, cv::COLOR_BGRA2BGR);
-    if (colours.depth() == CV_8U) return colours;
-    double highest = highest_level(16);
-    if (colours.depth() != CV_16U) {
-        const cv::Mat numbers = colours.reshape(1);
-        const cv::Mat finite = cv::abs(numbers) <= std::numeric_limits<float>::max();
-        cv::minMaxIdx(numbers, nullptr, &highest, nullptr, nullptr, finite);
-    }
-    cv::Mat seen;
-    colours.convertTo(seen, CV_8U, highest > 0.0 ? highest_level(8) / highest : 0.0);
-    return seen;
-}
-
-/// Samples of the depth with its colours; `halves`: it is a half of the place's pictures, null: it
-/// is all. The depth of a video that is not coded in red, green and blue is its luma: then the
-/// video is read again.
-std::vector<cv::Mat> depth_samples(const Place& place, Sources& sources, int most,
-                                   const PackedForm* halves) {
-    const bool is_video = place.is(PictureForm::video);
-    if (!is_video || halves == nullptr) {
-        const std::vector<cv::Mat> first = sources.depth->samples(1);
-        const bool is_luma = is_video && !first.empty() && first.front().channels() < 3;
-        if (!is_luma) return most == 1 ? first : sources.depth->samples(most);
-    }
-    std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
-    for (cv::Mat& picture : pictures) {
-        if (halves != nullptr)
-            picture = picture(
-                half_of(picture.size(), halves->packing, PictureRole::depth, halves->gap_px));
-    }
-    return pictures;
-}
-
-/// What the colours of a depth hold; grey where it has none.
-struct ColoursOfDepth {
-    PictureKind kind{PictureKind::grey_depth};
-    DepthCode bytes{DepthCode::grey};  ///< for byte_depth
-};
-
-ColoursOfDepth colours_of_depth(const Place& place, Sources& sources,
-                                const PackedForm* halves = nullptr) {
-    if (sources.depth->facts().channels == 1) return {};
-    // The first picture first, as sampling more takes time.
-    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
-    if (first.empty() || first.front().channels() < 3 || !is_coloured(seen_colours(first.front())))
-        return {};
-    const std::vector<cv::Mat> pictures = depth_samples(place, sources, kKindSamples, halves);
-    const auto code = byte_code_in(pictures);
-    if (code && may_hold_bytes(*sources.depth, *code)) return {PictureKind::byte_depth, *code};
-    if (code || first.front().depth() == CV_32F) return {PictureKind::photo};
-    std::vector<cv::Mat> seen;
-    std::transform(pictures.begin(), pictures.end(), std::back_inserter(seen), seen_colours);
-    return {guess_kind(seen).kind};
-}
-
-/// The pictures of the depth with their colours.
-std::unique_ptr<PictureSource> in_colours(const Place& place, Sources& sources) {
-    if (!place.is(PictureForm::video) && !place.is(PictureForm::still))
-        return std::move(sources.depth);
-    return open_as_colour(place.path, sources.depth_track);
-}
-
-void decode_colours(const Place& place, DepthCode code, bool is_stated, Sources& sources) {
-    const Finding coded = finding_on_code(code, is_stated);
-    if (is_of_bytes(code))
-        sources.depth = byte_decoded(std::move(sources.depth), code, coded);
-    else
-        sources.depth = hue_decoded(in_colours(place, sources), HueCode{}, coded);
-}
-
-/// Keeps the refusal of depth in colours; `halves` as in depth_samples().
-void refuse_colours(const Place& place, const PackedForm* halves, Sources& sources) {
-    const std::vector<cv::Mat> first = depth_samples(place, sources, 1, halves);
-    sources.not_depth = refusal_of_colours(sources.depth->facts(),
-                                           first.empty() ? cv::Mat() : seen_colours(first.front()));
-}
-
-/// Decodes depth coded as colours: as the statement says, else as the pictures look.
-Sources decoded(const Place& place, Sources sources, const DepthStatement& statement) {
-    const auto stated = statement.code;
-    if (stated && *stated != DepthCode::grey && !is_of_levels(*stated)) {
-        decode_colours(place, *stated, true, sources);
-        return sources;
-    }
-    const ColoursOfDepth colours = colours_of_depth(place, sources);
-    const bool is_ramp = colours.kind == PictureKind::ramp_depth;
-    if (is_ramp) sources.depth = ramp_decoded(in_colours(place, sources));
-    if (stated || is_ramp || colours.kind == PictureKind::grey_depth) return sources;
-    if (colours.kind == PictureKind::hue_depth)
-        decode_colours(place, DepthCode::hue, false, sources);
-    else if (colours.kind == PictureKind::byte_depth)
-        decode_colours(place, colours.bytes, false, sources);
-    else
-        refuse_colours(place, nullptr, sources);
-    return sources;
-}
-
 /// Colour and depth of one place; no depth when it does not hold both.
-Sources both_in(const Place& place, const DepthStatement& statement) {
+Sources both_in(const KnownPlace& place, const DepthStatement& statement) {
     if (place.reader.open_both == nullptr) return {};
     Sources both = place.reader.open_both(place.path);
+    both.reader = &place.reader;
     const bool may_be_coded = both.depth != nullptr &&
                               (place.is(PictureForm::video) || both.depth->facts().channels != 1);
     if (!may_be_coded) return both;
-    both = decoded(place, std::move(both), statement);
+    both = with_decoded_colours(place, std::move(both), statement);
     // Of a film of two angles neither is depth.
     const bool is_of_angles = place.is(PictureForm::video) && !both.not_depth.empty();
     return is_of_angles ? Sources{} : std::move(both);
 }
 
 /// The depth of a place that holds no colour.
-Sources depth_in(const Place& place, const DepthStatement& statement) {
-    return decoded(place, {open_picture_source(place.path, PictureRole::depth), nullptr},
-                   statement);
+Sources depth_in(const KnownPlace& place, const DepthStatement& statement) {
+    return with_decoded_colours(place, {place.open(PictureRole::depth), nullptr}, statement);
 }
 
 /// Whether its name surely says what its levels are, as of heights.
@@ -253,7 +129,7 @@ bool names_levels(const SourceFacts& facts) {
 }
 
 /// Whether a single place is depth: by its name, its levels or its appearance, which is a guess.
-bool is_depth(const Place& place, const PictureGuess& guess) {
+bool is_depth(const KnownPlace& place, const PictureGuess& guess) {
     if (named_depth(place.path) || place.is(PictureForm::bag)) return true;
     if (place.is(PictureForm::row)) {
         const PictureSet found = pictures_at(place.path);
@@ -261,7 +137,7 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
         if (found.unnamed.empty()) return false;
     }
     if (guess.kind != PictureKind::photo && guess.kind != PictureKind::packed) return true;
-    const auto source = open_picture_source(place.path, PictureRole::depth);
+    const auto source = place.open(PictureRole::depth);
     const SourceFacts& facts = source->facts();
     if (facts.bits > 8) return facts.channels == 1 || level_code_in(source->samples(1));
     // Heights of a material look like any grey picture.
@@ -271,7 +147,7 @@ bool is_depth(const Place& place, const PictureGuess& guess) {
     return !first.empty() && !is_coloured(first.front());
 }
 
-constexpr const char* kAllTheSame = "; if it is depth all the same, say --depth-code grey";
+constexpr const char* kAllTheSame = "; if it is depth all the same, add --depth-code grey";
 
 /// " is named as a mask", by the name of a place or that of the folder of a picture that has only
 /// a number; empty: the names say nothing against depth.
@@ -290,7 +166,32 @@ bool is_below_depth(const fs::path& place) {
             subject_of(folder.parent_path().filename()).empty());
 }
 
-[[noreturn]] void refuse_without_depth(const fs::path& colour, const std::string& looked_for) {
+/// " is a colour picture": what a place without depth is, after its name.
+std::string content_of_colour(const KnownPlace& place, bool is_grey) {
+    const std::string colour = is_grey ? "grey" : "colour";
+    if (place.is(PictureForm::video)) return " is a " + colour + " video";
+    return place.is(PictureForm::still) ? " is a " + colour + " picture"
+                                        : " holds " + colour + " pictures";
+}
+
+/// What to do about a picture whose alpha is not the same everywhere, so that it may be its depth.
+std::string advice_on_alpha(const KnownPlace& place) {
+    if (!place.is(PictureForm::still)) return {};
+    const std::vector<cv::Mat> pictures = place.open(PictureRole::depth)->samples(1);
+    if (pictures.empty() || pictures.front().channels() != 4) return {};
+    cv::Mat alpha;
+    cv::extractChannel(pictures.front(), alpha, 3);
+    double lowest = 0.0;
+    double highest = 0.0;
+    cv::minMaxIdx(alpha, &lowest, &highest);
+    if (lowest == highest) return {};
+    return filled_advice(
+        ", take it from its alpha if that is depth (ffmpeg -i {} -vf alphaextract depth.png)",
+        place.path);
+}
+
+[[noreturn]] void refuse_without_depth(const KnownPlace& place, const std::string& looked_for) {
+    const fs::path& colour = place.path;
     constexpr const char* kOrEstimate = ", or let an estimator make it (dibhr help depth)";
     const std::vector<cv::Mat> seen = colour_samples(colour, kKindSamples);
     if (!seen.empty() && has_painted_half(seen.front()))
@@ -300,29 +201,33 @@ bool is_below_depth(const fs::path& place) {
                          "it as the second file");
     if (const std::string named = no_depth_by_name(colour); !named.empty())
         throw DepthMissing(shown(colour) + named +
-                           ", neither as colour nor as depth: give the file of the depth, and "
-                           "before it that of the colour" +
+                           ", neither as colour nor as depth: give the depth file, and before it "
+                           "the colour file" +
                            kAllTheSame);
     const bool is_grey = !seen.empty() && std::none_of(seen.begin(), seen.end(), is_coloured);
     if (is_grey && !named_colour(colour))
-        throw DepthMissing(shown(colour) + " is grey and does not look like depth" + kAllTheSame +
-                           "; if it is the colour, it needs a depth file beside it: give one as "
-                           "the second file" +
+        throw DepthMissing(shown(colour) +
+                           " is grey and does not look like depth: if it is depth, add "
+                           "--depth-code grey; if it is a photo, it needs a depth file beside it: "
+                           "give one as the second file" +
                            kOrEstimate);
     if (!seen.empty() && !is_grey && is_below_depth(colour))
         throw DepthMissing(refusal_of_colours(
             open_picture_source(colour, PictureRole::colour)->facts(), seen.front()));
     if (!seen.empty() && std::all_of(seen.begin(), seen.end(), is_colour_mapped))
         throw DepthMissing(shown(colour) +
-                           " is painted in the colours of a map (jet, viridis, ...) and needs a "
+                           " is painted in false colours (such as jet or viridis) and needs a "
                            "depth file beside it: give the numbers that it was painted from, as an "
                            "array (.npy) or in grey, as the second file");
     if (const std::string advice = advice_on_depth_within(colour); !advice.empty())
         throw DepthMissing(shown(colour) + advice);
-    throw DepthMissing(shown(colour) +
-                       " needs a depth file beside it: give one as the second file" +
+    if (jpeg_has_gain_map(colour)) throw DepthMissing(shown(colour) + kGainMapAlone);
+    throw DepthMissing(shown(colour) + content_of_colour(place, is_grey) +
+                       " without depth and needs a depth file beside it: give one as the second "
+                       "file" +
                        (looked_for.empty() ? "" : " (looked for " + looked_for + ")") +
-                       ", name its halves if it holds both (--packing)" + kOrEstimate);
+                       advice_on_alpha(place) + ", name its halves if it holds both (--packing)" +
+                       kOrEstimate);
 }
 
 cv::Mat grey_picture(const cv::Mat& picture) {
@@ -337,8 +242,8 @@ std::string other_than_depth(const fs::path& place, Sources& sources) {
     const SourceFacts& facts = sources.depth->facts();
     if (named_depth(place) || has_decoded_levels(facts)) return {};
     if (!named_no_depth(place).empty()) return no_depth_by_name(place) + ", not as depth";
-    const bool is_known =
-        named_depth(place.parent_path().filename()) || data_set_of(facts) || names_levels(facts);
+    const bool is_known = named_depth(place.parent_path().filename()) ||
+                          sources.data_set.of(facts) || names_levels(facts);
     if (facts.bits > 8 || is_known) return {};
     const std::vector<cv::Mat> depth = sources.depth->samples(1);
     const std::vector<cv::Mat> colour = sources.colour->samples(1);
@@ -374,11 +279,11 @@ Sources of_two_places(const fs::path& colour, const fs::path& depth,
                       const DepthStatement& statement) {
     Sources sources;
     if (is_row(colour) && is_row(depth)) {
-        sources = decoded(Place(depth), rows_of_two(colour, depth), statement);
+        sources = with_decoded_colours(KnownPlace(depth), rows_of_two(colour, depth), statement);
     } else {
         // First, so that an error of the colour file is not reported as one of the depth.
         auto colour_source = open_picture_source(colour, PictureRole::colour);
-        sources = depth_in(Place(depth), statement);
+        sources = depth_in(KnownPlace(depth), statement);
         sources.colour = std::move(colour_source);
     }
     if (colour != depth) inspect_second_place(depth, statement, sources);
@@ -387,8 +292,8 @@ Sources of_two_places(const fs::path& colour, const fs::path& depth,
 
 /// The halves as the form states. Where nothing states how depth is coded, a half in colours is
 /// looked at.
-Sources open_halves(const Place& place, PackedForm form, const DepthStatement& statement) {
-    Sources sources = open_packed(place.path, form);
+Sources open_halves(const KnownPlace& place, PackedForm form, const DepthStatement& statement) {
+    Sources sources = halves_of(place, form);
     if (form.hue || statement.code) return sources;
     const ColoursOfDepth colours = colours_of_depth(place, sources, &form);
     if (colours.kind == PictureKind::grey_depth) return sources;
@@ -402,12 +307,12 @@ Sources open_halves(const Place& place, PackedForm form, const DepthStatement& s
         refuse_colours(place, &form, sources);
         return sources;
     }
-    return open_packed(place.path, form);
+    return halves_of(place, form);
 }
 
 /// Colour and depth of one place by its tracks, names or metadata, or by the statement; no depth
 /// where these give none.
-Sources both_as_stated(const Place& place, const DepthStatement& statement) {
+Sources both_as_stated(const KnownPlace& place, const DepthStatement& statement) {
     if (!statement.packing || !is_of_halves(*statement.packing)) {
         if (Sources both = both_in(place, statement); both.depth) return both;
     }
@@ -417,7 +322,7 @@ Sources both_as_stated(const Place& place, const DepthStatement& statement) {
 }
 
 /// Guesses the content of a place from its pictures: halves, depth alone, or colour alone.
-Sources guessed_content(const Place& place, const DepthStatement& statement) {
+Sources guessed_content(const KnownPlace& place, const DepthStatement& statement) {
     const PictureGuess guess = guess_of(place);
     if (!statement.packing) {
         if (auto halves = halves_as_guessed(place, guess, statement)) return std::move(*halves);
@@ -427,11 +332,11 @@ Sources guessed_content(const Place& place, const DepthStatement& statement) {
         // Bytes that carry as those of numbers, but are lost, are the colours of a photo.
         if (guess.kind != PictureKind::byte_depth || depth.not_depth.empty()) return depth;
     }
-    return {nullptr, open_picture_source(place.path, PictureRole::colour)};
+    return {nullptr, place.open(PictureRole::colour)};
 }
 
 /// The same place was given twice: it holds both, else its pictures are colour and depth at once.
-Sources of_the_same_place(const Place& place, const DepthStatement& statement) {
+Sources of_the_same_place(const KnownPlace& place, const DepthStatement& statement) {
     if (Sources both = both_as_stated(place, statement); both.depth) return both;
     auto halves = halves_by_appearance(place, statement);
     return halves ? std::move(*halves) : of_two_places(place.path, place.path, statement);
@@ -439,87 +344,29 @@ Sources of_the_same_place(const Place& place, const DepthStatement& statement) {
 
 /// Throws InputError for an array that is by its name a mask, confidence, ..., unless a person says
 /// what its levels are.
-void require_no_other_content(const Place& place, const DepthStatement& statement) {
+void require_no_other_content(const KnownPlace& place, const DepthStatement& statement) {
     const std::string_view other = named_other(place.path);
     if (!place.is(PictureForm::arrays) || other.empty() || statement.near || statement.unit) return;
+    // First, as an array of another shape is refused with the step that mends it.
+    const int channels = place.open(PictureRole::depth)->facts().channels;
     throw InputError(shown(place.path) + " is by its name " + std::string(other) +
-                     " and no depth: give the depth that it belongs to, or say what its levels are "
-                     "(--near, --depth-unit)");
+                     " and no depth: give the depth that it belongs to" +
+                     (channels > 1 ? "" : ", or add what its levels are (--near, --depth-unit)"));
 }
 
 /// One place was given: it holds both, or depth is beside it, or it is depth alone.
-Sources of_one_place(const Place& place, const DepthStatement& statement) {
+Sources of_one_place(const KnownPlace& place, const DepthStatement& statement) {
     if (Sources both = both_as_stated(place, statement); both.depth) return both;
     std::string looked_for;
     if (const auto depth = find_depth_beside(place.path, looked_for))
         return of_two_places(place.path, *depth, statement);
     require_no_other_content(place, statement);
     Sources sources = guessed_content(place, statement);
-    if (!sources.depth) refuse_without_depth(place.path, looked_for);
+    if (!sources.depth) refuse_without_depth(place, looked_for);
     return sources;
 }
 
-void decode_as(Sources& sources, DepthCode code, const InverseLevels& law, const Finding& coded) {
-    sources.depth = level_decoded(std::move(sources.depth), code, law, coded);
-    sources.not_depth.clear();
-}
-
-/// As a person says.
-void decode_as_stated(Sources& sources, DepthCode code) {
-    const auto set = data_set_of(sources.depth->facts());
-    const bool is_of_set = set && set->finding.statement.code == code;
-    if (code == DepthCode::stereo && !is_of_set)
-        throw InputError(shown(sources.depth->facts().file) +
-                         " has no calib.txt beside it, which --depth-code stereo needs: put that "
-                         "of the data set there, or give --depth-unit disparity");
-    if (is_of_set)
-        decode_as(sources, code, set->law, set->finding);
-    else
-        decode_as(sources, code, kKinectLevels, finding_on_code(code, true));
-}
-
-/// The unit of the levels as they are, where metadata, a layout or a name state it.
-std::optional<DepthUnit> stated_unit(const SourceFacts& facts) {
-    const auto by_reader = sure_facts({}, facts.findings).unit;
-    return by_reader ? by_reader : sure_facts({}, findings_by_name(facts)).unit;
-}
-
-/// As its data set says, where the levels do not contradict it; else as the levels themselves show.
-/// What their bits show counts only where nothing states something else.
-void decode_as_found(Sources& sources) {
-    const SourceFacts facts = sources.depth->facts();
-    const auto set = data_set_of(facts);
-    const auto code = set ? set->finding.statement.code : std::nullopt;
-    if (code && is_of_levels(*code)) {
-        if (may_be_of(sources.depth->samples(kKindSamples), *code))
-            decode_as(sources, *code, set->law, set->finding);
-        return;
-    }
-    const bool may_show = facts.bits == 16 ? facts.channels == 1 : facts.channels == 3;
-    if (!may_show) return;
-    const auto seen = level_code_in(sources.depth->samples(1));
-    if (seen && has_whole_numbers(*seen)) {
-        const auto unit = stated_unit(facts);
-        const bool agrees = seen == DepthCode::depth16 && unit == DepthUnit::mm;
-        const bool is_of_set = set && set->finding.sureness >= kSureEnough;
-        if (is_of_set || (unit && !agrees)) return;
-    }
-    if (seen) decode_as(sources, *seen, kKinectLevels, finding_on_code(*seen, false));
-}
-
 }  // namespace
-
-void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out) {
-    const SourceFacts& facts = sources.depth->facts();
-    if (has_decoded_levels(facts)) return;
-    if (statement.code) {
-        if (is_of_levels(*statement.code)) decode_as_stated(sources, *statement.code);
-        return;
-    }
-    const bool means_own =
-        statement.unit == DepthUnit::levels || statement.unit == DepthUnit::disparity;
-    if (find_out && !means_own && !facts.live && facts.bits >= 16) decode_as_found(sources);
-}
 
 Sources find_sources(const fs::path& colour, const fs::path& depth,
                      const DepthStatement& statement) {
@@ -527,9 +374,9 @@ Sources find_sources(const fs::path& colour, const fs::path& depth,
     const MediaPlaces places = places_for(colour, depth);
     Sources sources;
     if (places.depth.empty())
-        sources = of_one_place(Place(places.colour), statement);
+        sources = of_one_place(KnownPlace(places.colour), statement);
     else if (places.depth == places.colour)
-        sources = of_the_same_place(Place(places.colour), statement);
+        sources = of_the_same_place(KnownPlace(places.colour), statement);
     else
         sources = of_two_places(places.colour, places.depth, statement);
     add_clause(sources.notice, places.notice);
@@ -539,7 +386,7 @@ Sources find_sources(const fs::path& colour, const fs::path& depth,
 Sources find_depth(const fs::path& place, const DepthStatement& statement) {
     set_up_libraries();
     const fs::path found = depth_place_for(place);
-    const Place depth(found);
+    const KnownPlace depth(found);
     Sources sources = both_as_stated(depth, statement);
     if (!sources.depth) {
         require_no_other_content(depth, statement);
@@ -557,7 +404,7 @@ Sources find_content(const fs::path& place, const DepthStatement& statement) {
     if (!places.depth.empty()) {
         sources = of_two_places(places.colour, places.depth, statement);
     } else {
-        const Place only(places.colour);
+        const KnownPlace only(places.colour);
         sources = both_as_stated(only, statement);
         if (!sources.depth) {
             require_no_other_content(only, statement);

@@ -7,16 +7,20 @@
 
 #include "core/video/depth/findings.hpp"
 #include "core/video/formats/picture_source.hpp"
+#include "core/video/sources/layouts/data_sets.hpp"
 
 namespace dibhr {
 
 class LiveFeed;
+struct Reader;
 
 /// The sources found, and what was found out on the way.
 struct Sources {
     std::unique_ptr<PictureSource> depth{};   ///< null: only of find_content(), colour alone
     std::unique_ptr<PictureSource> colour{};  ///< null: depth alone
     Findings findings{};                      ///< beside those of the depth's source
+    const Reader* reader{nullptr};            ///< that took the depth's file; null: live
+    KnownDataSet data_set{};                  ///< of the depth
     int depth_track{0};                       ///< track number in a video
     std::string notice{};                     ///< see MediaDescription
     std::shared_ptr<LiveFeed> live{};         ///< feed of live sources; null: files
@@ -35,11 +39,6 @@ struct Sources {
 /// The depth in a place, without the colour.
 [[nodiscard]] Sources find_depth(const std::filesystem::path& place,
                                  const DepthStatement& statement);
-
-/// Decodes depth in levels that are no distances (level_code.hpp): of the code that is stated;
-/// else, if it may `find_out`, of that of its data set or of its numbers, unless the statement says
-/// what the file's own levels mean. Throws InputError where it has no levels of the stated code.
-void decode_levels(Sources& sources, const DepthStatement& statement, bool find_out);
 
 /// The content of a place: colour, depth or both; ignores files beside it.
 [[nodiscard]] Sources find_content(const std::filesystem::path& place,

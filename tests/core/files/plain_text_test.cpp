@@ -4,6 +4,7 @@
 #include <ostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "core/files/terminal.hpp"
 #include "tests/support/catch.hpp"
@@ -15,6 +16,12 @@ TEST_CASE("no text means anything to a browser", "[files]") {
           "&lt;script&gt;alert(&quot;x&quot; &amp; &#39;y&#39;)&lt;/script&gt;");
     CHECK(html_text("J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90") ==
           "J\xC3\xBCrgen \xE2\x82\xAC \xF0\x9F\x96\x90");
+}
+
+TEST_CASE("words are runs of letters and digits, in small letters", "[files]") {
+    CHECK(plain_words_of("Timestamp [ns]") == std::vector<std::string>{"timestamp", "ns"});
+    CHECK(plain_words_of("_take2__RGBD_") == std::vector<std::string>{"take2", "rgbd"});
+    CHECK(plain_words_of(" - ").empty());
 }
 
 TEST_CASE("bytes that are no letters are replaced one by one", "[files]") {

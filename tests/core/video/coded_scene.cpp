@@ -84,8 +84,32 @@ cv::Vec3b as_ramp(float depth) {
     return {level_of(along), level_of(along - 1.0), level_of(along - 2.0)};
 }
 
+namespace {
+
+/// Channels of OpenCV's pictures for the bytes of a number, the lowest byte first.
+std::vector<std::size_t> channels_of_bytes(DepthCode code) {
+    switch (code) {
+        case DepthCode::rg16:
+            return {1, 2};
+        case DepthCode::gb16:
+            return {0, 1};
+        case DepthCode::bgr24:
+        case DepthCode::terrain:
+            return {0, 1, 2};
+        case DepthCode::float32:
+            return {2, 1, 0, 3};
+        case DepthCode::float32_bgra:
+            return {0, 1, 2, 3};
+        default:
+            return {2, 1, 0};  // rgb24
+    }
+}
+
+}  // namespace
+
 cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code) {
-    const bool is_float = code == DepthCode::float32;
+    const std::vector<std::size_t> channels = channels_of_bytes(code);
+    const bool is_float = channels.size() == 4;
     cv::Mat picture(numbers.rows, numbers.cols, is_float ? CV_8UC4 : CV_8UC3, cv::Scalar::all(0.0));
     for (int j = 0; j < picture.rows; ++j) {
         for (int i = 0; i < picture.cols; ++i) {
@@ -96,16 +120,9 @@ cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code) {
                 is_float ? std::bit_cast<std::uint32_t>(number)
                          : static_cast<std::uint32_t>(std::lround(
                                code == DepthCode::terrain ? 10.0 * (real + 10000.0) : real));
-            std::array<std::uint8_t, 4> bytes{};  // the lowest first
-            for (unsigned k = 0; k < 4; ++k)
-                bytes[k] = static_cast<std::uint8_t>(bits >> (8U * k) & 0xffU);
             std::uint8_t* const bgra = picture.ptr<std::uint8_t>(j) + i * picture.channels();
-            const bool is_rg = code == DepthCode::rg16;
-            const bool red_is_high = is_rg || code == DepthCode::terrain;
-            bgra[0] = is_rg ? std::uint8_t{0} : bytes[red_is_high ? 0 : 2];
-            bgra[1] = bytes[is_rg ? 0 : 1];
-            bgra[2] = bytes[is_rg ? 1 : red_is_high ? 2 : 0];
-            if (is_float) bgra[3] = bytes[3];
+            for (std::size_t k = 0; k < channels.size(); ++k)
+                bgra[channels[k]] = static_cast<std::uint8_t>(bits >> (8U * k) & 0xffU);
         }
     }
     return picture;

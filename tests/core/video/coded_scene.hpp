@@ -23,7 +23,7 @@ inline constexpr int kSceneRows = 240;
 [[nodiscard]] cv::Vec3b as_grey(float depth);  ///< white near, black none
 [[nodiscard]] cv::Vec3b as_ramp(float depth);  ///< white, cyan, blue, black
 
-/// Numbers in the bytes of the channels, as 8-bit BGR, for float32 BGRA; not finite: all bytes 0.
+/// Numbers in the bytes of the channels, as 8-bit BGR, for floats BGRA; not finite: all bytes 0.
 /// `numbers`: CV_32F; metres for terrain.
 [[nodiscard]] cv::Mat in_bytes(const cv::Mat& numbers, DepthCode code);
 

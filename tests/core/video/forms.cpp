@@ -3,6 +3,7 @@
 
 #include <zip.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -71,8 +72,9 @@ std::string pfm(const cv::Mat& picture, const std::string& scale, bool little) {
     return bytes;
 }
 
-std::string tiff(int columns, int rows, int bits, int format, bool little,
-                 const std::string& data, const std::string& no_data, bool is_geographic) {
+std::string tiff(int columns, int rows, int bits, int format, bool little, const std::string& data,
+                 const std::string& no_data, bool is_geographic,
+                 const std::map<int, std::string>& texts) {
     std::string bytes = little ? "II" : "MM";
     const auto add16 = [&](int number) {
         append_bytes(bytes, static_cast<std::uint16_t>(number), little);
@@ -87,22 +89,34 @@ std::string tiff(int columns, int rows, int bits, int format, bool little,
         int type{4};  ///< 32 bits
         std::size_t count{1};
     };
-    std::vector<Tag> tags{
-        {256, static_cast<std::size_t>(columns)}, {257, static_cast<std::size_t>(rows)},
-        {258, static_cast<std::size_t>(bits)},    {259, 1},
-        {262, 1},                                 {273, 8},
-        {277, 1},                                 {278, static_cast<std::size_t>(rows)},
-        {279, data.size()},                       {339, static_cast<std::size_t>(format)}};
+    std::vector<Tag> tags{{256, static_cast<std::size_t>(columns)},
+                          {257, static_cast<std::size_t>(rows)},
+                          {258, static_cast<std::size_t>(bits)},
+                          {259, 1},
+                          {262, 1},
+                          {273, 8},
+                          {277, 1},
+                          {278, static_cast<std::size_t>(rows)},
+                          {279, data.size()},
+                          {339, static_cast<std::size_t>(format)}};
     constexpr int kText = 2;
     constexpr int kShort = 3;
     const std::string mark = no_data + std::string(8 - no_data.size() % 8, '\0');
     const std::size_t after = 8 + data.size();
     if (is_geographic) tags.push_back({34735, after, kShort, 4});
     if (!no_data.empty()) tags.push_back({42113, after + 8, kText, mark.size()});
-    add32(after + 8 + mark.size());
+    std::string behind = mark;
+    for (const auto& [name, of_tag] : texts) {
+        const std::string padded = of_tag + std::string(8 - of_tag.size() % 8, '\0');
+        tags.push_back({name, after + 8 + behind.size(), kText, padded.size()});
+        behind += padded;
+    }
+    std::sort(tags.begin(), tags.end(),
+              [](const Tag& one, const Tag& other) { return one.name < other.name; });
+    add32(after + 8 + behind.size());
     bytes += data;
     for (const int key : {1, 1, 0, 0}) add16(key);
-    bytes += mark;
+    bytes += behind;
     add16(static_cast<int>(tags.size()));
     for (const Tag& tag : tags) {
         add16(tag.name);

@@ -51,9 +51,11 @@ void write_zip(const std::filesystem::path& file, const std::map<std::string, st
 
 /// A TIFF file of one channel. `format`: 1 whole numbers, 2 with a sign, 3 real ones. `no_data`: of
 /// the tag GDAL_NODATA; empty: without it. `is_geographic`: with a key directory of GeoTIFF.
+/// `texts`: other tags of text.
 [[nodiscard]] std::string tiff(int columns, int rows, int bits, int format, bool little,
                                const std::string& data, const std::string& no_data = {},
-                               bool is_geographic = false);
+                               bool is_geographic = false,
+                               const std::map<int, std::string>& texts = {});
 
 /// A HEIC photo: a colour picture, and a depth picture beside it where there is one, each the first
 /// of what ffmpeg's source gives.

@@ -96,7 +96,8 @@ int likelihood(const Topic& topic, const RosImage& image, PictureRole role) {
 
 struct Choice {
     Topic topic{};
-    std::string others{};  ///< all picture topics with their encodings or types, for a message
+    std::string others{};    ///< all picture topics with their encodings or types, for a message
+    bool has_clouds{false};  ///< of points
 };
 
 /// The most likely topic; an empty name when none is of that role.
@@ -106,6 +107,7 @@ Choice chosen(BagFiles& files, PictureRole role) {
     std::vector<std::string> seen;
     for (const auto& file : files) {
         for (const Topic& topic : file->topics()) {
+            choice.has_clouds |= topic.type.ends_with("PointCloud2");
             const bool is_foreign =
                 !is_of_pictures(topic) && lower_case(topic.type).find("image") != std::string::npos;
             if (!(is_of_pictures(topic) || is_foreign) ||
@@ -343,12 +345,16 @@ bool ros_bag_holds(const fs::path& place, PictureRole role) {
 std::unique_ptr<PictureSource> open_ros_topic(const fs::path& place, PictureRole role) {
     BagFiles files = opened_bags(place);
     Choice choice = chosen(files, role);
-    if (choice.topic.name.empty())
+    if (choice.topic.name.empty()) {
+        const std::string none =
+            choice.has_clouds ? "only point clouds" : "none of pictures at all";
         throw InputError(
             shown(place) + " holds no topic of " +
             (role == PictureRole::depth ? "depth" : "colour") + " pictures (" +
-            (choice.others.empty() ? "none of pictures at all" : one_line(choice.others, 300)) +
-            "): record one of 16UC1 or 32FC1 for depth, rgb8 or compressed for colour");
+            (choice.others.empty() ? none : one_line(choice.others, 300)) +
+            "): record also the topic of the camera's depth images (16UC1 or 32FC1), and that of "
+            "its colour images (rgb8 or compressed)");
+    }
     return std::make_unique<RosTopic>(place, std::move(files), std::move(choice.topic), role);
 }
 

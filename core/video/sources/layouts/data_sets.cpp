@@ -132,18 +132,14 @@ struct DataSet {
 
 void take_levels_per_m(const CameraFile& camera, DataSetFacts& found) {
     if (!camera.levels_per_m) return;
-    const bool is_mm = found.finding.statement.unit == DepthUnit::mm;
-    found.finding.statement.scale = (is_mm ? 1000.0 : 1.0) / *camera.levels_per_m;
-}
-
-int number_of(const SourceFacts& facts) {
-    constexpr double kMost = 1e9;
-    const double number = numbered(facts.picture()).number.value_or(0.0);
-    return number < kMost ? static_cast<int>(number) : 0;
+    const double metre_mm = one_in_mm(DepthUnit::m);
+    const DepthUnit unit = found.finding.statement.unit.value_or(DepthUnit::mm);
+    found.finding.statement.scale = metre_mm / one_in_mm(unit) / *camera.levels_per_m;
 }
 
 bool read_bop(const fs::path& folder, const SourceFacts& facts, DataSetFacts& found) {
-    found.camera = read_camera_bop(folder / ".." / "scene_camera.json", number_of(facts));
+    found.camera =
+        read_camera_bop(folder / ".." / "scene_camera.json", number_in_name(facts.picture()));
     if (!found.camera || !found.camera->levels_per_m) return false;
     take_levels_per_m(*found.camera, found);
     return true;
@@ -178,9 +174,10 @@ bool read_nyu(const fs::path& /*folder*/, const SourceFacts& /*facts*/, DataSetF
 // github.com/StanfordVL/taskonomy; cs.nyu.edu/~silberman (toolbox); kaldir.vc.in.tum.de/scannetpp;
 // durrlab.github.io/C3VD; github.com/anitarau/simcol; github.com/CapsuleEndoscope/EndoSLAM;
 // github.com/UZ-SLAMLab/Endo-Depth-and-Motion (Hamlyn); endovissub2019-scared.grand-challenge.org;
-// microsoft.github.io/AirSim (image APIs); docs.unrealengine.com (SceneDepthWorldUnits);
-// github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from scene to scene);
-// github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold; roboimagedata.compute.dtu.dk.
+// github.com/stepjam/RLBench; microsoft.github.io/AirSim (image APIs); docs.unrealengine.com
+// (SceneDepthWorldUnits); github.com/TRI-ML/DDAD; github.com/YoYo000/BlendedMVS (units differ from
+// scene to scene); github.com/isl-org/ZoeDepth, /MiDaS; github.com/prs-eth/Marigold;
+// roboimagedata.compute.dtu.dk.
 constexpr std::array kDataSets{
     // Streets.
     DataSet{"KITTI depth completion", "proj_depth/groundtruth/image_#/#.png", "", 16, kStreet,
@@ -200,10 +197,12 @@ constexpr std::array kDataSets{
     DataSet{"TartanAir", "depth_left/#_left_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir", "depth_right/#_right_depth.npy", "", kRealBits, kMetres, 0.995},
     DataSet{"TartanAir V2", "depth_?cam_*/#_?cam_*_depth.png", "", kRealBits, kMetres, 0.995},
+    DataSet{"RLBench", "*_depth/#.png", "../*_rgb ../*_mask", kRealBits, kFarBright, 0.97},
     DataSet{"AirSim", "*_depthplanar_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "*_depthperspective_*.pfm", "", kRealBits, kMetresToSky, 0.995},
     DataSet{"AirSim", "images/img_*.pfm", "../airsim_rec.txt", kRealBits, kMetresToSky, 0.99},
     DataSet{"Unreal Engine's scene depth", "*scenedepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
+    DataSet{"Unreal Engine's world depth", "*worlddepth*.exr", "", kRealBits, kUnrealUnits, 0.95},
     // Rooms.
     DataSet{"SUN RGB-D", "depth*/*.png", "../depth_bfx ../image ../intrinsics.txt", 16, kTurned,
             0.99, DepthCode::turned16},
@@ -257,6 +256,7 @@ constexpr std::array kDataSets{
     DataSet{"Marigold", "depth_npy*/*_pred.npy", "", kRealBits, kFarBright, 0.97},
     DataSet{"Marigold", "depth_bw*/*_pred.png", "", 16, kFarBright, 0.97},
     DataSet{"Depth Anything", "vis_depth/*.png", "", 8, kNearBright, 0.95},
+    DataSet{"ZoeDepth", "*zoe*.png", "", 16, kEstimated, 0.85, DepthCode::grey, nullptr, true},
     DataSet{"ZoeDepth", "*_depth.png", "short.j*g", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
             true},
     DataSet{"ZoeDepth", "*_depth.png", "short.png", 16, kEstimated, 0.4, DepthCode::grey, nullptr,
@@ -370,6 +370,14 @@ std::optional<DataSetFacts> data_set_of(const SourceFacts& facts) {
         return found;
     }
     return std::nullopt;
+}
+
+const std::optional<DataSetFacts>& KnownDataSet::of(const SourceFacts& facts) {
+    if (picture_ == facts.picture() && bits_ == facts.bits) return found_;
+    found_ = data_set_of(facts);
+    picture_ = facts.picture();
+    bits_ = facts.bits;
+    return found_;
 }
 
 }  // namespace dibhr

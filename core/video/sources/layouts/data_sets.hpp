@@ -26,4 +26,16 @@ struct DataSetFacts {
 /// its levels. The folder that was opened plays no part. Nothing: no row does.
 [[nodiscard]] std::optional<DataSetFacts> data_set_of(const SourceFacts& facts);
 
+/// The data set of a source, looked for once: the table lists folders.
+class KnownDataSet {
+  public:
+    /// data_set_of(); the same answer for the same picture and bits.
+    [[nodiscard]] const std::optional<DataSetFacts>& of(const SourceFacts& facts);
+
+  private:
+    std::filesystem::path picture_{};
+    int bits_{0};
+    std::optional<DataSetFacts> found_{};
+};
+
 }  // namespace dibhr

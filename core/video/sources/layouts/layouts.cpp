@@ -107,28 +107,10 @@ std::optional<LayoutFacts> facts_of_folders(const fs::path& folder, const Pictur
     return facts;
 }
 
-/// The camera that a data set has in a file beside; data_sets.cpp has the other facts.
-LayoutFacts camera_of_data_set(const PictureSet& set) {
-    LayoutFacts facts;
-    if (set.depth.empty()) return facts;
-    SourceFacts depth;
-    depth.file = set.depth.front().file;
-    depth.bits = 16;
-    const auto found = data_set_of(depth);
-    if (!found || !found->camera || !is_camera(found->camera->intrinsics)) return facts;
-    CameraFile camera = *found->camera;
-    camera.levels_per_m.reset();
-    take_camera(camera, facts);
-    facts.finding.reason = found->finding.reason;
-    facts.finding.sureness = found->finding.sureness;
-    return facts;
-}
-
 LayoutFacts facts_of(const fs::path& folder, const PictureSet& set) {
     if (auto facts = facts_of_7_scenes(folder, set)) return *facts;
     if (auto facts = facts_of_folders(folder, set)) return *facts;
-    LayoutFacts scanned = scanner_facts(folder);
-    return scanned.finding.statement == DepthStatement{} ? camera_of_data_set(set) : scanned;
+    return scanner_facts(folder);
 }
 
 /// The name that states depth or colour: the file's own, else that of its folder.
@@ -304,6 +286,31 @@ std::vector<fs::path> folders_of_media(const fs::path& folder) {
     return found;
 }
 
+/// The advice on a file as one on all files of its ending: its command of Python in a loop of the
+/// shell, which saves each under a name of its own. Empty where it has no such command.
+std::string advice_on_each(std::string advice, const fs::path& file) {
+    const std::string ending = file.extension().string();
+    const auto begin = advice.find("python3 -c \"");
+    if (begin == std::string::npos || ending.size() < 2 || !is_bare_name(ending.substr(1)))
+        return {};
+    const auto end = advice.find('"', advice.find('"', begin) + 1) + 1;
+    std::string command = advice.substr(begin, end - begin);
+    const auto replace = [&command](const std::string& part, const std::string& by) {
+        const auto at = command.find(part);
+        if (at != std::string::npos) command.replace(at, part.size(), by);
+        return at != std::string::npos;
+    };
+    if (!replace("'" + file.filename().string() + "'", "'$f'")) return {};
+    if (!replace("'depth.npy'", "'${f%.*}_depth.npy'") &&
+        !replace("'height.npy'", "'${f%.*}_height.npy'"))
+        return {};
+    advice.replace(begin, end - begin, "for f in *" + ending + "; do " + command + "; done");
+    constexpr std::string_view kThat = "and give that";
+    if (const auto at = advice.find(kThat); at != std::string::npos)
+        advice.replace(at, kThat.size(), "and give the folder");
+    return advice;
+}
+
 /// What a folder without pictures holds instead, and what to do, after the words "is a folder
 /// without pictures".
 std::string advice_without_pictures(const fs::path& folder) {
@@ -316,6 +323,8 @@ std::string advice_without_pictures(const fs::path& folder) {
         const auto alike = std::count_if(
             entries.begin(), entries.end(),
             [&](const fs::path& other) { return other.extension() == entry.extension(); });
+        const std::string each = alike > 1 ? advice_on_each(advice, entry) : std::string();
+        if (!each.empty()) return " that are read: " + shown(entry.filename()) + " in it" + each;
         return " that are read: " + shown(entry.filename()) + " in it" + advice +
                (alike > 1 ? " (likewise the others, each under a name of its own)" : "");
     }
@@ -330,8 +339,8 @@ std::string advice_without_pictures(const fs::path& folder) {
     if (folders.size() > kMostNamed)
         names.push_back(std::to_string(folders.size() - kMostNamed) + " more");
     return " of its own, and its folders " + listed(names) +
-           " are not named colour and depth: give the one of the colour first and then the one of "
-           "the depth";
+           " are not named colour and depth: give the colour folder first and then the depth "
+           "folder";
 }
 
 /// The pictures of that role, or those whose names state no role. Throws InputError when there are
@@ -398,17 +407,18 @@ void add_camera_beside(Sources& sources) {
     if (facts.live || facts.cameras) return;
     Findings rows = facts.findings;
     rows.insert(rows.end(), sources.findings.begin(), sources.findings.end());
-    if (const auto set = data_set_of(facts)) rows.push_back(set->finding);
+    const auto& set = sources.data_set.of(facts);
+    if (set) rows.push_back(set->finding);
     const DepthStatement known = sure_facts({}, rows);
     const bool is_row = !facts.first_picture.empty();
     const fs::path& picture = facts.picture();
     std::error_code failed;
     const fs::path folder = fs::absolute(picture, failed).parent_path();
-    constexpr double kMostNumber = 1e9;
-    const int number =
-        static_cast<int>(std::min(numbered(picture).number.value_or(0.0), kMostNumber));
-    const auto beside =
-        read_camera_beside(picture, is_row || named_depth(folder.filename()), number);
+    const bool has_own = set && set->camera && is_camera(set->camera->intrinsics);
+    const auto beside = has_own
+                            ? std::optional(CameraBeside{.camera = *set->camera})
+                            : read_camera_beside(picture, is_row || named_depth(folder.filename()),
+                                                 number_in_name(picture));
     if (!beside) return;
     DepthStatement said;
     const CameraFile& camera = beside->camera;
@@ -420,10 +430,12 @@ void add_camera_beside(Sources& sources) {
     }
     if (camera.levels_per_m && facts.bits == 16 && !known.unit) {
         said.unit = DepthUnit::mm;
-        said.scale = 1000.0 / *camera.levels_per_m;
+        said.scale = one_in_mm(DepthUnit::m) / *camera.levels_per_m;
     }
     if (said == DepthStatement{}) return;
-    sources.findings.push_back(finding_of_metadata(said, shown(beside->file.filename())));
+    sources.findings.push_back(
+        has_own ? Finding{said, Evidence::layout, set->finding.sureness, set->finding.reason}
+                : finding_of_metadata(said, shown(beside->file.filename())));
 }
 
 MediaPlaces places_for(const fs::path& colour, const fs::path& depth) {

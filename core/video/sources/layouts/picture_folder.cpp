@@ -54,6 +54,12 @@ NumberedPicture numbered(const fs::path& file) {
     return {file, number_of_text(std::string(first, last)).value_or(0.0), decimal};
 }
 
+int number_in_name(const fs::path& file) {
+    constexpr double kMost = 1e9;
+    const double number = numbered(file).number.value_or(0.0);
+    return number < kMost ? static_cast<int>(number) : 0;
+}
+
 namespace {
 
 constexpr double kLongestRow_s = 1e6;
@@ -61,6 +67,8 @@ constexpr double kLongestRow_s = 1e6;
 /// The row for a picture, by the words in `name`, the name of the picture or of its folder.
 PictureRow& row_for(PictureSet& set, const fs::path& name) {
     if (!named_other(name).empty()) return set.others;
+    // Arrays of brightness are in no form of colours.
+    if (named_brightness(name) && named_numbers(name)) return set.others;
     if (named_depth(name)) return set.depth;
     return named_colour(name) ? set.colour : set.unnamed;
 }
@@ -71,10 +79,14 @@ std::set<double> numbers_of(const PictureRow& row) {
     return numbers;
 }
 
+/// The pictures of a folder, else those of its subfolder `data` (EuRoC).
 void append_pictures_of(const fs::path& folder, PictureRow& row) {
+    const std::size_t before = row.size();
     for (const fs::path& file : entries_of(folder)) {
         if (is_picture(file)) row.push_back(numbered(file));
     }
+    const fs::path inside = folder / "data";
+    if (row.size() == before && is_folder(inside)) append_pictures_of(inside, row);
 }
 
 /// Beside depth, unnamed pictures count as colour where their names are those of all depth pictures
@@ -84,7 +96,7 @@ void accept_as_colour(PictureSet& set) {
     std::set<std::string> subjects;
     for (const NumberedPicture& picture : set.depth) subjects.insert(subject_of(picture.file));
     const auto allowed = [](const NumberedPicture& picture) {
-        return may_name_colour(picture.file.filename());
+        return may_name_colour(picture.file.filename()) || named_brightness(picture.file);
     };
     const auto belongs = [&subjects](const NumberedPicture& picture) {
         return subjects.contains(subject_of(picture.file));
@@ -185,8 +197,9 @@ void find_pictures_in_folders(const std::vector<fs::path>& entries, PictureSet& 
     }
     for (const fs::path& entry : entries) {
         if (set.depth.empty() || !set.colour.empty()) return;
-        const bool is_photo = lower_case(entry.filename().string()) == "photo";
-        const bool is_colour = (is_photo || may_name_colour(entry)) && !named_depth(entry) &&
+        const std::string name = lower_case(entry.filename().string());
+        const bool is_camera = name == "photo" || name == "cam" || name == "cam0";
+        const bool is_colour = (is_camera || may_name_colour(entry)) && !named_depth(entry) &&
                                named_other(entry).empty();
         if (is_colour && is_folder(entry)) append_pictures_of(entry, set.colour);
     }
@@ -275,6 +288,7 @@ PictureSet find_pictures_in(const fs::path& folder) {
     else
         complete(found);
     if (is_bare && is_empty(found)) found = find_pictures_below(entries);
+    if (is_empty(found) && is_folder(folder / "data")) return find_pictures_in(folder / "data");
     drop_paintings_of_numbers(found.depth);
     sort_by_number(found.colour);
     sort_by_number(found.depth);

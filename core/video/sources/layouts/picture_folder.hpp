@@ -54,6 +54,9 @@ struct PictureSet {
 
 [[nodiscard]] NumberedPicture numbered(const std::filesystem::path& file);
 
+/// The number in a picture's name as a file beside names the picture (BOP); 0: none, or too large.
+[[nodiscard]] int number_in_name(const std::filesystem::path& file);
+
 /// Whether every number occurs once, and all have a decimal point, or none.
 [[nodiscard]] bool has_order(const PictureRow& row, bool decimal);
 
@@ -61,9 +64,9 @@ struct PictureSet {
 void sort_by_number(PictureRow& row);
 
 /// The pictures of a folder; where it has none, or a cover alone, those of its subfolders named
-/// colour or depth. Masks, confidence, normals and previews count only where nothing else is there;
-/// arrays beside pictures of the same names are their depth, and beat paintings of it. Throws
-/// InputError when it cannot be read.
+/// colour or depth, else those of its subfolder `data`. Masks, confidence, normals and previews
+/// count only where nothing else is there; arrays beside pictures of the same names are their
+/// depth, and beat paintings of it. Throws InputError when it cannot be read.
 [[nodiscard]] PictureSet find_pictures_in(const std::filesystem::path& folder);
 
 /// When each picture of a row is shown, by the clock shared with the other row [s]. Decimal numbers

@@ -47,7 +47,7 @@ std::optional<double> number_of(const std::string& name, const NumberPattern& pa
     if (!fits) return std::nullopt;
     const std::string digits = name.substr(
         pattern.before.size(), name.size() - pattern.before.size() - pattern.after.size());
-    if (!std::all_of(digits.begin(), digits.end(), is_decimal_digit)) return std::nullopt;
+    if (!is_of_digits(digits)) return std::nullopt;
     return number_of_text(digits);
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
@@ -51,14 +50,16 @@ bool is_cell_end(char c) {
     return c == ',' || c == ';' || c == ' ' || c == '\t' || c == '\r';
 }
 
-/// Without quotation marks and brackets around a cell.
+/// Without quotation marks and brackets around a cell; the first ones of a line.
 Cells stamp_cells(std::string_view line) {
+    constexpr std::size_t kMostCells = 256;
     Cells cells;
     std::string cell;
     const auto end_cell = [&] {
         if (!cell.empty()) cells.push_back(std::exchange(cell, {}));
     };
     for (const char c : line) {
+        if (cells.size() == kMostCells) return cells;
         if (is_cell_end(c))
             end_cell();
         else if (c != '"' && c != '\'' && c != '[' && c != ']')
@@ -139,23 +140,12 @@ StampTable stamp_table(std::string_view text) {
     return table;
 }
 
-/// The words of a column's title: "timestamp [ns]" and "timestamp_ns" have two.
-std::vector<std::string> title_words(const std::string& title) {
-    std::vector<std::string> words(1);
-    for (const char c : lower_case(title)) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0)
-            words.back() += c;
-        else
-            words.emplace_back();
-    }
-    return words;
-}
-
+/// The title of a column: "timestamp [ns]" and "timestamp_ns" have two words.
 bool names_time(const std::string& title) {
-    const std::vector<std::string> words = title_words(title);
+    const std::vector<std::string> words = plain_words_of(title);
     const bool is_entry =  // "t_00" of a matrix
         std::any_of(words.begin(), words.end(), [](const std::string& word) {
-            return !word.empty() && std::all_of(word.begin(), word.end(), is_decimal_digit);
+            return std::all_of(word.begin(), word.end(), is_decimal_digit);
         });
     return !is_entry && std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word == "t" || word == "ts" || word.starts_with("time") || word.ends_with("stamp");
@@ -163,7 +153,7 @@ bool names_time(const std::string& title) {
 }
 
 bool names_frame(const std::string& title) {
-    const std::vector<std::string> words = title_words(title);
+    const std::vector<std::string> words = plain_words_of(title);
     return std::any_of(words.begin(), words.end(), [](const std::string& word) {
         return word.starts_with("frame") || word == "index" || word == "id" || word == "number";
     });
@@ -171,7 +161,7 @@ bool names_frame(const std::string& title) {
 
 /// The unit that a title states [s].
 std::optional<double> titled_unit_s(const std::string& title) {
-    for (const std::string& word : title_words(title)) {
+    for (const std::string& word : plain_words_of(title)) {
         if (word == "ns" || word.starts_with("nano")) return 1e-9;
         if (word == "us" || word.starts_with("micro")) return 1e-6;
         if (word == "ms" || word.starts_with("milli")) return 1e-3;
@@ -220,11 +210,6 @@ std::optional<std::vector<double>> stamps_for(const PictureRow& row,
     return stamps;
 }
 
-bool is_rising(const std::vector<double>& times) {
-    return std::adjacent_find(times.begin(), times.end(),
-                              [](double a, double b) { return !(a < b); }) == times.end();
-}
-
 /// Whether numbers of a column without a title may as well count frames, some of them left out.
 bool may_count_frames(const std::vector<double>& stamps, bool titled) {
     constexpr double kLeastStep = 8.0;  // of ms: 120 frames a second
@@ -256,14 +241,21 @@ struct StampColumns {
     bool titled{false};  ///< the header names the column of times
 };
 
-/// Whether the column holds the names of the row's pictures, with or without folders and endings.
-bool holds_names(const StampTable& table, std::size_t column, const PictureRow& row) {
+/// The names of pictures with and without their endings.
+std::set<std::string> names_of(const PictureRow& row) {
+    std::set<std::string> names;
+    for (const NumberedPicture& picture : row) {
+        names.insert(picture.file.filename().string());
+        names.insert(picture.file.stem().string());
+    }
+    return names;
+}
+
+/// Whether the column holds names of pictures, with or without folders.
+bool holds_names(const StampTable& table, std::size_t column,
+                 const std::set<std::string>& pictures) {
     const Cells& first = table.lines.front();
-    if (column >= first.size()) return false;
-    const std::string name = fs::path(first[column]).filename().string();
-    return std::any_of(row.begin(), row.end(), [&name](const NumberedPicture& picture) {
-        return name == picture.file.filename() || name == picture.file.stem();
-    });
+    return column < first.size() && pictures.contains(fs::path(first[column]).filename().string());
 }
 
 /// Whether the column counts 0, 1, 2 or 1, 2, 3.
@@ -297,9 +289,11 @@ std::optional<StampColumns> stamp_columns(const StampTable& table, const Picture
     const bool is_counted = !titled && count > 1 && counts_lines(table, 0);
     if (is_counted) columns.time = 1;
     if (titled) columns.unit_s = titled_unit_s(table.header[columns.time]);
+    const std::set<std::string> pictures = names_of(row);
     for (std::size_t k = count; k-- > 0;) {
         const bool is_number = titled && names_frame(table.header[k]);
-        if (k != columns.time && (holds_names(table, k, row) || is_number)) columns.picture = k;
+        if (k != columns.time && (holds_names(table, k, pictures) || is_number))
+            columns.picture = k;
     }
     if (columns.picture) return columns;
     if (is_counted)
@@ -375,11 +369,7 @@ std::string name_in(const Json& frame, const std::set<std::string>& pictures) {
 std::optional<std::vector<double>> stamps_in_json(const std::string& text, const PictureRow& row) {
     const Json json = parsed_json(text);
     if (json.is_discarded()) return std::nullopt;
-    std::set<std::string> pictures;
-    for (const NumberedPicture& picture : row) {
-        pictures.insert(picture.file.filename().string());
-        pictures.insert(picture.file.stem().string());
-    }
+    const std::set<std::string> pictures = names_of(row);
     const Json& frames = frames_in(json);
     std::vector<StampEntry> entries;
     std::optional<double> unit_s;

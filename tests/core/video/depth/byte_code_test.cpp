@@ -2,6 +2,7 @@
 // pictures that hold none are never taken by their brightness.
 #include "core/video/depth/byte_code.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -91,6 +92,11 @@ TEST_CASE("each code of bytes has its number", "[bytes]") {
     CHECK(numbers_in_bytes(bgra, DepthCode::float32).at<float>(1, 2) ==
           2.0F * (1.0F + 197121.0F / 8388608.0F));
     CHECK(numbers_in_bytes(bgra, DepthCode::rg16).at<std::uint16_t>(0, 0) == 258);
+    CHECK(numbers_in_bytes(bgr, DepthCode::gb16).at<std::uint16_t>(1, 2) == 512 + 3);
+    CHECK(numbers_in_bytes(bgr, DepthCode::bgr24).at<float>(1, 2) == 65536.0F + 512.0F + 3.0F);
+    // The bytes 03 02 01 40.
+    CHECK(numbers_in_bytes(bgra, DepthCode::float32_bgra).at<float>(1, 2) ==
+          2.0F * (1.0F + 66051.0F / 8388608.0F));
 }
 
 TEST_CASE("a picture without these bytes has no data", "[bytes]") {
@@ -117,11 +123,28 @@ TEST_CASE("a code is found out by bytes that wrap where the next byte steps", "[
     CHECK(found(in_bytes(scene_between(0.6, 9.0), DepthCode::float32)) == DepthCode::float32);
     CHECK(found(in_bytes(scene_between(500.0, 900.0), DepthCode::float32)) == DepthCode::float32);
     CHECK(found(in_bytes(scene_between(300.0, 2900.0), DepthCode::terrain)) == DepthCode::terrain);
+    CHECK(found(in_bytes(scene_between(500.0, 4500.0), DepthCode::gb16)) == DepthCode::gb16);
+    CHECK(found(in_bytes(scene_between(3e6, 1.5e7), DepthCode::bgr24)) == DepthCode::bgr24);
+    CHECK(found(in_bytes(scene_between(0.6, 9.0), DepthCode::float32_bgra)) ==
+          DepthCode::float32_bgra);
+    cv::Mat even(kSceneRows, kSceneColumns, CV_32F);  // continuous in both orders of a float
+    for (int i = 0; i < even.cols; ++i)
+        even.col(i) = cv::Scalar(std::round(1500.0 + 4.0 * i) / 1000.0);
+    for (const DepthCode code : {DepthCode::float32, DepthCode::float32_bgra})
+        CHECK(found(in_bytes(even, code)) == code);
     cv::Mat noisy = scene_between(500.0, 4500.0);  // as a sensor's, 6 mm
     cv::Mat noise(noisy.size(), CV_32F);
     cv::RNG(9).fill(noise, cv::RNG::NORMAL, 0.0, 6.0);
     noisy += noise;
     CHECK(found(in_bytes(noisy, DepthCode::rg16)) == DepthCode::rg16);
+    // Things a little higher than the table that they lie on: half of the steps are edges.
+    cv::Mat table = scene_between(3e6, 9e6);
+    for (int j = 4; j + 4 < kSceneRows; j += 8)
+        for (int i = 4; i + 4 < kSceneColumns; i += 8) {
+            cv::Mat thing = table(cv::Rect(i, j, 4, 4));
+            thing -= cv::Scalar(9000.0 * (3 + (i + j) / 4 % 8));
+        }
+    CHECK(found(in_bytes(table, DepthCode::bgr24)) == DepthCode::bgr24);
     cv::Mat opaque;  // as CARLA writes it
     cv::cvtColor(rgb24_scene(), opaque, cv::COLOR_BGR2BGRA);
     CHECK(found(opaque) == DepthCode::rgb24);
@@ -141,6 +164,53 @@ TEST_CASE("a code is found out by bytes that wrap where the next byte steps", "[
         }
     CHECK_FALSE(found(squares));
     CHECK_FALSE(byte_code_in({}));
+}
+
+TEST_CASE("pictures that decode by two codes of contrary orders are of none", "[bytes]") {
+    // The left half has its highest byte in red, the right half in blue.
+    cv::Mat both = in_bytes(scene_between(3e6, 1.5e7), DepthCode::bgr24);
+    cv::Mat right = both.colRange(kSceneColumns / 2, kSceneColumns);
+    cv::cvtColor(right.clone(), right, cv::COLOR_BGR2RGB);
+    const std::array halves{both};
+    CHECK_FALSE(byte_code_in(halves));
+    const std::array films{in_bytes(scene_between(3e6, 1.5e7), DepthCode::bgr24), rgb24_scene()};
+    CHECK_FALSE(byte_code_in(films));
+}
+
+TEST_CASE("a stated code whose bytes are in another order is refused with the right one",
+          "[bytes]") {
+    const TemporaryFolder folder;
+    const auto [stated, right] =
+        GENERATE(table<DepthCode, DepthCode>({{DepthCode::float32, DepthCode::float32_bgra},
+                                              {DepthCode::float32_bgra, DepthCode::float32},
+                                              {DepthCode::rgb24, DepthCode::bgr24},
+                                              {DepthCode::rg16, DepthCode::gb16}}));
+    CAPTURE(name_of(stated));
+    const bool is_float = least_channels(right) == 4;
+    const double nearest = is_float ? 0.6 : right == DepthCode::gb16 ? 500.0 : 3e6;
+    const double farthest = is_float ? 9.0 : right == DepthCode::gb16 ? 4500.0 : 1.5e7;
+    picture(in_bytes(scene_between(nearest, farthest), right))(folder / "a.png");
+    const DepthRequest request = told(stated);
+    const std::string line = refusal([&] { (void)open_depth(folder / "a.png", request); });
+    check_one_line(line, folder / "a.png");
+    CHECK(line.ends_with("--depth-code " + std::string(name_of(right))));
+    const DepthMeaning meaning = meaning_of(*open_depth(folder / "a.png", kAsFound));
+    CHECK(meaning.code == Known<DepthCode>{right, Origin::found});
+}
+
+TEST_CASE("24 bits with red as the highest byte may be distances or heights, which is asked",
+          "[bytes]") {
+    const TemporaryFolder folder;
+    picture(in_bytes(scene_between(3e6, 1.5e7), DepthCode::bgr24))(folder / "a.png");
+    const auto media = open_depth(folder / "a.png", kAsFound);
+    CHECK(media->description().conclusion.near_sure < kSureEnough);
+    for (const NearLevels near : kNearLevels) {
+        CAPTURE(name_of(near));
+        const auto& offered = media->description().conclusion.alternatives;
+        CHECK(std::any_of(offered.begin(), offered.end(), [near](const DepthAlternative& answer) {
+            return answer.statement.near == near;
+        }));
+    }
 }
 
 TEST_CASE("what a code means in itself is known with it", "[bytes]") {

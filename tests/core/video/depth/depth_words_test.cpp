@@ -77,7 +77,8 @@ TEST_CASE("inverse depth is disparity, and heights stay heights with their unit"
 }
 
 TEST_CASE("a word for depth is a weak hint at distances, unless it is relative", "[words]") {
-    const std::string weak = GENERATE("depth", "depth_0001", "SceneDepth", "Tiefe", "profondeur");
+    const std::string weak =
+        GENERATE("depth", "depth_0001", "SceneDepth", "Tiefe", "profondeur", "深度");
     CAPTURE(weak);
     const Findings rows = rows_in(weak, 16);
     REQUIRE(rows.size() == 2);
@@ -87,9 +88,31 @@ TEST_CASE("a word for depth is a weak hint at distances, unless it is relative",
     CHECK(rows[1].sureness < 0.5);
     CHECK(rows_in(weak, 8).empty());
     const std::string none = GENERATE("rel_depth", "depth_normalized", "depth_anything", "zbuffer",
-                                      "log_depth", "midas_depth", "indepth", "photo");
+                                      "midas_depth", "indepth", "photo");
     CAPTURE(none);
     CHECK(rows_in(none).empty());
+}
+
+TEST_CASE("a logarithm of depth is near where dark, and no distance", "[words]") {
+    for (const char* const name : {"log_depth", "logDepth_03", "log_z"})
+        CHECK(stated_in(name) ==
+              DepthStatement{.near = NearLevels::dark, .unit = DepthUnit::levels});
+    CHECK(rows_in("log_depth", 8).empty());
+    CHECK(rows_in("depth_log").empty());
+}
+
+TEST_CASE("the last telling word of a name may be that of another quantity", "[words]") {
+    const std::string other = GENERATE("sst", "wind_speed", "LST_celsius", "population_density",
+                                       "ndvi_field7", "slope_deg", "dem_aspect", "depth_velocity");
+    CAPTURE(other);
+    const Findings rows = quantities_in_name(other, "its name");
+    REQUIRE(rows.size() == 1);
+    CHECK(rows.front().about == kNoDepth);
+    CHECK(rows.front().statement == DepthStatement{});
+    const std::string depth =
+        GENERATE("slope_depth", "wind_tunnel_height", "aspects", "scan", "ski_mask", "");
+    CAPTURE(depth);
+    CHECK(quantities_in_name(depth, "its name").empty());
 }
 
 TEST_CASE("what a laser saw is in metres, as real numbers", "[words]") {
@@ -106,6 +129,7 @@ TEST_CASE("one list says what is neither colour nor depth, for files and arrays"
         CHECK((other_content_of(word) != nullptr && !other_content_of(word)->shows_depth));
     CHECK(other_content_of("preview")->shows_depth);
     CHECK(other_content_of("intensity")->shows_scene);
+    CHECK(other_content_of("ndvi")->is_quantity);
     for (const char* const word : {"", "depth", "rgb", "mas", "masked"})
         CHECK(other_content_of(word) == nullptr);
 }

@@ -442,6 +442,14 @@ TEST_CASE("what is no array of pictures is refused with its shape", "[numpy]") {
     CHECK(contains(refusal_of(folder / "a.npy"), "plain numbers"));
 }
 
+TEST_CASE("a mask and Python objects in a .npy are refused as what they are", "[numpy]") {
+    const TemporaryFolder folder;
+    write_text(folder / "a.npy", npy("|b1", "(3, 4)", std::string(12, '\1')));
+    CHECK(contains(refusal_of(folder / "a.npy"), "true and false, as a mask does"));
+    write_text(folder / "b.npy", npy("|O", "()", "pickled"));
+    CHECK(contains(refusal_of(folder / "b.npy"), "numpy.load('b.npy', allow_pickle=True).item()"));
+}
+
 TEST_CASE("a header that claims more than the file holds is refused before memory is taken",
           "[numpy]") {
     const TemporaryFolder folder;
@@ -480,5 +488,7 @@ TEST_CASE("a list of points is no picture", "[numpy]") {
     const TemporaryFolder folder;
     const cv::Mat points(3000, 4, CV_32F, cv::Scalar(2.0));
     write_text(folder / "points.npy", npy("<f4", "(3000, 4)", data_of<float>(points)));
-    CHECK(contains(refusal_of(folder / "points.npy"), "a list of points or poses"));
+    const std::string said = refusal_of(folder / "points.npy");
+    CHECK(contains(said, "a list of points or poses"));
+    CHECK(contains(said, "numpy.load('points.npy')"));
 }

@@ -101,7 +101,7 @@ TEST_CASE("what is no picture of depth is named for what it is, with the command
              {"paper.pdf", "%PDF-1.5\n" + rest, "PDF", "pdfimages -png paper.pdf"},
              {"frame.raw", std::string(2000, '\2'), "without a header",
               "numpy.fromfile('frame.raw'"},
-             {"frame.csv", "0.5,0.25\n0.75,1\n", "table", "numpy.loadtxt('frame.csv'"},
+             {"frame.csv", "0.5,0.25\n0.75,1\n", "table", "numpy.genfromtxt('frame.csv'"},
              {"set.tar", std::string(257, 'a') + "ustar" + rest, "archive", "tar -xf set.tar"},
              {"set.tar.gz", "\x1f\x8b" + rest, "gzip", "gzip -dk set.tar.gz"},
              {"renamed.bin", "PK\x03\x04" + rest, "zip", "unzip renamed.bin"},
@@ -110,7 +110,10 @@ TEST_CASE("what is no picture of depth is named for what it is, with the command
              {"depth.exr", "<!DOCTYPE html><html><body>Not Found</body></html>", "a web page",
               "download it again"},
              {"island.ter", "TERRAGENTERRAIN SIZE" + rest, "heights", "gdal_translate island.ter"},
-             {"bullet.x3p", "PK\x03\x04" + rest, "X3P", "Gwyddion"},
+             {"bullet.x3p", "PK\x03\x04" + rest, "X3P", "zipfile.ZipFile('bullet.x3p')"},
+             {"tip.gwy", "GWYP" + rest, "Gwyddion", "height.gsf"},
+             {"depth_3x2_0001.rvl", std::string(41, '\3'), "RVL", "s = (2, 3)"},
+             {"depth_0001.rvl", std::string(41, '\3'), "RVL", "with its own rows and columns"},
              {"terrain.r16", std::string(2 * 17 * 17, '\1'), "heights of 16 bits",
               "'<u2').reshape(17, 17)"},
              {"Depth_16x10_123.raw", std::string(320, '\2'), "without a header",
@@ -187,10 +190,15 @@ TEST_CASE("the command for a table in text gives its rows, whatever is before an
     const auto [name, text, saved] = GENERATE(table<std::string, std::string, std::string>(
         {{"plain.csv", "1,2,3\n4,5,6\n", "depth.npy"},
          {"高さ.csv", "\"Keyence VK-X\"\n\"高さ\",\"µm\"\n\n1.0,2.0,3.0\n4.0,5.0,6.0\n",
-          "depth.npy"},
-         {"comma.csv", "x;y;z\n1,0;2,0;3,0\n4,0;5,0;6,0\n", "depth.npy"},
+          "height.npy"},
+         {"comma.csv", "a;b;c\n1,0;2,0;3,0\n4,0;5,0;6,0\n", "depth.npy"},
          {"afm.txt", "# Channel: Height\n# Units: nm\n1.0\t2.0\t3.0\n4.0\t5.0\t6.0\n",
           "height.npy"},
+         {"tabs.txt", "Topography\n1,0\t2,0\t3,0\n4,0\t5,0\t6,0\n", "height.npy"},
+         {"quoted.csv", "\"Unit\",\"um\"\n\"1.0\",\"2.0\",\"3.0\"\n\"4.0\",\"5.0\",\"6.0\"\n",
+          "depth.npy"},
+         {"groove.sdf", "aISO-1.0\nZscale = 1e-6\n*\n1.0 2.0 3.0\n4.0 5.0 6.0\n*\n", "height.npy"},
+         {"gap.csv", "1,2,3\n4,,9\n1,2,3\n4,5,6\n", "depth.npy"},
          {"with nan.txt", "nan nan nan\n1e0 2e0 3e0\n4e0 5e0 6e0\n", "depth.npy"}}));
     CAPTURE(name);
     write_text(folder / name, text);
@@ -204,15 +212,85 @@ TEST_CASE("the command for a table in text gives its rows, whatever is before an
         CHECK(depth.at<float>(first + k / 3, k % 3) == static_cast<float>(k + 1));
 }
 
+TEST_CASE("the command for points in text gives the distances of the pixels", "[foreign]") {
+    const TemporaryFolder folder;
+    std::string rows;
+    for (int k = 0; k < 160 * 120; ++k) rows += "0;0;" + std::to_string(k % 160 + 1) + ".5;90\n";
+    write_text(folder / "a.csv", "X [m];Y [m];Z [m];grey\n" + rows);
+    const std::string said = refusal([&] { (void)open_depth(folder / "a.csv"); });
+    CHECK(contains(said, "a list of points"));
+    convert(said, folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(160, 120));
+    CHECK(depth.at<float>(119, 7) == 8.5F);
+}
+
+TEST_CASE("the command for a cloud in the order of the pixels gives their distances", "[foreign]") {
+    const TemporaryFolder folder;
+    const auto [name, header] = GENERATE(table<std::string, std::string>(
+        {{"a.ply",
+          "ply\nformat binary_little_endian 1.0\nobj_info Width 3\nobj_info Height 2\n"
+          "element vertex 6\nproperty float x\nproperty float y\nproperty float z\n"
+          "end_header\n"},
+         {"a.pcd",
+          "# .PCD v0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 3\n"
+          "HEIGHT 2\nPOINTS 6\nDATA binary\n"}}));
+    CAPTURE(name);
+    std::vector<float> numbers;
+    for (int k = 0; k < 6; ++k)
+        numbers.insert(numbers.end(), {0.0F, 0.0F, 700.0F + static_cast<float>(k)});
+    write_text(folder / name, header + raw_bytes_of(numbers));
+    const std::string said = refusal([&, file = folder / name] { (void)open_depth(file); });
+    CHECK(contains(said, "is a point cloud"));
+    convert(said, folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(3, 2));
+    CHECK(depth.at<float>(1, 2) == 705.0F);
+}
+
+TEST_CASE("the command for a simple field of Gwyddion gives its heights", "[foreign]") {
+    const TemporaryFolder folder;
+    const std::string head = "Gwyddion Simple Field 1.0\nXRes = 3\nYRes = 2\nZUnits = m\n";
+    write_text(folder / "a.gsf", head + std::string(4 - head.size() % 4, '\0') +
+                                     raw_bytes_of<float>({1, 2, 3, 4, 5, 6}));
+    convert(refusal([&] { (void)open_depth(folder / "a.gsf"); }), folder);
+    const cv::Mat heights = read_still(folder / "height.npy", PictureRole::depth).picture;
+    REQUIRE(heights.size() == cv::Size(3, 2));
+    CHECK(heights.at<float>(1, 2) == 6.0F);
+}
+
+TEST_CASE("the command for depth packed with RVL gives its levels", "[foreign]") {
+    const TemporaryFolder folder;
+    // One pixel without depth, four with it, 4, 3, 3 and 12, and one without: by half bytes
+    // 1, 4, then the changes +4, -1, 0, +9 as 8|0 1, 1, 0, 8|2 2, then 1, 0.
+    write_text(folder / "a_3x2.rvl", raw_bytes_of<std::uint32_t>({0x14811'0A2U, 0x1000'0000U}));
+    convert(refusal([&] { (void)open_depth(folder / "a_3x2.rvl"); }), folder);
+    const cv::Mat levels = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(levels.size() == cv::Size(3, 2));
+    const std::vector<std::uint16_t> expected{0, 4, 3, 3, 12, 0};
+    CHECK(std::equal(expected.begin(), expected.end(), levels.begin<std::uint16_t>()));
+}
+
 TEST_CASE("a photo with Samsung's map of depth in its trailer says how to take it out",
           "[foreign]") {
     const TemporaryFolder folder;
     const auto file = folder / "IMG_0001.jpg";
     REQUIRE(cv::imwrite(file.string(), cv::Mat(40, 60, CV_8UC3, cv::Scalar(90, 120, 200))));
-    const std::string trailer("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x10\0\0\0\x10\0\0\0SEFT", 28);
-    write_text(file, read_text(file) + trailer);
-    const std::string said = refusal([&] { (void)open_media(file); });
-    CHECK(contains(said, "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    const std::string photo = read_text(file);
+    const std::string block = std::string("\0\0\xb1\x0a\x13\0\0\0", 8) + "DualShot_DepthMap_1";
+    const std::string list("SEFH\x6a\0\0\0\1\0\0\0\0\0\xb1\x0a\x7b\0\0\0\x7b\0\0\0", 24);
+    std::string levels;
+    for (char k = 0; k < 12 * 8; ++k) levels += k;
+    const auto said = [&](const std::string& trailer) {
+        write_text(file, photo + trailer + "SEFT");
+        return refusal([&] { (void)open_media(file); });
+    };
+    CHECK(contains(said(list + std::string("\0\0\xb3\x0a", 4)),
+                   "exiftool -b -DepthMapTiff IMG_0001.jpg > depth.tif"));
+    convert(said(block + levels + list), folder);
+    const cv::Mat depth = read_still(folder / "depth.npy", PictureRole::depth).picture;
+    REQUIRE(depth.size() == cv::Size(12, 8));
+    CHECK(depth.at<std::uint8_t>(1, 2) == 14);
 }
 
 TEST_CASE("real numbers that look like text are not taken for text", "[foreign]") {

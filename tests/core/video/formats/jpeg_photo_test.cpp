@@ -194,6 +194,8 @@ TEST_CASE("a gain map, a matte and a preview are no depth", "[jpeg_photo]") {
         write_text(file, multi_picture(photo(), {other}));
         CHECK_FALSE(jpeg_has_depth(file));
         CHECK(reader_of(file).name == "picture by OpenCV's codecs");
+        const bool is_of_gain = other == gain_map || other == iso;
+        CHECK(jpeg_has_gain_map(file) == is_of_gain);
     }
     write_text(file, multi_picture(photo(), {gain_map, apple_picture(kDisparity)}));
     CHECK(jpeg_has_depth(file));

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <opencv2/core.hpp>
 #include <string>
@@ -187,6 +188,92 @@ TEST_CASE("heights are near where they are high, and linear", "[meaning]") {
         CHECK(frame->depth.at(160, 120) < 0.1F * static_cast<float>(frame->depth.highest_level));
         CHECK(frame->depth.at(2, 2) > 0.9F * static_cast<float>(frame->depth.highest_level));
     }
+}
+
+TEST_CASE("a map and a micrograph that nothing calls heights may be no depth", "[meaning]") {
+    const auto between = [](double lowest, double highest) {
+        return each_pixel(
+            CV_32F, [=](double x, double y) { return lowest + (highest - lowest) * height(x, y); });
+    };
+    const auto map = [](const cv::Mat& numbers, const std::map<int, std::string>& texts = {}) {
+        return text(tiff(kColumns, kRows, 32, 3, true, bytes_of(numbers), {}, true, texts));
+    };
+    const cv::Mat degrees = between(0.1, 44.0);
+    const cv::Mat people =
+        each_pixel(CV_32F, [](double x, double y) { return 3800.0 * std::pow(height(x, y), 6.0); });
+    cv::Mat noise(kRows, kColumns, CV_32F);
+    cv::randu(noise, 0.0, 300.0);
+    const cv::Mat light = between(300.0, 900.0) + noise;
+    for (const cv::Mat& numbers : {degrees, between(-0.2, 0.9), between(-19.0, -4.0), people,
+                                   between(285.0, 320.0), light}) {
+        const MediaDescription media = described("field7.tif", map(numbers));
+        CHECK(contains(media.conclusion.doubt, "map"));
+        CHECK(may_be(media, NearLevels::bright, DepthUnit::levels, 1.0));
+        CHECK(is_sure(described("field7_dem.tif", map(numbers))));
+    }
+    CHECK(is_sure(described("field7.tif",
+                            map(degrees, {{42112,
+                                           "<GDALMetadata><Item name=\"UNITTYPE\" sample=\"0\" "
+                                           "role=\"unittype\">metre</Item></GDALMetadata>"}}))));
+    for (const char* const unit : {"micron", "\xc2\xb5m", "nm"}) {
+        const Write micrograph =
+            text(tiff(kColumns, kRows, 32, 3, true, bytes_of(between(1.0, 12.0)), {}, false,
+                      {{270, std::string("ImageJ=1.53t\nunit=") + unit + "\nspacing=0.3\n"}}));
+        const MediaDescription media = described("sample3.tif", micrograph);
+        CHECK(contains(media.conclusion.doubt, "microscope"));
+        CHECK(media.meaning->near.value == NearLevels::bright);
+        CHECK(media.meaning->unit.value == DepthUnit::levels);
+        CHECK(is_sure(described("topo_sample3.tif", micrograph)));
+    }
+}
+
+TEST_CASE("numbers that are named as another quantity may be no depth", "[meaning]") {
+    const cv::Mat numbers =
+        each_pixel(CV_32F, [](double x, double y) { return 1.5 + 11.0 * farness(x, y); });
+    CHECK(contains(described("wind_speed.npy", real_array(numbers)).conclusion.doubt, "speed"));
+    CHECK(is_sure(described("wind_speed_depth.npy", real_array(numbers))));
+}
+
+TEST_CASE("numbers as far and as flat as a close-up may be millimetres, and metres", "[meaning]") {
+    const auto about = [](double nearest, double span) {
+        return described("a.npy", real_array(each_pixel(CV_32F, [=](double x, double y) {
+                             return nearest + span * farness(x, y);
+                         })));
+    };
+    for (const MediaDescription& media : {about(11.0, 6.0), about(12.0, 12.0), about(30.0, 10.0)}) {
+        CHECK_FALSE(is_sure(media));
+        CHECK(may_be(media, NearLevels::dark, DepthUnit::mm, 1.0));
+        CHECK(may_be(media, NearLevels::dark, DepthUnit::m, 1.0));
+    }
+    CHECK(about(1.2, 20.0).meaning->unit == Known<DepthUnit>{DepthUnit::m, Origin::found});
+}
+
+TEST_CASE("disparities below 0 are linear, near where bright, and all data", "[meaning]") {
+    const cv::Mat numbers =
+        each_pixel(CV_32F, [](double x, double y) { return 3.4 * nearness(x, y) - 1.6; });
+    const MediaDescription media = described("gt_disp_lowres.pfm", text(pfm(numbers, "-1", true)));
+    CHECK(is_sure(media));
+    CHECK(media.meaning->unit.value == DepthUnit::levels);
+    CHECK(media.meaning->near.value == NearLevels::bright);
+    CHECK(media.meaning->range.value.far < -1.0);
+}
+
+TEST_CASE("16-bit numbers from closer than a sensor sees to a room's size are not sure",
+          "[meaning]") {
+    const cv::Mat slice =
+        each_pixel(CV_16U, [](double x, double y) { return 1400.0 * farness(x, y) - 30.0; });
+    const MediaDescription media = described("slice_0087.png", picture(slice));
+    CHECK_FALSE(is_sure(media));
+    CHECK(may_be(media, NearLevels::dark, DepthUnit::mm, 1.0));
+}
+
+TEST_CASE("the range of two levels lies within their bits", "[meaning]") {
+    const cv::Mat blocks = each_pixel(CV_8U, [](double x, double y) {
+        return (static_cast<int>(x) / 8 + static_cast<int>(y) / 8) % 2 == 0 ? 0.0 : 255.0;
+    });
+    const DepthRange range = described("depth_sensor_qr.png", picture(blocks)).meaning->range.value;
+    CHECK(std::max(range.near, range.far) == 255.0);
+    CHECK(std::min(range.near, range.far) == 0.0);
 }
 
 TEST_CASE("far in the middle, without a floor: near is not sure, and both are offered",

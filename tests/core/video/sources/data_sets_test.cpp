@@ -99,6 +99,10 @@ TEST_CASE("a data set is known by the last parts of a path, and by what lies bes
          1.0},
         {{"depth/lidar/CAMERA_01/1561.npz", kRealBits}, "DDAD", DepthUnit::m, 1.0},
         {{"capture_depth16_0001.png", 16}, "Android's DEPTH16", DepthUnit::mm, 1.0},
+        {{"Shot01_FinalImageMovieRenderQueue_WorldDepth.0001.exr", kRealBits},
+         "Unreal Engine's world depth",
+         DepthUnit::mm,
+         10.0},
         {{"rendered_depth_maps/00000003.pfm", kRealBits, {"blended_images/00000003.jpg"}},
          "BlendedMVS",
          DepthUnit::levels,
@@ -142,6 +146,11 @@ TEST_CASE("names that many use are no more than a hint", "[sets]") {
     REQUIRE(estimated);
     CHECK(estimated->name == "ZoeDepth");
     CHECK(estimated->finding.sureness < 0.5);
+    const auto by_program = set_of({"kitchen_zoe.png", 16}, folder);
+    REQUIRE(by_program);
+    CHECK(by_program->name == "ZoeDepth");
+    CHECK(by_program->finding.sureness > 0.5);
+    CHECK(by_program->finding.sureness < kSureEnough);
     const auto stamped = set_of({"depth/1305.160407.png", 16, {"rgb/a.png"}}, folder);
     REQUIRE(stamped);
     CHECK(stamped->name == "TUM RGB-D");
@@ -205,4 +214,20 @@ TEST_CASE("a data set's turned bits are turned back, but not in a copy that some
     CHECK(meaning.code.value == (is_turned ? DepthCode::turned16 : DepthCode::grey));
     CHECK(meaning.range.value.far < 1600.0);
     CHECK(meaning.range.value.near > 900.0);
+}
+
+TEST_CASE("the data set of a source is looked for once, and again for other levels", "[sets]") {
+    const TemporaryFolder folder;
+    SourceFacts facts;
+    facts.file = folder / "indoors_depth.npy";
+    facts.bits = kRealBits;
+    write_text(folder / "indoors_depth_mask.npy", "");
+    KnownDataSet known;
+    REQUIRE(known.of(facts).has_value());
+    fs::remove(folder / "indoors_depth_mask.npy");
+    CHECK(known.of(facts)->name == "DIODE");
+    facts.bits = 16;
+    CHECK_FALSE(known.of(facts).has_value());
+    facts.bits = kRealBits;
+    CHECK_FALSE(known.of(facts).has_value());
 }

@@ -75,7 +75,7 @@ TEST_CASE("the last word of a name says that it is a mask, confidence or a paint
          {"a_depth_mask.npy", "depthMask.png", "depth_conf_0001.png", "confidence", "depth_vis.mp4",
           "depth_colored.png", "rock_nor_gl_2k.png", "thumbnail.jpg", "snap_Infrared.png",
           "depth_normals", "confidence_map.png", "gtFine_labelIds.png", "flow_occ",
-          "frame_0001_flow.png"}) {
+          "frame_0001_flow.png", "confidence_image.npy", "mask_img_07.png", "normal_pred.npy"}) {
         CAPTURE(name);
         CHECK_FALSE(named_other(name).empty());
         CHECK_FALSE(named_depth(name));
@@ -87,6 +87,30 @@ TEST_CASE("the last word of a name says that it is a mask, confidence or a paint
         CHECK(named_other(name).empty());
         CHECK(named_depth(name) != named_colour(name));
     }
+}
+
+TEST_CASE("arrays named as other content are no frames beside the depth", "[beside]") {
+    const TemporaryFolder folder;
+    write_array(folder / "radial_distance_image.npy");
+    write_array(folder / "confidence_image.npy", 128.0F);
+    write_array(folder / "norm_amplitude_image.npy", 300.0F);
+    const auto media = open_media(folder.path());
+    CHECK(media->description().frames == 1);
+    CHECK(begins_at(*media, 1.5F));
+}
+
+TEST_CASE("pictures of brightness are the colour of the depth beside them", "[beside]") {
+    const TemporaryFolder folder;
+    cv::Mat grey;
+    cv::cvtColor(photograph(), grey, cv::COLOR_BGR2GRAY);
+    for (const char* const number : {"1", "2"}) {
+        write(folder / ("depth_" + std::string(number) + ".png"),
+              cv::Mat(kRows, kColumns, CV_16UC1, cv::Scalar(1500)));
+        write(folder / ("amplitude_" + std::string(number) + ".png"), grey);
+    }
+    const auto media = open_media(folder.path());
+    CHECK(media->description().frames == 2);
+    CHECK(media->description().colour_path == folder.path());
 }
 
 TEST_CASE("an array and a picture of one name are depth and colour, not two frames", "[beside]") {
@@ -145,6 +169,14 @@ TEST_CASE("an array whose name says confidence or a mask is no depth, unless a p
     DepthRequest stated{.find_out = true};
     stated.command_line.unit = DepthUnit::m;
     CHECK(open_depth(file, stated)->next());
+}
+
+TEST_CASE("an array of another shape is refused by its shape, whatever its name", "[beside]") {
+    const TemporaryFolder folder;
+    write_text(folder / "x_conf.npy",
+               npy("<f4", "(40, 60, 2)", std::string(40 * 60 * 2 * 4, '\0')));
+    CHECK(contains(refusal([&, file = folder / "x_conf.npy"] { (void)open_media(file); }),
+                   "[..., 0]"));
 }
 
 TEST_CASE("cameras and poses in arrays hide neither folders of pictures nor become frames",
@@ -281,6 +313,8 @@ TEST_CASE("colours of colour maps are told from photographs and from hues of one
     const int map = GENERATE(cv::COLORMAP_JET, cv::COLORMAP_TURBO, cv::COLORMAP_VIRIDIS,
                              cv::COLORMAP_INFERNO, cv::COLORMAP_MAGMA, cv::COLORMAP_PLASMA);
     CHECK(is_colour_mapped(painting(map)));
+    const bool is_rainbow = map == cv::COLORMAP_JET || map == cv::COLORMAP_TURBO;
+    CHECK(has_map_of_rising_brightness(painting(map)) != is_rainbow);
     CHECK_FALSE(is_colour_mapped(scene_photo()));
     CHECK_FALSE(is_colour_mapped(painted(scene_depth(), as_grey)));
     CHECK_FALSE(is_colour_mapped(cv::Mat(60, 60, CV_8UC3, cv::Scalar(0, 0, 255))));

@@ -164,6 +164,7 @@ TEST_CASE("names of colour and depth beside each other are told apart in many wo
                                          {"left/0001.png", "disparity/0001.png"},
                                          {"FARBE/0001.png", "TIEFE/0001.png"},
                                          {"couleur_1.png", "profondeur_1.png"},
+                                         {"房间.png", "房间_深度.png"},
                                          {"color/1.png", "profundidad/1.png"},
                                          {"colore/1.png", "profondita/1.png"},
                                          {"0001.png", "0001_depth.png"},

@@ -22,6 +22,7 @@
 #include "core/video/sources/sidecar.hpp"
 #include "tests/core/video/bag_writers.hpp"
 #include "tests/core/video/clips.hpp"
+#include "tests/core/video/forms.hpp"
 #include "tests/core/video/numbered_film.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -594,6 +595,63 @@ TEST_CASE("numbers of frames are no stamps, and stamps of any unit are", "[pair_
     CHECK(unit(0.0, 33.0, 60, true) == 1e-3);
 }
 
+TEST_CASE("an estimator's array belongs to the video that it was made of, with its times",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    make_numbered_clip(folder / "clip_src.mp4", 12, "10", kH264);
+    make_numbered_clip(folder / "clip_vis.mp4", 12, "10", kH264);
+    std::string values;
+    for (int k = 0; k < 12; ++k)
+        for (int pixel = 0; pixel < 48 * 64; ++pixel)
+            append_bytes(values, 1.0F + 0.1F * static_cast<float>(k + pixel % 64));
+    write_zip(folder / "clip_depths.npz", {{"depths.npy", npy("<f4", "(12, 48, 64)", values)}},
+              true);
+    const fs::path place = GENERATE(0, 1) == 0 ? folder.path() : folder / "clip_src.mp4";
+    const auto media = open_media(place, {}, {.find_out = true});
+    const MediaDescription& opened = media->description();
+    CHECK(opened.colour_path == folder / "clip_src.mp4");
+    CHECK(opened.depth_path == folder / "clip_depths.npz");
+    CHECK(opened.frames == 12);
+    CHECK(opened.times_from == "other");
+    // Both given are described as they open.
+    const DepthRequest request{.find_out = true};
+    const auto described = describe_media(opened.depth_path, request, opened.colour_path);
+    CHECK(described.timing == opened.timing);
+    CHECK_THAT(described.duration_s, WithinAbs(opened.duration_s, 1e-9));
+    CHECK(described.colour_columns == 0);
+    CHECK(describe_media(opened.depth_path, request).times_from == "assumed");
+    const auto colour = describe_media(opened.colour_path, request, opened.depth_path);
+    CHECK(colour.times_from == "file");
+    CHECK(colour.depth_columns == 0);
+}
+
+TEST_CASE("pictures in a subfolder data, whose times are beside it, are those of the folder",
+          "[pair_times]") {
+    const TemporaryFolder folder;
+    for (const char* const camera : {"cam0", "depth0"}) {
+        std::string table = "#timestamp [ns],filename\n";
+        for (int k = 0; k < 8; ++k) {
+            const std::string stamp =
+                std::to_string(1403636579763555584LL + 50000000LL * (k + k / 4));
+            const fs::path file = folder / camera / "data" / (stamp + ".png");
+            if (std::string(camera) == "cam0")
+                write_numbered_colour(file, k);
+            else
+                write_numbered_depth(file, k);
+            table += stamp + "," + stamp + ".png\n";
+        }
+        write_text(folder / camera / "data.csv", table);
+    }
+    const auto media = GENERATE(true, false)
+                           ? open_media(folder.path(), {}, as_a_person_opens())
+                           : open_media(folder / "cam0", folder / "depth0", as_a_person_opens());
+    CHECK(media->description().frames == 8);
+    CHECK(media->description().times_from == "list");
+    std::vector<double> times_s;
+    for (int k = 0; k < 8; ++k) times_s.push_back(0.05 * (k + k / 4));
+    check_pair(*media, times_s);
+}
+
 TEST_CASE("tables and JSON of stamps are read, others are not taken for them", "[pair_times]") {
     const TemporaryFolder folder;
     const PictureRow row = row_of_names({"1.png", "2.png", "3.png"});
@@ -608,6 +666,9 @@ TEST_CASE("tables and JSON of stamps are read, others are not taken for them", "
     CHECK(read("a.csv", "time_ms;frame\n500;3\n0;1\n250;2\n") == Stamps{0.0, 0.25, 0.5});
     CHECK(read("a.csv", "t,file\n0.5,b/3.png\n0.25,b/2.png\n0.0,b/1.png\n") ==
           Stamps{0.0, 0.25, 0.5});
+    std::string wide = "0.0,1.png";
+    for (int k = 0; k < 500000; ++k) wide += ",7";  // cells that nobody needs
+    CHECK(read("a.csv", wide + "\n0.25,2.png\n0.5,3.png\n") == Stamps{0.0, 0.25, 0.5});
     CHECK(read("a.json", "[0.0, 0.25, 0.5]") == Stamps{0.0, 0.25, 0.5});
     CHECK(read("a.json", R"({"1": {"timestamp": 2.5}, "2": {"timestamp": 3.0},
                              "3": {"timestamp": 3.25}})") == Stamps{2.5, 3.0, 3.25});

@@ -522,15 +522,19 @@ TEST_CASE("a grey picture and one of something else are refused as what they are
     const cv::Mat photo = scene_photo();
     cv::Mat painting;
     cv::applyColorMap(painted(scene_depth(), as_grey), painting, cv::COLORMAP_VIRIDIS);
+    cv::Mat in_jet;
+    cv::applyColorMap(painted(scene_depth(), as_grey), in_jet, cv::COLORMAP_JET);
     const auto [name, picture, words] = GENERATE_COPY(table<std::string, cv::Mat, std::string>(
         {{"cam0_000012.png", in_grey(photo), "is grey and does not look like depth"},
          {"frame_0001_normal.png", photo, "named as normals"},
          {"aachen_gtFine_labelIds.png", chessboard(24), "named as labels"},
          {"flow_occ/000000_10.png", photo, "in a folder named as optical flow"},
-         {"disparities/alley_1/frame_0001.png", photo, "in colours that are neither grey nor"},
-         {"vis/depth_viridis.png", painting, "painted in the colours of a map"},
+         {"disparities/alley_1/frame_0001.png", photo, "is a colour picture, not depth"},
+         {"vis/depth_viridis.png", painting, "take its brightness by --depth-code grey"},
+         {"vis/depth_jet.png", in_jet, "--depth-code grey would give a wrong relief"},
          {"thermal.png", painting, "give the numbers that it was painted from"},
-         {"IMG_0001.png", photo, "needs a depth file"}}));
+         {"IMG_0001.png", photo,
+          "is a colour picture without depth and needs a depth file beside it"}}));
     CAPTURE(name);
     const auto file = folder / name;
     std::filesystem::create_directories(file.parent_path());

@@ -258,6 +258,11 @@ TEST_CASE("a fact that cannot be understood is told in one line, with the file a
     CHECK(line.find('\n') == std::string::npos);
 }
 
+TEST_CASE("a code that there is none of is told with all that there are", "[sidecar]") {
+    const std::string line = refusal([] { (void)said_by("code = \"red\""); });
+    for (const DepthCode code : kDepthCodes) CHECK(contains(line, std::string(name_of(code))));
+}
+
 TEST_CASE("too many levels without data, and a sidecar that is none, are refused", "[sidecar]") {
     const TemporaryFolder folder;
     std::string list = "0";

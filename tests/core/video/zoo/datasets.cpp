@@ -298,16 +298,38 @@ Brought tartan_air(const fs::path& folder) {
     return sky_film(folder, film);
 }
 
-/// Metres as the bytes of floats.
+/// Metres as the bytes of floats, written by OpenCV.
 Brought tartan_air_2(const fs::path& folder) {
     const Film film = film_of(Place::room, kRowFrames);
     for (int k = 0; k < kRowFrames; ++k) {
         const auto at = static_cast<std::size_t>(k);
         save(folder / numbered_name("image_lcam_front/######_lcam_front.png", k), film.colour[at]);
         save(folder / numbered_name("depth_lcam_front/######_lcam_front_depth.png", k),
-             in_bytes(film.farness[at], DepthCode::float32));
+             in_bytes(film.farness[at], DepthCode::float32_bgra));
     }
     return {folder, {}, truth_of(film, Knows::metric)};
+}
+
+/// A simulated camera's range in 24 bits, red the highest.
+Brought rl_bench(const fs::path& folder) {
+    constexpr double kNear_m = 0.01;
+    constexpr double kFar_m = 6.5;
+    const View view = view_of(Place::room);
+    const fs::path episode = folder / "episode0";
+    save(episode / "front_rgb/0.png", view.colour);
+    save(episode / "front_mask/0.png", cv::Mat(view.colour.size(), CV_8UC3, cv::Scalar(0, 0, 7)));
+    const cv::Mat parts = (view.farness - kNear_m) / (kFar_m - kNear_m);
+    save(episode / "front_depth/0.png", in_bytes(parts * 16777215.0, DepthCode::bgr24));
+    return {episode / "front_depth/0.png", {}, truth_of(view.farness, Knows::shape)};
+}
+
+/// Millimetres, green the high byte and blue the low one.
+Brought nyu_hand(const fs::path& folder) {
+    const View view = view_of(Place::room);
+    const cv::Mat farness = with_hole(view.farness);
+    save(folder / "rgb_1_0000001.png", view.colour);
+    save(folder / "depth_1_0000001.png", in_bytes(farness * 1000.0, DepthCode::gb16));
+    return {folder / "depth_1_0000001.png", {}, truth_of(farness, Knows::metric)};
 }
 
 /// A picture of one number for each pixel, alone.
@@ -507,6 +529,8 @@ Forms forms_of_datasets() {
         {"DIODE", diode},
         {"TartanAir", tartan_air},
         {"TartanAir V2", tartan_air_2},
+        {"RLBench", rl_bench},
+        {"NYU Hand", nyu_hand},
         {"Habitat", habitat},
         {"Middlebury 2014", middlebury_2014},
         {"Middlebury 2006", middlebury_2006},

@@ -134,6 +134,25 @@ Brought video_depth_anything(const fs::path& folder, bool metric) {
     return brought;
 }
 
+/// The folder that the program leaves, with the video that it was given, and a painting.
+Brought video_depth_anything_folder(const fs::path& folder) {
+    Brought brought = video_depth_anything(folder, false);
+    const Film film = film_of(Place::room, 8);
+    const Pictures painted = each(film.farness, [](const cv::Mat& farness) {
+        cv::Mat map;
+        cv::applyColorMap(in_8_bits(nearness_of(farness)), map, cv::COLORMAP_INFERNO);
+        return map;
+    });
+    save_video(folder / "clip_src.mp4", {{film.colour, 10.0, kGoodH264}});
+    save_video(folder / "clip_vis.mp4", {{painted, 10.0, kGoodH264}});
+    brought.place = folder;
+    brought.truth.colour = film.colour;
+    for (std::size_t k = 0; k < film.farness.size(); ++k)
+        brought.truth.times_s.push_back(0.1 * static_cast<double>(k));
+    brought.truth.colour_times_s = brought.truth.times_s;
+    return brought;
+}
+
 Brought estimated_video(const fs::path& folder) {
     const Film film = film_of(Place::portrait, 20);
     const Pictures grey =
@@ -185,6 +204,7 @@ Forms forms_of_estimators() {
             {"relative values with negative ones", offset_values},
             {"Video Depth Anything",
              [](const fs::path& folder) { return video_depth_anything(folder, false); }},
+            {"Video Depth Anything, its folder", video_depth_anything_folder},
             {"Video Depth Anything, metric",
              [](const fs::path& folder) { return video_depth_anything(folder, true); }},
             {"estimated video", estimated_video},

@@ -46,6 +46,21 @@ Brought geotiff(const fs::path& folder) {
     return {folder / "dem.tif", {}, heights(farness)};
 }
 
+/// Nothing but the numbers says that the map is of heights.
+Brought nameless_geotiff(const fs::path& folder) {
+    const cv::Mat farness = with_hole(view_of(Place::terrain).farness);
+    save_tiff(folder / "n46_e011.tif", with_no_data_as(terrain_m(farness), -9999.0), "-9999");
+    return {folder / "n46_e011.tif", {}, heights(farness)};
+}
+
+/// Micrometres, as ImageJ saves them: imagej.net, TIFF of ImageJ.
+Brought micrograph(const fs::path& folder) {
+    const View view = view_of(Place::gel);
+    save_tiff(folder / "topo_sample3.tif", (2.0 - view.farness) * 6.0 + 1.0, {},
+              "ImageJ=1.53t\nunit=micron\nspacing=0.277\n");
+    return {folder / "topo_sample3.tif", {}, heights(view.farness)};
+}
+
 /// (65536 R + 256 G + B) / 10 - 10000: docs.mapbox.com, terrain-RGB.
 Brought terrain_rgb(const fs::path& folder) {
     const View view = view_of(Place::terrain);
@@ -119,6 +134,8 @@ Forms forms_of_heights() {
             height_numbers_form("heightmap.npy"),
             height_numbers_form("alps_height.npy"),
             {"GeoTIFF", geotiff},
+            {"GeoTIFF without a word for height", nameless_geotiff},
+            {"ImageJ, micrometres", micrograph},
             {"terrain-RGB", terrain_rgb},
             {"material", material},
             {"leather_BUMP.png", grain},

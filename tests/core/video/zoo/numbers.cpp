@@ -74,8 +74,8 @@ Brought pfm_like_text(const fs::path& folder) {
             bits |= 0x00202020U;
             std::memcpy(&farness.at<float>(j, i), &bits, sizeof bits);
         }
-    save_pfm(folder / "depth.pfm", farness);
-    return {folder / "depth.pfm", {}, truth_of(farness)};
+    save_pfm(folder / "lidar_depth.pfm", farness);  // else 10 to 14 may be millimetres
+    return {folder / "lidar_depth.pfm", {}, truth_of(farness)};
 }
 
 // Bytes of colours.
@@ -161,6 +161,33 @@ Brought unreal(const fs::path& folder) {
     return brought;
 }
 
+/// Centimetres in the red channel alone, as Movie Render Queue writes them.
+Brought unreal_film(const fs::path& folder) {
+    const View view = view_of(Place::street);
+    const std::string file = "Shot01_FinalImageMovieRenderQueue_WorldDepth.0001.exr";
+    save_exr(folder / file, {{"R", with_no_data_as(view.farness * 100.0, 65504.0)}});
+    Brought brought{folder / file, {}, truth_of(view.farness)};
+    brought.truth.sky = true;
+    return brought;
+}
+
+/// Of distances in metres.
+Brought logarithm(const fs::path& folder) {
+    const cv::Mat farness = view_of(Place::room).farness;
+    cv::Mat values;
+    cv::log(farness + 1.0, values);
+    save_npy(folder / "log_depth.npy", values);
+    return {folder / "log_depth.npy", {}, truth_of(values, Knows::shape, Measure::relative)};
+}
+
+/// Of a light field: 0 is where its views meet, in the middle of the scene.
+Brought signed_disparity(const fs::path& folder) {
+    const cv::Mat disparity = disparity_of(view_of(Place::room).farness, 6.0) - 3.0;
+    save_pfm(folder / "gt_disp_lowres.pfm", disparity);
+    return {
+        folder / "gt_disp_lowres.pfm", {}, truth_of(-disparity, Knows::shape, Measure::relative)};
+}
+
 /// The depth buffer itself: 1 at the near plane, one over the distance.
 Brought unity(const fs::path& folder) {
     const View view = view_of(Place::room);
@@ -184,6 +211,9 @@ Forms forms_of_numbers() {
                 {"Blender, layers", blender_layers},
                 {"Blender, depth alone", blender_depth},
                 {"Unreal", unreal},
+                {"Unreal, Movie Render Queue", unreal_film},
+                {"logarithm of depth", logarithm},
+                {"disparities about a plane", signed_disparity},
                 {"Unity", unity}};
     for (const char* const ending : {"npy", "npz", "tif", "pfm", "exr"})
         forms.push_back(holed_form(ending, 0.0, "0"));

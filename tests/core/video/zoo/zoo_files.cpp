@@ -152,7 +152,8 @@ void save_exr(const fs::path& file, const std::map<std::string, cv::Mat>& channe
 
 // TIFF.
 
-void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& no_data) {
+void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& no_data,
+               const std::string& description) {
     const std::string data = bytes_of(numbers.clone());
     const auto columns = static_cast<std::uint32_t>(numbers.cols);
     const auto rows = static_cast<std::uint32_t>(numbers.rows);
@@ -166,16 +167,13 @@ void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& 
         append_bytes(written.bytes, value);
         return written;
     };
-    std::vector<Tag> tags{number(256, columns),
-                          number(257, rows),
-                          number(258, 32),
-                          number(259, 1),
-                          number(262, 1),
-                          number(273, 8),
-                          number(277, 1),
-                          number(278, rows),
-                          number(279, static_cast<std::uint32_t>(data.size())),
-                          number(339, 3)};
+    std::vector<Tag> tags{number(256, columns), number(257, rows), number(258, 32), number(259, 1),
+                          number(262, 1)};
+    if (!description.empty())
+        tags.push_back(
+            {270, 2, static_cast<std::uint32_t>(description.size() + 1), description + '\0'});
+    tags.insert(tags.end(), {number(273, 8), number(277, 1), number(278, rows),
+                             number(279, static_cast<std::uint32_t>(data.size())), number(339, 3)});
     if (!no_data.empty()) {
         Tag scale{33550, 12, 3, {}};
         for (const double metres : {10.0, 10.0, 0.0}) append_bytes(scale.bytes, metres);

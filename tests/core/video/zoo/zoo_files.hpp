@@ -52,7 +52,9 @@ void save_pfm(const fs::path& file, const cv::Mat& numbers);
 /// OpenEXR of these channels, 32-bit floats.
 void save_exr(const fs::path& file, const std::map<std::string, cv::Mat>& channels);
 /// A TIFF of real numbers; a GeoTIFF if it says its `no_data` as GDAL does, else empty.
-void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& no_data = {});
+/// `description`: of what it shows; empty: none.
+void save_tiff(const fs::path& file, const cv::Mat& numbers, const std::string& no_data = {},
+               const std::string& description = {});
 /// A JPEG photo with a depth picture in its extended XMP, as Android's cameras wrote it.
 void save_gdepth(const fs::path& file, const cv::Mat& colour, const cv::Mat& depth, double near_m,
                  double far_m);
