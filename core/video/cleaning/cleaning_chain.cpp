@@ -20,7 +20,11 @@ namespace {
 constexpr float kPerceptibleNoise = 0.15F / 255.0F;
 /// Depth with little noise may have ramps all the same.
 constexpr CleaningSteps kLowNoiseSteps{
-    .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
+    .remove_spikes = true,
+    .fill_holes = true,
+    .sharpen_silhouettes = true,
+    .smooth_steps = true,
+    .smooth_outlines = true};
 constexpr double kReportedRelief_px = 255.0;
 
 /// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
@@ -145,8 +149,9 @@ void CleaningChain::close_holes(SingleFrameDepth& single_frame, bool fill,
 SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan& plan,
                                             std::span<const HeldLevel> held,
                                             const ColourImage* colour) {
-    SingleFrameDepth single_frame{std::move(image), {}, {}};
+    SingleFrameDepth single_frame{std::move(image), {}, {}, 0};
     const bool touchable = is_touchable(single_frame.depth);
+    if (touchable && plan.steps.smooth_outlines) single_frame.teeth = teeth_of(single_frame.depth);
     interpolated_.clear();
     if (touchable && plan.steps.densify && has_holes(single_frame.depth)) {
         densify(single_frame.depth, colour);
@@ -194,6 +199,7 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
         if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
+        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
     }
     if (!here.unseen.empty())
         frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);

@@ -14,6 +14,7 @@
 #include "core/video/cleaning/frame_scale.hpp"
 #include "core/video/cleaning/large_holes.hpp"
 #include "core/video/cleaning/noise_smoothing.hpp"
+#include "core/video/cleaning/outlines.hpp"
 #include "core/video/cleaning/silhouettes.hpp"
 #include "core/video/cleaning/small_holes.hpp"
 #include "core/video/cleaning/sparse_interpolation.hpp"
@@ -51,7 +52,8 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
     return a.densify == b.densify && a.remove_spikes == b.remove_spikes &&
            a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
-           a.colour_edges == b.colour_edges;
+           a.colour_edges == b.colour_edges &&
+           a.smooth_outlines == b.smooth_outlines;  // the recorded ones are looked at
 }
 
 /// In one line, for a person: "auto: sensor, noise 0.9 px near, 6.9 far".
@@ -100,6 +102,7 @@ class CleaningChain {
     TemporalFilter temporal_{};
     StepSmoother steps_{};
     NoiseSmoother noise_{};
+    OutlineSmoother outlines_{};
     FingertipDilation finger_{};
 };
 

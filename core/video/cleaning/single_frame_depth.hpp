@@ -22,6 +22,7 @@ struct SingleFrameDepth {
     DepthImage depth{};                  ///< no NaN
     std::vector<std::uint8_t> filled{};  ///< 1 for pixels that had no data; empty: all had data
     std::vector<std::uint8_t> unseen{};  ///< 1 for pixels never seen; empty: all were seen
+    std::size_t teeth{0};                ///< of the recorded outlines, if they are smoothed
 };
 
 }  // namespace dibhr
