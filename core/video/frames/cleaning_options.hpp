@@ -57,7 +57,7 @@ inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .smooth_noise = true,
                                             .smooth_outlines = true};
 
-/// Which steps: a named set, the set chosen by the clip's noise (automatic), or the user's own.
+/// Which steps: a named set, the set that feels best on the clip (automatic), or the user's own.
 enum class CleaningPreset : std::uint8_t { automatic, raw, gentle, sensor, own };
 
 inline constexpr std::array<NamedValue<CleaningPreset>, 5> kCleaningPresetNames{
