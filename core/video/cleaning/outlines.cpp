@@ -16,7 +16,6 @@ namespace {
 constexpr float kOutline = 0.05F;
 constexpr int kReach_px = 2;  ///< of the pixels that decide a side
 constexpr int kSide_px = 2 * kReach_px + 1;
-constexpr int kRounds = 2;
 /// By their distance along rows and columns the 5 x 5 pixels around weigh this, as a Gaussian of
 /// 1.2 px.
 constexpr float kBeside = 0.70664828F, kFarther = 0.24935221F;
@@ -27,6 +26,7 @@ constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither
 
 const float kNone = std::nanf("");  ///< no level
 constexpr int kSpur_px = 2;         ///< a line one pixel wide loses this at its ends
+constexpr int kChunk = 64;          ///< pixels of a row that are checked together
 constexpr int kMostPasses = 64;     ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
@@ -71,46 +71,61 @@ DIBHR_VECTOR_CLONES void mark_teeth(const Rows& rows, float step, int begin, int
         const float down = row[i] - below[i];
         const float left = row[i] - row[i - 1];
         const float right = row[i] - row[i + 1];
-        const auto are_across = [step](float one, float other) {
-            return (static_cast<int>(one > step) & static_cast<int>(other > step)) |
-                   (static_cast<int>(one < -step) & static_cast<int>(other < -step));
-        };
-        const auto is_alike = [step](float way) {
-            return static_cast<int>(std::fabs(way) <= step);
+        // In numbers of 0 and 1, which the compiler vectorises.
+        const auto if_so = [](bool so) { return so ? 1.0F : 0.0F; };
+        const auto are_across = [&](float one, float other) {
+            return if_so(one > step) * if_so(other > step) +
+                   if_so(one < -step) * if_so(other < -step);
         };
         // It hangs together with one side only: a line one pixel wide is none.
-        marks[i] =
-            static_cast<std::uint8_t>((are_across(up, down) & (is_alike(left) ^ is_alike(right))) |
-                                      (are_across(left, right) & (is_alike(up) ^ is_alike(down))));
+        const auto is_one_alike = [&](float one, float other) {
+            return std::fabs(if_so(std::fabs(one) <= step) - if_so(std::fabs(other) <= step));
+        };
+        const float teeth = are_across(up, down) * is_one_alike(left, right) +
+                            are_across(left, right) * is_one_alike(up, down);
+        marks[i] = static_cast<std::uint8_t>(teeth > 0.0F ? 1 : 0);
     }
 }
 
+/// The same, quicker: few pixels are beside a step, as a tooth is.
+void mark_few_teeth(const Rows& rows, float step, int begin, int end, std::uint8_t* marks) {
+    mark_steps(rows, step, begin, end, marks);
+    if (std::memchr(marks + begin, 1, static_cast<std::size_t>(end - begin)) != nullptr)
+        mark_teeth(rows, step, begin, end, marks);
+}
+
+/// As the functions above.
+using Mark = void (*)(const Rows& rows, float step, int begin, int end, std::uint8_t* marks);
+
 /// visit(pixel) for each pixel that `mark` marks, in order, but those on the border.
-template <typename Mark, typename Visit>
-void each_marked(const DepthImage& image, std::vector<std::uint8_t>& marks, const Mark& mark,
-                 const Visit& visit) {
-    marks.resize(static_cast<std::size_t>(image.columns));
-    const std::uint8_t* const end = marks.data() + image.columns - 1;
+template <typename Visit>
+void each_marked(const DepthImage& image, Mark mark, float step, const Visit& visit) {
+    std::array<std::uint8_t, kChunk> marks{};
     for (int j = 1; j + 1 < image.rows; ++j) {
-        mark(rows_at(image, j), 1, image.columns - 1, marks.data());
-        const std::uint8_t* at = marks.data() + 1;
-        while (at < end) {
-            at = static_cast<const std::uint8_t*>(
-                std::memchr(at, 1, static_cast<std::size_t>(end - at)));
-            if (at == nullptr) break;
-            visit(static_cast<std::uint32_t>(image.index(static_cast<int>(at - marks.data()), j)));
-            ++at;
+        const Rows rows = rows_at(image, j);
+        for (int begin = 1; begin < image.columns - 1; begin += kChunk) {
+            const int count = std::min(kChunk, image.columns - 1 - begin);
+            mark({rows.above + begin, rows.row + begin, rows.below + begin}, step, 0, count,
+                 marks.data());
+            const auto begin_of = static_cast<std::uint32_t>(image.index(begin, j));
+            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
+                const void* const next =
+                    std::memchr(marks.data() + k, 1, static_cast<std::size_t>(count) - k);
+                if (next == nullptr) break;
+                k = static_cast<std::uint32_t>(static_cast<const std::uint8_t*>(next) -
+                                               marks.data());
+                visit(begin_of + k);
+            }
         }
     }
 }
 
 /// Whether `mark` marks the pixel, which is not on the border.
-template <typename Mark>
-bool is_marked(const DepthImage& image, std::uint32_t pixel, const Mark& mark) {
+bool is_marked(const DepthImage& image, std::uint32_t pixel, Mark mark, float step) {
     const int i = static_cast<int>(pixel) % image.columns;
     const Rows rows = rows_at(image, static_cast<int>(pixel) / image.columns);
     std::uint8_t marked = 0;
-    mark({rows.above + i, rows.row + i, rows.below + i}, 0, 1, &marked);
+    mark({rows.above + i, rows.row + i, rows.below + i}, step, 0, 1, &marked);
     return marked != 0;
 }
 
@@ -154,10 +169,13 @@ class Sides {
 
     /// Whether the pixel and two opposite neighbours are of one side: then it is on a line.
     [[nodiscard]] bool is_on_line() const {
-        const bool high = of(0, 0) > 0.0F;
+        const auto above = [&](int right, int down) {
+            return at_[down * columns_ + right] - middle_;
+        };
+        const bool high = above(0, 0) > 0.0F;
         const auto both = [&](int right, int down) {
-            const float one = of(right, down);
-            const float other = of(-right, -down);
+            const float one = above(right, down);
+            const float other = above(-right, -down);
             return high ? std::min(one, other) > 0.0F : std::max(one, other) < 0.0F;
         };
         return both(1, 0) || both(0, 1) || both(1, 1) || both(1, -1);
@@ -211,10 +229,6 @@ void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth) {
     const float step = step_of(image);
     find_steps(image, step);
     turn_sides(image);
-    for (int k = 1; k < kRounds && !turned_.empty(); ++k) {
-        find_steps_beside_turned(image, step);
-        turn_sides(image);
-    }
     find_teeth(image, step);
     for (int k = 0; k < kMostPasses && !pixels_.empty(); ++k)
         take_teeth(image, step, k < kSpur_px ? 1 : 0);
@@ -226,33 +240,7 @@ void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth) {
 
 void OutlineSmoother::find_steps(const DepthImage& image, float step) {
     pixels_.clear();
-    each_marked(
-        image, marks_,
-        [step](const Rows& rows, int begin, int end, std::uint8_t* marks) {
-            mark_steps(rows, step, begin, end, marks);
-        },
-        [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
-}
-
-/// Of the others nothing around has changed.
-void OutlineSmoother::find_steps_beside_turned(const DepthImage& image, float step) {
-    const auto mark = [step](const Rows& rows, int begin, int end, std::uint8_t* marks) {
-        mark_steps(rows, step, begin, end, marks);
-    };
-    marks_.assign(image.levels.size(), 0);
-    pixels_.clear();
-    for (const auto& turned : turned_) {
-        const int i = static_cast<int>(turned.first) % image.columns;
-        const int j = static_cast<int>(turned.first) / image.columns;
-        for (int y = std::max(j - kReach_px, 1); y <= std::min(j + kReach_px, image.rows - 2); ++y)
-            for (int x = std::max(i - kReach_px, 1);
-                 x <= std::min(i + kReach_px, image.columns - 2); ++x) {
-                const std::size_t pixel = image.index(x, y);
-                if (std::exchange(marks_[pixel], std::uint8_t{1}) != 0) continue;
-                const auto number = static_cast<std::uint32_t>(pixel);
-                if (is_marked(image, number, mark)) pixels_.push_back(number);
-            }
-    }
+    each_marked(image, mark_steps, step, [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
 }
 
 /// Moves pixels to the side that most around them have, all at once.
@@ -279,22 +267,17 @@ void OutlineSmoother::turn_sides(DepthImage& image) {
 
 void OutlineSmoother::find_teeth(const DepthImage& image, float step) {
     pixels_.clear();
-    each_marked(
-        image, marks_,
-        [step](const Rows& rows, int begin, int end, std::uint8_t* marks) {
-            mark_teeth(rows, step, begin, end, marks);
-        },
-        [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
+    each_marked(image, mark_few_teeth, step,
+                [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
     teeth_ = pixels_.size();
 }
 
 /// Moves each tooth of pixels_ that leaves fewer, or as many if `as_many` is 1, one after the
 /// other; pixels_ then are the teeth beside those.
 void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_many) {
-    const auto mark = [step](const Rows& rows, int begin, int end, std::uint8_t* marks) {
-        mark_teeth(rows, step, begin, end, marks);
+    const auto is_tooth = [&](std::uint32_t pixel) {
+        return is_marked(image, pixel, mark_teeth, step);
     };
-    const auto is_tooth = [&](std::uint32_t pixel) { return is_marked(image, pixel, mark); };
     const auto teeth_around = [&](std::uint32_t pixel) {
         std::size_t count = 0;
         each_around(image, pixel, [&](std::uint32_t near) { count += is_tooth(near) ? 1 : 0; });
@@ -329,15 +312,8 @@ void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_m
 }
 
 std::size_t teeth_of(const DepthImage& image) {
-    const float step = step_of(image);
-    std::vector<std::uint8_t> marks;
     std::size_t count = 0;
-    each_marked(
-        image, marks,
-        [step](const Rows& rows, int begin, int end, std::uint8_t* row_marks) {
-            mark_teeth(rows, step, begin, end, row_marks);
-        },
-        [&](std::uint32_t) { ++count; });
+    each_marked(image, mark_teeth, step_of(image), [&](std::uint32_t) { ++count; });
     return count;
 }
 

@@ -13,8 +13,8 @@ namespace dibhr {
 /// Noise and each pixel's own decision leave outlines ragged. A pixel beside a step changes sides
 /// where most around it are on the other one, and takes the level of its neighbours there. Then
 /// each tooth that is left changes sides where that leaves fewer: there are never more than before.
-/// Unchanged: ramps, and straight lines of pixels, but for four at their ends. The same input gives
-/// the same bits. Scratch memory is kept inside.
+/// Unchanged: ramps, and straight lines of pixels, but for three at their ends. The same input
+/// gives the same bits. Scratch memory is kept inside.
 class OutlineSmoother {
   public:
     /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. Where other
@@ -23,12 +23,10 @@ class OutlineSmoother {
 
   private:
     void find_steps(const DepthImage& image, float step);
-    void find_steps_beside_turned(const DepthImage& image, float step);
     void turn_sides(DepthImage& image);
     void find_teeth(const DepthImage& image, float step);
     void take_teeth(DepthImage& image, float step, std::size_t as_many);
 
-    std::vector<std::uint8_t> marks_{};
     std::vector<std::uint32_t> pixels_{};  ///< beside a step; later teeth
     std::vector<std::pair<std::uint32_t, float>> turned_{};
     std::size_t teeth_{0};  ///< that are left

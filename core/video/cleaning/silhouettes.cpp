@@ -335,12 +335,13 @@ void SilhouetteSharpener::decide(Votes& votes) {
                        : votes.low / static_cast<float>(votes.lows);
 }
 
-/// A pixel keeps its side only where at least half of those around that may be on a ramp have one.
+/// A pixel keeps its side only where at least a third of those around that may be on a ramp have
+/// one. (Of half the gaps between fingers would be lost.)
 void SilhouetteSharpener::decide_together(const DepthImage& image) {
     told_.assign(image.levels.size(), 0);
     for (const std::uint32_t pixel : steep_) told_[pixel] = -1;
     for (const Votes& votes : votes_)
-        if (votes.side != Side::neither) told_[votes.pixel] = 1;
+        if (votes.side != Side::neither) told_[votes.pixel] = 2;
     for (Votes& votes : votes_) {
         if (votes.side == Side::neither) continue;
         const int x = static_cast<int>(votes.pixel) % image.columns;
