@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/playing/clip_trial.hpp"
 #include "core/video/playing/held_levels_media.hpp"
 #include "tests/support/pressing_finger.hpp"
 
@@ -120,14 +121,18 @@ class Survey {
 /// The cleaning of a recording, chosen by its first frames.
 CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
     NoiseMeter meter;
+    ClipTrial trial;
     media.seek(0.0);
     for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k)
-        if (const std::optional<RawFrame> frame = media.next()) meter.add(frame->depth);
+        if (const std::optional<RawFrame> frame = media.next()) {
+            trial.add(frame->depth);
+            meter.add(frame->depth);
+        }
     const MediaDescription& description = media.description();
-    return plan_of(cleaning, meter.noise(),
-                   static_cast<std::size_t>(description.depth_columns) *
-                       static_cast<std::size_t>(description.depth_rows),
-                   description.sparse_share.has_value());
+    const DepthNoise noise = meter.noise();
+    const std::size_t pixels = description.depth_pixels();
+    return plan_of(cleaning, noise, pixels, description.sparse_share.has_value(),
+                   trial.best_of(ways_of_automatic(pixels), noise));
 }
 
 Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
+#include "core/video/playing/clip_trial.hpp"
 #include "core/video/playing/held_levels_media.hpp"
 
 namespace dibhr {
@@ -222,18 +223,21 @@ void FrameReader::prefetch_after_kept(double media_s) {
     prefetch_ = {from_s, kept_to_s};
 }
 
-/// The noise of the following frames, up to a read error, which the read of that frame reports.
-DepthNoise FrameReader::noise_of(Media& media) {
+/// Measures the following frames, up to a read error, which the read of that frame reports.
+void FrameReader::measure() {
     NoiseMeter meter;
+    ClipTrial trial;
     try {
         for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k) {
-            std::optional<RawFrame> raw = media.next();
+            std::optional<RawFrame> raw = media_.next();
             if (!raw) break;
+            trial.add(raw->depth);
             meter.add(std::move(raw->depth));
         }
     } catch (const InputError&) {
     }
-    return meter.noise();
+    noise_ = meter.noise();
+    felt_ = trial.best_of(ways_of_automatic(description().depth_pixels()), *noise_);
 }
 
 /// Measures the noise before the first frame is cleaned, where the options depend on it.
@@ -244,13 +248,13 @@ void FrameReader::make_plan() {
         media_.prepare_with(nullptr);
         const auto begin = now_();
         jump_to(0.0);
-        noise_ = noise_of(media_);
+        measure();
         jump_to(0.0);
         waited_s_ += seconds_since(begin);
     }
     const CleaningPlan plan =
         plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
-                description().sparse_share.has_value());
+                description().sparse_share.has_value(), felt_);
     if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
