@@ -151,8 +151,7 @@ TEST_CASE("a hand in motion keeps its silhouettes within a pixel, and is no nois
     const std::string by = GENERATE("exact", "white", "tof");
     CAPTURE(by);
     const Nearness after = seen("hand", by, kAuto, 640, 12);
-    // Where noise has made a gap between fingers one ragged pixel wide, it closes.
-    CHECK(after.edge_px <= (by == "tof" ? 2.0 : 1.0));
+    CHECK(after.edge_px <= 1.0);
     CHECK(after.elevation_px <= (by == "exact" ? 0.01 : 0.4));
 }
 

@@ -26,6 +26,9 @@ constexpr float kManyFrames = 8.0F, kManyShare = 0.75F, kLeastMany = 4.0F;
 
 /// Factor for the roughness, since its tails are heavier than a normal distribution's.
 constexpr float kRoughShare = 2.5F;
+/// A tile with an outline is rough because of it. Noise beyond so many times the variance that is
+/// known would let smoothing cross the outline.
+constexpr float kMostRough = 16.0F;
 /// For a normal distribution: the mean of absolute values cut at twice that mean, times the
 /// deviation of a pixel from the mean of four others.
 constexpr float kOfRoughness = 1.0F / (0.735F * 1.118F);
@@ -331,7 +334,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
                 const auto at = static_cast<std::size_t>(x);
                 const float frames = variances[x] / tiles_[at];
                 const float share = std::clamp(2.0F - 2.0F * frames / many, 0.0F, 1.0F);
-                const float rough = share * caps_[at];
+                const float rough = std::min(share * caps_[at], kMostRough * variances[x]);
                 tiles_[at] += rough;
                 std::fill_n(row_.begin() + std::ptrdiff_t{x} * kHalf, kHalf, rough);
             }
