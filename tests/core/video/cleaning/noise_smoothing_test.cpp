@@ -44,12 +44,11 @@ double bump(int i, int j) {
 
 }  // namespace
 
-TEST_CASE("noise of one picture becomes a quarter of it on slopes, however steep they are",
-          "[smoothing]") {
+TEST_CASE("noise on slopes becomes a fifth of it, however steep they are", "[smoothing]") {
     const double slope = GENERATE(0.0, 0.3, 1.0, 2.0);
     const Scene plane = [slope](int, int i, int j) { return 10.0 + slope * (0.5 * i + 0.5 * j); };
     const NoisyScene scene{plane, [](double) { return 0.5; }, 120, 120};
-    CHECK(rms_error(smoothed(scene.frames(1)[0], 0.5), scene.truth(0)) < 0.125);
+    CHECK(rms_error(smoothed(scene.frames(1)[0], 0.5), scene.truth(0)) < 0.1);
 }
 
 TEST_CASE("a bump as high as twice the noise keeps seven tenths of itself", "[smoothing]") {
@@ -62,7 +61,7 @@ TEST_CASE("a bump as high as twice the noise keeps seven tenths of itself", "[sm
         for (int i = 20; i < 320; i += 40, ++count)
             kept += static_cast<double>(done.at(i, j)) - (60.0 + 0.15 * i + 0.1 * j);
     CHECK(kept / count >= 0.7);
-    CHECK(rms_error(done, scene.truth(10)) < 0.1);  // as much as may be left
+    CHECK(rms_error(done, scene.truth(10)) < 0.09);  // as much as may be left
 }
 
 TEST_CASE("ridges lower than the noise stay where time tells of them, and the ground is even",
