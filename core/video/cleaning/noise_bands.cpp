@@ -16,8 +16,8 @@ constexpr int kEnergyReach = 4;  ///< rows and columns of the halved picture to 
 /// Energy within this many times the noise is noise: around a pixel it varies by a fifth.
 constexpr float kNoiseBeyond = 1.6F;
 /// That happens now and then: noise beyond so many times the stated one would make a pimple of it,
-/// so that energy must be the more beyond it, up to so many times.
-constexpr float kUnseen = 1.5F, kMostSeen = 4.0F;
+/// so that energy must be the more beyond it.
+constexpr float kUnseen = 2.7F;
 /// As squares: of single values, whose noise is at most that of both last bands.
 constexpr float kCoarseBeyond = 16.0F;
 
@@ -95,7 +95,7 @@ DIBHR_VECTOR_CLONES void find_gains_of_row(const float* energy, const float* noi
         const float around =
             binomial_of_nine(e[0], e[-1] + e[1], e[-2] + e[2], e[-3] + e[3], e[-4] + e[4]);
         const float seen = std::sqrt(noise[i]) / (kUnseen * stated);
-        const float beyond = kNoiseBeyond * std::min(std::max(seen, 1.0F), kMostSeen);
+        const float beyond = kNoiseBeyond * std::max(seen, 1.0F);
         const float part = beyond * noise[i] / std::max(around, 1e-20F);
         const float square = part * part;
         const float least = std::min(stated / std::sqrt(std::max(whole_noise[i], 1e-20F)), 1.0F);

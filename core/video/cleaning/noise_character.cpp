@@ -21,11 +21,13 @@ constexpr std::size_t kFramesBetween = 3;   ///< every third frame is enough for
 constexpr std::size_t kFirstFrames = 5;     ///< half of those that are measured
 constexpr std::size_t kFramesOfSteps = 3;   ///< frames whose levels are compared
 constexpr int kStepSample = 3;              ///< every third of their pixels
-constexpr double kQuietTiles = 0.4;         ///< quantile, as of NoiseMeter
-constexpr float kAlsoQuiet = 1.7F;          ///< times its variance: tiles with the same noise
-constexpr double kSmoothestTiles = 0.2;     ///< quantile: tiles without shapes in a band
-constexpr float kDip = 0.9F;                ///< deviation of the second band in that of the first
-constexpr float kEvenNoise = 1.7F;          ///< median in the smoothest tiles' deviation
+/// What a median shows of the variance: a tile has few values of the coarser bands.
+constexpr std::array<float, kNoiseBands> kShownByMedian{1.0F, 0.99F, 0.96F, 0.84F, 0.455F};
+constexpr double kQuietTiles = 0.4;      ///< quantile, as of NoiseMeter
+constexpr float kAlsoQuiet = 1.7F;       ///< times its variance: tiles with the same noise
+constexpr double kSmoothestTiles = 0.2;  ///< quantile: tiles without shapes in a band
+constexpr float kDip = 0.9F;             ///< deviation of the second band in that of the first
+constexpr float kEvenNoise = 1.7F;       ///< median in the smoothest tiles' deviation
 constexpr float kMostKept = 0.9F;
 constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
 constexpr float kMostStanding = 4.0F;     ///< of the moving noise: beyond, it is shape
@@ -297,7 +299,8 @@ NoiseCharacter NoiseCharacterMeter::character() const {
     }
     NoiseCharacter character;
     if (!ratios.empty()) {
-        for (std::size_t b = 0; b < kNoiseBands; ++b) character.bands[b] = median_of(shares[b]);
+        for (std::size_t b = 0; b < kNoiseBands; ++b)
+            character.bands[b] = median_of(shares[b]) / kShownByMedian[b];
         character.kept = std::clamp(median_of(ratios) - 1.0F, 0.0F, kMostKept);
         character.standing = standing(character.bands, character.kept);
     }

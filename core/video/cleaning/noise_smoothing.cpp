@@ -18,7 +18,7 @@ namespace {
 constexpr int kTile_px = TimeEvidence::kTile_px;
 constexpr std::size_t kScales = 5;            ///< pairs up to 2 * 2 * 2^4 = 64 px apart
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level
-constexpr float kBound = 4.0F;                ///< standard deviations
+constexpr float kBound = 5.0F;                ///< standard deviations
 constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
 /// Where fewer frames agree than that, of those that are, the image's own roughness tells of noise,
 /// too: what stands still in more is shape. At least kLeastMany, so that one picture is rough.
@@ -28,7 +28,7 @@ constexpr float kManyFrames = 8.0F, kManyShare = 0.75F, kLeastMany = 4.0F;
 constexpr float kRoughShare = 2.5F;
 /// A tile with an outline is rough because of it. Noise beyond so many times the variance that is
 /// known would let smoothing cross the outline.
-constexpr float kMostRough = 16.0F;
+constexpr float kMostRough = 4.0F;
 /// For a normal distribution: the mean of absolute values cut at twice that mean, times the
 /// deviation of a pixel from the mean of four others.
 constexpr float kOfRoughness = 1.0F / (0.735F * 1.118F);
@@ -38,7 +38,7 @@ constexpr int kClippings = 5;
 constexpr float kMedianBounds = 4.0F, kMedianNoises = 12.0F;
 constexpr int kBorder_px = 2;  ///< of medians of medians
 /// Noise that may be left, of the highest level: a third of what a finger feels.
-constexpr float kStatedNoise = 0.09F / 255.0F;
+constexpr float kStatedNoise = 0.05F / 255.0F;
 /// Of the noise's variance, where frames are alike: codecs repeat pixels.
 constexpr float kLeastShown = 0.3F;
 

@@ -2,12 +2,14 @@
 #include "core/video/cleaning/depth_noise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "core/video/cleaning/noise_bands.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/noisy_scene.hpp"
 
@@ -137,6 +139,11 @@ double fixed_levels(const DepthNoise& noise) {
     return 255.0 * static_cast<double>(noise.character.fixed);
 }
 
+double mean_square(const std::vector<float>& values) {
+    return std::inner_product(values.begin(), values.end(), values.begin(), 0.0) /
+           static_cast<double>(values.size());
+}
+
 }  // namespace
 
 TEST_CASE("white noise has the shares of the bands that are stated", "[noise]") {
@@ -157,6 +164,19 @@ TEST_CASE("noise that neighbours share is in the coarser bands", "[noise]") {
     }));
     CHECK(noise.character.bands[0] < 0.3F);
     CHECK(noise.character.bands[1] + noise.character.bands[2] > 0.3F);
+    // Few values of the coarsest ones are in a tile, and their medians are below the mean.
+    std::array<double, kNoiseBands> energies{};
+    double whole = 0.0;
+    NoiseBands bands;
+    for (unsigned k = 0; k < 10; ++k) {
+        const DepthImage field = correlated(k + 1, 6);
+        bands.split({field.columns, field.rows, field.levels});
+        whole += mean_square(field.levels);
+        for (std::size_t b = 0; b < kNoiseBands; ++b)
+            energies[b] += mean_square(bands.band(b).values);
+    }
+    for (std::size_t b = 0; b < kNoiseBands; ++b)
+        CHECK_THAT(noise.character.bands[b], WithinRel(energies[b] / whole, 0.25));
 }
 
 TEST_CASE("noise that a frame keeps from the one before is told from fresh noise", "[noise]") {
