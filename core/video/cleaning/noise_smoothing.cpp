@@ -39,6 +39,9 @@ constexpr float kMedianBounds = 4.0F, kMedianNoises = 12.0F;
 constexpr int kBorder_px = 2;  ///< of medians of medians
 /// Noise that may be left, of the highest level: a third of what a finger feels.
 constexpr float kStatedNoise = 0.05F / 255.0F;
+/// Of the noise's variance: what means in time have in the finest band beyond its share, where
+/// neighbours share noise. Each has frames of its own that are beyond the noise.
+constexpr float kFinestOfMeans = 0.03F;
 /// Of the noise's variance, where frames are alike: codecs repeat pixels.
 constexpr float kLeastShown = 0.3F;
 
@@ -288,6 +291,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
     find_variances(image, noise, evidence);
     const NoiseCharacter& character = noise.character;
     left_.moving_shares = character.bands;
+    if (!evidence.variances.empty()) left_.moving_shares.front() += kFinestOfMeans;
     left_.standing_shares = character.standing;
     const float many =
         std::clamp(kManyShare * static_cast<float>(evidence.near_frames), kLeastMany, kManyFrames);
