@@ -105,7 +105,8 @@ FrameCleaning cleaning_of(const FrameSource& source) {
              .colour_edges = source.colour_edges,
              .steady = source.steady,
              .smooth_steps = source.smooth_steps,
-             .smooth_noise = source.smooth_noise},
+             .smooth_noise = source.smooth_noise,
+             .smooth_outlines = source.smooth_outlines},
             {source.finger_px, source.finger_relief_px}};
 }
 

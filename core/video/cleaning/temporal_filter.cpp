@@ -1,4 +1,4 @@
-// Medians of five frames, then means of those of eleven frames that are like the median.
+// Medians of five frames, then means of those of up to 27 frames that are like the median.
 #include "core/video/cleaning/temporal_filter.hpp"
 
 #include <algorithm>
@@ -17,10 +17,25 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kMedianReach = 2;       ///< frames to each side
-constexpr float kAlike = 3.0F;                ///< standard deviations; beyond, levels do not mix
+constexpr std::size_t kMedianReach = 2;  ///< frames to each side
+constexpr float kAlike = 3.0F;  ///< standard deviations; beyond, a level may be another surface
+/// From here on levels mix ever less, and not at all beyond that.
+constexpr float kMixes = 2.0F, kApart = 4.0F;
+/// By which their variance is larger than that of those that mix.
+constexpr float kCutOff = 1.1F;
+constexpr float kGroupsApart = 1.5F;          ///< of groups' levels, which have half the deviation
+constexpr int kTile_px = 16;                  ///< rows that are averaged together
+constexpr std::size_t kStillTile_px = 32;     ///< their columns that stand still or not as a whole
+constexpr int kRowStep_px = 4;                ///< every fourth row tells
 constexpr float kFilledShare = 0.05F;         ///< weight of a filled pixel against a seen one
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
+// A tile stands still if a group differs from the median of the nearest frames as noise does: by
+// its mean in deviations, and by its mean square in those of what both have.
+constexpr float kStillMean = 0.8F;
+constexpr float kStillSquares = 2.5F;
+constexpr float kOfMedian = 0.29F;      ///< variance of a median of five
+constexpr float kLeastCounted = 32.0F;  ///< pixels of a tile
+constexpr float kLeastFrames = 3.0F;    ///< for a variance
 
 // A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
 // by") a surface that stays. Measured on people who walk past within two frames, whose feet touch
@@ -90,22 +105,23 @@ DIBHR_VECTOR_CLONES void invert(const float* reference, const NoiseBound& bound,
     for (std::size_t i = 0; i < count; ++i) per_bound[i] = 1.0F / of(reference[i]);
 }
 
-/// Tukey's biweight: 0 at the bound and beyond.
+/// 1 up to kMixes, 0 from kApart on: a mean of levels with equal weights has the least noise.
+/// `per_bound`: 1 over the deviations between the two.
 inline float weight_of(float off, float per_bound) {
-    const float part = off * per_bound;
-    const float near = std::max(1.0F - part * part, 0.0F);
-    return near * near;
+    constexpr float kZero = kApart / (kApart - kMixes);
+    return std::min(std::max(kZero - std::fabs(off) * per_bound, 0.0F), 1.0F);
 }
 
 /// The weighted mean of a pixel's differences from its reference.
 struct Mean {
-    float sum, weight;
+    float sum, weight, squares;
 
     void add(float level, float seen, float reference, float per_bound) {
         const float off = level - reference;
         const float more = seen * weight_of(off, per_bound);
         sum += more * off;
         weight += more;
+        squares += more * off * off;
     }
     void add(float level, float reference, float per_bound) {
         add(level, 1.0F, reference, per_bound);
@@ -122,56 +138,142 @@ using FourFilled = std::array<const std::uint8_t*, 4>;
 
 DIBHR_VECTOR_CLONES void add_four(const Four& rows, const float* reference, const float* per_bound,
                                   float* __restrict sum, float* __restrict weights,
-                                  std::size_t count) {
+                                  float* __restrict squares, std::size_t count) {
     const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
     for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
+        Mean mean{sum[i], weights[i], squares[i]};
         mean.add(a[i], reference[i], per_bound[i]);
         mean.add(b[i], reference[i], per_bound[i]);
         mean.add(c[i], reference[i], per_bound[i]);
         mean.add(d[i], reference[i], per_bound[i]);
         sum[i] = mean.sum;
         weights[i] = mean.weight;
+        squares[i] = mean.squares;
     }
 }
 
 DIBHR_VECTOR_CLONES void add_four(const Four& rows, const FourFilled& filled,
                                   const float* reference, const float* per_bound,
                                   float* __restrict sum, float* __restrict weights,
-                                  std::size_t count) {
+                                  float* __restrict squares, std::size_t count) {
     const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
     const std::uint8_t *at_a = filled[0], *at_b = filled[1], *at_c = filled[2], *at_d = filled[3];
     for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
+        Mean mean{sum[i], weights[i], squares[i]};
         mean.add(a[i], share_of(at_a[i]), reference[i], per_bound[i]);
         mean.add(b[i], share_of(at_b[i]), reference[i], per_bound[i]);
         mean.add(c[i], share_of(at_c[i]), reference[i], per_bound[i]);
         mean.add(d[i], share_of(at_d[i]), reference[i], per_bound[i]);
         sum[i] = mean.sum;
         weights[i] = mean.weight;
+        squares[i] = mean.squares;
     }
 }
 
 DIBHR_VECTOR_CLONES void add_one(const float* levels, const float* reference,
                                  const float* per_bound, float* __restrict sum,
-                                 float* __restrict weights, std::size_t count) {
+                                 float* __restrict weights, float* __restrict squares,
+                                 std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
+        Mean mean{sum[i], weights[i], squares[i]};
         mean.add(levels[i], reference[i], per_bound[i]);
         sum[i] = mean.sum;
         weights[i] = mean.weight;
+        squares[i] = mean.squares;
     }
 }
 
 DIBHR_VECTOR_CLONES void add_one(const float* levels, const std::uint8_t* filled,
                                  const float* reference, const float* per_bound,
                                  float* __restrict sum, float* __restrict weights,
-                                 std::size_t count) {
+                                 float* __restrict squares, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
+        Mean mean{sum[i], weights[i], squares[i]};
         mean.add(levels[i], share_of(filled[i]), reference[i], per_bound[i]);
         sum[i] = mean.sum;
         weights[i] = mean.weight;
+        squares[i] = mean.squares;
+    }
+}
+
+/// All of the nearest frames at once, to sums of 0: the most common case.
+using Near = std::array<const float*, 2 * kNearInTime + 1>;
+
+DIBHR_VECTOR_CLONES void add_near_frames(const Near& rows, const float* reference,
+                                         const float* per_bound, float* __restrict sum,
+                                         float* __restrict weights, float* __restrict squares,
+                                         std::size_t count) {
+    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4], *f = rows[5];
+    const float *g = rows[6], *h = rows[7], *k = rows[8], *l = rows[9], *m = rows[10];
+    for (std::size_t i = 0; i < count; ++i) {
+        Mean mean{0.0F, 0.0F, 0.0F};
+        mean.add(a[i], reference[i], per_bound[i]);
+        mean.add(b[i], reference[i], per_bound[i]);
+        mean.add(c[i], reference[i], per_bound[i]);
+        mean.add(d[i], reference[i], per_bound[i]);
+        mean.add(e[i], reference[i], per_bound[i]);
+        mean.add(f[i], reference[i], per_bound[i]);
+        mean.add(g[i], reference[i], per_bound[i]);
+        mean.add(h[i], reference[i], per_bound[i]);
+        mean.add(k[i], reference[i], per_bound[i]);
+        mean.add(l[i], reference[i], per_bound[i]);
+        mean.add(m[i], reference[i], per_bound[i]);
+        sum[i] = mean.sum;
+        weights[i] = mean.weight;
+        squares[i] = mean.squares;
+    }
+}
+
+inline float weight_in_group(float off, float per_bound) {
+    return weight_of(off, kGroupsApart * per_bound);
+}
+
+DIBHR_VECTOR_CLONES void add_group(const float* levels, float weight, const float* reference,
+                                   const float* per_bound, float* __restrict sum,
+                                   float* __restrict weights, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float off = levels[i] - reference[i];
+        const float more = weight * weight_in_group(off, per_bound[i]);
+        sum[i] += more * off;
+        weights[i] += more;
+    }
+}
+
+DIBHR_VECTOR_CLONES void add_four_groups(const Four& rows, const std::array<float, 4>& each,
+                                         const float* reference, const float* per_bound,
+                                         float* __restrict sum, float* __restrict weights,
+                                         std::size_t count) {
+    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
+    const float of_a = each[0], of_b = each[1], of_c = each[2], of_d = each[3];
+    for (std::size_t i = 0; i < count; ++i) {
+        float whole = sum[i];
+        float all = weights[i];
+        const auto add = [&](float level, float weight) {
+            const float off = level - reference[i];
+            const float more = weight * weight_in_group(off, per_bound[i]);
+            whole += more * off;
+            all += more;
+        };
+        add(a[i], of_a);
+        add(b[i], of_b);
+        add(c[i], of_c);
+        add(d[i], of_d);
+        sum[i] = whole;
+        weights[i] = all;
+    }
+}
+
+/// Sums of how a group differs, by column.
+DIBHR_VECTOR_CLONES void add_differences(const float* levels, const float* reference,
+                                         const float* per_bound, float* __restrict off,
+                                         float* __restrict squared, float* __restrict counted,
+                                         std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float by = levels[i] - reference[i];
+        const float counts = weight_of(by, per_bound[i]);
+        off[i] += counts * by;
+        squared[i] += counts * by * by;
+        counted[i] += counts;
     }
 }
 
@@ -179,6 +281,19 @@ DIBHR_VECTOR_CLONES void divide(const float* reference, const float* sum, const 
                                 float* __restrict out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
         out[i] = reference[i] + (weights[i] > 0.0F ? sum[i] / weights[i] : 0.0F);
+}
+
+/// Adds the variances of a row's pixels, by column, and counts those that have one.
+DIBHR_VECTOR_CLONES void add_variances(const float* sum, const float* weights, const float* squares,
+                                       float* __restrict variances, float* __restrict counted,
+                                       std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float counts = weights[i] >= kLeastFrames ? 1.0F : 0.0F;
+        const float weight = std::max(weights[i], kLeastFrames);
+        const float whole = squares[i] - sum[i] * sum[i] / weight;
+        variances[i] += counts * std::max(whole, 0.0F) / (weight - 1.0F);
+        counted[i] += counts;
+    }
 }
 
 /// The rim of a patch, and how much of it is held by the surface beside it.
@@ -192,13 +307,15 @@ struct Rim {
 
 void TemporalFilter::gather(std::span<const SingleFrameDepth* const> frames, std::size_t now) {
     const SingleFrameDepth& here = *frames[now];
-    const std::size_t first = now - std::min(now, kReachInTime);
-    const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
+    const std::size_t first = now - std::min(now, kNearInTime);
+    const std::size_t end = std::min(frames.size(), now + kNearInTime + 1);
     count_ = 0;
     nearest_ = 0;
+    any_filled_ = false;
     for (std::size_t k = first; k < end; ++k) {
         if (!are_alike(frames[k]->depth, here.depth)) continue;
         const std::size_t away = k > now ? k - now : now - k;
+        any_filled_ = any_filled_ || !frames[k]->filled.empty();
         if (away <= kMedianReach && nearest_++ == 0) first_near_ = count_;
         neighbours_[count_++] = {frames[k]->depth.levels.data(),
                                  frames[k]->filled.empty() ? nullptr : frames[k]->filled.data()};
@@ -220,24 +337,151 @@ void TemporalFilter::find_reference(const float* here, std::size_t at, std::size
     }
 }
 
-/// Averages row by row, so that each row stays in the cache. Returns whether any of the frame's own
-/// levels is another surface than the median.
+void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
+    reference.resize(count);
+    per_bound.resize(count);
+    sum.resize(count);
+    squares.resize(count);
+    weights = weights_there;
+}
+
+/// Averages tiles side by side together, so that their rows stay in the cache. Returns whether any
+/// of the frame's own levels is another surface than the median.
 bool TemporalFilter::average_rows(const SingleFrameDepth& here, DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
     other_.resize(out.levels.size());
-    reference_.resize(columns);
+    rows_.resize(kTile_px);
     bool any = false;
-    for (int j = 0; j < out.rows; ++j) {
-        const std::size_t at = out.index(0, j);
-        find_reference(here.depth.levels.data(), at, columns, reference_.data());
-        if (mark_other(here.depth.levels.data() + at, reference_.data(), bound_, other_.data() + at,
-                       columns)) {
-            if (!here.filled.empty()) unmark(here.filled.data() + at, other_.data() + at, columns);
-            any = true;
+    for (int top = 0; top < out.rows; top += kTile_px) {
+        const int rows = std::min(kTile_px, out.rows - top);
+        for (int j = 0; j < rows; ++j) {
+            const std::size_t at = out.index(0, top + j);
+            Sums& sums = rows_[static_cast<std::size_t>(j)];
+            sums.start(columns, evidence_.weights.data() + at);
+            find_reference(here.depth.levels.data(), at, columns, sums.reference.data());
+            if (mark_other(here.depth.levels.data() + at, sums.reference.data(), bound_,
+                           other_.data() + at, columns)) {
+                if (!here.filled.empty())
+                    unmark(here.filled.data() + at, other_.data() + at, columns);
+                any = true;
+            }
+            add_near(sums, at);
         }
-        average(reference_.data(), at, columns, out);
+        if (count_ > 1) measure_variances(rows, out);
+        add_groups(top, rows, out);
+        for (int j = 0; j < rows; ++j)
+            take_mean(rows_[static_cast<std::size_t>(j)], out.index(0, top + j), out);
     }
     return any;
+}
+
+/// The variance of levels in time, in which motion has no part: levels of other surfaces do not
+/// count. Where too few frames count it is that of the clip's noise.
+void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
+    constexpr int kPart = TimeEvidence::kTile_px;
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const int tile_columns = (out.columns + kPart - 1) / kPart;
+    for (int part = 0; part < rows; part += kPart) {
+        off_.assign(columns, 0.0F);
+        counted_.assign(columns, 0.0F);
+        const int bottom = std::min(part + kPart, rows);
+        for (int j = part; j < bottom; j += 2) {  // every second row tells
+            const Sums& sums = rows_[static_cast<std::size_t>(j)];
+            add_variances(sums.sum.data(), sums.weights, sums.squares.data(), off_.data(),
+                          counted_.data(), columns);
+        }
+        const Sums& middle = rows_[static_cast<std::size_t>((part + bottom) / 2)];
+        for (int x = 0; x < tile_columns; ++x) {
+            const auto left = static_cast<std::size_t>(x * kPart);
+            const std::size_t right = std::min(left + kPart, columns);
+            float variance = 0.0F;
+            float counted = 0.0F;
+            for (std::size_t i = left; i < right; ++i) {
+                variance += off_[i];
+                counted += counted_[i];
+            }
+            const float law = bound_(middle.reference[(left + right) / 2]) / kAlike;
+            const auto pixels =
+                static_cast<float>(right - left) * static_cast<float>((bottom - part + 1) / 2);
+            evidence_.variances.push_back(2.0F * counted < pixels ? law * law
+                                                                  : kCutOff * variance / counted);
+        }
+    }
+}
+
+/// Adds groups of frames where the tile stands still: else what moves slowly would be smeared. All
+/// of them or none, since those of one side alone would be late.
+void TemporalFilter::add_groups(int top, int rows, const DepthImage& out) {
+    if (far_.empty()) return;
+    const std::size_t tiles =
+        (static_cast<std::size_t>(out.columns) + kStillTile_px - 1) / kStillTile_px;
+    still_.assign(tiles, 1);
+    for (const FrameGroup& group : far_) find_still(group.levels, top, rows, out);
+    visit_marked(still_.data(), static_cast<int>(tiles), [&](int begin, int end) {
+        const std::size_t left = kStillTile_px * static_cast<std::size_t>(begin);
+        const std::size_t count = std::min(kStillTile_px * static_cast<std::size_t>(end),
+                                           static_cast<std::size_t>(out.columns)) -
+                                  left;
+        for (int j = 0; j < rows; ++j) {
+            Sums& sums = rows_[static_cast<std::size_t>(j)];
+            const float* const reference = sums.reference.data() + left;
+            const float* const per_bound = sums.per_bound.data() + left;
+            const std::size_t at = out.index(static_cast<int>(left), top + j);
+            std::size_t k = 0;
+            for (; k + 4 <= far_.size(); k += 4) {
+                const FrameGroup* g = far_.data() + k;
+                add_four_groups(
+                    {g[0].levels + at, g[1].levels + at, g[2].levels + at, g[3].levels + at},
+                    {g[0].weight, g[1].weight, g[2].weight, g[3].weight}, reference, per_bound,
+                    sums.sum.data() + left, sums.weights + left, count);
+            }
+            for (; k < far_.size(); ++k)
+                add_group(far_[k].levels + at, far_[k].weight, reference, per_bound,
+                          sums.sum.data() + left, sums.weights + left, count);
+        }
+    });
+}
+
+/// Unmarks tiles that do not stand still from that group to the frame.
+void TemporalFilter::find_still(const float* group, int top, int rows, const DepthImage& out) {
+    const auto columns = static_cast<std::size_t>(out.columns);
+    for (std::vector<float>* sums : {&off_, &squared_off_, &counted_}) sums->assign(columns, 0.0F);
+    for (int j = kRowStep_px / 2; j < rows; j += kRowStep_px) {
+        const Sums& sums = rows_[static_cast<std::size_t>(j)];
+        add_differences(group + out.index(0, top + j), sums.reference.data(), sums.per_bound.data(),
+                        off_.data(), squared_off_.data(), counted_.data(), columns);
+    }
+    constexpr int kPart = TimeEvidence::kTile_px;
+    const auto parts = static_cast<std::size_t>((out.columns + kPart - 1) / kPart);
+    const std::size_t first = parts * static_cast<std::size_t>(top / kPart);
+    for (std::size_t x = 0; x < still_.size(); ++x) {
+        float off = 0.0F;
+        float squared = 0.0F;
+        float counted = 0.0F;
+        const std::size_t left = kStillTile_px * x;
+        const std::size_t right = std::min(left + kStillTile_px, columns);
+        for (std::size_t i = left; i < right; ++i) {
+            off += off_[i];
+            squared += squared_off_[i];
+            counted += counted_[i];
+        }
+        if (counted < kLeastCounted) {
+            still_[x] = 0;
+            continue;
+        }
+        float variance = 0.0F;
+        float count = 0.0F;
+        for (int y = 0; y * kPart < rows; ++y)
+            for (std::size_t part = left / kPart; part * kPart < right; ++part, ++count)
+                variance += evidence_.variances[first + static_cast<std::size_t>(y) * parts + part];
+        variance /= count;
+        const float of_group = std::min(shared_ / static_cast<float>(kGroupInTime), 1.0F);
+        const float of_median = std::min(shared_ * kOfMedian, 1.0F);
+        const float mean = off / counted;
+        if (mean * mean > kStillMean * kStillMean * variance ||
+            squared / counted > kStillSquares * (of_group + of_median) * variance)
+            still_[x] = 0;
+    }
 }
 
 /// Where a frame has another level than the median, that level lasts two frames at most. It is kept
@@ -314,15 +558,16 @@ void TemporalFilter::follow_region(const SingleFrameDepth& here, const Region& r
                                    const EvenMotionSearch& search, DepthImage& out) {
     const std::optional<EvenMotion> motion = search.found();
     if (!motion) return;
+    std::array<float, kRegion_px> levels{};
     for (int j = region.top; j < region.bottom; ++j) {
         std::size_t run = 0;
         for (int i = region.left; i < region.right; ++i) {
             const std::optional<float> level = is_other(here, here.depth.index(i, j))
                                                    ? search.level_along(*motion, i, j, bound_)
                                                    : std::nullopt;
-            if (level) reference_[run++] = *level;
+            if (level) levels[run++] = *level;
             if (run == 0 || (level && i + 1 < region.right)) continue;
-            average(reference_.data(), here.depth.index(level ? i + 1 : i, j) - run, run, out);
+            average(levels.data(), here.depth.index(level ? i + 1 : i, j) - run, run, out);
             run = 0;
         }
     }
@@ -446,13 +691,39 @@ bool TemporalFilter::is_held(const DepthImage& here, const Held& held, int i, in
     return false;
 }
 
-/// Averages `count` pixels from `at` on, in one row; `reference`: from the first pixel on.
+/// Averages `count` pixels from `at` on, in one row, over the nearest frames; `reference`: from the
+/// first pixel on.
 void TemporalFilter::average(const float* reference, std::size_t at, std::size_t count,
                              DepthImage& out) {
-    per_bound_.resize(count);
-    invert(reference, bound_, per_bound_.data(), count);
-    sum_.assign(count, 0.0F);
-    weights_.assign(count, 0.0F);
+    run_.start(count, evidence_.weights.data() + at);
+    std::copy_n(reference, count, run_.reference.begin());
+    add_near(run_, at);
+    take_mean(run_, at, out);
+}
+
+void TemporalFilter::take_mean(const Sums& sums, std::size_t at, DepthImage& out) {
+    divide(sums.reference.data(), sums.sum.data(), sums.weights, out.levels.data() + at,
+           sums.sum.size());
+}
+
+/// The sums of the nearest frames, of pixels from `at` on.
+void TemporalFilter::add_near(Sums& sums, std::size_t at) {
+    const std::size_t count = sums.sum.size();
+    const float* const reference = sums.reference.data();
+    float* const per_bound = sums.per_bound.data();
+    invert(reference, mixing_, per_bound, count);
+    float* const sum = sums.sum.data();
+    float* const weights = sums.weights;
+    float* const squares = sums.squares.data();
+    if (count_ == neighbours_.size() && !any_filled_) {
+        Near rows{};
+        for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = neighbours_[k].levels + at;
+        add_near_frames(rows, reference, per_bound, sum, weights, squares, count);
+        return;
+    }
+    std::fill_n(sum, count, 0.0F);
+    std::fill_n(weights, count, 0.0F);
+    std::fill_n(squares, count, 0.0F);
     std::size_t k = 0;
     for (; k + 4 <= count_; k += 4) {
         const Neighbour* n = neighbours_.data() + k;
@@ -460,21 +731,18 @@ void TemporalFilter::average(const float* reference, std::size_t at, std::size_t
         const FourFilled filled{filled_of(n[0], at), filled_of(n[1], at), filled_of(n[2], at),
                                 filled_of(n[3], at)};
         if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.filled != nullptr; }))
-            add_four(rows, filled, reference, per_bound_.data(), sum_.data(), weights_.data(),
-                     count);
+            add_four(rows, filled, reference, per_bound, sum, weights, squares, count);
         else
-            add_four(rows, reference, per_bound_.data(), sum_.data(), weights_.data(), count);
+            add_four(rows, reference, per_bound, sum, weights, squares, count);
     }
     for (; k < count_; ++k) {
         const Neighbour& n = neighbours_[k];
         if (n.filled == nullptr)
-            add_one(n.levels + at, reference, per_bound_.data(), sum_.data(), weights_.data(),
-                    count);
+            add_one(n.levels + at, reference, per_bound, sum, weights, squares, count);
         else
-            add_one(n.levels + at, n.filled + at, reference, per_bound_.data(), sum_.data(),
-                    weights_.data(), count);
+            add_one(n.levels + at, n.filled + at, reference, per_bound, sum, weights, squares,
+                    count);
     }
-    divide(reference, sum_.data(), weights_.data(), out.levels.data() + at, count);
 }
 
 const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n, std::size_t at) const {
@@ -487,7 +755,17 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     DepthImage out{here.depth.columns, here.depth.rows, here.depth.highest_level, {}};
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
+    mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
+    const float kept = noise.character.kept;
+    shared_ = (1.0F + kept) / (1.0F - kept);
     gather(frames, now);
+    far_ = {};
+    if (count_ > 1)
+        far_ = groups_.around(frames, now,
+                              NoiseBound(noise, 1.0F, kLeastNoise, here.depth.highest_level));
+    evidence_.near_frames = count_;
+    evidence_.weights.resize(out.levels.size());
+    evidence_.variances.clear();
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
     if (average_rows(here, out)) follow_parts(here, out);
     return out;

@@ -9,6 +9,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
+#include "core/video/cleaning/frame_groups.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
 
 namespace cv {
@@ -19,7 +20,8 @@ namespace dibhr {
 
 class EvenMotionSearch;
 
-/// Averages each pixel over the frames before and after it in which it is on the same surface.
+/// Averages each pixel over the frames before and after it in which it is on the same surface: the
+/// nearest ones one by one, and, where a tile stands still, those farther in groups.
 /// Levels that last two frames or less are removed, with two exceptions: parts as wide as a finger
 /// that belong to a surface that stays; and moving parts, which are beside their place, on opposite
 /// sides, before and after. Even motion has no lag, since the filter reaches as far ahead as back.
@@ -31,7 +33,18 @@ class TemporalFilter {
     [[nodiscard]] DepthImage filtered(std::span<const SingleFrameDepth* const> frames,
                                       std::size_t now, const DepthNoise& noise);
 
+    /// Of the frame that was filtered last.
+    [[nodiscard]] const TimeEvidence& evidence() const noexcept { return evidence_; }
+
   private:
+    /// A row's sums of the mean, beside the level that others are compared with.
+    struct Sums {
+        std::vector<float> reference{}, per_bound{}, sum{}, squares{};
+        float* weights{nullptr};  ///< in the evidence
+
+        /// Of `count` pixels.
+        void start(std::size_t count, float* weights_there);
+    };
     struct Neighbour {
         const float* levels;
         const std::uint8_t* filled;  ///< null: no pixel
@@ -52,6 +65,11 @@ class TemporalFilter {
                         float* reference) const;
     [[nodiscard]] bool average_rows(const SingleFrameDepth& here, DepthImage& out);
     void average(const float* reference, std::size_t at, std::size_t count, DepthImage& out);
+    void add_near(Sums& sums, std::size_t at);
+    void take_mean(const Sums& sums, std::size_t at, DepthImage& out);
+    void measure_variances(int rows, const DepthImage& out);
+    void add_groups(int top, int rows, const DepthImage& out);
+    void find_still(const float* group, int top, int rows, const DepthImage& out);
     [[nodiscard]] const std::uint8_t* filled_of(const Neighbour& n, std::size_t at) const;
     void follow_parts(const SingleFrameDepth& here, DepthImage& out);
     void follow_motion(const SingleFrameDepth& here, DepthImage& out);
@@ -69,17 +87,25 @@ class TemporalFilter {
     [[nodiscard]] bool is_held(const DepthImage& here, const Held& held, int i, int j, int right,
                                int down) const;
 
-    NoiseBound bound_{};
-    std::array<Neighbour, 2 * kReachInTime + 1> neighbours_{};
+    NoiseBound bound_{};   ///< beyond, a level is perhaps another surface
+    NoiseBound mixing_{};  ///< from full weight to none
+    std::array<Neighbour, 2 * kNearInTime + 1> neighbours_{};
     std::size_t count_{0};
+    bool any_filled_{false};                  ///< of the neighbours' pixels
     std::size_t first_near_{0}, nearest_{0};  ///< the neighbours in the median: first, count
     std::vector<std::uint8_t> other_{};       ///< where the frame's own level is another surface
     std::vector<std::uint8_t> inner_{};       ///< where that is so all around, too
     std::vector<std::uint8_t> followed_{};    ///< 1 where the own level is kept all the same
     std::vector<std::uint8_t> nothing_filled_{};  ///< a row of zeros
     std::vector<std::size_t> surely_other_{};     ///< pixels of a region with kSurelyOther
-    // Of one row: the level that others are compared with, and the sums of the mean.
-    std::vector<float> reference_{}, per_bound_{}, sum_{}, weights_{};
+    Sums run_{};
+    std::vector<Sums> rows_{};  ///< of a row of tiles
+    FrameGroups groups_{};
+    std::span<const FrameGroup> far_{};  ///< groups of frames
+    std::vector<std::uint8_t> still_{};  ///< 1: of a row of tiles, those that all groups agree on
+    std::vector<float> off_{}, squared_off_{}, counted_{};  ///< of columns
+    float shared_{1.0F};  ///< variance of a mean of frames, over that of frames without correlation
+    TimeEvidence evidence_{};
 };
 
 }  // namespace dibhr

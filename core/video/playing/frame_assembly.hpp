@@ -33,6 +33,8 @@ class FrameAssembly {
     void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
     void set_number(std::uint32_t number) { number_ = number; }
     [[nodiscard]] std::uint32_t number() const { return number_; }
+    /// From frame to frame, by which frames are numbered.
+    void set_interval(double interval_s) { interval_s_ = interval_s; }
     void set_motion(const MotionRequest& wanted) { wanted_ = wanted; }
     [[nodiscard]] const MotionRequest& motion() const { return wanted_; }
 
@@ -66,6 +68,7 @@ class FrameAssembly {
     CleaningPlan plan_{};
     std::shared_ptr<const TouchMaps> maps_{};
     std::uint32_t number_{0};
+    double interval_s_{1.0 / 25.0};
     FrameMotion motion_{};
     MotionThrottle throttle_;
     MotionRequest wanted_{};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "tests/support/catch.hpp"
 #include "tests/support/noisy_scene.hpp"
@@ -52,6 +53,51 @@ TEST_CASE("a still surface shimmers at most half as much", "[temporal]") {
     const auto frames = single_frames(scene.frames(15));
     CHECK(rms_error(filtered(frames, 7, kNoisy), scene.truth(7)) < 0.45);
     CHECK(rms_error(filtered(frames, 7, kNoisy), filtered(frames, 8, kNoisy)) < 0.25);
+}
+
+TEST_CASE("a still surface is the mean of what 27 frames tell, and how many and how noisy is known",
+          "[temporal]") {
+    const NoisyScene scene{wall, [](double) { return 1.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(41));
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    TemporalFilter filter;
+    CHECK(rms_error(filter.filtered(all, 20, kNoisy), scene.truth(20)) < 0.22);
+    const TimeEvidence& evidence = filter.evidence();
+    double weight = 0.0;
+    for (const float each : evidence.weights) weight += static_cast<double>(each);
+    CHECK(weight / static_cast<double>(evidence.weights.size()) > 25.0);
+    REQUIRE(evidence.variances.size() == std::size_t{40} * 30);
+    for (const float variance : evidence.variances) REQUIRE_THAT(variance, WithinAbs(1.0, 0.35));
+}
+
+TEST_CASE("what moves slowly is not smeared over the frames that are farther", "[temporal]") {
+    const Scene moving = [](int frame, int i, int j) {
+        return wall(0, i, j) + 3.0 * std::sin(0.5 * (i - 0.3 * frame));
+    };
+    const NoisyScene scene{moving, [](double) { return 0.0; }};
+    const auto frames = single_frames(scene.frames(41));
+    CHECK(rms_error(filtered(frames, 20, kNoisy), scene.truth(20)) < 0.35);
+}
+
+TEST_CASE("groups of frames are the same whichever frames are given before them", "[temporal]") {
+    const NoisyScene scene{wall, [](double) { return 1.0; }};
+    auto frames = single_frames(scene.frames(45));
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        frames[k].number = static_cast<std::int64_t>(k);
+        frames[k].id = k + 1;
+    }
+    const auto part = [&](std::size_t first, std::size_t now) {
+        return std::vector<SingleFrameDepth>(
+            frames.begin() + static_cast<std::ptrdiff_t>(first),
+            frames.begin() + static_cast<std::ptrdiff_t>(now + 17));
+    };
+    const DepthImage alone = filtered(part(8, 25), 17, kNoisy);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    TemporalFilter played;
+    for (std::size_t now = 18; now < 25; ++now) (void)played.filtered(all, now, kNoisy);
+    CHECK(played.filtered(all, 25, kNoisy).levels == alone.levels);
 }
 
 TEST_CASE("at the ends of a clip less is known, and nothing is made up", "[temporal]") {

@@ -1,5 +1,5 @@
 // Remembers the last levels, and decides which of them fill holes.
-#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
