@@ -38,7 +38,8 @@ class NoiseCharacterMeter {
     /// The next frame, of the size and highest level of the first one: NaN is no data.
     void add(const DepthImage& frame);
 
-    [[nodiscard]] NoiseCharacter character() const;
+    /// `moves`: most of the picture does, as before a moving camera.
+    [[nodiscard]] NoiseCharacter character(bool moves) const;
     [[nodiscard]] std::vector<LevelStep> steps() const;
 
   private:
@@ -51,7 +52,8 @@ class NoiseCharacterMeter {
     struct Tile {
         std::vector<Energies> in_time{}, in_space{};
         std::vector<float> variances{};  ///< of second differences in time
-        std::vector<float> ratios{};     ///< of differences over two frames to those over one
+        /// Of differences over two frames to those over one; the same without the tile's mean.
+        std::vector<float> ratios{}, level_ratios{};
         std::vector<float> levels{};
     };
     struct Bin;

@@ -1,0 +1,345 @@
+// Small pictures in parts of their noise; where sums of their products are highest is the motion.
+#include "core/video/cleaning/camera/camera_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "core/video/frames/vector_clones.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr int kMostColumns = 200;  ///< of a small picture
+constexpr std::array<std::int64_t, 2> kFramesApart{2, 4};
+constexpr std::int64_t kBetween = 4;  ///< frames to each side whose pairs count
+constexpr std::size_t kBandsUsed = 3;
+constexpr float kLeastShare = 3e-4F;  ///< of the noise in a band
+constexpr float kMost = 6.0F;         ///< deviations; outlines are more
+constexpr float kLeastNoise = 0.1F / 255.0F;
+/// Ways are tried up to so many px to each side.
+constexpr std::array<int, 2> kReach{7, 10};
+constexpr int kTaps = 3;              ///< of the interpolation, to each side
+constexpr int kFastest_quarters = 7;  ///< a frame
+/// By so much of all that pairs could agree a way must be better than none, or than none across:
+/// noise alone is a quarter of that. It is for kPairs; the noise of fewer is larger.
+constexpr float kSurely = 0.002F;
+constexpr float kPairs = 9.0F;
+constexpr float kFinest = 1.0F / 128.0F;
+constexpr std::size_t kLanes = 16;
+
+constexpr int width_of(std::size_t lag) {
+    return 2 * kReach[lag] + 1;
+}
+
+DIBHR_VECTOR_CLONES void add_row(const float* row, float* __restrict sums, std::ptrdiff_t columns) {
+    for (std::ptrdiff_t i = 0; i < columns; ++i) sums[i] += row[i];
+}
+
+/// Values as parts of the noise at their levels, at most kMost.
+DIBHR_VECTOR_CLONES void divide_by_noise(const float* levels, const NoiseBound& deviation,
+                                         float* __restrict values, std::ptrdiff_t columns) {
+    const NoiseBound of = deviation;
+    for (std::ptrdiff_t i = 0; i < columns; ++i)
+        values[i] = std::min(std::max(values[i] / of(levels[i]), -kMost), kMost);
+}
+
+/// Adds products of a row and another one at each of `shifts` places, kLanes sums each.
+DIBHR_VECTOR_CLONES void add_products(const float* one, const float* other, std::size_t count,
+                                      std::size_t shifts, float* __restrict sums) {
+    for (std::size_t shift = 0; shift < shifts; ++shift) {
+        const float* const moved = other + shift;
+        float lanes[kLanes];
+        for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = sums[shift * kLanes + k];
+        for (std::size_t i = 0; i < count; i += kLanes)
+            for (std::size_t k = 0; k < kLanes; ++k) lanes[k] += one[i + k] * moved[i + k];
+        for (std::size_t k = 0; k < kLanes; ++k) sums[shift * kLanes + k] = lanes[k];
+    }
+}
+
+using Weights = std::array<float, 2 * kTaps>;
+
+/// Lanczos' weights of the values around a place, `part` of a pixel after the one in the middle.
+Weights weights_at(float part) {
+    Weights weights{};
+    float sum = 0.0F;
+    for (int k = 0; k < 2 * kTaps; ++k) {
+        const float x = std::numbers::pi_v<float> * (static_cast<float>(k - kTaps + 1) - part);
+        const float tapered = x / static_cast<float>(kTaps);
+        const float weight =
+            std::fabs(x) < 1e-4F ? 1.0F : std::sin(x) * std::sin(tapered) / (x * tapered);
+        weights[static_cast<std::size_t>(k)] = weight;
+        sum += weight;
+    }
+    for (float& weight : weights) weight /= sum;
+    return weights;
+}
+
+}  // namespace
+
+std::span<const PictureWay> CameraMotion::ways(std::span<const SingleFrameDepth* const> frames,
+                                               std::size_t now, const DepthNoise& noise) {
+    gather(frames, now, noise);
+    if (small_.size() < 2) return {};
+    compare();
+    const std::int64_t first = small_.front().number;
+    const auto count = static_cast<std::size_t>((small_.back().number - first) / 2);
+    velocities_.resize(count);
+    bool moves = false;
+    for (std::size_t k = 0; k < count; ++k) {
+        velocities_[k] = velocity_from(first + 2 * static_cast<std::int64_t>(k));
+        moves = moves || velocities_[k].right != 0.0F || velocities_[k].down != 0.0F;
+    }
+    if (!moves) return {};
+    // From now on, half a way of two frames at a time.
+    const auto velocity_after = [&](std::int64_t number) {
+        const std::int64_t k = (number - first) >= 0 ? (number - first) / 2 : 0;
+        return velocities_[std::min(static_cast<std::size_t>(k), count - 1)];
+    };
+    ways_.assign(frames.size(), {});
+    const auto scale = static_cast<float>(shrink_);
+    for (const int side : {1, -1}) {
+        PictureWay way;
+        std::int64_t at = numbers_[now];
+        for (std::size_t k = now; k < frames.size(); k += static_cast<std::size_t>(side)) {
+            while (at != numbers_[k]) {
+                const Velocity velocity = velocity_after(side > 0 ? at : at - 1);
+                way.right += static_cast<float>(side) * scale * velocity.right;
+                way.down += static_cast<float>(side) * scale * velocity.down;
+                at += side;
+            }
+            ways_[k] = way;
+            if (k == 0 && side < 0) break;
+        }
+    }
+    return ways_;
+}
+
+/// The small pictures of every second frame around the frame, from earlier calls where known.
+void CameraMotion::gather(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                          const DepthNoise& noise) {
+    const DepthImage& here = frames[now]->depth;
+    if (!(noise == noise_)) small_.clear();
+    noise_ = noise;
+    shrink_ = 1;
+    while (here.columns / shrink_ > kMostColumns) shrink_ *= 2;
+    numbers_.clear();
+    for (std::size_t k = 0; k < frames.size(); ++k)
+        numbers_.push_back(frames[k]->number < 0 ? static_cast<std::int64_t>(k)
+                                                 : frames[k]->number);
+    kept_.clear();
+    const int least = 2 * kReach[1] + static_cast<int>(kLanes);
+    if (here.columns / shrink_ >= least && here.rows / shrink_ >= least) {
+        const std::size_t first = now - std::min(now, kReachInTime);
+        const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
+        for (std::size_t k = first; k < end; ++k) {
+            if (numbers_[k] % 2 != 0 || !are_alike(frames[k]->depth, here)) continue;
+            const std::uint64_t id = frames[k]->id;
+            const auto found = std::find_if(small_.begin(), small_.end(), [&](const Small& small) {
+                return id != 0 && small.id == id && small.number == numbers_[k];
+            });
+            if (found != small_.end()) {
+                kept_.push_back(std::move(*found));
+                found->id = 0;
+                continue;
+            }
+            Small& made = kept_.emplace_back();
+            made.id = id;
+            made.number = numbers_[k];
+            make_small(*frames[k], noise, made);
+        }
+    }
+    small_.swap(kept_);
+}
+
+/// Means of squares of pixels, without what is coarser than a few bands, over the noise of each.
+void CameraMotion::make_small(const SingleFrameDepth& frame, const DepthNoise& noise, Small& made) {
+    BandPicture& small = made.picture;
+    const DepthImage& depth = frame.depth;
+    BandPicture levels;
+    levels.set_size(depth.columns / shrink_, depth.rows / shrink_);
+    const auto columns = static_cast<std::size_t>(levels.columns * shrink_);
+    const float share = 1.0F / static_cast<float>(shrink_ * shrink_);
+    for (int j = 0; j < levels.rows; ++j) {
+        row_.assign(columns, 0.0F);
+        for (int k = 0; k < shrink_; ++k)
+            add_row(depth.levels.data() + depth.index(0, j * shrink_ + k), row_.data(),
+                    static_cast<std::ptrdiff_t>(columns));
+        float* const out = levels.row(j);
+        for (int i = 0; i < levels.columns; ++i) {
+            float sum = 0.0F;
+            for (int k = 0; k < shrink_; ++k)
+                sum += row_[static_cast<std::size_t>(i * shrink_ + k)];
+            out[i] = share * sum;
+        }
+    }
+    std::array<float, kNoiseBands> factors{};
+    std::size_t halvings = 0;
+    while ((1 << halvings) < shrink_) ++halvings;
+    for (std::size_t b = 0; b < kBandsUsed; ++b) {
+        float of_band = noise.character.bands[std::min(b + halvings, kNoiseBands - 1)];
+        for (std::size_t k = kNoiseBands; k < b + halvings + 1; ++k) of_band *= 0.25F;
+        factors[b] = 1.0F / std::sqrt(std::max(of_band, kLeastShare));
+    }
+    small = levels;
+    bands_.weigh(small, factors);
+    const NoiseBound deviation(noise, 1.0F, kLeastNoise, depth.highest_level);
+    for (int j = 0; j < small.rows; ++j)
+        divide_by_noise(levels.row(j), deviation, small.row(j), small.columns);
+    made.energy = 0.0F;
+    for (const float value : small.values) made.energy += value * value;
+    made.energy /= static_cast<float>(small.values.size());
+}
+
+/// How much pairs of small pictures agree at each way, where that is not known yet.
+void CameraMotion::compare() {
+    for (std::size_t lag = 0; lag < kLags; ++lag)
+        for (std::size_t a = 0, b = 0; a < small_.size(); ++a) {
+            while (b < small_.size() && small_[b].number < small_[a].number + kFramesApart[lag])
+                ++b;
+            if (b == small_.size() || small_[b].number != small_[a].number + kFramesApart[lag]) {
+                small_[a].agrees[lag].clear();
+                continue;
+            }
+            Small& from = small_[a];
+            const Small& to = small_[b];
+            if (to.id != 0 && from.later[lag] == to.id && !from.agrees[lag].empty()) continue;
+            from.later[lag] = to.id;
+            const int reach = kReach[lag];
+            const int width = width_of(lag);
+            const auto shifts = static_cast<std::size_t>(width);
+            from.agrees[lag].assign(shifts * shifts, 0.0F);
+            lanes_.resize(shifts * kLanes);
+            const int columns = (from.picture.columns - 2 * reach) / static_cast<int>(kLanes) *
+                                static_cast<int>(kLanes);
+            for (int down = -reach; down <= reach; ++down) {
+                std::fill(lanes_.begin(), lanes_.end(), 0.0F);
+                for (int j = reach; j < from.picture.rows - reach; ++j)
+                    add_products(from.picture.row(j) + reach, to.picture.row(j + down),
+                                 static_cast<std::size_t>(columns), shifts, lanes_.data());
+                float* const out = from.agrees[lag].data() + (down + reach) * width;
+                for (std::size_t shift = 0; shift < shifts; ++shift)
+                    for (std::size_t k = 0; k < kLanes; ++k)
+                        out[shift] += lanes_[shift * kLanes + k];
+            }
+        }
+}
+
+float CameraMotion::agreement(Velocity at) const {
+    float whole = 0.0F;
+    for (std::size_t lag = 0; lag < kLags; ++lag) {
+        if (sums_[lag].empty()) continue;
+        const float x = at.right * static_cast<float>(kFramesApart[lag]);
+        const float y = at.down * static_cast<float>(kFramesApart[lag]);
+        const float left = std::floor(x);
+        const float top = std::floor(y);
+        const Weights across = weights_at(x - left);
+        const Weights along = weights_at(y - top);
+        const int width = width_of(lag);
+        const int first = kReach[lag] - kTaps + 1;
+        const float* const from = sums_[lag].data() + (first + static_cast<int>(top)) * width +
+                                  first + static_cast<int>(left);
+        for (int j = 0; j < 2 * kTaps; ++j) {
+            float sum = 0.0F;
+            for (int i = 0; i < 2 * kTaps; ++i)
+                sum += across[static_cast<std::size_t>(i)] * from[j * width + i];
+            whole += along[static_cast<std::size_t>(j)] * sum;
+        }
+    }
+    return whole;
+}
+
+/// Sums the agreements of the pairs within ten frames. Returns how much is surely more than noise.
+float CameraMotion::sum_agreements(std::int64_t number) {
+    float whole = 0.0F;  // of pictures that are the same
+    float pairs = 0.0F;
+    for (std::size_t lag = 0; lag < kLags; ++lag) {
+        const auto size = static_cast<std::size_t>(width_of(lag) * width_of(lag));
+        sums_[lag].assign(size, 0.0F);
+        for (const Small& one : small_) {
+            if (one.number < number - kBetween || one.agrees[lag].empty() ||
+                one.number + kFramesApart[lag] > number + 2 + kBetween)
+                continue;
+            add_row(one.agrees[lag].data(), sums_[lag].data(), static_cast<std::ptrdiff_t>(size));
+            whole += one.energy * static_cast<float>((one.picture.columns - 2 * kReach[lag]) *
+                                                     (one.picture.rows - 2 * kReach[lag]));
+            pairs += 1.0F;
+        }
+    }
+    return kSurely * whole * std::sqrt(kPairs / std::max(pairs, 1.0F));
+}
+
+/// The best of all velocities in steps of a quarter; over two frames that is half a pixel.
+CameraMotion::Velocity CameraMotion::rough_velocity() const {
+    const auto at = [this](std::size_t lag, int x, int y) {
+        return sums_[lag]
+                    [static_cast<std::size_t>((kReach[lag] + y) * width_of(lag) + kReach[lag] + x)];
+    };
+    Velocity best;
+    float most = -std::numeric_limits<float>::infinity();
+    for (int y = -kFastest_quarters; y <= kFastest_quarters; ++y)
+        for (int x = -kFastest_quarters; x <= kFastest_quarters; ++x) {
+            const int left = (x + 8) / 2 - 4;
+            const int top = (y + 8) / 2 - 4;
+            const int right = left + std::abs(x % 2);
+            const int bottom = top + std::abs(y % 2);
+            const float agrees = at(1, x, y) + 0.25F * (at(0, left, top) + at(0, right, top) +
+                                                        at(0, left, bottom) + at(0, right, bottom));
+            if (agrees <= most) continue;
+            most = agrees;
+            best = {0.25F * static_cast<float>(x), 0.25F * static_cast<float>(y)};
+        }
+    return best;
+}
+
+/// Of the two frames from that one on; 0 where nothing says surely that they move.
+CameraMotion::Velocity CameraMotion::find_velocity(std::int64_t number) {
+    constexpr float kLimit = 0.25F * static_cast<float>(kFastest_quarters);
+    const float sure = sum_agreements(number);
+    Velocity velocity = rough_velocity();
+    float best = agreement(velocity);
+    for (float step = 0.125F; step >= kFinest; step *= 0.5F) {
+        for (bool better = true; std::exchange(better, false);)
+            for (const auto& [right, down] :
+                 {std::pair{step, 0.0F}, {-step, 0.0F}, {0.0F, step}, {0.0F, -step}}) {
+                const Velocity tried{velocity.right + right, velocity.down + down};
+                if (std::fabs(tried.right) > kLimit || std::fabs(tried.down) > kLimit) continue;
+                const float agrees = agreement(tried);
+                if (agrees <= best) continue;
+                best = agrees;
+                velocity = tried;
+                better = true;
+                break;
+            }
+    }
+    const float least = best - sure;
+    for (const Velocity simple :
+         {Velocity{0.0F, velocity.down}, {velocity.right, 0.0F}, {0.0F, 0.0F}})
+        if (agreement(simple) >= least) velocity = simple;
+    return velocity;
+}
+
+/// The same, from earlier calls where known.
+CameraMotion::Velocity CameraMotion::velocity_from(std::int64_t number) {
+    Ids ids{};
+    bool is_known = true;
+    Small* here = nullptr;
+    for (Small& small : small_) {
+        if (small.number == number) here = &small;
+        if (small.number < number - kBetween || small.number > number + 2 + kBetween) continue;
+        ids[static_cast<std::size_t>(small.number - number + kBetween) / 2] = small.id;
+        is_known = is_known && small.id != 0;
+    }
+    if (here != nullptr && is_known && here->from == ids) return here->velocity;
+    const Velocity velocity = find_velocity(number);
+    if (here == nullptr) return velocity;
+    here->velocity = velocity;
+    here->from = ids;
+    return velocity;
+}
+
+}  // namespace dibhr
