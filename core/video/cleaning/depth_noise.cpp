@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "core/files/plain_text.hpp"
-#include "core/video/cleaning/camera/camera_motion.hpp"
 #include "core/video/cleaning/frame_scale.hpp"
 
 namespace dibhr {
@@ -34,8 +33,7 @@ constexpr double kQuietShare = 0.4;
 constexpr double kOfSecondDifference = 1.2533141 / 2.4494897;
 constexpr double kOfRoughness = 1.2533141 / 1.1180340;
 
-constexpr std::size_t kMostOfView = 1'000'000;  ///< px: larger pictures get no steps that need it
-constexpr int kSmall_px = 320;                  ///< enough columns to compare the scales of frames
+constexpr int kSmall_px = 320;  ///< enough columns to compare the scales of frames
 
 /// Every n-th pixel, so that at most kSmall_px columns are left.
 DepthImage small_of(const DepthImage& frame) {
@@ -124,6 +122,7 @@ std::string text_of(const DepthNoise& noise) {
                               noise.step.linear, noise.step.square})
         character += " " + text(value);
     for (const float share : noise.character.standing) character += " " + text(share);
+    character += " " + text(noise.character.kept_in_motion);
     return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
            text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0") + character;
 }
@@ -140,7 +139,10 @@ std::optional<DepthNoise> noise_in(const std::string& text) {
     words >> whole.character.kept >> whole.character.fixed >> whole.step.constant >>
         whole.step.linear >> whole.step.square;
     for (float& share : whole.character.standing) words >> share;
-    return words ? whole : noise;
+    if (!words) return noise;
+    if (!(words >> whole.character.kept_in_motion))
+        whole.character.kept_in_motion = whole.character.kept;
+    return whole;
 }
 
 void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top) const {
@@ -184,26 +186,8 @@ void NoiseMeter::add(DepthImage frame) {
             add_tile(*tile, frame, x * kTile_px, y * kTile_px);
     if (small_.size() < kEnoughFrames) small_.push_back({small_of(frame), {}, {}});
     character_.add(frame);
-    if (count_ % 2 == 0) keep_view(frame);
-    ++count_;
     before_last_ = std::move(last_);
     last_ = std::move(frame);
-}
-
-void NoiseMeter::keep_view(const DepthImage& frame) {
-    if (frame.levels.size() > kMostOfView || 2 * views_.size() >= kEnoughFrames) return;
-    SingleFrameDepth& view = views_.emplace_back(SingleFrameDepth{frame, {}, {}, count_});
-    float last = 0.0F;
-    for (float& level : view.depth.levels) {
-        if (std::isnan(level)) level = last;
-        last = level;
-    }
-}
-
-bool NoiseMeter::picture_moves(const DepthNoise& noise) const {
-    std::vector<const SingleFrameDepth*> frames;
-    for (const SingleFrameDepth& view : views_) frames.push_back(&view);
-    return !frames.empty() && !CameraMotion{}.ways(frames, frames.size() / 2, noise).empty();
 }
 
 bool NoiseMeter::has_per_frame_scale() const {
@@ -251,18 +235,15 @@ DepthNoise NoiseMeter::noise() const {
     }
     DepthNoise noise;
     noise.per_frame_scale = has_per_frame_scale();
+    noise.character = character_.character();
     noise.step = step();
-    if (samples.empty()) {
-        noise.character = character_.character(false);
-        return noise;
-    }
+    if (samples.empty()) return noise;
     const Powers powers = fitted(samples);
     const double grain = grains.empty() ? 1.0 : std::min(1.0, quantile(grains, 0.5));
     noise.constant = static_cast<float>(powers[0]);
     noise.linear = static_cast<float>(powers[1]);
     noise.square = static_cast<float>(powers[2]);
     noise.correlation = static_cast<float>(1.0 - grain);
-    noise.character = character_.character(picture_moves(noise));
     return noise;
 }
 

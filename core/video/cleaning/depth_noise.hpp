@@ -133,8 +133,6 @@ class NoiseMeter {
     };
 
     void add_tile(Tile& tile, const DepthImage& frame, int left, int top) const;
-    void keep_view(const DepthImage& frame);
-    [[nodiscard]] bool picture_moves(const DepthNoise& noise) const;
     [[nodiscard]] bool has_per_frame_scale() const;
     [[nodiscard]] StepByDistance step() const;
 
@@ -142,8 +140,6 @@ class NoiseMeter {
     NoiseCharacterMeter character_{};
     DepthImage last_{}, before_last_{};
     std::vector<SingleFrameDepth> small_{};  ///< each frame, with fewer pixels
-    std::vector<SingleFrameDepth> views_{};  ///< every second frame, without holes
-    std::int64_t count_{0};                  ///< of frames
 };
 
 }  // namespace dibhr

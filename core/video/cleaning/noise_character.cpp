@@ -68,19 +68,19 @@ struct RatioOfTile {
     float shape, ratio, level_ratio;
 };
 
-/// The median of the ratios. Where the picture moves shapes differ more over two frames, too, and
-/// slopes by their mean: there it is that of the tiles with least shape.
-float kept_ratio(std::vector<RatioOfTile> tiles, bool moves) {
+/// The median of the ratios, which shapes that move add to, and slopes by their mean; and that of
+/// the tiles with least shape.
+std::pair<float, float> ratios_of(std::vector<RatioOfTile> tiles) {
     std::vector<float> ratios;
     for (const RatioOfTile& tile : tiles) ratios.push_back(tile.ratio);
     const float median = median_of(std::move(ratios));
     const auto plain = static_cast<std::size_t>(kPlainTiles * static_cast<double>(tiles.size()));
-    if (!moves || plain < kTilesOfBin) return median;
+    if (plain < kTilesOfBin) return {median, median};
     std::nth_element(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(plain), tiles.end(),
                      [](const RatioOfTile& a, const RatioOfTile& b) { return a.shape < b.shape; });
     std::vector<float> of_plain;
     for (std::size_t k = 0; k < plain; ++k) of_plain.push_back(tiles[k].level_ratio);
-    return std::min(median, median_of(std::move(of_plain)));
+    return {median, std::min(median, median_of(std::move(of_plain)))};
 }
 
 float square(float value) {
@@ -320,7 +320,7 @@ std::vector<NoiseCharacterMeter::Bin> NoiseCharacterMeter::bins() const {
     return bins;
 }
 
-NoiseCharacter NoiseCharacterMeter::character(bool moves) const {
+NoiseCharacter NoiseCharacterMeter::character() const {
     const std::vector<Bin> all = bins();
     std::array<std::vector<float>, kNoiseBands> shares;
     std::vector<RatioOfTile> ratios;
@@ -338,7 +338,9 @@ NoiseCharacter NoiseCharacterMeter::character(bool moves) const {
     NoiseCharacter character;
     if (!ratios.empty()) {
         for (std::size_t b = 0; b < kNoiseBands; ++b) character.bands[b] = median_of(shares[b]);
-        character.kept = std::clamp(kept_ratio(std::move(ratios), moves) - 1.0F, 0.0F, kMostKept);
+        const std::pair<float, float> of_two = ratios_of(std::move(ratios));
+        character.kept = std::clamp(of_two.first - 1.0F, 0.0F, kMostKept);
+        character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKept);
         character.standing = standing(character.bands, character.kept);
     }
     // What the finest band has in space beyond time and rounding stands still. A texture has more

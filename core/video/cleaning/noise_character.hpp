@@ -17,7 +17,8 @@ namespace dibhr {
 struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.
     std::array<float, kNoiseBands> bands{kWhiteBands};
-    float kept{0.0F};   ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
+    float kept{0.0F};  ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
+    float kept_in_motion{0.0F};  ///< of it what is no motion of shapes
     float fixed{0.0F};  ///< deviation of grain that stands still [parts of the highest level]
     /// What stands still in each band, all over the picture, of the variance of what does not.
     std::array<float, kNoiseBands> standing{};
@@ -38,8 +39,7 @@ class NoiseCharacterMeter {
     /// The next frame, of the size and highest level of the first one: NaN is no data.
     void add(const DepthImage& frame);
 
-    /// `moves`: most of the picture does, as before a moving camera.
-    [[nodiscard]] NoiseCharacter character(bool moves) const;
+    [[nodiscard]] NoiseCharacter character() const;
     [[nodiscard]] std::vector<LevelStep> steps() const;
 
   private:

@@ -36,6 +36,7 @@ constexpr float kStillMean = 0.8F;
 constexpr float kStillSquares = 2.5F;
 constexpr float kOfMedian = 0.29F;      ///< variance of a median of five
 constexpr int kMisfitRow_px = 8;        ///< every eighth row tells how tiles move
+constexpr float kBetter = 0.03F;        ///< by so much of the misfit, about what noise makes of it
 constexpr float kMostMisfit = 2.5F;     ///< a deviation of kApart - kMixes; outliers are more
 constexpr float kLeastCounted = 32.0F;  ///< pixels of a tile
 constexpr float kLeastFrames = 3.0F;    ///< for a variance
@@ -484,15 +485,34 @@ void TemporalFilter::choose_tiles(const DepthImage& here) {
     for (std::size_t y = 0; y < down; ++y)
         for (std::size_t x = 0; x < across; ++x) {
             float better = 0.0F;
+            float along = 0.0F;
             for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(y + 2, down); ++v)
                 for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(x + 2, across);
                      ++u) {
                     const float weight = (u == x ? 2.0F : 1.0F) * (v == y ? 2.0F : 1.0F);
                     const std::size_t k = v * across + u;
                     better += weight * (misfits_[0][k] - misfits_[1][k]);
+                    along += weight * misfits_[1][k];
                 }
-            moving_[y * across + x] = better > 0.0F ? 1 : 0;
+            moving_[y * across + x] = better > kBetter * along ? 1 : 0;
         }
+}
+
+/// What is smoothed afterwards takes a frame's weight for less than one where noise is alike from
+/// frame to frame. Along the motion it is less alike than shapes that move make it in place.
+void TemporalFilter::share_weights(const DepthImage& out) {
+    const float factor = shared_[0] / shared_[1];
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    for (int j = 0; j < out.rows; ++j)
+        visit_marked(moving_.data() + static_cast<std::size_t>(j / kTile_px) * across,
+                     static_cast<int>(across), [&](int begin, int end) {
+                         float* const row = evidence_.weights.data() + out.index(0, j);
+                         for (std::size_t i = kStillTile_px * static_cast<std::size_t>(begin);
+                              i < std::min(kStillTile_px * static_cast<std::size_t>(end), columns);
+                              ++i)
+                             row[i] *= factor;
+                     });
 }
 
 /// Adds how far the farther neighbours are from the median, read in place or along the motion.
@@ -652,6 +672,7 @@ void TemporalFilter::find_still(const FrameGroup& group, const Piece& piece, int
     constexpr int kPart = TimeEvidence::kTile_px;
     const auto parts = static_cast<std::size_t>((out.columns + kPart - 1) / kPart);
     const std::size_t first = parts * static_cast<std::size_t>(top / kPart);
+    const float shared = shared_[piece.moves ? 1 : 0];
     for (std::size_t x = 0; x < still_.size(); ++x) {
         float off = 0.0F;
         float squared = 0.0F;
@@ -673,8 +694,8 @@ void TemporalFilter::find_still(const FrameGroup& group, const Piece& piece, int
             for (std::size_t part = left / kPart; part * kPart < right; ++part, ++count)
                 variance += evidence_.variances[first + static_cast<std::size_t>(y) * parts + part];
         variance /= count;
-        const float of_group = std::min(shared_ / static_cast<float>(kGroupInTime), 1.0F);
-        const float of_median = std::min(shared_ * kOfMedian, 1.0F);
+        const float of_group = std::min(shared / static_cast<float>(kGroupInTime), 1.0F);
+        const float of_median = std::min(shared * kOfMedian, 1.0F);
         const float mean = off / counted;
         if (mean * mean > kStillMean * kStillMean * variance ||
             squared / counted > kStillSquares * (of_group + of_median) * variance)
@@ -949,8 +970,8 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
     mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
-    const float kept = noise.character.kept;
-    shared_ = (1.0F + kept) / (1.0F - kept);
+    const auto shared = [](float kept) { return (1.0F + kept) / (1.0F - kept); };
+    shared_ = {shared(noise.character.kept), shared(noise.character.kept_in_motion)};
     gather(frames, now);
     far_ = {};
     if (count_ > 1)
@@ -963,6 +984,7 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
     if (farthest_shift_ != 0) choose_tiles(here.depth);
     if (average_rows(here, out)) follow_parts(here, out);
+    if (farthest_shift_ != 0 && shared_[0] != shared_[1]) share_weights(out);
     return out;
 }
 

@@ -76,6 +76,7 @@ class TemporalFilter {
     void find_motion(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                      const DepthNoise& noise);
     void choose_tiles(const DepthImage& here);
+    void share_weights(const DepthImage& out);
     void add_misfits(int j, bool moves, const DepthImage& here);
     void find_pieces(std::size_t row_of_tiles, std::size_t tiles, std::size_t columns);
     [[nodiscard]] Neighbours rows_at(std::size_t at) const;
@@ -135,7 +136,9 @@ class TemporalFilter {
     std::vector<std::uint8_t> shifted_filled_{};
     std::vector<std::uint8_t> still_{};  ///< 1: of a row of tiles, those that all groups agree on
     std::vector<float> off_{}, squared_off_{}, counted_{};  ///< of columns
-    float shared_{1.0F};  ///< variance of a mean of frames, over that of frames without correlation
+    /// Variance of a mean of frames, over that of frames without correlation: in place, and along
+    /// the motion.
+    std::array<float, 2> shared_{1.0F, 1.0F};
     TimeEvidence evidence_{};
 };
 

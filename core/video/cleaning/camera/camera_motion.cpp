@@ -23,6 +23,7 @@ constexpr float kMost = 6.0F;         ///< deviations; outlines are more
 constexpr float kLeastNoise = 0.1F / 255.0F;
 /// Ways are tried up to so many px to each side.
 constexpr std::array<int, 2> kReach{7, 10};
+constexpr int kShort = 2;             ///< px: ways that are tried first
 constexpr int kTaps = 3;              ///< of the interpolation, to each side
 constexpr int kFastest_quarters = 7;  ///< a frame
 /// By so much of all that pairs could agree a way must be better than none, or than none across:
@@ -34,6 +35,11 @@ constexpr std::size_t kLanes = 16;
 
 constexpr int width_of(std::size_t lag) {
     return 2 * kReach[lag] + 1;
+}
+
+/// How many columns of a small picture are compared with another one's.
+constexpr std::size_t compared(int columns, std::size_t lag) {
+    return static_cast<std::size_t>(columns - 2 * kReach[lag]) / kLanes * kLanes;
 }
 
 DIBHR_VECTOR_CLONES void add_row(const float* row, float* __restrict sums, std::ptrdiff_t columns) {
@@ -85,7 +91,7 @@ std::span<const PictureWay> CameraMotion::ways(std::span<const SingleFrameDepth*
                                                std::size_t now, const DepthNoise& noise) {
     gather(frames, now, noise);
     if (small_.size() < 2) return {};
-    compare();
+    pair();
     const std::int64_t first = small_.front().number;
     const auto count = static_cast<std::size_t>((small_.back().number - first) / 2);
     velocities_.resize(count);
@@ -195,38 +201,87 @@ void CameraMotion::make_small(const SingleFrameDepth& frame, const DepthNoise& n
     made.energy /= static_cast<float>(small.values.size());
 }
 
-/// How much pairs of small pictures agree at each way, where that is not known yet.
-void CameraMotion::compare() {
+/// Finds pairs, and compares new ones in place and a little away from it.
+void CameraMotion::pair() {
     for (std::size_t lag = 0; lag < kLags; ++lag)
         for (std::size_t a = 0, b = 0; a < small_.size(); ++a) {
-            while (b < small_.size() && small_[b].number < small_[a].number + kFramesApart[lag])
-                ++b;
-            if (b == small_.size() || small_[b].number != small_[a].number + kFramesApart[lag]) {
-                small_[a].agrees[lag].clear();
-                continue;
-            }
-            Small& from = small_[a];
-            const Small& to = small_[b];
-            if (to.id != 0 && from.later[lag] == to.id && !from.agrees[lag].empty()) continue;
-            from.later[lag] = to.id;
-            const int reach = kReach[lag];
-            const int width = width_of(lag);
-            const auto shifts = static_cast<std::size_t>(width);
-            from.agrees[lag].assign(shifts * shifts, 0.0F);
-            lanes_.resize(shifts * kLanes);
-            const int columns = (from.picture.columns - 2 * reach) / static_cast<int>(kLanes) *
-                                static_cast<int>(kLanes);
-            for (int down = -reach; down <= reach; ++down) {
-                std::fill(lanes_.begin(), lanes_.end(), 0.0F);
-                for (int j = reach; j < from.picture.rows - reach; ++j)
-                    add_products(from.picture.row(j) + reach, to.picture.row(j + down),
-                                 static_cast<std::size_t>(columns), shifts, lanes_.data());
-                float* const out = from.agrees[lag].data() + (down + reach) * width;
-                for (std::size_t shift = 0; shift < shifts; ++shift)
-                    for (std::size_t k = 0; k < kLanes; ++k)
-                        out[shift] += lanes_[shift * kLanes + k];
-            }
+            const std::int64_t wanted = small_[a].number + kFramesApart[lag];
+            while (b < small_.size() && small_[b].number < wanted) ++b;
+            Pair& pair = small_[a].pairs[lag];
+            pair.later = b < small_.size() && small_[b].number == wanted ? b : 0;
+            if (pair.later == 0) continue;
+            if (small_[b].id != 0 && small_[b].id == pair.later_id) continue;
+            pair.later_id = small_[b].id;
+            pair.agrees.assign(static_cast<std::size_t>(width_of(lag) * width_of(lag)), 0.0F);
+            pair.is_whole = false;
+            compare(small_[a], lag, kShort);
         }
+}
+
+/// All ways up to `reach` px to each side.
+void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
+    const BandPicture& one = from.picture;
+    const BandPicture& other = small_[from.pairs[lag].later].picture;
+    const int margin = kReach[lag];
+    const auto shifts = static_cast<std::size_t>(2 * reach + 1);
+    lanes_.resize(shifts * kLanes);
+    for (int down = -reach; down <= reach; ++down) {
+        std::fill(lanes_.begin(), lanes_.end(), 0.0F);
+        for (int j = margin; j < one.rows - margin; ++j)
+            add_products(one.row(j) + margin, other.row(j + down) + margin - reach,
+                         compared(one.columns, lag), shifts, lanes_.data());
+        float* const out =
+            from.pairs[lag].agrees.data() + (margin + down) * width_of(lag) + margin - reach;
+        for (std::size_t shift = 0; shift < shifts; ++shift) {
+            out[shift] = 0.0F;
+            for (std::size_t k = 0; k < kLanes; ++k) out[shift] += lanes_[shift * kLanes + k];
+        }
+    }
+}
+
+/// visit(earlier picture, which lag): all pairs within ten frames.
+template <typename Visit>
+void CameraMotion::visit_pairs(std::int64_t number, const Visit& visit) {
+    for (std::size_t lag = 0; lag < kLags; ++lag)
+        for (Small& one : small_)
+            if (one.pairs[lag].later != 0 && one.number >= number - kBetween &&
+                one.number + kFramesApart[lag] <= number + 2 + kBetween)
+                visit(one, lag);
+}
+
+void CameraMotion::compare_all(std::int64_t number) {
+    visit_pairs(number, [this](Small& one, std::size_t lag) {
+        if (!std::exchange(one.pairs[lag].is_whole, true)) compare(one, lag, kReach[lag]);
+    });
+}
+
+float CameraMotion::at(std::size_t lag, int right, int down) const {
+    return sums_[lag][static_cast<std::size_t>((kReach[lag] + down) * width_of(lag) + kReach[lag] +
+                                               right)];
+}
+
+/// Whether pictures agree most in place, and hardly more between that and the ways beside it.
+bool CameraMotion::stands_still(float sure) const {
+    std::array<float, 2> slope{};
+    std::array<float, 2> bend{};
+    for (std::size_t lag = 0; lag < kLags; ++lag) {
+        const float here = at(lag, 0, 0);
+        for (int down = -kShort; down <= kShort; ++down)
+            for (int right = -kShort; right <= kShort; ++right)
+                if ((right != 0 || down != 0) && at(lag, right, down) >= here) return false;
+        const auto frames = static_cast<float>(kFramesApart[lag]);
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const int right = axis == 0 ? 1 : 0;
+            const float before = at(lag, -right, right - 1);
+            const float after = at(lag, right, 1 - right);
+            slope[axis] += frames * 0.5F * (after - before);
+            bend[axis] += frames * frames * (2.0F * here - before - after);
+        }
+    }
+    float more = 0.0F;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+        more += 0.5F * slope[axis] * slope[axis] / bend[axis];
+    return more < sure;
 }
 
 float CameraMotion::agreement(Velocity at) const {
@@ -255,30 +310,22 @@ float CameraMotion::agreement(Velocity at) const {
 
 /// Sums the agreements of the pairs within ten frames. Returns how much is surely more than noise.
 float CameraMotion::sum_agreements(std::int64_t number) {
+    for (std::size_t lag = 0; lag < kLags; ++lag)
+        sums_[lag].assign(static_cast<std::size_t>(width_of(lag) * width_of(lag)), 0.0F);
     float whole = 0.0F;  // of pictures that are the same
     float pairs = 0.0F;
-    for (std::size_t lag = 0; lag < kLags; ++lag) {
-        const auto size = static_cast<std::size_t>(width_of(lag) * width_of(lag));
-        sums_[lag].assign(size, 0.0F);
-        for (const Small& one : small_) {
-            if (one.number < number - kBetween || one.agrees[lag].empty() ||
-                one.number + kFramesApart[lag] > number + 2 + kBetween)
-                continue;
-            add_row(one.agrees[lag].data(), sums_[lag].data(), static_cast<std::ptrdiff_t>(size));
-            whole += one.energy * static_cast<float>((one.picture.columns - 2 * kReach[lag]) *
-                                                     (one.picture.rows - 2 * kReach[lag]));
-            pairs += 1.0F;
-        }
-    }
+    visit_pairs(number, [&](const Small& one, std::size_t lag) {
+        add_row(one.pairs[lag].agrees.data(), sums_[lag].data(),
+                static_cast<std::ptrdiff_t>(sums_[lag].size()));
+        whole += one.energy * static_cast<float>(compared(one.picture.columns, lag)) *
+                 static_cast<float>(one.picture.rows - 2 * kReach[lag]);
+        pairs += 1.0F;
+    });
     return kSurely * whole * std::sqrt(kPairs / std::max(pairs, 1.0F));
 }
 
 /// The best of all velocities in steps of a quarter; over two frames that is half a pixel.
 CameraMotion::Velocity CameraMotion::rough_velocity() const {
-    const auto at = [this](std::size_t lag, int x, int y) {
-        return sums_[lag]
-                    [static_cast<std::size_t>((kReach[lag] + y) * width_of(lag) + kReach[lag] + x)];
-    };
     Velocity best;
     float most = -std::numeric_limits<float>::infinity();
     for (int y = -kFastest_quarters; y <= kFastest_quarters; ++y)
@@ -300,6 +347,9 @@ CameraMotion::Velocity CameraMotion::rough_velocity() const {
 CameraMotion::Velocity CameraMotion::find_velocity(std::int64_t number) {
     constexpr float kLimit = 0.25F * static_cast<float>(kFastest_quarters);
     const float sure = sum_agreements(number);
+    if (stands_still(sure)) return {};
+    compare_all(number);
+    (void)sum_agreements(number);
     Velocity velocity = rough_velocity();
     float best = agreement(velocity);
     for (float step = 0.125F; step >= kFinest; step *= 0.5F) {
@@ -316,6 +366,8 @@ CameraMotion::Velocity CameraMotion::find_velocity(std::int64_t number) {
                 break;
             }
     }
+    // The best way may be beyond the longest one.
+    if (std::max(std::fabs(velocity.right), std::fabs(velocity.down)) >= kLimit) return {};
     const float least = best - sure;
     for (const Velocity simple :
          {Velocity{0.0F, velocity.down}, {velocity.right, 0.0F}, {0.0F, 0.0F}})

@@ -35,6 +35,13 @@ class CameraMotion {
     struct Velocity {
         float right{0.0F}, down{0.0F};  ///< px of small pictures a frame
     };
+    /// How much two small pictures agree, by way.
+    struct Pair {
+        std::size_t later{0};  ///< the other one's place; 0: there is none
+        std::uint64_t later_id{0};
+        bool is_whole{false};  ///< else only the ways that are short are known
+        std::vector<float> agrees{};
+    };
     /// The ids of the small pictures of ten frames.
     using Ids = std::array<std::uint64_t, 6>;
     /// A small picture, as parts of the noise.
@@ -42,18 +49,22 @@ class CameraMotion {
         std::uint64_t id{0};
         std::int64_t number{0};
         BandPicture picture{};
-        float energy{0.0F};  ///< mean square
-        /// How much it agrees with the one so many frames later, by way; empty: there is none.
-        std::array<std::vector<float>, kLags> agrees{};
-        std::array<std::uint64_t, kLags> later{};  ///< the ids of those
-        Velocity velocity{};                       ///< to the next one, computed from these:
+        float energy{0.0F};               ///< mean square
+        std::array<Pair, kLags> pairs{};  ///< with later ones
+        Velocity velocity{};              ///< to the next one, computed from these:
         Ids from{};
     };
 
     void gather(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                 const DepthNoise& noise);
     void make_small(const SingleFrameDepth& frame, const DepthNoise& noise, Small& made);
-    void compare();
+    void pair();
+    void compare(Small& from, std::size_t lag, int reach);
+    void compare_all(std::int64_t number);
+    template <typename Visit>
+    void visit_pairs(std::int64_t number, const Visit& visit);
+    [[nodiscard]] bool stands_still(float sure) const;
+    [[nodiscard]] float at(std::size_t lag, int right, int down) const;
     [[nodiscard]] Velocity velocity_from(std::int64_t number);
     [[nodiscard]] Velocity find_velocity(std::int64_t number);
     [[nodiscard]] float sum_agreements(std::int64_t number);
