@@ -34,12 +34,14 @@ constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least a
 // its mean in deviations, and by its mean square in those of what both have.
 constexpr float kStillMean = 0.8F;
 constexpr float kStillSquares = 2.5F;
-constexpr float kOfMedian = 0.29F;      ///< variance of a median of five
-constexpr int kMisfitRow_px = 8;        ///< every eighth row tells how tiles move
-constexpr float kBetter = 0.03F;        ///< by so much of the misfit, about what noise makes of it
-constexpr float kMostMisfit = 2.5F;     ///< a deviation of kApart - kMixes; outliers are more
-constexpr float kLeastCounted = 32.0F;  ///< pixels of a tile
-constexpr float kLeastFrames = 3.0F;    ///< for a variance
+constexpr float kOfMedian = 0.29F;       ///< variance of a median of five
+constexpr int kMisfitRow_px = 8;         ///< every eighth row tells how tiles move
+constexpr float kBetter = 0.03F;         ///< by so much of the misfit, about what noise makes of it
+constexpr std::size_t kMovingTiles = 4;  ///< one of so many, or more: the camera moves
+constexpr float kFits = 1.0F;            ///< misfit: noise alone has a third; else something passes
+constexpr float kMostMisfit = 2.5F;      ///< a deviation of kApart - kMixes; outliers are more
+constexpr float kLeastCounted = 32.0F;   ///< pixels of a tile
+constexpr float kLeastFrames = 3.0F;     ///< for a variance
 
 // A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
 // by") a surface that stays. Measured on people who walk past within two frames, whose feet touch
@@ -454,8 +456,8 @@ void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames
     shifted_filled_.resize(neighbours_.size() * columns);
 }
 
-/// A tile moves with the picture where the frames beside fit better along that way than in place,
-/// in the tiles around it, too: they tell more than one tile where noise is strong.
+/// A tile moves with the picture where the frames beside fit along that way, and better than in
+/// place, in the tiles around it, too: they tell more than one tile where noise is strong.
 void TemporalFilter::choose_tiles(const DepthImage& here) {
     const auto columns = static_cast<std::size_t>(here.columns);
     const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
@@ -494,8 +496,12 @@ void TemporalFilter::choose_tiles(const DepthImage& here) {
                     better += weight * (misfits_[0][k] - misfits_[1][k]);
                     along += weight * misfits_[1][k];
                 }
-            moving_[y * across + x] = better > kBetter * along ? 1 : 0;
+            const bool fits = misfits_[1][y * across + x] < kFits;
+            moving_[y * across + x] = fits && better > kBetter * along ? 1 : 0;
         }
+    // A few may be a hand that moves evenly, and chance.
+    const auto count = static_cast<std::size_t>(std::count(moving_.begin(), moving_.end(), 1));
+    if (kMovingTiles * count < moving_.size()) farthest_shift_ = 0;
 }
 
 /// What is smoothed afterwards takes a frame's weight for less than one where noise is alike from

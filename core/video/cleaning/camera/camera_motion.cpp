@@ -23,13 +23,17 @@ constexpr float kMost = 6.0F;         ///< deviations; outlines are more
 constexpr float kLeastNoise = 0.1F / 255.0F;
 /// Ways are tried up to so many px to each side.
 constexpr std::array<int, 2> kReach{7, 10};
+constexpr int kBorder = 6;            ///< px: bands are not known there
 constexpr int kShort = 2;             ///< px: ways that are tried first
 constexpr int kTaps = 3;              ///< of the interpolation, to each side
 constexpr int kFastest_quarters = 7;  ///< a frame
-/// By so much of all that pairs could agree a way must be better than none, or than none across:
-/// noise alone is a quarter of that. It is for kPairs; the noise of fewer is larger.
-constexpr float kSurely = 0.002F;
-constexpr float kPairs = 9.0F;
+/// By so many deviations of what noise makes of sums of products the best way must be better than
+/// none: it is the best of many, and neighbouring pixels have the same noise.
+constexpr float kSurely = 14.0F;
+constexpr float kOwnEnergy = 3.0F;  ///< of noise alone, in all bands
+/// Of that, by which a way across must be better than none: else ways along which nothing is seen
+/// would drift.
+constexpr float kAcross = 0.07F;
 constexpr float kFinest = 1.0F / 128.0F;
 constexpr std::size_t kLanes = 16;
 
@@ -37,9 +41,14 @@ constexpr int width_of(std::size_t lag) {
     return 2 * kReach[lag] + 1;
 }
 
+/// What is compared is so far inside that the other picture's border is not reached.
+constexpr int margin_of(std::size_t lag) {
+    return kReach[lag] + kBorder;
+}
+
 /// How many columns of a small picture are compared with another one's.
 constexpr std::size_t compared(int columns, std::size_t lag) {
-    return static_cast<std::size_t>(columns - 2 * kReach[lag]) / kLanes * kLanes;
+    return static_cast<std::size_t>(columns - 2 * margin_of(lag)) / kLanes * kLanes;
 }
 
 DIBHR_VECTOR_CLONES void add_row(const float* row, float* __restrict sums, std::ptrdiff_t columns) {
@@ -138,7 +147,7 @@ void CameraMotion::gather(std::span<const SingleFrameDepth* const> frames, std::
         numbers_.push_back(frames[k]->number < 0 ? static_cast<std::int64_t>(k)
                                                  : frames[k]->number);
     kept_.clear();
-    const int least = 2 * kReach[1] + static_cast<int>(kLanes);
+    const int least = 2 * margin_of(1) + static_cast<int>(kLanes);
     if (here.columns / shrink_ >= least && here.rows / shrink_ >= least) {
         const std::size_t first = now - std::min(now, kReachInTime);
         const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
@@ -222,7 +231,7 @@ void CameraMotion::pair() {
 void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
     const BandPicture& one = from.picture;
     const BandPicture& other = small_[from.pairs[lag].later].picture;
-    const int margin = kReach[lag];
+    const int margin = margin_of(lag);
     const auto shifts = static_cast<std::size_t>(2 * reach + 1);
     lanes_.resize(shifts * kLanes);
     for (int down = -reach; down <= reach; ++down) {
@@ -230,8 +239,8 @@ void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
         for (int j = margin; j < one.rows - margin; ++j)
             add_products(one.row(j) + margin, other.row(j + down) + margin - reach,
                          compared(one.columns, lag), shifts, lanes_.data());
-        float* const out =
-            from.pairs[lag].agrees.data() + (margin + down) * width_of(lag) + margin - reach;
+        float* const out = from.pairs[lag].agrees.data() + (kReach[lag] + down) * width_of(lag) +
+                           kReach[lag] - reach;
         for (std::size_t shift = 0; shift < shifts; ++shift) {
             out[shift] = 0.0F;
             for (std::size_t k = 0; k < kLanes; ++k) out[shift] += lanes_[shift * kLanes + k];
@@ -312,16 +321,15 @@ float CameraMotion::agreement(Velocity at) const {
 float CameraMotion::sum_agreements(std::int64_t number) {
     for (std::size_t lag = 0; lag < kLags; ++lag)
         sums_[lag].assign(static_cast<std::size_t>(width_of(lag) * width_of(lag)), 0.0F);
-    float whole = 0.0F;  // of pictures that are the same
-    float pairs = 0.0F;
+    float variance = 0.0F;
     visit_pairs(number, [&](const Small& one, std::size_t lag) {
         add_row(one.pairs[lag].agrees.data(), sums_[lag].data(),
                 static_cast<std::ptrdiff_t>(sums_[lag].size()));
-        whole += one.energy * static_cast<float>(compared(one.picture.columns, lag)) *
-                 static_cast<float>(one.picture.rows - 2 * kReach[lag]);
-        pairs += 1.0F;
+        variance += static_cast<float>(compared(one.picture.columns, lag)) *
+                    static_cast<float>(one.picture.rows - 2 * margin_of(lag)) * one.energy *
+                    std::min(one.energy, kOwnEnergy);
     });
-    return kSurely * whole * std::sqrt(kPairs / std::max(pairs, 1.0F));
+    return kSurely * std::sqrt(variance);
 }
 
 /// The best of all velocities in steps of a quarter; over two frames that is half a pixel.
@@ -366,13 +374,12 @@ CameraMotion::Velocity CameraMotion::find_velocity(std::int64_t number) {
                 break;
             }
     }
+    if (best <= agreement({}) + sure) return {};
+    for (const Velocity simple : {Velocity{0.0F, velocity.down}, {velocity.right, 0.0F}})
+        if (agreement(simple) >= best - kAcross * sure) velocity = simple;
     // The best way may be beyond the longest one.
-    if (std::max(std::fabs(velocity.right), std::fabs(velocity.down)) >= kLimit) return {};
-    const float least = best - sure;
-    for (const Velocity simple :
-         {Velocity{0.0F, velocity.down}, {velocity.right, 0.0F}, {0.0F, 0.0F}})
-        if (agreement(simple) >= least) velocity = simple;
-    return velocity;
+    const bool is_longest = std::max(std::fabs(velocity.right), std::fabs(velocity.down)) >= kLimit;
+    return is_longest ? Velocity{} : velocity;
 }
 
 /// The same, from earlier calls where known.
