@@ -61,13 +61,16 @@ std::span<const FrameGroup> FrameGroups::around(std::span<const SingleFrameDepth
         };
         if (!std::all_of(four.begin(), four.end(), is_alike)) continue;
         Shifts shifts{};
-        for (std::size_t n = 1; !ways.empty() && n < kGroupInTime; ++n)
-            shifts[n] = rounded({ways[begin + n].right - ways[begin].right,
-                                 ways[begin + n].down - ways[begin].down});
+        PictureWay mean{};
+        for (std::size_t n = 0; !ways.empty() && n < kGroupInTime; ++n) {
+            const PictureWay& way = ways[begin + n];
+            shifts[n] = rounded({way.right - ways[begin].right, way.down - ways[begin].down});
+            mean.right += 0.25F * (way.right - static_cast<float>(shifts[n].right));
+            mean.down += 0.25F * (way.down - static_cast<float>(shifts[n].down));
+        }
         around_.push_back({group_of(four, shifts, noise),
                            static_cast<float>(begin) - static_cast<float>(now) + kMiddle,
-                           static_cast<float>(kGroupInTime),
-                           ways.empty() ? Shift{} : rounded(ways[begin])});
+                           static_cast<float>(kGroupInTime), rounded(mean)});
     }
     // Those that are near now are far again soon.
     const auto is_left = [&](const Group& group) {

@@ -430,7 +430,7 @@ void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
     weights = weights_there;
 }
 
-/// How most of the picture moves to each neighbour, and groups along that.
+/// How most of the picture moves to each neighbour, which tiles do, and groups along that.
 void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                                  const DepthNoise& noise) {
     farthest_shift_ = 0;
@@ -446,14 +446,16 @@ void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames
         neighbours_[n].shift = rounded(ways[k]);
         add(neighbours_[n++].shift);
     }
+    if (farthest_shift_ == 0) return;
     const DepthImage& here = frames[now]->depth;
+    const auto columns = static_cast<std::size_t>(here.columns);
+    shifted_.resize((neighbours_.size() + kReachInTime) * columns);
+    shifted_filled_.resize(neighbours_.size() * columns);
+    choose_tiles(here);
+    if (farthest_shift_ == 0) return;
     moving_far_ = moving_groups_.around(
         frames, now, NoiseBound(noise, 1.0F, kLeastNoise, here.highest_level), ways);
     for (const FrameGroup& group : moving_far_) add(group.shift);
-    if (farthest_shift_ == 0) return;
-    const auto columns = static_cast<std::size_t>(here.columns);
-    shifted_.resize((neighbours_.size() + moving_far_.size()) * columns);
-    shifted_filled_.resize(neighbours_.size() * columns);
 }
 
 /// A tile moves with the picture where the frames beside fit along that way, and better than in
@@ -983,12 +985,11 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     if (count_ > 1)
         far_ = groups_.around(frames, now,
                               NoiseBound(noise, 1.0F, kLeastNoise, here.depth.highest_level));
-    find_motion(frames, now, noise);
     evidence_.near_frames = count_;
     evidence_.weights.resize(out.levels.size());
     evidence_.variances.clear();
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
-    if (farthest_shift_ != 0) choose_tiles(here.depth);
+    find_motion(frames, now, noise);
     if (average_rows(here, out)) follow_parts(here, out);
     if (farthest_shift_ != 0 && shared_[0] != shared_[1]) share_weights(out);
     return out;

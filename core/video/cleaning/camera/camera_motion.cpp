@@ -121,11 +121,10 @@ std::span<const PictureWay> CameraMotion::ways(std::span<const SingleFrameDepth*
         PictureWay way;
         std::int64_t at = numbers_[now];
         for (std::size_t k = now; k < frames.size(); k += static_cast<std::size_t>(side)) {
-            while (at != numbers_[k]) {
+            for (; at != numbers_[k]; at += side) {
                 const Velocity velocity = velocity_after(side > 0 ? at : at - 1);
                 way.right += static_cast<float>(side) * scale * velocity.right;
                 way.down += static_cast<float>(side) * scale * velocity.down;
-                at += side;
             }
             ways_[k] = way;
             if (k == 0 && side < 0) break;
@@ -148,7 +147,12 @@ void CameraMotion::gather(std::span<const SingleFrameDepth* const> frames, std::
                                                  : frames[k]->number);
     kept_.clear();
     const int least = 2 * margin_of(1) + static_cast<int>(kLanes);
-    if (here.columns / shrink_ >= least && here.rows / shrink_ >= least) {
+    constexpr auto kMostBetween = static_cast<std::int64_t>(kReachInTime);
+    const bool follow_each_other =
+        std::adjacent_find(numbers_.begin(), numbers_.end(), [](std::int64_t a, std::int64_t b) {
+            return b <= a || b > a + kMostBetween;
+        }) == numbers_.end();
+    if (follow_each_other && here.columns / shrink_ >= least && here.rows / shrink_ >= least) {
         const std::size_t first = now - std::min(now, kReachInTime);
         const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
         for (std::size_t k = first; k < end; ++k) {
