@@ -68,7 +68,7 @@ DIBHR_VECTOR_CLONES void add_products(const float* one, const float* other, std:
                                       std::size_t shifts, float* __restrict sums) {
     for (std::size_t shift = 0; shift < shifts; ++shift) {
         const float* const moved = other + shift;
-        float lanes[kLanes];
+        std::array<float, kLanes> lanes{};
         for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = sums[shift * kLanes + k];
         for (std::size_t i = 0; i < count; i += kLanes)
             for (std::size_t k = 0; k < kLanes; ++k) lanes[k] += one[i + k] * moved[i + k];
