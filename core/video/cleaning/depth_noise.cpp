@@ -122,6 +122,7 @@ std::string text_of(const DepthNoise& noise) {
                               noise.step.linear, noise.step.square})
         character += " " + text(value);
     for (const float share : noise.character.standing) character += " " + text(share);
+    character += " " + text(noise.character.kept_in_motion);
     return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
            text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0") + character;
 }
@@ -138,7 +139,10 @@ std::optional<DepthNoise> noise_in(const std::string& text) {
     words >> whole.character.kept >> whole.character.fixed >> whole.step.constant >>
         whole.step.linear >> whole.step.square;
     for (float& share : whole.character.standing) words >> share;
-    return words ? whole : noise;
+    if (!words) return noise;
+    if (!(words >> whole.character.kept_in_motion))
+        whole.character.kept_in_motion = whole.character.kept;
+    return whole;
 }
 
 void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top) const {

@@ -57,7 +57,7 @@ inline constexpr const char* kNoiseTag = "DIBHR_NOISE";
 inline constexpr const char* kBitsTag = "DIBHR_BITS";
 [[nodiscard]] std::string text_of(const DepthNoise& noise);
 /// The noise in such a text; nothing if it is none. Texts of older versions end before its
-/// character.
+/// character, or before its last value.
 [[nodiscard]] std::optional<DepthNoise> noise_in(const std::string& text);
 
 /// How far levels of one surface may differ: a number of standard deviations.
@@ -90,7 +90,8 @@ struct TimeEvidence {
     static constexpr int kTile_px = 8;
 
     std::size_t near_frames{0};    ///< of those that count one by one: with this one
-    std::vector<float> weights{};  ///< of each pixel: how many frames its level is the mean of
+    /// Of each pixel: how many frames its level is the mean of, which are as alike as the clip's.
+    std::vector<float> weights{};
     /// The variance of one frame's levels, of tiles of kTile_px, row-major [levels^2].
     std::vector<float> variances{};
 };

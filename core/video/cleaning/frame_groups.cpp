@@ -35,7 +35,8 @@ DIBHR_VECTOR_CLONES void leave_out(const std::uint8_t* filled, float* __restrict
 }  // namespace
 
 std::span<const FrameGroup> FrameGroups::around(std::span<const SingleFrameDepth* const> frames,
-                                                std::size_t now, const NoiseBound& noise) {
+                                                std::size_t now, const NoiseBound& noise,
+                                                std::span<const PictureWay> ways) {
     if (noise != std::exchange(noise_, noise)) groups_.clear();
     const std::size_t first = now - std::min(now, kReachInTime);
     const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
@@ -58,10 +59,18 @@ std::span<const FrameGroup> FrameGroups::around(std::span<const SingleFrameDepth
         const auto is_alike = [&](const SingleFrameDepth* one) {
             return are_alike(one->depth, frames[now]->depth);
         };
-        if (std::all_of(four.begin(), four.end(), is_alike))
-            around_.push_back({group_of(four, noise),
-                               static_cast<float>(begin) - static_cast<float>(now) + kMiddle,
-                               static_cast<float>(kGroupInTime)});
+        if (!std::all_of(four.begin(), four.end(), is_alike)) continue;
+        Shifts shifts{};
+        PictureWay mean{};
+        for (std::size_t n = 0; !ways.empty() && n < kGroupInTime; ++n) {
+            const PictureWay& way = ways[begin + n];
+            shifts[n] = rounded({way.right - ways[begin].right, way.down - ways[begin].down});
+            mean.right += 0.25F * (way.right - static_cast<float>(shifts[n].right));
+            mean.down += 0.25F * (way.down - static_cast<float>(shifts[n].down));
+        }
+        around_.push_back({group_of(four, shifts, noise),
+                           static_cast<float>(begin) - static_cast<float>(now) + kMiddle,
+                           static_cast<float>(kGroupInTime), rounded(mean)});
     }
     // Those that are near now are far again soon.
     const auto is_left = [&](const Group& group) {
@@ -69,8 +78,13 @@ std::span<const FrameGroup> FrameGroups::around(std::span<const SingleFrameDepth
                            frames.begin() + static_cast<std::ptrdiff_t>(end),
                            [&](const SingleFrameDepth* one) { return one->id == group.ids[0]; });
     };
+    const auto is_shifted_anew = [&](const Group& group) {
+        return std::any_of(kept_.begin(), kept_.end(),
+                           [&](const Group& kept) { return kept.ids == group.ids; });
+    };
     for (Group& group : groups_)
-        if (group.ids[0] != 0 && is_left(group)) kept_.push_back(std::move(group));
+        if (group.ids[0] != 0 && is_left(group) && !is_shifted_anew(group))
+            kept_.push_back(std::move(group));
     groups_.swap(kept_);
     balance();
     return around_;
@@ -87,12 +101,14 @@ void FrameGroups::balance() {
     for (FrameGroup& group : around_) group.weight *= (group.later < 0.0F ? after : -before) / mean;
 }
 
-const float* FrameGroups::group_of(const Four& frames, const NoiseBound& noise) {
+const float* FrameGroups::group_of(const Four& frames, const Shifts& shifts,
+                                   const NoiseBound& noise) {
     Group made;
+    made.shifts = shifts;
     for (std::size_t k = 0; k < kGroupInTime; ++k) made.ids[k] = frames[k]->id;
     const bool is_known = std::find(made.ids.begin(), made.ids.end(), 0U) == made.ids.end();
     const auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
-        return is_known && group.ids == made.ids;
+        return is_known && group.ids == made.ids && group.shifts == made.shifts;
     });
     Group& group = found == groups_.end() ? kept_.emplace_back(std::move(made))
                                           : kept_.emplace_back(std::move(*found));
@@ -100,14 +116,29 @@ const float* FrameGroups::group_of(const Four& frames, const NoiseBound& noise) 
         found->ids = {};
         return group.levels.data();
     }
-    const std::size_t count = frames[0]->depth.levels.size();
-    group.levels.resize(count);
-    average_four(frames[0]->depth.levels.data(), frames[1]->depth.levels.data(),
-                 frames[2]->depth.levels.data(), frames[3]->depth.levels.data(), noise,
-                 group.levels.data(), count);
-    for (const SingleFrameDepth* frame : frames)
-        if (!frame->filled.empty()) leave_out(frame->filled.data(), group.levels.data(), count);
+    group.levels.resize(frames[0]->depth.levels.size());
+    average(frames, shifts, noise, group.levels.data());
     return group.levels.data();
+}
+
+void FrameGroups::average(const Four& frames, const Shifts& shifts, const NoiseBound& noise,
+                          float* out) {
+    const DepthImage& size = frames[0]->depth;
+    const auto columns = static_cast<std::size_t>(size.columns);
+    row_.resize(kGroupInTime * columns);
+    filled_row_.resize(columns);
+    for (int j = 0; j < size.rows; ++j, out += columns) {
+        std::array<const float*, kGroupInTime> rows{};
+        for (std::size_t k = 0; k < kGroupInTime; ++k)
+            rows[k] = shifted_row(frames[k]->depth.levels.data(), size, shifts[k], j, 0, columns,
+                                  kNoLevel, row_.data() + k * columns);
+        average_four(rows[0], rows[1], rows[2], rows[3], noise, out, columns);
+        for (std::size_t k = 0; k < kGroupInTime; ++k)
+            if (!frames[k]->filled.empty())
+                leave_out(shifted_row<std::uint8_t>(frames[k]->filled.data(), size, shifts[k], j, 0,
+                                                    columns, 1, filled_row_.data()),
+                          out, columns);
+    }
 }
 
 }  // namespace dibhr

@@ -115,6 +115,11 @@ DIBHR_VECTOR_CLONES void add_part(const float* band, const float* gain, float* _
     for (std::ptrdiff_t i = 0; i < columns; ++i) out[i] += gain[i] * band[i];
 }
 
+DIBHR_VECTOR_CLONES void add_times(const float* smooth, const float* band, float factor,
+                                   float* __restrict out, std::ptrdiff_t columns) {
+    for (std::ptrdiff_t i = 0; i < columns; ++i) out[i] = smooth[i] + factor * band[i];
+}
+
 /// Of what is coarser than all bands only what is surely more than noise is kept.
 DIBHR_VECTOR_CLONES void keep_beyond(const float* noise, float* __restrict values,
                                      std::ptrdiff_t columns) {
@@ -184,6 +189,18 @@ void NoiseBands::split(const BandPicture& picture) {
             subtract(fine->row(j), wide_.data(), band.row(j), fine->columns);
         }
         fine = &coarse;
+    }
+}
+
+void NoiseBands::weigh(BandPicture& picture, const std::array<float, kNoiseBands>& factors) {
+    split(picture);
+    std::fill(coarser_.back().values.begin(), coarser_.back().values.end(), 0.0F);
+    for (std::size_t b = kNoiseBands; b-- > 0;) {
+        BandPicture& out = b == 0 ? picture : coarser_[b - 1];
+        for (int j = 0; j < out.rows; ++j) {
+            double_to_row(coarser_[b], j, row_, wide_);
+            add_times(wide_.data(), bands_[b].row(j), factors[b], out.row(j), out.columns);
+        }
     }
 }
 

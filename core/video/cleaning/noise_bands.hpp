@@ -50,6 +50,9 @@ class NoiseBands {
     /// than all bands has at most the noise of the last one.
     void keep_shapes(BandPicture& picture, const BandNoise& noise);
 
+    /// The sum of the bands of `picture`, each times its factor; what is coarser is in none.
+    void weigh(BandPicture& picture, const std::array<float, kNoiseBands>& factors);
+
     /// Of every 2^number-th column and row.
     [[nodiscard]] const BandPicture& band(std::size_t number) const { return bands_[number]; }
 

@@ -29,6 +29,7 @@ constexpr double kSmoothestTiles = 0.2;  ///< quantile: tiles without shapes in 
 constexpr float kDip = 0.9F;             ///< deviation of the second band in that of the first
 constexpr float kEvenNoise = 1.7F;       ///< median in the smoothest tiles' deviation
 constexpr float kMostKept = 0.9F;
+constexpr double kPlainTiles = 0.1;       ///< share: of the tiles, those with least shape
 constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
 constexpr float kMostStanding = 4.0F;     ///< of the moving noise: beyond, it is shape
 constexpr double kVerySmoothTiles = 0.1;  ///< quantile: also where a picture is full of shapes
@@ -63,6 +64,27 @@ std::array<float, Count> medians_of(const std::vector<std::array<float, Count>>&
     return medians;
 }
 
+/// Of a tile: its shape over its noise, and how much more two frames differ than one does: as a
+/// whole, and without the tile's mean.
+struct RatioOfTile {
+    float shape, ratio, level_ratio;
+};
+
+/// The median of the ratios, which shapes that move add to, and slopes by their mean; and that of
+/// the tiles with least shape.
+std::pair<float, float> ratios_of(std::vector<RatioOfTile> tiles) {
+    std::vector<float> ratios;
+    for (const RatioOfTile& tile : tiles) ratios.push_back(tile.ratio);
+    const float median = median_of(std::move(ratios));
+    const auto plain = static_cast<std::size_t>(kPlainTiles * static_cast<double>(tiles.size()));
+    if (plain < kTilesOfBin) return {median, median};
+    std::nth_element(tiles.begin(), tiles.begin() + static_cast<std::ptrdiff_t>(plain), tiles.end(),
+                     [](const RatioOfTile& a, const RatioOfTile& b) { return a.shape < b.shape; });
+    std::vector<float> of_plain;
+    for (std::size_t k = 0; k < plain; ++k) of_plain.push_back(tiles[k].level_ratio);
+    return {median, std::min(median, median_of(std::move(of_plain)))};
+}
+
 float square(float value) {
     return value * value;
 }
@@ -85,7 +107,8 @@ float shown_in_time(float kept) {
 
 /// What the tiles of one range of levels have.
 struct NoiseCharacterMeter::Bin {
-    std::vector<float> variances{}, ratios{};
+    std::vector<float> variances{}, ratios{}, level_ratios{};
+    std::vector<float> shapes{};  ///< of all bands, what is in space over what is in time
     std::vector<Energies> in_time{}, in_space{};
     std::vector<float> levels{};  ///< single ones, for the steps
 
@@ -251,14 +274,26 @@ void NoiseCharacterMeter::measure(const BandPicture& picture, const std::vector<
             tile.variances.push_back(mean_of_part(picture, left, top, kCharacterTile_px, square));
             double one = 0.0;
             double two = 0.0;
+            double rise = 0.0;
+            double rise_of_two = 0.0;
             for (int j = top; j < top + kCharacterTile_px; ++j) {
                 for (int i = left; i < left + kCharacterTile_px; ++i) {
                     const float first = before_last_.picture.row(j)[i];
-                    one += static_cast<double>(square(first - last_.picture.row(j)[i]));
-                    two += static_cast<double>(square(first - now_.picture.row(j)[i]));
+                    const float by_one = first - last_.picture.row(j)[i];
+                    const float by_two = first - now_.picture.row(j)[i];
+                    one += static_cast<double>(square(by_one));
+                    two += static_cast<double>(square(by_two));
+                    rise += static_cast<double>(by_one);
+                    rise_of_two += static_cast<double>(by_two);
                 }
             }
-            if (one > 0.0) tile.ratios.push_back(static_cast<float>(two / one));
+            if (!(one > 0.0)) continue;
+            tile.ratios.push_back(static_cast<float>(two / one));
+            constexpr double kPixels = kCharacterTile_px * kCharacterTile_px;
+            const double shaken = one - rise * rise / kPixels;
+            if (shaken > 0.0)
+                tile.level_ratios.push_back(
+                    static_cast<float>((two - rise_of_two * rise_of_two / kPixels) / shaken));
         }
     }
 }
@@ -277,6 +312,11 @@ std::vector<NoiseCharacterMeter::Bin> NoiseCharacterMeter::bins() const {
         bin.in_time.push_back(medians_of(tile.in_time));
         bin.variances.push_back(median_of(tile.variances));
         bin.ratios.push_back(tile.ratios.empty() ? 1.0F : median_of(tile.ratios));
+        bin.level_ratios.push_back(tile.level_ratios.empty() ? 1.0F : median_of(tile.level_ratios));
+        const auto whole = [](const Energies& of) {
+            return std::accumulate(of.begin(), of.end(), 0.0F);
+        };
+        bin.shapes.push_back(whole(bin.in_space.back()) / whole(bin.in_time.back()));
     }
     for (const float level : some_levels_) bin_of(level).levels.push_back(level);
     return bins;
@@ -285,7 +325,7 @@ std::vector<NoiseCharacterMeter::Bin> NoiseCharacterMeter::bins() const {
 NoiseCharacter NoiseCharacterMeter::character() const {
     const std::vector<Bin> all = bins();
     std::array<std::vector<float>, kNoiseBands> shares;
-    std::vector<float> ratios;
+    std::vector<RatioOfTile> ratios;
     for (const Bin& bin : all) {
         if (bin.variances.size() < kTilesOfBin) continue;
         const float most = kAlsoQuiet * quantile_of(bin.variances, kQuietTiles);
@@ -294,14 +334,16 @@ NoiseCharacter NoiseCharacterMeter::character() const {
             if (!(variance > 0.0F) || variance > most) continue;
             for (std::size_t b = 0; b < kNoiseBands; ++b)
                 shares[b].push_back(bin.in_time[k][b] / variance);
-            ratios.push_back(bin.ratios[k]);
+            ratios.push_back({bin.shapes[k], bin.ratios[k], bin.level_ratios[k]});
         }
     }
     NoiseCharacter character;
     if (!ratios.empty()) {
         for (std::size_t b = 0; b < kNoiseBands; ++b)
             character.bands[b] = median_of(shares[b]) / kShownByMedian[b];
-        character.kept = std::clamp(median_of(ratios) - 1.0F, 0.0F, kMostKept);
+        const std::pair<float, float> of_two = ratios_of(std::move(ratios));
+        character.kept = std::clamp(of_two.first - 1.0F, 0.0F, kMostKept);
+        character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKept);
         character.standing = standing(character.bands, character.kept);
     }
     // What the finest band has in space beyond time and rounding stands still. A texture has more

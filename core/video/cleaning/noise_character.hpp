@@ -17,7 +17,8 @@ namespace dibhr {
 struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.
     std::array<float, kNoiseBands> bands{kWhiteBands};
-    float kept{0.0F};   ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
+    float kept{0.0F};  ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
+    float kept_in_motion{0.0F};  ///< of it what is no motion of shapes
     float fixed{0.0F};  ///< deviation of grain that stands still [parts of the highest level]
     /// What stands still in each band, all over the picture, of the variance of what does not.
     std::array<float, kNoiseBands> standing{};
@@ -51,7 +52,8 @@ class NoiseCharacterMeter {
     struct Tile {
         std::vector<Energies> in_time{}, in_space{};
         std::vector<float> variances{};  ///< of second differences in time
-        std::vector<float> ratios{};     ///< of differences over two frames to those over one
+        /// Of differences over two frames to those over one; the same without the tile's mean.
+        std::vector<float> ratios{}, level_ratios{};
         std::vector<float> levels{};
     };
     struct Bin;

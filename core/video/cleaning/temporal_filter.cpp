@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -33,9 +34,14 @@ constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least a
 // its mean in deviations, and by its mean square in those of what both have.
 constexpr float kStillMean = 0.8F;
 constexpr float kStillSquares = 2.5F;
-constexpr float kOfMedian = 0.29F;      ///< variance of a median of five
-constexpr float kLeastCounted = 32.0F;  ///< pixels of a tile
-constexpr float kLeastFrames = 3.0F;    ///< for a variance
+constexpr float kOfMedian = 0.29F;       ///< variance of a median of five
+constexpr int kMisfitRow_px = 8;         ///< every eighth row tells how tiles move
+constexpr float kBetter = 0.03F;         ///< by so much of the misfit, about what noise makes of it
+constexpr std::size_t kMovingTiles = 4;  ///< one of so many, or more: the camera moves
+constexpr float kFits = 1.0F;            ///< misfit: noise alone has a third; else something passes
+constexpr float kMostMisfit = 2.5F;      ///< a deviation of kApart - kMixes; outliers are more
+constexpr float kLeastCounted = 32.0F;   ///< pixels of a tile
+constexpr float kLeastFrames = 3.0F;     ///< for a variance
 
 // A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
 // by") a surface that stays. Measured on people who walk past within two frames, whose feet touch
@@ -72,6 +78,12 @@ DIBHR_VECTOR_CLONES void medians(const float* a, const float* b, const float* c,
 DIBHR_VECTOR_CLONES void medians(const float* a, const float* b, const float* c,
                                  float* __restrict out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) out[i] = median_of_three(a[i], b[i], c[i]);
+}
+
+DIBHR_VECTOR_CLONES void take_where_missing(const float* levels, const float* here,
+                                            float* __restrict reference, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        reference[i] = levels[i] == FrameGroups::kNoLevel ? here[i] : reference[i];
 }
 
 constexpr std::uint8_t kSurelyOther = 3;  ///< another surface, and not noise; 1: maybe
@@ -277,6 +289,18 @@ DIBHR_VECTOR_CLONES void add_differences(const float* levels, const float* refer
     }
 }
 
+/// Adds squares of how far levels are from a reference, by column.
+DIBHR_VECTOR_CLONES void add_misfit(const float* levels, const float* reference,
+                                    const float* per_bound, float* __restrict squared,
+                                    float* __restrict counted, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float counts = levels[i] == FrameGroups::kNoLevel ? 0.0F : 1.0F;
+        const float off = std::min(std::fabs(levels[i] - reference[i]) * per_bound[i], kMostMisfit);
+        squared[i] += counts * off * off;
+        counted[i] += counts;
+    }
+}
+
 DIBHR_VECTOR_CLONES void divide(const float* reference, const float* sum, const float* weights,
                                 float* __restrict out, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i)
@@ -317,24 +341,85 @@ void TemporalFilter::gather(std::span<const SingleFrameDepth* const> frames, std
         const std::size_t away = k > now ? k - now : now - k;
         any_filled_ = any_filled_ || !frames[k]->filled.empty();
         if (away <= kMedianReach && nearest_++ == 0) first_near_ = count_;
+        if (k == now) now_ = count_;
         neighbours_[count_++] = {frames[k]->depth.levels.data(),
                                  frames[k]->filled.empty() ? nullptr : frames[k]->filled.data()};
     }
 }
 
-/// The median of `count` pixels over the frame and those near it: over five frames, else three.
-void TemporalFilter::find_reference(const float* here, std::size_t at, std::size_t count,
-                                    float* reference) const {
-    const Neighbour* n = neighbours_.data() + first_near_;
-    if (nearest_ == 5) {
-        medians(n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at,
-                n[4].levels + at, reference, count);
-    } else if (nearest_ >= 3) {
-        if (nearest_ == 4 && n[1].levels != here) ++n;
-        medians(n[0].levels + at, n[1].levels + at, n[2].levels + at, reference, count);
-    } else {
-        std::copy_n(here + at, count, reference);
+/// The rows of the neighbours from that pixel on, in its place.
+TemporalFilter::Neighbours TemporalFilter::rows_at(std::size_t at) const {
+    Neighbours rows = neighbours_;
+    for (std::size_t k = 0; k < count_; ++k) {
+        rows[k].levels += at;
+        if (rows[k].filled != nullptr) rows[k].filled += at;
     }
+    return rows;
+}
+
+/// The rows of the neighbours that show what the piece of row `j` does.
+TemporalFilter::Neighbours TemporalFilter::rows_of(const Piece& piece, int j,
+                                                   const DepthImage& size) {
+    if (!piece.moves) return rows_at(size.index(piece.left, j));
+    Neighbours rows = neighbours_;
+    for (std::size_t k = 0; k < count_; ++k) {
+        const std::size_t scratch = k * static_cast<std::size_t>(size.columns);
+        rows[k].levels = shifted_row(rows[k].levels, size, rows[k].shift, j, piece.left,
+                                     piece.count, FrameGroups::kNoLevel, shifted_.data() + scratch);
+        if (rows[k].filled != nullptr)
+            rows[k].filled =
+                shifted_row<std::uint8_t>(rows[k].filled, size, rows[k].shift, j, piece.left,
+                                          piece.count, 1, shifted_filled_.data() + scratch);
+    }
+    return rows;
+}
+
+/// The same of a group, the `number`-th one.
+const float* TemporalFilter::row_of(const FrameGroup& group, const Piece& piece, int j,
+                                    std::size_t number, const DepthImage& size) {
+    return shifted_row(
+        group.levels, size, group.shift, j, piece.left, piece.count, FrameGroups::kNoLevel,
+        shifted_.data() + (neighbours_.size() + number) * static_cast<std::size_t>(size.columns));
+}
+
+/// The median of `count` pixels over the frame and those near it: over five frames, else three. It
+/// is the frame's own level where one of them does not show the pixel.
+void TemporalFilter::find_reference(const Neighbours& rows, const float* here, std::size_t count,
+                                    float* reference) const {
+    const Neighbour* n = rows.data() + first_near_;
+    std::size_t of = 1;
+    if (nearest_ == 5) {
+        medians(n[0].levels, n[1].levels, n[2].levels, n[3].levels, n[4].levels, reference, count);
+        of = 5;
+    } else if (nearest_ >= 3) {
+        if (nearest_ == 4 && first_near_ + 1 != now_) ++n;
+        medians(n[0].levels, n[1].levels, n[2].levels, reference, count);
+        of = 3;
+    } else {
+        std::copy_n(here, count, reference);
+    }
+    if (farthest_shift_ == 0) return;
+    for (std::size_t k = 0; k < of; ++k)
+        if (n[k].shift != Shift{}) take_where_missing(n[k].levels, here, reference, count);
+}
+
+/// Of one pixel, as its tile is read.
+float TemporalFilter::reference_at(const DepthImage& here, std::size_t at) const {
+    const float own = here.levels[at];
+    float reference = 0.0F;
+    Neighbours rows = rows_at(at);
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const std::size_t tile =
+        at / columns / kTile_px * ((columns + kStillTile_px - 1) / kStillTile_px) +
+        at % columns / kStillTile_px;
+    std::array<float, 2 * kNearInTime + 1> scratch{};
+    if (farthest_shift_ != 0 && moving_[tile] != 0)
+        for (std::size_t k = first_near_; k < first_near_ + nearest_; ++k)
+            rows[k].levels = shifted_row(
+                neighbours_[k].levels, here, rows[k].shift, static_cast<int>(at / columns),
+                static_cast<int>(at % columns), 1, FrameGroups::kNoLevel, &scratch[k]);
+    find_reference(rows, &own, 1, &reference);
+    return reference;
 }
 
 void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
@@ -345,30 +430,167 @@ void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
     weights = weights_there;
 }
 
+/// How most of the picture moves to each neighbour, which tiles do, and groups along that.
+void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                                 const DepthNoise& noise) {
+    farthest_shift_ = 0;
+    moving_far_ = {};
+    if (count_ < 2) return;
+    const std::span<const PictureWay> ways = camera_.ways(frames, now, noise);
+    if (ways.empty()) return;
+    const auto add = [this](const Shift& shift) {
+        farthest_shift_ = std::max({farthest_shift_, std::abs(shift.right), std::abs(shift.down)});
+    };
+    for (std::size_t k = now - std::min(now, kNearInTime), n = 0; n < count_; ++k) {
+        if (frames[k]->depth.levels.data() != neighbours_[n].levels) continue;
+        neighbours_[n].shift = rounded(ways[k]);
+        add(neighbours_[n++].shift);
+    }
+    if (farthest_shift_ == 0) return;
+    const DepthImage& here = frames[now]->depth;
+    const auto columns = static_cast<std::size_t>(here.columns);
+    shifted_.resize((neighbours_.size() + kReachInTime) * columns);
+    shifted_filled_.resize(neighbours_.size() * columns);
+    choose_tiles(here);
+    if (farthest_shift_ == 0) return;
+    moving_far_ = moving_groups_.around(
+        frames, now, NoiseBound(noise, 1.0F, kLeastNoise, here.highest_level), ways);
+    for (const FrameGroup& group : moving_far_) add(group.shift);
+}
+
+/// A tile moves with the picture where the frames beside fit along that way, and better than in
+/// place, in the tiles around it, too: they tell more than one tile where noise is strong.
+void TemporalFilter::choose_tiles(const DepthImage& here) {
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    const auto down = static_cast<std::size_t>((here.rows + kTile_px - 1) / kTile_px);
+    moving_.assign(across * down, 1);
+    for (const bool moves : {false, true}) {
+        misfits_[moves ? 1 : 0].clear();
+        for (std::size_t y = 0; y < down; ++y) {
+            squared_off_.assign(columns, 0.0F);
+            counted_.assign(columns, 0.0F);
+            const int top = static_cast<int>(y) * kTile_px;
+            for (int j = top + kMisfitRow_px / 2; j < std::min(top + kTile_px, here.rows);
+                 j += kMisfitRow_px)
+                add_misfits(j, moves, here);
+            for (std::size_t x = 0; x < across; ++x) {
+                float squared = 0.0F;
+                float counted = 0.0F;
+                for (std::size_t i = x * kStillTile_px;
+                     i < std::min((x + 1) * kStillTile_px, columns); ++i) {
+                    squared += squared_off_[i];
+                    counted += counted_[i];
+                }
+                misfits_[moves ? 1 : 0].push_back(counted > 0.0F ? squared / counted : 0.0F);
+            }
+        }
+    }
+    for (std::size_t y = 0; y < down; ++y)
+        for (std::size_t x = 0; x < across; ++x) {
+            float better = 0.0F;
+            float along = 0.0F;
+            for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(y + 2, down); ++v)
+                for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(x + 2, across);
+                     ++u) {
+                    const float weight = (u == x ? 2.0F : 1.0F) * (v == y ? 2.0F : 1.0F);
+                    const std::size_t k = v * across + u;
+                    better += weight * (misfits_[0][k] - misfits_[1][k]);
+                    along += weight * misfits_[1][k];
+                }
+            const bool fits = misfits_[1][y * across + x] < kFits;
+            moving_[y * across + x] = fits && better > kBetter * along ? 1 : 0;
+        }
+    // A few may be a hand that moves evenly, and chance.
+    const auto count = static_cast<std::size_t>(std::count(moving_.begin(), moving_.end(), 1));
+    if (kMovingTiles * count < moving_.size()) farthest_shift_ = 0;
+}
+
+/// What is smoothed afterwards takes a frame's weight for less than one where noise is alike from
+/// frame to frame. Along the motion it is less alike than shapes that move make it in place.
+void TemporalFilter::share_weights(const DepthImage& out) {
+    const float factor = shared_[0] / shared_[1];
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    for (int j = 0; j < out.rows; ++j)
+        visit_marked(moving_.data() + static_cast<std::size_t>(j / kTile_px) * across,
+                     static_cast<int>(across), [&](int begin, int end) {
+                         float* const row = evidence_.weights.data() + out.index(0, j);
+                         for (std::size_t i = kStillTile_px * static_cast<std::size_t>(begin);
+                              i < std::min(kStillTile_px * static_cast<std::size_t>(end), columns);
+                              ++i)
+                             row[i] *= factor;
+                     });
+}
+
+/// Adds how far the farther neighbours are from the median, read in place or along the motion.
+void TemporalFilter::add_misfits(int j, bool moves, const DepthImage& here) {
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const Piece whole{0, columns, moves};
+    const Neighbours rows = rows_of(whole, j, here);
+    run_.start(columns, nullptr);
+    find_reference(rows, here.levels.data() + here.index(0, j), columns, run_.reference.data());
+    invert(run_.reference.data(), mixing_, run_.per_bound.data(), columns);
+    for (std::size_t k = 0; k < count_; ++k)
+        if (k < first_near_ || k >= first_near_ + nearest_)
+            add_misfit(rows[k].levels, run_.reference.data(), run_.per_bound.data(),
+                       squared_off_.data(), counted_.data(), columns);
+}
+
+/// Tiles side by side that are read alike; those from which some frame is read beyond the border
+/// are apart, as they are copied.
+void TemporalFilter::find_pieces(std::size_t row_of_tiles, std::size_t tiles, std::size_t columns) {
+    pieces_.clear();
+    if (farthest_shift_ == 0) {
+        pieces_.push_back({0, columns, false});
+        return;
+    }
+    const std::uint8_t* const moves = moving_.data() + row_of_tiles * tiles;
+    const std::size_t beside =
+        (static_cast<std::size_t>(farthest_shift_) + kStillTile_px - 1) / kStillTile_px;
+    for (std::size_t x = 0, end = 0; x < tiles; x = end) {
+        const auto is_at_border = [&](std::size_t tile) {
+            return tile < beside || tile + beside + 1 >= tiles;
+        };
+        for (end = x + 1; end < tiles && moves[end] == moves[x] &&
+                          (moves[x] == 0 || is_at_border(end) == is_at_border(x));)
+            ++end;
+        const std::size_t left = x * kStillTile_px;
+        pieces_.push_back(
+            {static_cast<int>(left), std::min(end * kStillTile_px, columns) - left, moves[x] != 0});
+    }
+}
+
 /// Averages tiles side by side together, so that their rows stay in the cache. Returns whether any
 /// of the frame's own levels is another surface than the median.
 bool TemporalFilter::average_rows(const SingleFrameDepth& here, DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
+    const std::size_t tiles = (columns + kStillTile_px - 1) / kStillTile_px;
     other_.resize(out.levels.size());
     rows_.resize(kTile_px);
     bool any = false;
     for (int top = 0; top < out.rows; top += kTile_px) {
         const int rows = std::min(kTile_px, out.rows - top);
+        find_pieces(static_cast<std::size_t>(top / kTile_px), tiles, columns);
         for (int j = 0; j < rows; ++j) {
             const std::size_t at = out.index(0, top + j);
+            const float* const levels = here.depth.levels.data() + at;
             Sums& sums = rows_[static_cast<std::size_t>(j)];
             sums.start(columns, evidence_.weights.data() + at);
-            find_reference(here.depth.levels.data(), at, columns, sums.reference.data());
-            if (mark_other(here.depth.levels.data() + at, sums.reference.data(), bound_,
-                           other_.data() + at, columns)) {
+            for (const Piece& piece : pieces_) {
+                const auto left = static_cast<std::size_t>(piece.left);
+                const Neighbours near = rows_of(piece, top + j, out);
+                find_reference(near, levels + left, piece.count, sums.reference.data() + left);
+                add_near(near, left, piece.count, sums);
+            }
+            if (mark_other(levels, sums.reference.data(), bound_, other_.data() + at, columns)) {
                 if (!here.filled.empty())
                     unmark(here.filled.data() + at, other_.data() + at, columns);
                 any = true;
             }
-            add_near(sums, at);
         }
         if (count_ > 1) measure_variances(rows, out);
-        add_groups(top, rows, out);
+        for (const Piece& piece : pieces_) add_groups(piece, top, rows, out);
         for (int j = 0; j < rows; ++j)
             take_mean(rows_[static_cast<std::size_t>(j)], out.index(0, top + j), out);
     }
@@ -411,54 +633,59 @@ void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
 
 /// Adds groups of frames where the tile stands still: else what moves slowly would be smeared. All
 /// of them or none, since those of one side alone would be late.
-void TemporalFilter::add_groups(int top, int rows, const DepthImage& out) {
-    if (far_.empty()) return;
-    const std::size_t tiles =
-        (static_cast<std::size_t>(out.columns) + kStillTile_px - 1) / kStillTile_px;
+void TemporalFilter::add_groups(const Piece& piece, int top, int rows, const DepthImage& out) {
+    const std::span<const FrameGroup> far = piece.moves ? moving_far_ : far_;
+    if (far.empty()) return;
+    const std::size_t tiles = (piece.count + kStillTile_px - 1) / kStillTile_px;
     still_.assign(tiles, 1);
-    for (const FrameGroup& group : far_) find_still(group.levels, top, rows, out);
+    for (const FrameGroup& group : far) find_still(group, piece, top, rows, out);
     visit_marked(still_.data(), static_cast<int>(tiles), [&](int begin, int end) {
-        const std::size_t left = kStillTile_px * static_cast<std::size_t>(begin);
-        const std::size_t count = std::min(kStillTile_px * static_cast<std::size_t>(end),
-                                           static_cast<std::size_t>(out.columns)) -
-                                  left;
+        const std::size_t from = kStillTile_px * static_cast<std::size_t>(begin);
+        const std::size_t count =
+            std::min(kStillTile_px * static_cast<std::size_t>(end), piece.count) - from;
+        const Piece part{piece.left + static_cast<int>(from), count, piece.moves};
+        const auto left = static_cast<std::size_t>(part.left);
         for (int j = 0; j < rows; ++j) {
             Sums& sums = rows_[static_cast<std::size_t>(j)];
             const float* const reference = sums.reference.data() + left;
             const float* const per_bound = sums.per_bound.data() + left;
-            const std::size_t at = out.index(static_cast<int>(left), top + j);
+            const auto row = [&](std::size_t k) { return row_of(far[k], part, top + j, k, out); };
             std::size_t k = 0;
-            for (; k + 4 <= far_.size(); k += 4) {
-                const FrameGroup* g = far_.data() + k;
-                add_four_groups(
-                    {g[0].levels + at, g[1].levels + at, g[2].levels + at, g[3].levels + at},
-                    {g[0].weight, g[1].weight, g[2].weight, g[3].weight}, reference, per_bound,
-                    sums.sum.data() + left, sums.weights + left, count);
+            for (; k + 4 <= far.size(); k += 4) {
+                const FrameGroup* g = far.data() + k;
+                add_four_groups({row(k), row(k + 1), row(k + 2), row(k + 3)},
+                                {g[0].weight, g[1].weight, g[2].weight, g[3].weight}, reference,
+                                per_bound, sums.sum.data() + left, sums.weights + left, count);
             }
-            for (; k < far_.size(); ++k)
-                add_group(far_[k].levels + at, far_[k].weight, reference, per_bound,
-                          sums.sum.data() + left, sums.weights + left, count);
+            for (; k < far.size(); ++k)
+                add_group(row(k), far[k].weight, reference, per_bound, sums.sum.data() + left,
+                          sums.weights + left, count);
         }
     });
 }
 
-/// Unmarks tiles that do not stand still from that group to the frame.
-void TemporalFilter::find_still(const float* group, int top, int rows, const DepthImage& out) {
+/// Unmarks tiles of the piece that do not stand still from that group to the frame.
+void TemporalFilter::find_still(const FrameGroup& group, const Piece& piece, int top, int rows,
+                                const DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
+    const auto first_column = static_cast<std::size_t>(piece.left);
     for (std::vector<float>* sums : {&off_, &squared_off_, &counted_}) sums->assign(columns, 0.0F);
     for (int j = kRowStep_px / 2; j < rows; j += kRowStep_px) {
         const Sums& sums = rows_[static_cast<std::size_t>(j)];
-        add_differences(group + out.index(0, top + j), sums.reference.data(), sums.per_bound.data(),
-                        off_.data(), squared_off_.data(), counted_.data(), columns);
+        add_differences(row_of(group, piece, top + j, 0, out), sums.reference.data() + first_column,
+                        sums.per_bound.data() + first_column, off_.data() + first_column,
+                        squared_off_.data() + first_column, counted_.data() + first_column,
+                        piece.count);
     }
     constexpr int kPart = TimeEvidence::kTile_px;
     const auto parts = static_cast<std::size_t>((out.columns + kPart - 1) / kPart);
     const std::size_t first = parts * static_cast<std::size_t>(top / kPart);
+    const float shared = shared_[piece.moves ? 1 : 0];
     for (std::size_t x = 0; x < still_.size(); ++x) {
         float off = 0.0F;
         float squared = 0.0F;
         float counted = 0.0F;
-        const std::size_t left = kStillTile_px * x;
+        const std::size_t left = first_column + kStillTile_px * x;
         const std::size_t right = std::min(left + kStillTile_px, columns);
         for (std::size_t i = left; i < right; ++i) {
             off += off_[i];
@@ -475,8 +702,8 @@ void TemporalFilter::find_still(const float* group, int top, int rows, const Dep
             for (std::size_t part = left / kPart; part * kPart < right; ++part, ++count)
                 variance += evidence_.variances[first + static_cast<std::size_t>(y) * parts + part];
         variance /= count;
-        const float of_group = std::min(shared_ / static_cast<float>(kGroupInTime), 1.0F);
-        const float of_median = std::min(shared_ * kOfMedian, 1.0F);
+        const float of_group = std::min(shared / static_cast<float>(kGroupInTime), 1.0F);
+        const float of_median = std::min(shared * kOfMedian, 1.0F);
         const float mean = off / counted;
         if (mean * mean > kStillMean * kStillMean * variance ||
             squared / counted > kStillSquares * (of_group + of_median) * variance)
@@ -544,8 +771,7 @@ bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
         const std::size_t at =
             surely_other_[k * kSpread % kSamples * surely_other_.size() / kSamples];
         const float level = here.levels[at];
-        float reference = 0.0F;
-        find_reference(here.levels.data(), at, 1, &reference);
+        const float reference = reference_at(here, at);
         search.add({static_cast<std::ptrdiff_t>(at), static_cast<int>(at % columns),
                     static_cast<int>(at / columns), level,
                     std::max(bound_(level), kAlikeStep * std::fabs(level - reference))});
@@ -577,8 +803,7 @@ void TemporalFilter::follow_region(const SingleFrameDepth& here, const Region& r
 bool TemporalFilter::is_other(const SingleFrameDepth& here, std::size_t at) const {
     if (followed_[at] != 0) return false;
     if (here.filled.empty() || here.filled[at] == 0) return other_[at] != 0;
-    float reference = 0.0F;
-    find_reference(here.depth.levels.data(), at, 1, &reference);
+    const float reference = reference_at(here.depth, at);
     return std::fabs(here.depth.levels[at] - reference) > bound_(reference);
 }
 
@@ -671,8 +896,7 @@ std::vector<char> TemporalFilter::held_patches(const DepthImage& here, const cv:
 
 TemporalFilter::Held TemporalFilter::held_at(const DepthImage& here, int i, int j) const {
     const std::size_t at = here.index(i, j);
-    float reference = 0.0F;
-    find_reference(here.levels.data(), at, 1, &reference);
+    const float reference = reference_at(here, at);
     return {here.levels[at], reference, kSurely * bound_(here.levels[at])};
 }
 
@@ -697,7 +921,7 @@ void TemporalFilter::average(const float* reference, std::size_t at, std::size_t
                              DepthImage& out) {
     run_.start(count, evidence_.weights.data() + at);
     std::copy_n(reference, count, run_.reference.begin());
-    add_near(run_, at);
+    add_near(rows_at(at), 0, count, run_);
     take_mean(run_, at, out);
 }
 
@@ -706,19 +930,19 @@ void TemporalFilter::take_mean(const Sums& sums, std::size_t at, DepthImage& out
            sums.sum.size());
 }
 
-/// The sums of the nearest frames, of pixels from `at` on.
-void TemporalFilter::add_near(Sums& sums, std::size_t at) {
-    const std::size_t count = sums.sum.size();
-    const float* const reference = sums.reference.data();
-    float* const per_bound = sums.per_bound.data();
+/// The sums of the nearest frames, whose rows begin at the pixel `left` of the sums.
+void TemporalFilter::add_near(const Neighbours& rows, std::size_t left, std::size_t count,
+                              Sums& sums) const {
+    const float* const reference = sums.reference.data() + left;
+    float* const per_bound = sums.per_bound.data() + left;
     invert(reference, mixing_, per_bound, count);
-    float* const sum = sums.sum.data();
-    float* const weights = sums.weights;
-    float* const squares = sums.squares.data();
-    if (count_ == neighbours_.size() && !any_filled_) {
-        Near rows{};
-        for (std::size_t k = 0; k < rows.size(); ++k) rows[k] = neighbours_[k].levels + at;
-        add_near_frames(rows, reference, per_bound, sum, weights, squares, count);
+    float* const sum = sums.sum.data() + left;
+    float* const weights = sums.weights + left;
+    float* const squares = sums.squares.data() + left;
+    if (count_ == rows.size() && !any_filled_) {
+        Near all{};
+        for (std::size_t k = 0; k < rows.size(); ++k) all[k] = rows[k].levels;
+        add_near_frames(all, reference, per_bound, sum, weights, squares, count);
         return;
     }
     std::fill_n(sum, count, 0.0F);
@@ -726,27 +950,25 @@ void TemporalFilter::add_near(Sums& sums, std::size_t at) {
     std::fill_n(squares, count, 0.0F);
     std::size_t k = 0;
     for (; k + 4 <= count_; k += 4) {
-        const Neighbour* n = neighbours_.data() + k;
-        const Four rows{n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at};
-        const FourFilled filled{filled_of(n[0], at), filled_of(n[1], at), filled_of(n[2], at),
-                                filled_of(n[3], at)};
+        const Neighbour* n = rows.data() + k;
+        const Four four{n[0].levels, n[1].levels, n[2].levels, n[3].levels};
+        const FourFilled filled{filled_of(n[0]), filled_of(n[1]), filled_of(n[2]), filled_of(n[3])};
         if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.filled != nullptr; }))
-            add_four(rows, filled, reference, per_bound, sum, weights, squares, count);
+            add_four(four, filled, reference, per_bound, sum, weights, squares, count);
         else
-            add_four(rows, reference, per_bound, sum, weights, squares, count);
+            add_four(four, reference, per_bound, sum, weights, squares, count);
     }
     for (; k < count_; ++k) {
-        const Neighbour& n = neighbours_[k];
+        const Neighbour& n = rows[k];
         if (n.filled == nullptr)
-            add_one(n.levels + at, reference, per_bound, sum, weights, squares, count);
+            add_one(n.levels, reference, per_bound, sum, weights, squares, count);
         else
-            add_one(n.levels + at, n.filled + at, reference, per_bound, sum, weights, squares,
-                    count);
+            add_one(n.levels, n.filled, reference, per_bound, sum, weights, squares, count);
     }
 }
 
-const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n, std::size_t at) const {
-    return n.filled == nullptr ? nothing_filled_.data() : n.filled + at;
+const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n) const {
+    return n.filled == nullptr ? nothing_filled_.data() : n.filled;
 }
 
 DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> frames,
@@ -756,8 +978,8 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
     mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
-    const float kept = noise.character.kept;
-    shared_ = (1.0F + kept) / (1.0F - kept);
+    const auto shared = [](float kept) { return (1.0F + kept) / (1.0F - kept); };
+    shared_ = {shared(noise.character.kept), shared(noise.character.kept_in_motion)};
     gather(frames, now);
     far_ = {};
     if (count_ > 1)
@@ -767,7 +989,9 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     evidence_.weights.resize(out.levels.size());
     evidence_.variances.clear();
     nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
+    find_motion(frames, now, noise);
     if (average_rows(here, out)) follow_parts(here, out);
+    if (farthest_shift_ != 0 && shared_[0] != shared_[1]) share_weights(out);
     return out;
 }
 

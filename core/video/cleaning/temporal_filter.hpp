@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/camera/camera_motion.hpp"
+#include "core/video/cleaning/camera/shift.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/frame_groups.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
@@ -26,6 +28,8 @@ class EvenMotionSearch;
 /// that belong to a surface that stays; and moving parts, which are beside their place, on opposite
 /// sides, before and after. Even motion has no lag, since the filter reaches as far ahead as back.
 /// Where one surface replaces another, the frames of both are not mixed.
+/// Where most of the picture moves, as before a moving camera, each tile is averaged along that
+/// motion or in its place, whichever fits it.
 class TemporalFilter {
   public:
     /// Filters frame `now` of `frames`, which follow each other in time. Frames of another size or
@@ -48,6 +52,14 @@ class TemporalFilter {
     struct Neighbour {
         const float* levels;
         const std::uint8_t* filled;  ///< null: no pixel
+        Shift shift{};               ///< where most of the picture moves
+    };
+    using Neighbours = std::array<Neighbour, 2 * kNearInTime + 1>;
+    /// Tiles side by side that are read alike.
+    struct Piece {
+        int left;
+        std::size_t count;  ///< of columns
+        bool moves;         ///< along the picture's motion
     };
     /// A pixel that may be a part of the lasting surface beside it.
     struct Held {
@@ -61,16 +73,28 @@ class TemporalFilter {
     };
 
     void gather(std::span<const SingleFrameDepth* const> frames, std::size_t now);
-    void find_reference(const float* here, std::size_t at, std::size_t count,
+    void find_motion(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                     const DepthNoise& noise);
+    void choose_tiles(const DepthImage& here);
+    void share_weights(const DepthImage& out);
+    void add_misfits(int j, bool moves, const DepthImage& here);
+    void find_pieces(std::size_t row_of_tiles, std::size_t tiles, std::size_t columns);
+    [[nodiscard]] Neighbours rows_at(std::size_t at) const;
+    [[nodiscard]] Neighbours rows_of(const Piece& piece, int j, const DepthImage& size);
+    [[nodiscard]] const float* row_of(const FrameGroup& group, const Piece& piece, int j,
+                                      std::size_t number, const DepthImage& size);
+    void find_reference(const Neighbours& rows, const float* here, std::size_t count,
                         float* reference) const;
+    [[nodiscard]] float reference_at(const DepthImage& here, std::size_t at) const;
     [[nodiscard]] bool average_rows(const SingleFrameDepth& here, DepthImage& out);
     void average(const float* reference, std::size_t at, std::size_t count, DepthImage& out);
-    void add_near(Sums& sums, std::size_t at);
+    void add_near(const Neighbours& rows, std::size_t left, std::size_t count, Sums& sums) const;
     void take_mean(const Sums& sums, std::size_t at, DepthImage& out);
     void measure_variances(int rows, const DepthImage& out);
-    void add_groups(int top, int rows, const DepthImage& out);
-    void find_still(const float* group, int top, int rows, const DepthImage& out);
-    [[nodiscard]] const std::uint8_t* filled_of(const Neighbour& n, std::size_t at) const;
+    void add_groups(const Piece& piece, int top, int rows, const DepthImage& out);
+    void find_still(const FrameGroup& group, const Piece& piece, int top, int rows,
+                    const DepthImage& out);
+    [[nodiscard]] const std::uint8_t* filled_of(const Neighbour& n) const;
     void follow_parts(const SingleFrameDepth& here, DepthImage& out);
     void follow_motion(const SingleFrameDepth& here, DepthImage& out);
     [[nodiscard]] bool take_samples(const DepthImage& here, const Region& region,
@@ -89,8 +113,9 @@ class TemporalFilter {
 
     NoiseBound bound_{};   ///< beyond, a level is perhaps another surface
     NoiseBound mixing_{};  ///< from full weight to none
-    std::array<Neighbour, 2 * kNearInTime + 1> neighbours_{};
+    Neighbours neighbours_{};
     std::size_t count_{0};
+    std::size_t now_{0};                      ///< the frame itself, of these
     bool any_filled_{false};                  ///< of the neighbours' pixels
     std::size_t first_near_{0}, nearest_{0};  ///< the neighbours in the median: first, count
     std::vector<std::uint8_t> other_{};       ///< where the frame's own level is another surface
@@ -100,11 +125,20 @@ class TemporalFilter {
     std::vector<std::size_t> surely_other_{};     ///< pixels of a region with kSurelyOther
     Sums run_{};
     std::vector<Sums> rows_{};  ///< of a row of tiles
-    FrameGroups groups_{};
-    std::span<const FrameGroup> far_{};  ///< groups of frames
+    CameraMotion camera_{};
+    FrameGroups groups_{}, moving_groups_{};
+    std::span<const FrameGroup> far_{}, moving_far_{};  ///< groups of frames
+    int farthest_shift_{0};                             ///< of any frame, to a side; 0: no motion
+    std::vector<std::uint8_t> moving_{};           ///< 1: of all tiles, those read along the motion
+    std::array<std::vector<float>, 2> misfits_{};  ///< of all tiles: in place, along the motion
+    std::vector<Piece> pieces_{};                  ///< of a row of tiles
+    std::vector<float> shifted_{};
+    std::vector<std::uint8_t> shifted_filled_{};
     std::vector<std::uint8_t> still_{};  ///< 1: of a row of tiles, those that all groups agree on
     std::vector<float> off_{}, squared_off_{}, counted_{};  ///< of columns
-    float shared_{1.0F};  ///< variance of a mean of frames, over that of frames without correlation
+    /// Variance of a mean of frames, over that of frames without correlation: in place, and along
+    /// the motion.
+    std::array<float, 2> shared_{1.0F, 1.0F};
     TimeEvidence evidence_{};
 };
 
