@@ -154,6 +154,23 @@ int motion_step(int columns, int rows) {
     return step;
 }
 
+/// The median over places, most of which show the same, or what is alike.
+float motion_gain(const MotionPictures& from, const MotionPictures& to) {
+    constexpr float kDark = 16.0F;
+    constexpr float kBright = 240.0F;
+    const std::vector<float>& before = from.grey.back().values;
+    const std::vector<float>& after = to.grey.back().values;
+    std::vector<float> gains;
+    gains.reserve(before.size());
+    for (std::size_t k = 0; k < before.size(); ++k)
+        if (std::min(before[k], after[k]) > kDark && std::max(before[k], after[k]) < kBright)
+            gains.push_back(before[k] / after[k]);
+    if (gains.empty()) return 1.0F;
+    const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
+    std::nth_element(gains.begin(), middle, gains.end());
+    return *middle;
+}
+
 void MotionPictureMaker::make(const Frame& frame, bool by_depth, MotionPictures& pictures) {
     const DepthImage& depth = *frame.drawn();
     pictures.step = motion_step(depth.columns, depth.rows);
