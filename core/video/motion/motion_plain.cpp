@@ -17,7 +17,7 @@ constexpr float kGrain = 3.0F;         // squared slope that noise and codecs ma
 constexpr float kEven = 300.0F;        // weight of a neighbour's way, against squared slopes
 constexpr float kHold = 0.1F;          // and of the present way
 constexpr float kOver = 1.6F;          // over-relaxation
-constexpr int kSweeps = 4;             // forth and back
+constexpr int kSweeps = 2;             // forth and back
 constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
 
 enum class Colour : std::uint8_t { unknown, plain, textured };
@@ -44,9 +44,13 @@ void PlainParts::Equation::hold_at(const Way& way, float weight) {
     down += weight * way.down;
 }
 
-PlainParts::Way PlainParts::Equation::solution() const {
-    const float det = xx * yy - xy * xy;
-    return {(yy * right - xy * down) / det, (xx * down - xy * right) / det};
+PlainParts::Equation PlainParts::Equation::solved() const {
+    const float per_det = 1.0F / (xx * yy - xy * xy);
+    return {.xx = per_det * yy,
+            .xy = -per_det * xy,
+            .yy = per_det * xx,
+            .right = per_det * (yy * right - xy * down),
+            .down = per_det * (xx * down - xy * right)};
 }
 
 void PlainParts::clear(const MotionCells& cells) {
@@ -72,19 +76,30 @@ void PlainParts::find(const MotionCells& cells, const MotionLayers& changed,
                           .k = k,
                           .has_outline = part.part == 0 && cells.has(1, part.i, part.j)});
     };
+    const auto has_changed = [&](std::size_t part, std::size_t k) {
+        return changed.of[part].values[k] > 0.0F;
+    };
+    std::vector<MotionPart> beside;  // plain ones that have not changed
     cells.each_part([&](const MotionPart& part, std::size_t k) {
-        if (!(changed.of[part.part].values[k] > 0.0F)) return;
-        if (colour_of(structure, part.part, k) == Colour::plain) add(part, k);
+        if (colour_of(structure, part.part, k) != Colour::plain) return;
+        if (!has_changed(part.part, k)) return beside.push_back(part);
+        add(part, k);
         reached.push_back({part, 0});
     });
+    for (const MotionPart& part : beside) {
+        bool is_beside = false;
+        cells.each_alike(part, [&](const MotionPart& other, std::size_t k, float) {
+            is_beside = is_beside || has_changed(other.part, k);
+        });
+        if (!is_beside) continue;
+        add(part, cells.threshold.index(part.i, part.j));
+        reached.push_back({part, 1});
+    }
     for (; !reached.empty(); reached.pop_front()) {
         const Reached at = reached.front();
-        const bool from_plain = has(at.part.part, cells.threshold.index(at.part.i, at.part.j));
         cells.each_alike(at.part, [&](const MotionPart& part, std::size_t k, float) {
-            if (has(part.part, k)) return;
-            const Colour colour = colour_of(structure, part.part, k);
-            if (colour == Colour::textured || (colour == Colour::unknown && !from_plain)) return;
-            const int steps = changed.of[part.part].values[k] > 0.0F ? 0 : at.steps + 1;
+            if (has(part.part, k) || colour_of(structure, part.part, k) == Colour::textured) return;
+            const int steps = has_changed(part.part, k) ? 0 : at.steps + 1;
             if (steps > reach) return;
             add(part, k);
             reached.push_back({part, steps});
@@ -109,7 +124,7 @@ void PlainParts::connect(const MotionCells& cells) {
                 number = static_cast<std::uint32_t>(parts_.size() + others_.size());
                 others_.push_back({beside.part, k});
             }
-            edges_.push_back({number, alike});
+            edges_.push_back({number, alike, 0.0F});
         });
         part.end = edges_.size();
     }
@@ -193,37 +208,39 @@ void PlainParts::move_groups() {
             const std::size_t place = edges_[e].place;
             if (place < parts_.size()) continue;
             const Way& other = ways_[place];
-            group.hold_at({other.right - way.right, other.down - way.down},
-                          kEven * edges_[e].alike * weights_[place]);
+            group.hold_at({other.right - way.right, other.down - way.down}, edges_[e].weight);
         }
     }
-    for (Equation& group : of_groups_) group.hold_at({}, kHold);
+    for (Equation& group : of_groups_) {
+        group.hold_at({}, kHold);
+        group = group.solved();
+    }
     for (std::size_t p = 0; p < parts_.size(); ++p) {
-        const Way way = of_groups_[parts_[p].group].solution();
-        ways_[p].right += way.right;
-        ways_[p].down += way.down;
+        ways_[p].right += of_groups_[parts_[p].group].right;
+        ways_[p].down += of_groups_[parts_[p].group].down;
     }
 }
 
+/// Moves a part to where it fits best with its neighbours, and on.
 void PlainParts::even_out(std::size_t number) {
-    Equation all = all_[number];
+    const Equation& fits = solved_[number];
+    float right = 0.0F;
+    float down = 0.0F;
     for (std::size_t e = parts_[number].begin; e < parts_[number].end; ++e) {
-        const std::size_t place = edges_[e].place;
-        const float weight = kEven * edges_[e].alike * weights_[place];
-        all.right += weight * ways_[place].right;
-        all.down += weight * ways_[place].down;
+        const Way& beside = ways_[edges_[e].place];
+        right += edges_[e].weight * beside.right;
+        down += edges_[e].weight * beside.down;
     }
-    const Way even = all.solution();
     Way& way = ways_[number];
-    way.right += kOver * (even.right - way.right);
-    way.down += kOver * (even.down - way.down);
+    way.right += kOver * (fits.right + fits.xx * right + fits.xy * down - way.right);
+    way.down += kOver * (fits.down + fits.xy * right + fits.yy * down - way.down);
 }
 
 void PlainParts::settle(const MotionSums& sums, const MotionLayers& changed,
                         const MotionLayers& trust, const MotionWays& ways, float scale) {
     const std::size_t count = parts_.size();
     ways_.resize(count + others_.size());
-    weights_.assign(count + others_.size(), 1.0F);
+    std::vector<float> weights(count + others_.size(), kEven);
     const auto way_at = [&](std::size_t part, std::size_t k) {
         return Way{ways.right.of[part].values[k], ways.down.of[part].values[k]};
     };
@@ -231,22 +248,23 @@ void PlainParts::settle(const MotionSums& sums, const MotionLayers& changed,
     for (std::size_t p = 0; p < others_.size(); ++p) {
         const auto& [part, k] = others_[p];
         ways_[count + p] = way_at(part, k);
-        if (changed.of[part].values[k] > 0.0F) weights_[count + p] = trust.of[part].values[k];
+        if (changed.of[part].values[k] > 0.0F) weights[count + p] *= trust.of[part].values[k];
     }
     find_fits(sums, changed);
     own_.assign(count, {});
-    all_.resize(count);
+    solved_.resize(count);
     for (std::size_t p = 0; p < count; ++p) {
         const Part& part = parts_[p];
         if (changed.of[part.part].values[part.k] > 0.0F && sums.is_known(part.part, part.k))
             own_[p] = equation_of(part, sums, ways_[p], scale);
-        all_[p] = own_[p];
-        all_[p].hold_at(ways_[p], kHold);
+        Equation all = own_[p];
+        all.hold_at(ways_[p], kHold);
         for (std::size_t e = part.begin; e < part.end; ++e) {
-            const float weight = kEven * edges_[e].alike * weights_[edges_[e].place];
-            all_[p].xx += weight;
-            all_[p].yy += weight;
+            edges_[e].weight = edges_[e].alike * weights[edges_[e].place];
+            all.xx += edges_[e].weight;
+            all.yy += edges_[e].weight;
         }
+        solved_[p] = all.solved();
     }
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
         move_groups();

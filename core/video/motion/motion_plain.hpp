@@ -49,7 +49,8 @@ class PlainParts {
         float xx{0.0F}, xy{0.0F}, yy{0.0F}, right{0.0F}, down{0.0F};
 
         void hold_at(const Way& way, float weight);
-        [[nodiscard]] Way solution() const;
+        /// Its inverse, and in (right, down) the way.
+        [[nodiscard]] Equation solved() const;
     };
     /// Of a plain part, or of another one beside such.
     struct Place {
@@ -58,6 +59,7 @@ class PlainParts {
     struct Edge {
         std::uint32_t place;
         float alike;
+        float weight;  ///< of the ways of both for each other
     };
 
     void connect(const MotionCells& cells);
@@ -77,8 +79,7 @@ class PlainParts {
     std::vector<float> fits_{};
     std::vector<Equation> of_groups_{};
     std::vector<Way> ways_{};
-    std::vector<float> weights_{};
-    std::vector<Equation> own_{}, all_{};  ///< by the part's own pixels; with those around
+    std::vector<Equation> own_{}, solved_{};  ///< by the part's own pixels; with those around
 };
 
 }  // namespace dibhr

@@ -34,8 +34,9 @@ struct Compared {
 
 DIBHR_VECTOR_CLONES void compare_row(const Compared& row, float* __restrict off, int begin,
                                      int end) {
+    const float gain = row.gain;
     for (int i = begin; i < end; ++i) {
-        const float grey = std::fabs(row.gain * row.moved_grey[i] - row.grey[i]);
+        const float grey = std::fabs(gain * row.moved_grey[i] - row.grey[i]);
         const float near = std::fabs(row.moved_near[i] - row.near[i]);
         off[i] = std::min(grey, kMostOff) + std::min(near, kMostOff);
     }

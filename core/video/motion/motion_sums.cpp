@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <vector>
 
 #include "core/video/frames/vector_clones.hpp"
@@ -324,25 +325,29 @@ struct ThreeRows {
     const float *above, *here, *below;
 };
 
-/// Products of slopes, in a row for each of them.
-struct Products {
-    float *n, *x, *y, *xx, *xy, *yy;
-};
-
-DIBHR_VECTOR_CLONES void add_structure(const ThreeRows& grey, const ThreeRows& level,
-                                       const Products& to, int count) {
+/// Adds slopes and their products in each column.
+DIBHR_VECTOR_CLONES void add_structure(const ThreeRows& grey, const ThreeRows& level, int count,
+                                       float* __restrict n, float* __restrict x,
+                                       float* __restrict y, float* __restrict xx,
+                                       float* __restrict xy, float* __restrict yy) {
+    const float* const grey_here = grey.here;
+    const float* const grey_above = grey.above;
+    const float* const grey_below = grey.below;
+    const float* const level_here = level.here;
+    const float* const level_above = level.above;
+    const float* const level_below = level.below;
     for (int i = 1; i + 1 < count; ++i) {
-        const float right = std::fabs(level.here[i + 1] - level.here[i - 1]);
-        const float down = std::fabs(level.below[i] - level.above[i]);
+        const float right = std::fabs(level_here[i + 1] - level_here[i - 1]);
+        const float down = std::fabs(level_below[i] - level_above[i]);
         const float w = std::max(right, down) < kCliff ? 1.0F : 0.0F;
-        const float x = 0.5F * w * (grey.here[i + 1] - grey.here[i - 1]);
-        const float y = 0.5F * w * (grey.below[i] - grey.above[i]);
-        to.n[i] += w;
-        to.x[i] += x;
-        to.y[i] += y;
-        to.xx[i] += x * x;
-        to.xy[i] += x * y;
-        to.yy[i] += y * y;
+        const float slope_x = 0.5F * w * (grey_here[i + 1] - grey_here[i - 1]);
+        const float slope_y = 0.5F * w * (grey_below[i] - grey_above[i]);
+        n[i] += w;
+        x[i] += slope_x;
+        y[i] += slope_y;
+        xx[i] += slope_x * slope_x;
+        xy[i] += slope_x * slope_y;
+        yy[i] += slope_y * slope_y;
     }
 }
 
@@ -491,30 +496,23 @@ void sum_structure(const MotionSide& side, std::size_t size, MotionSums& sums) {
     const MotionPlane& grey = side.pictures.grey[size];
     const MotionPlane& level = side.pictures.level[size];
     const int cell = kMotionCell_px >> size;
-    const auto count = static_cast<std::size_t>(grey.columns);
+    constexpr std::array kKinds{MotionSum::n,  MotionSum::x,  MotionSum::y,
+                                MotionSum::xx, MotionSum::xy, MotionSum::yy};
+    std::array<std::vector<float>, kKinds.size()> columns;
     sums.fill(0.0F);
-    std::vector<float> values(6 * count);
-    const std::array kinds{MotionSum::n,  MotionSum::x,  MotionSum::y,
-                           MotionSum::xx, MotionSum::xy, MotionSum::yy};
     for (int j = 0; j < side.cells.rows; ++j) {
-        std::fill(values.begin(), values.end(), 0.0F);
-        float* const first = values.data();
-        const Products to{first,
-                          first + count,
-                          first + 2 * count,
-                          first + 3 * count,
-                          first + 4 * count,
-                          first + 5 * count};
+        for (auto& each : columns) each.assign(static_cast<std::size_t>(grey.columns), 0.0F);
         for (int y = std::max(j * cell, 1); y < std::min((j + 1) * cell, grey.rows - 1); ++y)
             add_structure({grey.row(y - 1), grey.row(y), grey.row(y + 1)},
-                          {level.row(y - 1), level.row(y), level.row(y + 1)}, to, grey.columns);
-        for (std::size_t k = 0; k < kinds.size(); ++k)
-            for (int i = 0; i < side.cells.columns; ++i) {
-                const float* const begin = first + k * count + static_cast<std::size_t>(i * cell);
-                float sum = 0.0F;
-                for (int x = 0; x < cell; ++x) sum += begin[x];
-                sums[kinds[k]].of[0].row(j)[i] = sum;
-            }
+                          {level.row(y - 1), level.row(y), level.row(y + 1)}, grey.columns,
+                          columns[0].data(), columns[1].data(), columns[2].data(),
+                          columns[3].data(), columns[4].data(), columns[5].data());
+        for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+            const float* of_cell = columns[kind].data();
+            float* const to = sums[kKinds[kind]].of[0].row(j);
+            for (int i = 0; i < side.cells.columns; ++i, of_cell += cell)
+                to[i] = std::accumulate(of_cell, of_cell + cell, 0.0F);
+        }
     }
     for (const std::uint32_t k : side.cells.split)
         for (MotionLayers& layers : sums.of) layers.of[0].values[k] = 0.0F;
