@@ -90,7 +90,8 @@ struct TimeEvidence {
     static constexpr int kTile_px = 8;
 
     std::size_t near_frames{0};    ///< of those that count one by one: with this one
-    /// Of each pixel: how many frames its level is the mean of, which are as alike as the clip's.
+    /// Of each pixel: how many frames its level is the mean of, as if all shared as much noise as
+    /// NoiseCharacter::kept says.
     std::vector<float> weights{};
     /// The variance of one frame's levels, of tiles of kTile_px, row-major [levels^2].
     std::vector<float> variances{};

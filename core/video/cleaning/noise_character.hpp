@@ -18,7 +18,7 @@ struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.
     std::array<float, kNoiseBands> bands{kWhiteBands};
     float kept{0.0F};  ///< correlation of a pixel's noise with that of the frame before, [0, 0.9]
-    float kept_in_motion{0.0F};  ///< of it what is no motion of shapes
+    float kept_in_motion{0.0F};  ///< the same, without what shapes that move add to it
     float fixed{0.0F};  ///< deviation of grain that stands still [parts of the highest level]
     /// What stands still in each band, all over the picture, of the variance of what does not.
     std::array<float, kNoiseBands> standing{};

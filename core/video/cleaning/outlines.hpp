@@ -12,13 +12,13 @@ namespace dibhr {
 
 /// Noise and each pixel's own decision leave outlines ragged. A pixel beside a step changes sides
 /// where most around it are on the other one, and takes the level of its neighbours there. Then
-/// each tooth that is left changes sides where that leaves fewer: there are never more than before.
-/// Unchanged: ramps, and straight lines of pixels, but for three at their ends. The same input
-/// gives the same bits. Scratch memory is kept inside.
+/// each tooth that is left changes sides where that leaves fewer. Unchanged: ramps, and straight
+/// lines of pixels, but for three at their ends. The same input gives the same bits. Scratch memory
+/// is kept inside.
 class OutlineSmoother {
   public:
-    /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. Where other
-    /// steps have made more, lines one pixel wide are shortened until there are not.
+    /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. While there are
+    /// more, lines one pixel wide are shortened, too, at most 64 times.
     void smooth(DepthImage& image, std::size_t recorded_teeth);
 
   private:

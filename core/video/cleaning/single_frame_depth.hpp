@@ -29,7 +29,8 @@ struct SingleFrameDepth {
     /// By its time in the media, so that groups of frames are the same however it was reached;
     /// below 0: not known.
     std::int64_t number{-1};
-    /// Of all such frames that this process made; copies have the same levels. 0: not known.
+    /// Another one for each frame that clean_frame makes in this process; frames with one id have
+    /// the same levels. 0: not known.
     std::uint64_t id{0};
 };
 

@@ -18,7 +18,8 @@ class SpikeRemover {
     /// median; its neighbours are then checked again. A pixel without such neighbours loses its
     /// data. So do islands of data in holes with fewer pixels than a square of an eightieth of the
     /// image's width: sensors invent them at outlines. The image has at least 2 x 2 pixels.
-    /// `noise`: its deviation, which the threshold is beyond [levels].
+    /// `noise`: standard deviation of its noise [levels]. The threshold is 100 levels, or three
+    /// deviations where that is more, and at most 8 of 255 of the range (4 for pits).
     void remove(DepthImage& image, float noise = 0.0F);
 
     /// The next image is not given to remove(): no pixel is refused.

@@ -38,7 +38,8 @@ class FrameAssembly {
     void set_motion(const MotionRequest& wanted) { wanted_ = wanted; }
     [[nodiscard]] const MotionRequest& motion() const { return wanted_; }
 
-    /// Does the cleaning that needs no other frame. Moves the depth into `raw.lone`. Any thread.
+    /// Does the cleaning that needs no other frame. Moves the depth into `raw.single_frame`. Any
+    /// thread.
     void clean_frame(RawFrame& raw, const CleaningPlan& plan);
     /// The frame without its depth. Moves the colour out of `raw`.
     [[nodiscard]] Frame without_depth(RawFrame& raw) const;
