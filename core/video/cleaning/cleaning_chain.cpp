@@ -93,11 +93,9 @@ bool may_densify(const CleaningOptions& options) {
 }  // namespace
 
 bool needs_noise(const CleaningOptions& options) {
-    const bool own = options.preset == CleaningPreset::own;
     return options.preset == CleaningPreset::automatic ||
            options.preset == CleaningPreset::sensor ||
-           (own &&
-            (options.own.steady || options.own.smooth_noise || options.own.sharpen_silhouettes));
+           (options.preset == CleaningPreset::own && depend_on_noise(options.own));
 }
 
 CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels,
@@ -193,7 +191,8 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
     }
     spikes_.forget();
     const float noise = plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
-    if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth, noise);
+    if (touchable && plan.steps.remove_spikes)
+        spikes_.remove(single_frame.depth, depend_on_noise(plan.steps) ? noise : 0.0F);
     if (has_holes(single_frame.depth))
         close_holes(single_frame, touchable && plan.steps.fill_holes, held);
     if (!interpolated_.empty()) {
@@ -236,8 +235,9 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
-        if (plan.steps.smooth_noise)
-            noise_.smooth(depth, plan.noise, steady ? temporal_.evidence() : TimeEvidence{});
+        static const TimeEvidence kNone;
+        const TimeEvidence& seen_in_time = steady ? temporal_.evidence() : kNone;
+        if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise, seen_in_time);
         if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
     }
     if (!here.unseen.empty())

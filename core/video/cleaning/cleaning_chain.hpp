@@ -65,11 +65,17 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 /// Whether the clip's noise must be measured before its steps are known.
 [[nodiscard]] bool needs_noise(const CleaningOptions& options);
 
+/// Whether any of the steps depends on the clip's noise: then spikes do, too, which in `gentle`
+/// must be the same whether the noise was measured or not.
+[[nodiscard]] constexpr bool depend_on_noise(const CleaningSteps& steps) noexcept {
+    return steps.steady || steps.smooth_noise || steps.sharpen_silhouettes;
+}
+
 /// Whether the steps that need one frame only are the same in both.
 [[nodiscard]] inline bool same_single_frame_steps(const CleaningSteps& a,
                                                   const CleaningSteps& b) noexcept {
-    return a.densify == b.densify && a.remove_spikes == b.remove_spikes &&
-           a.fill_holes == b.fill_holes &&
+    return depend_on_noise(a) == depend_on_noise(b) && a.densify == b.densify &&
+           a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
            a.colour_edges == b.colour_edges &&
            a.smooth_outlines == b.smooth_outlines;  // the recorded ones are looked at

@@ -142,6 +142,8 @@ std::optional<DepthNoise> noise_in(const std::string& text) {
     if (!words) return noise;
     if (!(words >> whole.character.kept_in_motion))
         whole.character.kept_in_motion = whole.character.kept;
+    for (float* const kept : {&whole.character.kept, &whole.character.kept_in_motion})
+        *kept = std::clamp(*kept, 0.0F, kMostKeptNoise);
     return whole;
 }
 

@@ -23,12 +23,11 @@ constexpr std::size_t kFramesOfSteps = 3;   ///< frames whose levels are compare
 constexpr int kStepSample = 3;              ///< every third of their pixels
 /// What a median shows of the variance: a tile has few values of the coarser bands.
 constexpr std::array<float, kNoiseBands> kShownByMedian{1.0F, 0.99F, 0.96F, 0.84F, 0.455F};
-constexpr double kQuietTiles = 0.4;      ///< quantile, as of NoiseMeter
-constexpr float kAlsoQuiet = 1.7F;       ///< times its variance: tiles with the same noise
-constexpr double kSmoothestTiles = 0.2;  ///< quantile: tiles without shapes in a band
-constexpr float kDip = 0.9F;             ///< deviation of the second band in that of the first
-constexpr float kEvenNoise = 1.7F;       ///< median in the smoothest tiles' deviation
-constexpr float kMostKept = 0.9F;
+constexpr double kQuietTiles = 0.4;       ///< quantile, as of NoiseMeter
+constexpr float kAlsoQuiet = 1.7F;        ///< times its variance: tiles with the same noise
+constexpr double kSmoothestTiles = 0.2;   ///< quantile: tiles without shapes in a band
+constexpr float kDip = 0.9F;              ///< deviation of the second band in that of the first
+constexpr float kEvenNoise = 1.7F;        ///< median in the smoothest tiles' deviation
 constexpr double kPlainTiles = 0.1;       ///< share: of the tiles, those with least shape
 constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
 constexpr float kMostStanding = 4.0F;     ///< of the moving noise: beyond, it is shape
@@ -342,8 +341,8 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         for (std::size_t b = 0; b < kNoiseBands; ++b)
             character.bands[b] = median_of(shares[b]) / kShownByMedian[b];
         const std::pair<float, float> of_two = ratios_of(std::move(ratios));
-        character.kept = std::clamp(of_two.first - 1.0F, 0.0F, kMostKept);
-        character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKept);
+        character.kept = std::clamp(of_two.first - 1.0F, 0.0F, kMostKeptNoise);
+        character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKeptNoise);
         character.standing = standing(character.bands, character.kept);
     }
     // What the finest band has in space beyond time and rounding stands still. A texture has more

@@ -13,6 +13,9 @@
 
 namespace dibhr {
 
+/// The highest correlation of noise from frame to frame that is measured or read.
+inline constexpr float kMostKeptNoise = 0.9F;
+
 /// Independent of how much noise there is.
 struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.

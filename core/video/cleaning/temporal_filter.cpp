@@ -435,7 +435,7 @@ void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames
                                  const DepthNoise& noise) {
     farthest_shift_ = 0;
     moving_far_ = {};
-    if (count_ < 2) return;
+    if (count_ < 2 || noise.per_frame_scale) return;
     const std::span<const PictureWay> ways = camera_.ways(frames, now, noise);
     if (ways.empty()) return;
     const auto add = [this](const Shift& shift) {
@@ -482,7 +482,9 @@ void TemporalFilter::choose_tiles(const DepthImage& here) {
                     squared += squared_off_[i];
                     counted += counted_[i];
                 }
-                misfits_[moves ? 1 : 0].push_back(counted > 0.0F ? squared / counted : 0.0F);
+                misfits_[moves ? 1 : 0].push_back(counted > 0.0F ? squared / counted
+                                                  : moves        ? kMostMisfit * kMostMisfit
+                                                                 : 0.0F);
             }
         }
     }

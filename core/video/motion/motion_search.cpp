@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -196,7 +198,12 @@ void MotionSearcher::search(const MotionSide& from, const MotionSide& to, float 
             attempt_groups(plain, right, down);
         }
     follow(cells, ways);
+    // Far parts alone have no score: they keep what they follow.
+    std::vector<std::uint8_t> has_near(plain.groups(), 0);
+    for (const PlainParts::Part& part : plain.parts())
+        if (part.part == 0) has_near[part.group] = 1;
     for (const PlainParts::Part& part : plain.parts()) {
+        if (has_near[part.group] == 0) continue;
         ways.right.of[part.part].values[part.k] = group_ways_[part.group].right;
         ways.down.of[part.part].values[part.k] = group_ways_[part.group].down;
     }

@@ -155,7 +155,9 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 
 std::size_t FrameReader::reach() const {
     if (!plan().steps.steady) return 0;
-    return plan().noise.per_frame_scale ? kNearInTime : kReachInTime;
+    // Farther frames of large pictures need more memory than most machines have.
+    const bool is_large = description().depth_pixels() > kMostPixelsForSensor;
+    return plan().noise.per_frame_scale || is_large ? kNearInTime : kReachInTime;
 }
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
@@ -223,7 +225,8 @@ void FrameReader::prefetch_after_kept(double media_s) {
     prefetch_ = {from_s, kept_to_s};
 }
 
-/// Measures the following frames, up to a read error, which the read of that frame reports.
+/// Measures the following frames, up to a read error, which the read of that frame reports. The
+/// trial takes as long again, and is of use for `automatic` alone.
 void FrameReader::measure() {
     NoiseMeter meter;
     ClipTrial trial;
@@ -231,20 +234,27 @@ void FrameReader::measure() {
         for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k) {
             std::optional<RawFrame> raw = media_.next();
             if (!raw) break;
-            trial.add(raw->depth);
+            if (tries()) trial.add(raw->depth);
             meter.add(std::move(raw->depth));
         }
     } catch (const InputError&) {
     }
     noise_ = meter.noise();
+    if (!tries()) return;
     felt_ = trial.best_of(ways_of_automatic(description().depth_pixels()), *noise_);
+    tried_ = true;
+}
+
+/// Whether the choice of `automatic` is still open.
+bool FrameReader::tries() const {
+    return options_.preset == CleaningPreset::automatic && !tried_ && !description().noise;
 }
 
 /// Measures the noise before the first frame is cleaned, where the options depend on it.
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
-    if (needs_noise(options_) && !noise_) {
+    if ((needs_noise(options_) && !noise_) || tries()) {
         media_.prepare_with(nullptr);
         const auto begin = now_();
         jump_to(0.0);
@@ -373,7 +383,9 @@ FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
         Kept* previous = here->previous_s ? find(*here->previous_s) : nullptr;
         if (previous != nullptr && previous->has(needs)) return previous;
     }
-    double back_s = frames_read_back(description()) * interval_s(description());
+    const double frames =
+        std::max(frames_read_back(description()), static_cast<double>(reach() + 1));
+    double back_s = frames * interval_s(description());
     for (;; back_s *= 2.0) {
         const double from_s = std::max(0.0, media_s - back_s);
         jump_to(from_s);

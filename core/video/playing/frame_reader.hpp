@@ -152,6 +152,7 @@ class FrameReader {
     void clean_ahead();
     void adapt_to_load(std::int64_t skipped_frames);
     void measure();
+    [[nodiscard]] bool tries() const;
     Neighbours neighbours(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
@@ -162,6 +163,7 @@ class FrameReader {
     CleaningOptions options_{};
     std::optional<DepthNoise> noise_{};   ///< of the clip, measured when first needed
     std::optional<FeltCleaning> felt_{};  ///< what felt best on its first frames
+    bool tried_{false};                   ///< felt_ is known, or that nothing tells
     /// A read error after a frame that was read ahead: thrown when that frame is requested.
     struct PendingError {
         double after_s{0.0};

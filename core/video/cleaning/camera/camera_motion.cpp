@@ -83,10 +83,11 @@ Weights weights_at(float part) {
     Weights weights{};
     float sum = 0.0F;
     for (int k = 0; k < 2 * kTaps; ++k) {
-        const float x = std::numbers::pi_v<float> * (static_cast<float>(k - kTaps + 1) - part);
-        const float tapered = x / static_cast<float>(kTaps);
-        const float weight =
-            std::fabs(x) < 1e-4F ? 1.0F : std::sin(x) * std::sin(tapered) / (x * tapered);
+        // Systems differ in the last bit of a sine, which rounding to single precision takes away.
+        const double x = std::numbers::pi * (k - kTaps + 1 - static_cast<double>(part));
+        const double tapered = x / kTaps;
+        const auto weight = static_cast<float>(
+            std::fabs(x) < 1e-4 ? 1.0 : std::sin(x) * std::sin(tapered) / (x * tapered));
         weights[static_cast<std::size_t>(k)] = weight;
         sum += weight;
     }
@@ -359,7 +360,7 @@ CameraMotion::Velocity CameraMotion::rough_velocity() const {
 CameraMotion::Velocity CameraMotion::find_velocity(std::int64_t number) {
     constexpr float kLimit = 0.25F * static_cast<float>(kFastest_quarters);
     const float sure = sum_agreements(number);
-    if (stands_still(sure)) return {};
+    if (!(sure > 0.0F) || stands_still(sure)) return {};  // 0: nothing is to be seen
     compare_all(number);
     (void)sum_agreements(number);
     Velocity velocity = rough_velocity();
