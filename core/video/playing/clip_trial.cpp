@@ -12,8 +12,10 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostColumns = 320;  ///< of the picture's middle: enough ground, and quick
-constexpr int kMostRows = 240;
+/// Of the picture's middle rows, whole ones, as steps measure by its width: enough ground, and
+/// quick.
+constexpr int kPixelsOfTrial = 76'800;
+constexpr int kLeastRows = 64;
 constexpr std::size_t kLeastOfTrial = 5;    ///< frames
 constexpr std::size_t kLeastGround = 2000;  ///< pixels that are compared, along rows and columns
 constexpr double kStill = 4.0;  ///< deviations of the noise by which both halves' means may differ
@@ -146,12 +148,11 @@ DepthImage cleaned_frame(const std::vector<DepthImage>& frames, std::size_t now,
 }  // namespace
 
 void ClipTrial::add(const DepthImage& frame) {
-    const int columns = std::min(frame.columns, kMostColumns);
-    const int rows = std::min(frame.rows, kMostRows);
-    const int left = (frame.columns - columns) / 2;
+    const int rows =
+        std::min(frame.rows, std::max(kPixelsOfTrial / std::max(frame.columns, 1), kLeastRows));
     const int top = (frame.rows - rows) / 2;
-    DepthImage middle = image_of(columns, rows, frame.highest_level,
-                                 [&](int i, int j) { return frame.at(left + i, top + j); });
+    DepthImage middle = image_of(frame.columns, rows, frame.highest_level,
+                                 [&](int i, int j) { return frame.at(i, top + j); });
     if (frames_.empty() || are_alike(frames_.front(), middle)) frames_.push_back(std::move(middle));
 }
 
