@@ -13,13 +13,13 @@ namespace dibhr {
 namespace {
 
 /// An outline is a step of more than this part of the range.
-constexpr float kOutline = 0.05F;
+constexpr float kStepOfOutline = 0.05F;
 constexpr int kReach_px = 2;  ///< of the pixels that decide a side
 constexpr int kSide_px = 2 * kReach_px + 1;
 /// By their distance along rows and columns the 5 x 5 pixels around weigh this, as a Gaussian of
 /// 1.2 px.
-constexpr float kBeside = 0.70664828F, kFarther = 0.24935221F;
-constexpr std::array<float, kSide_px> kWeights{kFarther, kBeside, 1.0F, kBeside, kFarther};
+constexpr float kOneAway = 0.70664828F, kTwoAway = 0.24935221F;
+constexpr std::array<float, kSide_px> kWeights{kTwoAway, kOneAway, 1.0F, kOneAway, kTwoAway};
 /// The largest step beside a pixel, over the range of the 5 x 5 around: below it, there is a ramp.
 constexpr float kTwoSides = 0.4F;
 constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither side
@@ -30,7 +30,7 @@ constexpr int kChunk = 64;          ///< pixels of a row that are checked togeth
 constexpr int kMostPasses = 64;     ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
-    return kOutline * static_cast<float>(image.highest_level);
+    return kStepOfOutline * static_cast<float>(image.highest_level);
 }
 
 /// A row of pixels and its neighbours.

@@ -35,7 +35,7 @@ constexpr float kOwnEnergy = 3.0F;  ///< of noise alone, in all bands
 /// would drift.
 constexpr float kAcross = 0.07F;
 constexpr float kFinest = 1.0F / 128.0F;
-constexpr std::size_t kLanes = 16;
+constexpr std::size_t kLanesOfProducts = 16;
 
 constexpr int width_of(std::size_t lag) {
     return 2 * kReach[lag] + 1;
@@ -48,7 +48,8 @@ constexpr int margin_of(std::size_t lag) {
 
 /// How many columns of a small picture are compared with another one's.
 constexpr std::size_t compared(int columns, std::size_t lag) {
-    return static_cast<std::size_t>(columns - 2 * margin_of(lag)) / kLanes * kLanes;
+    return static_cast<std::size_t>(columns - 2 * margin_of(lag)) / kLanesOfProducts *
+           kLanesOfProducts;
 }
 
 DIBHR_VECTOR_CLONES void add_row(const float* row, float* __restrict sums, std::ptrdiff_t columns) {
@@ -63,16 +64,19 @@ DIBHR_VECTOR_CLONES void divide_by_noise(const float* levels, const NoiseBound& 
         values[i] = std::min(std::max(values[i] / of(levels[i]), -kMost), kMost);
 }
 
-/// Adds products of a row and another one at each of `shifts` places, kLanes sums each.
+/// Adds products of a row and another one at each of `shifts` places, kLanesOfProducts sums each.
 DIBHR_VECTOR_CLONES void add_products(const float* one, const float* other, std::size_t count,
                                       std::size_t shifts, float* __restrict sums) {
     for (std::size_t shift = 0; shift < shifts; ++shift) {
         const float* const moved = other + shift;
-        std::array<float, kLanes> lanes{};
-        for (std::size_t k = 0; k < kLanes; ++k) lanes[k] = sums[shift * kLanes + k];
-        for (std::size_t i = 0; i < count; i += kLanes)
-            for (std::size_t k = 0; k < kLanes; ++k) lanes[k] += one[i + k] * moved[i + k];
-        for (std::size_t k = 0; k < kLanes; ++k) sums[shift * kLanes + k] = lanes[k];
+        std::array<float, kLanesOfProducts> lanes{};
+        for (std::size_t k = 0; k < kLanesOfProducts; ++k)
+            lanes[k] = sums[shift * kLanesOfProducts + k];
+        for (std::size_t i = 0; i < count; i += kLanesOfProducts)
+            for (std::size_t k = 0; k < kLanesOfProducts; ++k)
+                lanes[k] += one[i + k] * moved[i + k];
+        for (std::size_t k = 0; k < kLanesOfProducts; ++k)
+            sums[shift * kLanesOfProducts + k] = lanes[k];
     }
 }
 
@@ -147,7 +151,7 @@ void CameraMotion::gather(std::span<const SingleFrameDepth* const> frames, std::
         numbers_.push_back(frames[k]->number < 0 ? static_cast<std::int64_t>(k)
                                                  : frames[k]->number);
     kept_.clear();
-    const int least = 2 * margin_of(1) + static_cast<int>(kLanes);
+    const int least = 2 * margin_of(1) + static_cast<int>(kLanesOfProducts);
     constexpr auto kMostBetween = static_cast<std::int64_t>(kReachInTime);
     const bool follow_each_other =
         std::adjacent_find(numbers_.begin(), numbers_.end(), [](std::int64_t a, std::int64_t b) {
@@ -238,7 +242,7 @@ void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
     const BandPicture& other = small_[from.pairs[lag].later].picture;
     const int margin = margin_of(lag);
     const auto shifts = static_cast<std::size_t>(2 * reach + 1);
-    lanes_.resize(shifts * kLanes);
+    lanes_.resize(shifts * kLanesOfProducts);
     for (int down = -reach; down <= reach; ++down) {
         std::fill(lanes_.begin(), lanes_.end(), 0.0F);
         for (int j = margin; j < one.rows - margin; ++j)
@@ -248,7 +252,8 @@ void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
                            kReach[lag] - reach;
         for (std::size_t shift = 0; shift < shifts; ++shift) {
             out[shift] = 0.0F;
-            for (std::size_t k = 0; k < kLanes; ++k) out[shift] += lanes_[shift * kLanes + k];
+            for (std::size_t k = 0; k < kLanesOfProducts; ++k)
+                out[shift] += lanes_[shift * kLanesOfProducts + k];
         }
     }
 }
