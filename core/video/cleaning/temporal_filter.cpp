@@ -448,9 +448,6 @@ void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames
     }
     if (farthest_shift_ == 0) return;
     const DepthImage& here = frames[now]->depth;
-    const auto columns = static_cast<std::size_t>(here.columns);
-    shifted_.resize((neighbours_.size() + kReachInTime) * columns);
-    shifted_filled_.resize(neighbours_.size() * columns);
     choose_tiles(here);
     if (farthest_shift_ == 0) return;
     moving_far_ = moving_groups_.around(
@@ -990,7 +987,10 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     evidence_.near_frames = count_;
     evidence_.weights.resize(out.levels.size());
     evidence_.variances.clear();
-    nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
+    const auto columns = static_cast<std::size_t>(out.columns);
+    nothing_filled_.assign(columns, 0);
+    shifted_.resize((neighbours_.size() + kReachInTime) * columns);
+    shifted_filled_.resize(neighbours_.size() * columns);
     find_motion(frames, now, noise);
     if (average_rows(here, out)) follow_parts(here, out);
     if (farthest_shift_ != 0 && shared_[0] != shared_[1]) share_weights(out);
