@@ -235,9 +235,10 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
-        static const TimeEvidence kNone;
-        const TimeEvidence& seen_in_time = steady ? temporal_.evidence() : kNone;
-        if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise, seen_in_time);
+        if (plan.steps.smooth_noise && steady)
+            noise_.smooth(depth, plan.noise, temporal_.evidence());
+        else if (plan.steps.smooth_noise)
+            noise_.smooth(depth, plan.noise);
         if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
     }
     if (!here.unseen.empty())

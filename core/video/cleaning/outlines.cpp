@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -24,10 +25,10 @@ constexpr std::array<float, kSide_px> kWeights{kTwoAway, kOneAway, 1.0F, kOneAwa
 constexpr float kTwoSides = 0.4F;
 constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither side
 
-const float kNone = std::nanf("");  ///< no level
-constexpr int kSpur_px = 2;         ///< a line one pixel wide loses this at its ends
-constexpr int kChunk = 64;          ///< pixels of a row that are checked together
-constexpr int kMostPasses = 64;     ///< over the teeth that are left
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr int kSpur_px = 2;      ///< a line one pixel wide loses this at its ends
+constexpr int kChunk = 64;       ///< pixels of a row that are checked together
+constexpr int kMostPasses = 64;  ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
     return kStepOfOutline * static_cast<float>(image.highest_level);
@@ -212,7 +213,7 @@ class Sides {
                 }
             if (count > 0) return sum / static_cast<float>(count);
         }
-        return kNone;
+        return kNaN;
     }
 
   private:

@@ -172,18 +172,18 @@ std::optional<FeltCleaning> ClipTrial::best_of(std::span<const CleaningSteps> wa
         return newton_per_level *
                std::sqrt(sums.mean_of(has_relief ? sums.difference : sums.cleaned));
     };
-    const double raw_N = buzz_of(raw);
+    const double without = buzz_of(raw);
 
     std::vector<FeltCleaning> tried;
-    double best_N = raw_N;
+    double least = without;
     for (const CleaningSteps& steps : ways) {
         const FeltSums sums = compared(cleaned_frame(frames_, now, {steps, {}, noise, {}}), mean);
-        tried.push_back({steps, buzz_of(sums), raw_N,
+        tried.push_back({steps, buzz_of(sums), without,
                          has_relief ? std::optional(sums.both / sums.means) : std::nullopt});
-        best_N = std::min(best_N, tried.back().buzz_N);
+        least = std::min(least, tried.back().buzz_N);
     }
     for (const FeltCleaning& way : tried)
-        if (std::hypot(best_N, kPerceptible_N) >= way.buzz_N) return way;
+        if (std::hypot(least, kPerceptible_N) >= way.buzz_N) return way;
     return tried.back();
 }
 

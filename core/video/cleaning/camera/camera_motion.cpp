@@ -80,7 +80,7 @@ DIBHR_VECTOR_CLONES void add_products(const float* one, const float* other, std:
     }
 }
 
-using Weights = std::array<float, 2 * kTaps>;
+using Weights = std::array<float, std::size_t{2} * kTaps>;
 
 /// Lanczos' weights of the values around a place, `part` of a pixel after the one in the middle.
 Weights weights_at(float part) {
@@ -248,8 +248,8 @@ void CameraMotion::compare(Small& from, std::size_t lag, int reach) {
         for (int j = margin; j < one.rows - margin; ++j)
             add_products(one.row(j) + margin, other.row(j + down) + margin - reach,
                          compared(one.columns, lag), shifts, lanes_.data());
-        float* const out = from.pairs[lag].agrees.data() + (kReach[lag] + down) * width_of(lag) +
-                           kReach[lag] - reach;
+        float* const out = from.pairs[lag].agrees.data() +
+                           std::ptrdiff_t{kReach[lag] + down} * width_of(lag) + kReach[lag] - reach;
         for (std::size_t shift = 0; shift < shifts; ++shift) {
             out[shift] = 0.0F;
             for (std::size_t k = 0; k < kLanesOfProducts; ++k)
@@ -313,7 +313,7 @@ float CameraMotion::agreement(Velocity at) const {
         const float top = std::floor(y);
         const Weights across = weights_at(x - left);
         const Weights along = weights_at(y - top);
-        const int width = width_of(lag);
+        const std::ptrdiff_t width = width_of(lag);
         const int first = kReach[lag] - kTaps + 1;
         const float* const from = sums_[lag].data() + (first + static_cast<int>(top)) * width +
                                   first + static_cast<int>(left);
