@@ -338,10 +338,10 @@ void SilhouetteSharpener::decide(Votes& votes) {
 /// A pixel keeps its side only where at least a third of those around that may be on a ramp have
 /// one. (Of half the gaps between fingers would be lost.)
 void SilhouetteSharpener::decide_together(const DepthImage& image) {
-    told_.assign(image.levels.size(), 0);
-    for (const std::uint32_t pixel : steep_) told_[pixel] = -1;
+    decided_.assign(image.levels.size(), 0);
+    for (const std::uint32_t pixel : steep_) decided_[pixel] = -1;
     for (const Votes& votes : votes_)
-        if (votes.side != Side::neither) told_[votes.pixel] = 2;
+        if (votes.side != Side::neither) decided_[votes.pixel] = 2;
     for (Votes& votes : votes_) {
         if (votes.side == Side::neither) continue;
         const int x = static_cast<int>(votes.pixel) % image.columns;
@@ -351,7 +351,7 @@ void SilhouetteSharpener::decide_together(const DepthImage& image) {
         const int bottom = std::min(y + kTogether_px, image.rows - 1);
         int balance = 0;
         for (int j = std::max(y - kTogether_px, 0); j <= bottom; ++j)
-            for (int i = left; i <= right; ++i) balance += told_[image.index(i, j)];
+            for (int i = left; i <= right; ++i) balance += decided_[image.index(i, j)];
         if (balance < 0) votes.side = Side::neither;
     }
 }

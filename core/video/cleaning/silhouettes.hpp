@@ -14,10 +14,10 @@ struct ColourImage;
 /// Sensors, codecs, scaling and estimators blur an object's outline into a ramp from near to far,
 /// which is neither. A pixel on a ramp of up to 13 px is moved to one of its sides, where that
 /// side's surface is continued. Pixels of a ramp go together: where fewer than a third around
-/// can be told, none is moved, since an outline would be crisp in some rows only. Unchanged: slopes
-/// that go on beyond (a cone, a sphere's side, a cheek), steps that are crisp already, and pictures
-/// with more ramps, or pixels on ramps, than kMostRamps, which bounds memory. The same input gives
-/// the same bits. Scratch memory is kept inside.
+/// can be decided, none is moved, since an outline would be crisp in some rows only. Unchanged:
+/// slopes that go on beyond (a cone, a sphere's side, a cheek), steps that are crisp already, and
+/// pictures with more ramps, or pixels on ramps, than kMostRamps, which bounds memory. The same
+/// input gives the same bits. Scratch memory is kept inside.
 class SilhouetteSharpener {
   public:
     static constexpr std::size_t kMostRamps = std::size_t{3} << 20;  ///< 38 % of 4K video
@@ -77,7 +77,7 @@ class SilhouetteSharpener {
     std::vector<Votes> votes_{};
     std::vector<FoundRamp> ramps_{};
     std::vector<std::uint32_t> steep_{};  ///< pixels that may be on a ramp
-    std::vector<std::int8_t> told_{};     ///< 2: has a side; -1: is steep, and has none; 0: neither
+    std::vector<std::int8_t> decided_{};  ///< 2: has a side; -1: is steep, and has none; 0: neither
 };
 
 }  // namespace dibhr
