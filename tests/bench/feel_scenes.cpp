@@ -63,12 +63,12 @@ void print_detail(const std::string& noise, const char* camera, const std::strin
     std::printf("| %s | %s | %s |", noise.c_str(), camera, cleaning.c_str());
     for (std::size_t k = 0; k < kRidges.size(); ++k)
         std::printf(" %.0f |", 100.0 * detail.ridges[k] / yardstick.ridges[k]);
+    // The flat panel is not in its rows where a step is not measured.
     if (std::isnan(detail.step))
-        std::printf(" |");
+        std::printf(" | %.2f | |\n", detail.noise_mm);
     else
-        std::printf(" %.0f |", 100.0 * detail.step);
-    std::printf(" %.2f | %.2f (%.2f) |\n", detail.noise_mm, detail.flat.pimples,
-                detail.flat.pimples_again);
+        std::printf(" %.0f | %.2f | %.2f (%.2f) |\n", 100.0 * detail.step, detail.noise_mm,
+                    detail.flat.pimples, detail.flat.pimples_again);
     std::fflush(stdout);
 }
 
