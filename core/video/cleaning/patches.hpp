@@ -36,7 +36,7 @@ void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& v
     for (; std::endian::native == std::endian::little && at + 8 <= count; at += 8) {
         std::uint64_t eight = 0;
         std::memcpy(&eight, marks + at, sizeof eight);
-        // The lowest bit of what is left is in the first byte that is 0: only there a bit is lent.
+        // The lowest bit left is of the first byte that is 0: a borrow reaches later bytes only.
         if (!is_set) eight = (eight - kOnes) & ~eight & (kOnes << 7U);
         if (eight != 0) return at + std::countr_zero(eight) / 8;
     }
