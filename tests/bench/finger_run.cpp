@@ -90,6 +90,7 @@ FingerRun press(std::span<const Frame> frames, std::size_t milliseconds, double 
     const Vec2 begin = path(0);
     test::PressingFinger finger(surface_at(0).elevation_at(begin.x, begin.y), time_constant_s);
     FingerRun finger_run;
+    bool was_near_cliff = false;
     for (std::size_t k = 0; k < milliseconds; ++k) {
         const DepthSurface surface = surface_at(k);
         const Vec2 place = path(k);
@@ -103,7 +104,10 @@ FingerRun press(std::span<const Frame> frames, std::size_t milliseconds, double 
         finger_run.depths_px.push_back(std::max(elevation_px - goal.z, 0.0));
         finger_run.contact.push_back(proxy.contact ? 1 : 0);
         const Vec2 over(proxy.position.x, proxy.position.y);
-        finger_run.near_cliff.push_back(is_near_cliff(surface, over) ? 1 : 0);
+        const bool near = is_near_cliff(surface, over);
+        // The force changes on the way from the place before, which a cliff may have held.
+        finger_run.near_cliff.push_back(near || was_near_cliff ? 1 : 0);
+        was_near_cliff = near;
     }
     return finger_run;
 }
@@ -122,8 +126,12 @@ void FeelSums::add(const FingerRun& finger_run, std::span<const char> left_out,
     if (finger_run.goals.empty()) return;
     Band band(finger_run.forces_newton.front());
     for (std::size_t k = 1; k < finger_run.goals.size(); ++k) {
+        if (!left_out.empty() && left_out[k] != 0) {
+            // Else the band's part of a reversal would count in the milliseconds after it.
+            band = Band(finger_run.forces_newton[k]);
+            continue;
+        }
         const Vec3 in_band = band.next(finger_run.forces_newton[k]);
-        if (!left_out.empty() && left_out[k] != 0) continue;
         ++milliseconds_;
         squares_ += glm::dot(in_band, in_band);
         steps_.push_back(

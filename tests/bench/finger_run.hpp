@@ -20,7 +20,7 @@ struct FingerRun {
     std::vector<Vec3> forces_newton{};
     std::vector<double> depths_px{};  ///< of the goal below the surface above it; not below 0
     std::vector<char> contact{};
-    std::vector<char> near_cliff{};
+    std::vector<char> near_cliff{};  ///< there, or where the proxy was before
 };
 
 /// Whether a triangle of the surface has a slope above 3, of those in cells whose middle is within
@@ -54,7 +54,8 @@ struct FeelNumbers {
 /// Sums the numbers over several fingers.
 class FeelSums {
   public:
-    /// Without the milliseconds marked in `left_out`; empty: none are.
+    /// Without the milliseconds marked in `left_out`; empty: none are. The band begins anew after
+    /// them: on a plane a slide buzzes by 0 N.
     void add(const FingerRun& finger_run, std::span<const char> left_out, const LostContact& lost);
     [[nodiscard]] FeelNumbers numbers() const;
 
