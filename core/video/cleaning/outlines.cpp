@@ -150,6 +150,25 @@ bool is_tooth_at(const DepthImage& image, std::uint32_t pixel, float step) {
                  step) > 0.0F;
 }
 
+/// visit(right, down) for each of the pixels around one, and for the one itself.
+template <typename Visit>
+void each_in_square(int reach, const Visit& visit) {
+    for (int down = -reach; down <= reach; ++down)
+        for (int right = -reach; right <= reach; ++right) visit(right, down);
+}
+
+/// Of the pixels around one, and of the one itself.
+float median_around(const DepthImage& image, std::uint32_t pixel, int reach) {
+    std::array<float, kSide_px * kSide_px> levels{};
+    auto end = levels.begin();
+    each_in_square(reach, [&](int right, int down) {
+        *end++ = *(image.levels.data() + pixel + down * image.columns + right);
+    });
+    const auto middle = levels.begin() + (end - levels.begin()) / 2;
+    std::nth_element(levels.begin(), middle, end);
+    return *middle;
+}
+
 /// A pixel and its four neighbours, without those on the border: visit(pixel).
 template <typename Visit>
 void each_around(const DepthImage& image, std::uint32_t pixel, const Visit& visit) {
@@ -259,6 +278,13 @@ void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth) {
     keep_teeth(image, step);
     for (int k = 0; k < kMostPasses && !pixels_.empty() && teeth_ > recorded_teeth; ++k)
         take_teeth(image, step, 1);
+    if (teeth_ <= recorded_teeth) return;
+    for (int reach = 1; reach <= kReach_px && teeth_ > recorded_teeth; ++reach) {
+        find_steps(image, step);
+        keep_teeth(image, step);
+        for (const std::uint32_t pixel : pixels_)
+            if (teeth_ > recorded_teeth) take_medians(image, pixel, step, reach);
+    }
 }
 
 void OutlineSmoother::find_steps(const DepthImage& image, float step) {
@@ -336,6 +362,39 @@ void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_m
     std::sort(pixels_.begin(), pixels_.end());
     pixels_.erase(std::unique(pixels_.begin(), pixels_.end()), pixels_.end());
     touched_.insert(touched_.end(), pixels_.begin(), pixels_.end());
+}
+
+/// Where that leaves fewer teeth, the pixels around a tooth become the medians of those around
+/// each: some teeth only go together with their neighbours.
+void OutlineSmoother::take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach) {
+    const int column = static_cast<int>(pixel) % image.columns;
+    const int row = static_cast<int>(pixel) / image.columns;
+    const int read_px = 2 * reach;  // around the tooth
+    if (std::min(column, image.columns - 1 - column) < read_px + 1 ||
+        std::min(row, image.rows - 1 - row) < read_px + 1)
+        return;
+    const auto pixel_at = [&](int right, int down) {
+        return static_cast<std::uint32_t>(image.index(column + right, row + down));
+    };
+    const auto count_teeth = [&] {
+        std::size_t count = 0;
+        each_in_square(reach + 1, [&](int right, int down) {
+            count += is_tooth_at(image, pixel_at(right, down), step) ? 1 : 0;
+        });
+        return count;
+    };
+    const std::size_t before = count_teeth();
+    turned_.clear();
+    each_in_square(reach, [&](int right, int down) {
+        const std::uint32_t near = pixel_at(right, down);
+        turned_.emplace_back(near, median_around(image, near, reach));
+    });
+    for (auto& [near, level] : turned_) std::swap(image.levels[near], level);
+    const std::size_t after = count_teeth();
+    if (after < before)
+        teeth_ = teeth_ + after - before;
+    else
+        for (const auto& [near, level] : turned_) image.levels[near] = level;
 }
 
 std::size_t teeth_of(const DepthImage& image) {

@@ -26,6 +26,7 @@ class OutlineSmoother {
     void turn_sides(DepthImage& image);
     void keep_teeth(const DepthImage& image, float step);
     void take_teeth(DepthImage& image, float step, std::size_t as_many);
+    void take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach);
 
     std::vector<std::uint32_t> pixels_{};   ///< beside a step; later teeth
     std::vector<std::uint32_t> touched_{};  ///< all that were teeth, at one time or another

@@ -153,6 +153,23 @@ TEST_CASE("where other steps have made teeth, lines of one pixel go until there 
     CHECK(teeth_of(smoothed(lines, 0)) == 0);
 }
 
+TEST_CASE("where many surfaces meet, teeth go that only go together with their neighbours",
+          "[cleaning]") {
+    const unsigned seed = GENERATE(range(1U, 9U));
+    CAPTURE(seed);
+    // Squares of 5 px at eight distances, and one pixel in five at another one.
+    std::mt19937 random(seed);
+    const auto any_level = [&] { return 20.0 + 30.0 * static_cast<double>(random() % 8); };
+    std::vector<double> squares(20 * 20);
+    for (double& level : squares) level = any_level();
+    const DepthImage image = image_of(100, 100, 255.0, [&](int i, int j) {
+        const double other = any_level();
+        return random() % 5 == 0 ? other : squares[static_cast<std::size_t>(20 * (j / 5) + i / 5)];
+    });
+    REQUIRE(teeth_of(image) > 500);
+    CHECK(teeth_of(smoothed(image, 0)) < 10);
+}
+
 TEST_CASE("pixels without data are on no side of an outline", "[cleaning]") {
     DepthImage image = seen(half_plane(0.0));
     image.at(80, 50) = static_cast<float>(kNear);
