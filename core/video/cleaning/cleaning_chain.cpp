@@ -233,16 +233,17 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     const SingleFrameDepth& here = *frames[now];
     const bool steady = plan.steps.steady && frames.size() > 1;
     DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
+    std::vector<std::uint8_t> unseen = here.unseen;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
         if (plan.steps.smooth_noise && steady)
             noise_.smooth(depth, plan.noise, temporal_.evidence());
         else if (plan.steps.smooth_noise)
             noise_.smooth(depth, plan.noise);
-        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
+        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth, unseen);
     }
-    if (!here.unseen.empty())
-        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
+    if (!unseen.empty())
+        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen));
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
         frame.undilated = std::make_shared<const DepthImage>(std::move(depth));
         depth = finger_.dilated(*frame.undilated, plan.finger);
