@@ -235,6 +235,20 @@ DepthNoise NoiseMeter::noise() const {
         samples.push_back({away, quantile(noises[k], kQuietShare),
                            std::sqrt(static_cast<double>(noises[k].size()))});
     }
+    // Roughness from pixel to pixel shows little of coarse grain.
+    if (const std::vector<LevelNoise> still = character_.still_noise(); !still.empty()) {
+        const auto finest = [&](double away) {
+            double least = 0.0;
+            for (const Sample& s : samples)
+                if (std::fabs(s.away - away) < 0.5 / kBins) least = s.noise;
+            return least;
+        };
+        std::vector<Sample> coarse;
+        for (const LevelNoise& one : still)
+            coarse.push_back(
+                {one.away, std::max(one.deviation, finest(one.away)), std::sqrt(one.tiles)});
+        samples = std::move(coarse);
+    }
     DepthNoise noise;
     noise.per_frame_scale = has_per_frame_scale();
     noise.character = character_.character();

@@ -27,6 +27,8 @@ constexpr double kQuietTiles = 0.4;       ///< quantile, as of NoiseMeter
 constexpr float kAlsoQuiet = 1.7F;        ///< times its variance: tiles with the same noise
 constexpr double kSmoothestTiles = 0.2;   ///< quantile: tiles without shapes in a band
 constexpr float kDip = 0.9F;              ///< deviation of the second band in that of the first
+constexpr std::size_t kBandsOfGrain = 3;  ///< of one picture, at most
+constexpr float kMostRiseOfGrain = 4.0F;  ///< from a band to the next, of variances
 constexpr float kEvenNoise = 1.7F;        ///< median in the smoothest tiles' deviation
 constexpr double kPlainTiles = 0.1;       ///< share: of the tiles, those with least shape
 constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
@@ -345,6 +347,17 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKeptNoise);
         character.standing = standing(character.bands, character.kept);
     }
+    if (count_ == 1) {  // a single picture's grain may be coarse, too
+        Energies whole{};
+        for (const Bin& bin : all) {
+            const Energies grain = grain_in(bin);
+            for (std::size_t b = 0; b < kNoiseBands; ++b)
+                whole[b] += static_cast<float>(bin.in_space.size()) * grain[b];
+        }
+        const float sum = std::accumulate(whole.begin(), whole.end(), 0.0F);
+        for (std::size_t b = 0; sum > 0.0F && b < kNoiseBands; ++b)
+            character.bands[b] = whole[b] / sum;
+    }
     // What the finest band has in space beyond time and rounding stands still. A texture has more
     // in the coarser bands, or varies from place to place: it is no noise.
     double sum = 0.0;
@@ -368,6 +381,35 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         character.fixed = static_cast<float>(
             std::sqrt(sum / tiles / static_cast<double>(kWhiteBands[0])) / highest_);
     return character;
+}
+
+NoiseCharacterMeter::Energies NoiseCharacterMeter::grain_in(const Bin& bin) {
+    Energies grain{};
+    if (bin.in_space.size() < kTilesOfBin) return grain;
+    Energies here{};
+    for (std::size_t b = 0; b < kNoiseBands; ++b)
+        here[b] = quantile_of(bin.of(bin.in_space, b), kSmoothestTiles);
+    if (median_of(bin.of(bin.in_space, 0)) > kEvenNoise * kEvenNoise * here[0]) return grain;
+    // Shapes have far more in each coarser band: up to the last dip before that it is grain.
+    for (std::size_t b = 0; b < kBandsOfGrain; ++b) {
+        if (here[b + 1] > kMostRiseOfGrain * here[b]) break;
+        if (here[b + 1] < kDip * kDip * here[b]) std::copy_n(here.begin(), b + 1, grain.begin());
+    }
+    return grain;
+}
+
+std::vector<LevelNoise> NoiseCharacterMeter::still_noise() const {
+    std::vector<LevelNoise> noises;
+    if (count_ != 1) return noises;
+    const std::vector<Bin> all = bins();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Energies grain = grain_in(all[k]);
+        const double sum = static_cast<double>(std::accumulate(grain.begin(), grain.end(), 0.0F));
+        if (!(sum > 0.0)) continue;
+        noises.push_back({1.0 - (static_cast<double>(k) + 0.5) / kCharacterBins,
+                          std::sqrt(sum) / highest_, static_cast<double>(all[k].in_space.size())});
+    }
+    return noises;
 }
 
 /// The step of a bin's levels, 0 where they are continuous. Nothing: there are too few.

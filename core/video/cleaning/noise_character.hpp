@@ -36,6 +36,13 @@ struct LevelStep {
     double tiles;  ///< in how many tiles it was seen
 };
 
+/// The grain of levels about as far away.
+struct LevelNoise {
+    double away;       ///< 1 - level / highest
+    double deviation;  ///< parts of the highest level
+    double tiles;      ///< in how many tiles it was seen
+};
+
 /// Measures the middle of frames (at most 640 x 480 px), tile by tile where all pixels have data.
 class NoiseCharacterMeter {
   public:
@@ -44,6 +51,9 @@ class NoiseCharacterMeter {
 
     [[nodiscard]] NoiseCharacter character() const;
     [[nodiscard]] std::vector<LevelStep> steps() const;
+    /// Grain of a single picture, however coarse: the deviation in the smoothest tiles. Empty:
+    /// finer bands have no more than coarser ones, as shapes do, or not all tiles alike.
+    [[nodiscard]] std::vector<LevelNoise> still_noise() const;
 
   private:
     using Energies = std::array<float, kNoiseBands>;
@@ -69,6 +79,8 @@ class NoiseCharacterMeter {
     void compare_frames();
     [[nodiscard]] std::vector<Bin> bins() const;
     [[nodiscard]] static std::optional<float> step_in(const Bin& bin);
+    /// Of one picture's grain in each band, 0 in those that may be shape; all 0: there is none.
+    [[nodiscard]] static Energies grain_in(const Bin& bin);
 
     double highest_{1.0};
     int columns_{0}, rows_{0};  ///< of tiles

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -52,6 +53,31 @@ TEST_CASE("noise that grows with the square of the distance is measured within 0
     const DepthNoise noise = measured(NoisyScene{tilted, sigma, 320, 240}.frames(10));
     for (const double level : {40.0, 120.0, 220.0})
         CHECK_THAT(deviation_at(noise, level), WithinAbs(sigma(level), 0.15));
+}
+
+TEST_CASE("coarse grain of a single picture is measured in full, waves of its shape are not",
+          "[noise]") {
+    constexpr int kColumns = 320;
+    constexpr int kRows = 240;
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    std::vector<double> white(std::size_t{kColumns + 2} * (kRows + 2));
+    for (double& value : white) value = normal(random);
+    const auto grain = [&](int i, int j) {  // deviation 1, like that of the pixels around
+        double sum = 0.0;
+        for (int y = 0; y < 3; ++y)
+            for (int x = 0; x < 3; ++x)
+                sum += white[static_cast<std::size_t>((j + y) * (kColumns + 2) + i + x)];
+        return sum / 3.0;
+    };
+    const DepthNoise noise = measured({image_of(kColumns, kRows, 255.0, [&](int i, int j) {
+        return 60.0 + 0.3 * i + 0.1 * j + 0.8 * grain(i, j);
+    })});
+    CHECK_THAT(deviation_at(noise, 100.0), WithinRel(0.8, 0.3));
+    const DepthNoise waved = measured({image_of(kColumns, kRows, 255.0, [&](int i, int j) {
+        return 100.0 + 5.0 * std::sin(0.2 * i) * std::cos(0.2 * j);
+    })});
+    CHECK(deviation_at(waved, 100.0) < 0.2);
 }
 
 TEST_CASE("a clean clip has no noise, still or in even motion", "[noise]") {
