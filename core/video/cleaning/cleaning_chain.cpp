@@ -33,7 +33,9 @@ constexpr CleaningSteps kWithoutSilhouettes = [] {
     return steps;
 }();
 /// Seen ground keeps its levels.
-constexpr CleaningSteps kHolesAlone{.fill_holes = true, .smooth_outlines = true};
+constexpr CleaningSteps kHolesAndOutlines{.fill_holes = true, .smooth_outlines = true};
+/// All that is seen keeps its level.
+constexpr CleaningSteps kHolesAlone{.fill_holes = true};
 constexpr double kReportedRelief_px = 255.0;
 
 /// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
@@ -110,16 +112,17 @@ std::vector<CleaningSteps> ways_of_automatic(std::size_t pixels) {
     std::vector<CleaningSteps> ways{kLowNoiseSteps};
     if (pixels <= kMostPixelsForSensor)
         ways.insert(ways.end(), {kSensorSteps, kWithoutSilhouettes});
-    ways.insert(ways.end(), {kGentleSteps, kHolesAlone});
+    ways.insert(ways.end(), {kGentleSteps, kHolesAndOutlines, kHolesAlone});
     return ways;
 }
 
 std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     std::string words(name_of(options.preset));
     if (options.preset == CleaningPreset::automatic) {
-        words += plan.steps.smooth_noise    ? ": sensor"
-                 : plan.steps.remove_spikes ? ": gentle"
-                                            : ": holes and outlines";
+        words += plan.steps.smooth_noise      ? ": sensor"
+                 : plan.steps.remove_spikes   ? ": gentle"
+                 : plan.steps.smooth_outlines ? ": holes and outlines"
+                                              : ": holes alone";
         if (plan.steps.smooth_noise != plan.steps.sharpen_silhouettes)
             words += plan.steps.smooth_noise ? " without silhouettes" : ", silhouettes";
     }
