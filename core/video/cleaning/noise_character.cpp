@@ -98,13 +98,11 @@ float mean_of_part(const BandPicture& of, int left, int top, int side, const Val
     return static_cast<float>(sum / (side * side));
 }
 
-/// The share of its variance that noise with this correlation from frame to frame shows in second
-/// differences: 1 - 4/3 r + 1/3 r^2 where each frame's depends on the one before.
-float shown_in_time(float kept) {
+}  // namespace
+
+float shown_in_time(float kept) noexcept {
     return 1.0F - (4.0F - kept) * kept / 3.0F;
 }
-
-}  // namespace
 
 /// What the tiles of one range of levels have.
 struct NoiseCharacterMeter::Bin {
@@ -215,7 +213,6 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& movi
                                                             float kept) const {
     Energies standing{};
     const float shown = std::max(shown_in_time(kept), kShownAtLeast);
-    const float shared = (1.0F + kept) / (1.0F - kept);
     if (count_ <= kFirstFrames) return standing;
     constexpr auto kFirst = static_cast<float>(kFirstFrames);
     const auto all = static_cast<float>(count_);
@@ -241,7 +238,7 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& movi
         const Energies changing = energies_of(of_change, at % columns_, at / columns_);
         // What moves is in the change, and not in the mean: it would be taken for little noise.
         const float moved = left * std::accumulate(changing.begin(), changing.end(), 0.0F);
-        if (moved > kMoves * variance * std::min(shared / all, 1.0F)) continue;
+        if (moved > kMoves * variance * std::min(frames_as_one(kept) / all, 1.0F)) continue;
         for (std::size_t b = 0; b < kNoiseBands; ++b)
             shares[b].push_back((whole[b] - left * changing[b]) / variance);
     }

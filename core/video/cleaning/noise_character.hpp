@@ -16,6 +16,18 @@ namespace dibhr {
 /// The highest correlation of noise from frame to frame that is measured or read.
 inline constexpr float kMostKeptNoise = 0.9F;
 
+/// Less noise is not felt, nor told from none: in parts of the highest level (0.1 px of 255).
+inline constexpr float kLeastNoise = 0.1F / 255.0F;
+
+/// Of the variance of noise with this correlation from frame to frame: what second differences in
+/// time show, 1 - 4/3 r + 1/3 r^2 where each frame's noise depends on the one before.
+[[nodiscard]] float shown_in_time(float kept) noexcept;
+
+/// How many times as many frames with such noise have a mean as even as independent ones.
+[[nodiscard]] inline float frames_as_one(float kept) noexcept {
+    return (1.0F + kept) / (1.0F - kept);
+}
+
 /// Independent of how much noise there is.
 struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.
