@@ -33,6 +33,9 @@ constexpr double kQuietShare = 0.4;
 constexpr double kOfSecondDifference = 1.2533141 / 2.4494897;
 constexpr double kOfRoughness = 1.2533141 / 1.1180340;
 
+/// Coarser grain would be taken for shapes, too.
+constexpr double kMostCoarseness = 5.0;
+
 constexpr int kSmall_px = 320;  ///< enough columns to compare the scales of frames
 
 /// Every n-th pixel, so that at most kSmall_px columns are left.
@@ -54,6 +57,20 @@ struct Sample {
     double noise;  ///< parts of the highest level
     double weight;
 };
+
+/// By how many times all grain of a single picture is more than what roughness from pixel to pixel
+/// shows of it.
+double coarseness_of(const std::vector<Sample>& rough, const std::vector<LevelNoise>& grain) {
+    double ratios = 0.0;
+    double weight = 0.0;
+    for (const LevelNoise& one : grain)
+        for (const Sample& s : rough) {
+            if (std::fabs(s.away - one.away) > 0.5 / kBins || !(s.noise > 0.0)) continue;
+            ratios += s.weight * one.deviation / s.noise;
+            weight += s.weight;
+        }
+    return weight > 0.0 ? std::clamp(ratios / weight, 1.0, kMostCoarseness) : 1.0;
+}
 
 /// Factors of {1, away, away^2}.
 using Powers = std::array<double, 3>;
@@ -233,20 +250,8 @@ DepthNoise NoiseMeter::noise() const {
         samples.push_back({away, quantile(noises[k], kQuietShare),
                            std::sqrt(static_cast<double>(noises[k].size()))});
     }
-    // Roughness from pixel to pixel shows little of coarse grain.
-    if (const std::vector<LevelNoise> still = character_.still_noise(); !still.empty()) {
-        const auto finest = [&](double away) {
-            double least = 0.0;
-            for (const Sample& s : samples)
-                if (std::fabs(s.away - away) < 0.5 / kBins) least = s.noise;
-            return least;
-        };
-        std::vector<Sample> coarse;
-        for (const LevelNoise& one : still)
-            coarse.push_back(
-                {one.away, std::max(one.deviation, finest(one.away)), std::sqrt(one.tiles)});
-        samples = std::move(coarse);
-    }
+    const double coarseness = coarseness_of(samples, character_.still_noise());
+    for (Sample& sample : samples) sample.noise *= coarseness;
     DepthNoise noise;
     noise.per_frame_scale = has_per_frame_scale();
     noise.character = character_.character();

@@ -344,17 +344,14 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKeptNoise);
         character.standing = standing(character.bands, character.kept);
     }
-    if (count_ == 1) {  // a single picture's grain may be coarse, too
-        Energies whole{};
-        for (const Bin& bin : all) {
-            const Energies grain = grain_in(bin);
-            for (std::size_t b = 0; b < kNoiseBands; ++b)
-                whole[b] += static_cast<float>(bin.in_space.size()) * grain[b];
-        }
-        const float sum = std::accumulate(whole.begin(), whole.end(), 0.0F);
-        for (std::size_t b = 0; sum > 0.0F && b < kNoiseBands; ++b)
-            character.bands[b] = whole[b] / sum;
-    }
+    Energies whole{};
+    const std::vector<Energies> still = still_grain(all);
+    for (std::size_t k = 0; k < still.size(); ++k)
+        for (std::size_t b = 0; b < kNoiseBands; ++b)
+            whole[b] += static_cast<float>(all[k].in_space.size()) * still[k][b];
+    const float energy = std::accumulate(whole.begin(), whole.end(), 0.0F);
+    for (std::size_t b = 0; energy > 0.0F && b < kNoiseBands; ++b)
+        character.bands[b] = whole[b] / energy;
     // What the finest band has in space beyond time and rounding stands still. A texture has more
     // in the coarser bands, or varies from place to place: it is no noise.
     double sum = 0.0;
@@ -380,31 +377,48 @@ NoiseCharacter NoiseCharacterMeter::character() const {
     return character;
 }
 
-NoiseCharacterMeter::Energies NoiseCharacterMeter::grain_in(const Bin& bin) {
+NoiseCharacterMeter::Energies NoiseCharacterMeter::grain_in(const Bin& bin, float highest) {
     Energies grain{};
     if (bin.in_space.size() < kTilesOfBin) return grain;
     Energies here{};
     for (std::size_t b = 0; b < kNoiseBands; ++b)
         here[b] = quantile_of(bin.of(bin.in_space, b), kSmoothestTiles);
-    if (median_of(bin.of(bin.in_space, 0)) > kEvenNoise * kEvenNoise * here[0]) return grain;
-    // Shapes have far more in each coarser band: up to the last dip before that it is grain.
+    // Shapes have far more in each coarser band: up to the last dip before that it is grain. They
+    // vary from place to place, too.
     for (std::size_t b = 0; b < kBandsOfGrain; ++b) {
+        const float typical = median_of(bin.of(bin.in_space, b));
+        if (typical > kEvenNoise * kEvenNoise * here[b]) break;
         if (here[b + 1] > kMostRiseOfGrain * here[b]) break;
         if (here[b + 1] < kDip * kDip * here[b]) std::copy_n(here.begin(), b + 1, grain.begin());
     }
+    if (std::accumulate(grain.begin(), grain.end(), 0.0F) < square(kLeastNoise * highest))
+        return {};
+    return grain;
+}
+
+std::vector<NoiseCharacterMeter::Energies> NoiseCharacterMeter::still_grain(
+    const std::vector<Bin>& bins) const {
+    if (count_ != 1) return {};
+    std::vector<Energies> grain;
+    std::size_t tiles = 0;
+    std::size_t grained = 0;
+    for (const Bin& bin : bins) {
+        grain.push_back(grain_in(bin, static_cast<float>(highest_)));
+        tiles += bin.in_space.size();
+        if (grain.back().front() > 0.0F) grained += bin.in_space.size();
+    }
+    if (2 * grained <= tiles) return {};
     return grain;
 }
 
 std::vector<LevelNoise> NoiseCharacterMeter::still_noise() const {
     std::vector<LevelNoise> noises;
-    if (count_ != 1) return noises;
-    const std::vector<Bin> all = bins();
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const Energies grain = grain_in(all[k]);
-        const double sum = static_cast<double>(std::accumulate(grain.begin(), grain.end(), 0.0F));
-        if (!(sum > 0.0)) continue;
-        noises.push_back({1.0 - (static_cast<double>(k) + 0.5) / kCharacterBins,
-                          std::sqrt(sum) / highest_, static_cast<double>(all[k].in_space.size())});
+    const std::vector<Energies> grain = still_grain(bins());
+    for (std::size_t k = 0; k < grain.size(); ++k) {
+        const float energy = std::accumulate(grain[k].begin(), grain[k].end(), 0.0F);
+        if (energy > 0.0F)
+            noises.push_back({1.0 - (static_cast<double>(k) + 0.5) / kCharacterBins,
+                              static_cast<double>(std::sqrt(energy)) / highest_});
     }
     return noises;
 }

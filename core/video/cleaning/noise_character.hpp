@@ -52,7 +52,6 @@ struct LevelStep {
 struct LevelNoise {
     double away;       ///< 1 - level / highest
     double deviation;  ///< parts of the highest level
-    double tiles;      ///< in how many tiles it was seen
 };
 
 /// Measures the middle of frames (at most 640 x 480 px), tile by tile where all pixels have data.
@@ -63,8 +62,8 @@ class NoiseCharacterMeter {
 
     [[nodiscard]] NoiseCharacter character() const;
     [[nodiscard]] std::vector<LevelStep> steps() const;
-    /// Grain of a single picture, however coarse: the deviation in the smoothest tiles. Empty:
-    /// finer bands have no more than coarser ones, as shapes do, or not all tiles alike.
+    /// Grain of a single picture, however coarse: the deviation in the smoothest tiles. Empty: in
+    /// most tiles finer bands have no more than coarser ones, as shapes do, or not all alike.
     [[nodiscard]] std::vector<LevelNoise> still_noise() const;
 
   private:
@@ -91,8 +90,10 @@ class NoiseCharacterMeter {
     void compare_frames();
     [[nodiscard]] std::vector<Bin> bins() const;
     [[nodiscard]] static std::optional<float> step_in(const Bin& bin);
-    /// Of one picture's grain in each band, 0 in those that may be shape; all 0: there is none.
-    [[nodiscard]] static Energies grain_in(const Bin& bin);
+    /// What one picture's grain has in each band, of each bin, 0 in bands that may be shape. Empty:
+    /// most tiles may have none.
+    [[nodiscard]] std::vector<Energies> still_grain(const std::vector<Bin>& bins) const;
+    [[nodiscard]] static Energies grain_in(const Bin& bin, float highest);
 
     double highest_{1.0};
     int columns_{0}, rows_{0};  ///< of tiles
