@@ -63,7 +63,7 @@ constexpr std::size_t kLeastKept = 16;
 std::string version_warning(const Session& session, bool cleaned_as_recorded) {
     if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return {};
     if (cleaned_as_recorded && is_cleaned(session))
-        return "its surfaces were made by an earlier dibhr, which treated holes and spikes "
+        return "its surfaces were made by an earlier dibhr, which cleaned "
                "otherwise: proxies may differ from those recorded";
     if (has_motion(session))
         return "its surfaces' motion was found by an earlier dibhr, which did so otherwise: "

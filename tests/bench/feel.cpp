@@ -161,6 +161,11 @@ Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
                                     [&](const Frame& frame) { return frame.time_s >= begin_s; });
     stretch.raw.erase(stretch.raw.begin(), stretch.raw.begin() + (first - stretch.frames.begin()));
     stretch.frames.erase(stretch.frames.begin(), first);
+    if (stretch.frames.size() == 1) {  // a single picture is shown as long as it is touched
+        stretch.frames.push_back(stretch.frames.front());
+        stretch.frames.back().time_s += kTouched_s;
+        stretch.raw.push_back(stretch.raw.front());
+    }
     const double there_s = stretch.frames.back().time_s - stretch.frames.front().time_s;
     stretch.milliseconds =
         static_cast<std::size_t>(std::lround(std::min(kTouched_s, there_s) / test::kFingerTick_s));

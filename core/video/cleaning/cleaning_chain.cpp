@@ -33,7 +33,9 @@ constexpr CleaningSteps kWithoutSilhouettes = [] {
     return steps;
 }();
 /// Seen ground keeps its levels.
-constexpr CleaningSteps kHolesAlone{.fill_holes = true, .smooth_outlines = true};
+constexpr CleaningSteps kHolesAndOutlines{.fill_holes = true, .smooth_outlines = true};
+/// All that is seen keeps its level.
+constexpr CleaningSteps kHolesAlone{.fill_holes = true};
 constexpr double kReportedRelief_px = 255.0;
 
 /// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
@@ -110,16 +112,17 @@ std::vector<CleaningSteps> ways_of_automatic(std::size_t pixels) {
     std::vector<CleaningSteps> ways{kLowNoiseSteps};
     if (pixels <= kMostPixelsForSensor)
         ways.insert(ways.end(), {kSensorSteps, kWithoutSilhouettes});
-    ways.insert(ways.end(), {kGentleSteps, kHolesAlone});
+    ways.insert(ways.end(), {kGentleSteps, kHolesAndOutlines, kHolesAlone});
     return ways;
 }
 
 std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     std::string words(name_of(options.preset));
     if (options.preset == CleaningPreset::automatic) {
-        words += plan.steps.smooth_noise    ? ": sensor"
-                 : plan.steps.remove_spikes ? ": gentle"
-                                            : ": holes and outlines";
+        words += plan.steps.smooth_noise      ? ": sensor"
+                 : plan.steps.remove_spikes   ? ": gentle"
+                 : plan.steps.smooth_outlines ? ": holes and outlines"
+                                              : ": holes alone";
         if (plan.steps.smooth_noise != plan.steps.sharpen_silhouettes)
             words += plan.steps.smooth_noise ? " without silhouettes" : ", silhouettes";
     }
@@ -233,16 +236,17 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     const SingleFrameDepth& here = *frames[now];
     const bool steady = plan.steps.steady && frames.size() > 1;
     DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
+    std::vector<std::uint8_t> unseen = here.unseen;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
         if (plan.steps.smooth_noise && steady)
             noise_.smooth(depth, plan.noise, temporal_.evidence());
         else if (plan.steps.smooth_noise)
             noise_.smooth(depth, plan.noise);
-        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
+        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth, unseen);
     }
-    if (!here.unseen.empty())
-        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);
+    if (!unseen.empty())
+        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen));
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
         frame.undilated = std::make_shared<const DepthImage>(std::move(depth));
         depth = finger_.dilated(*frame.undilated, plan.finger);

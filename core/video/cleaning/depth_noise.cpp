@@ -33,6 +33,9 @@ constexpr double kQuietShare = 0.4;
 constexpr double kOfSecondDifference = 1.2533141 / 2.4494897;
 constexpr double kOfRoughness = 1.2533141 / 1.1180340;
 
+/// Coarser grain would be taken for shapes, too.
+constexpr double kMostCoarseness = 5.0;
+
 constexpr int kSmall_px = 320;  ///< enough columns to compare the scales of frames
 
 /// Every n-th pixel, so that at most kSmall_px columns are left.
@@ -54,6 +57,20 @@ struct Sample {
     double noise;  ///< parts of the highest level
     double weight;
 };
+
+/// By how many times all grain of a single picture is more than what roughness from pixel to pixel
+/// shows of it.
+double coarseness_of(const std::vector<Sample>& rough, const std::vector<LevelNoise>& grain) {
+    double ratios = 0.0;
+    double weight = 0.0;
+    for (const LevelNoise& one : grain)
+        for (const Sample& s : rough) {
+            if (std::fabs(s.away - one.away) > 0.5 / kBins || !(s.noise > 0.0)) continue;
+            ratios += s.weight * one.deviation / s.noise;
+            weight += s.weight;
+        }
+    return weight > 0.0 ? std::clamp(ratios / weight, 1.0, kMostCoarseness) : 1.0;
+}
 
 /// Factors of {1, away, away^2}.
 using Powers = std::array<double, 3>;
@@ -123,16 +140,16 @@ std::string text_of(const DepthNoise& noise) {
         character += " " + text(value);
     for (const float share : noise.character.standing) character += " " + text(share);
     character += " " + text(noise.character.kept_in_motion);
-    return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
-           text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0") + character;
+    return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " 0 " +
+           (noise.per_frame_scale ? "1" : "0") + character;
 }
 
 std::optional<DepthNoise> noise_in(const std::string& text) {
     std::istringstream words(text);
     words.imbue(std::locale::classic());
     DepthNoise noise;
-    words >> noise.constant >> noise.linear >> noise.square >> noise.correlation >>
-        noise.per_frame_scale;
+    float not_used = 0.0F;  // by earlier versions, how alike neighbouring pixels are
+    words >> noise.constant >> noise.linear >> noise.square >> not_used >> noise.per_frame_scale;
     if (!words) return std::nullopt;
     DepthNoise whole = noise;
     for (float& share : whole.character.bands) words >> share;
@@ -204,7 +221,6 @@ bool NoiseMeter::has_per_frame_scale() const {
 
 DepthNoise NoiseMeter::noise() const {
     std::array<std::vector<double>, kBins> noises;
-    std::vector<double> grains;
     const double highest = last_.highest_level;
     const bool moves = std::any_of(tiles_.begin(), tiles_.end(), [](const Tile& tile) {
         return tile.shaken.count >= kLeastChanges;
@@ -217,12 +233,11 @@ DepthNoise NoiseMeter::noise() const {
         if (tile.rough.count < kLeastChanges) continue;
         if (has_surfaces && !is_one_surface(tile)) continue;
         if (moves && tile.shaken.count < kLeastChanges) continue;
-        const double grain = tile.rough.of_absolutes() * kOfRoughness;
-        const double noise = moves ? tile.shaken.of_absolutes() * kOfSecondDifference : grain;
+        const double noise = moves ? tile.shaken.of_absolutes() * kOfSecondDifference
+                                   : tile.rough.of_absolutes() * kOfRoughness;
         const double height = tile.level.of_absolutes() / highest;
         const auto bin = static_cast<std::size_t>(std::clamp(height, 0.0, 0.999) * kBins);
         noises[bin].push_back(noise / highest);
-        if (moves && noise > 0.0) grains.push_back(grain / noise);
     }
     std::size_t fullest = 0;
     for (const std::vector<double>& bin : noises) fullest = std::max(fullest, bin.size());
@@ -235,17 +250,17 @@ DepthNoise NoiseMeter::noise() const {
         samples.push_back({away, quantile(noises[k], kQuietShare),
                            std::sqrt(static_cast<double>(noises[k].size()))});
     }
+    const double coarseness = coarseness_of(samples, character_.still_noise());
+    for (Sample& sample : samples) sample.noise *= coarseness;
     DepthNoise noise;
     noise.per_frame_scale = has_per_frame_scale();
     noise.character = character_.character();
     noise.step = step();
     if (samples.empty()) return noise;
     const Powers powers = fitted(samples);
-    const double grain = grains.empty() ? 1.0 : std::min(1.0, quantile(grains, 0.5));
     noise.constant = static_cast<float>(powers[0]);
     noise.linear = static_cast<float>(powers[1]);
     noise.square = static_cast<float>(powers[2]);
-    noise.correlation = static_cast<float>(1.0 - grain);
     return noise;
 }
 

@@ -35,8 +35,6 @@ struct DepthNoise {
     float constant{0.0F};
     float linear{0.0F};  ///< added at the farthest level, falling to 0 at the nearest
     float square{0.0F};  ///< likewise, falling with the square
-    /// How far neighbouring pixels have the same noise, in [0, 1]: 0 is grain, 1 is blotches.
-    float correlation{0.0F};
     /// Each frame has its own scale and shift, as from estimators of depth from single pictures.
     bool per_frame_scale{false};
     NoiseCharacter character{};

@@ -14,9 +14,9 @@ namespace {
 constexpr float kMostApart = 6.4F;
 constexpr float kMiddle = 0.5F * static_cast<float>(kGroupInTime - 1);
 
-DIBHR_VECTOR_CLONES void average_four(const float* a, const float* b, const float* c,
-                                      const float* d, const NoiseBound& deviation,
-                                      float* __restrict out, std::size_t count) {
+DIBHR_VECTOR_CLONES void average_if_alike(const float* a, const float* b, const float* c,
+                                          const float* d, const NoiseBound& deviation,
+                                          float* __restrict out, std::size_t count) {
     const NoiseBound of = deviation;
     for (std::size_t i = 0; i < count; ++i) {
         const float least = std::min(std::min(a[i], b[i]), std::min(c[i], d[i]));
@@ -132,7 +132,7 @@ void FrameGroups::average(const Four& frames, const Shifts& shifts, const NoiseB
         for (std::size_t k = 0; k < kGroupInTime; ++k)
             rows[k] = shifted_row(frames[k]->depth.levels.data(), size, shifts[k], j, 0, columns,
                                   kNoLevel, row_.data() + k * columns);
-        average_four(rows[0], rows[1], rows[2], rows[3], noise, out, columns);
+        average_if_alike(rows[0], rows[1], rows[2], rows[3], noise, out, columns);
         for (std::size_t k = 0; k < kGroupInTime; ++k)
             if (!frames[k]->filled.empty())
                 leave_out(shifted_row<std::uint8_t>(frames[k]->filled.data(), size, shifts[k], j, 0,

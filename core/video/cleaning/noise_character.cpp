@@ -27,6 +27,8 @@ constexpr double kQuietTiles = 0.4;       ///< quantile, as of NoiseMeter
 constexpr float kAlsoQuiet = 1.7F;        ///< times its variance: tiles with the same noise
 constexpr double kSmoothestTiles = 0.2;   ///< quantile: tiles without shapes in a band
 constexpr float kDip = 0.9F;              ///< deviation of the second band in that of the first
+constexpr std::size_t kBandsOfGrain = 3;  ///< of one picture, at most
+constexpr float kMostRiseOfGrain = 4.0F;  ///< from a band to the next, of variances
 constexpr float kEvenNoise = 1.7F;        ///< median in the smoothest tiles' deviation
 constexpr double kPlainTiles = 0.1;       ///< share: of the tiles, those with least shape
 constexpr float kShownAtLeast = 0.3F;     ///< as what smooths by it: codecs repeat pixels
@@ -96,13 +98,11 @@ float mean_of_part(const BandPicture& of, int left, int top, int side, const Val
     return static_cast<float>(sum / (side * side));
 }
 
-/// The share of its variance that noise with this correlation from frame to frame shows in second
-/// differences: 1 - 4/3 r + 1/3 r^2 where each frame's depends on the one before.
-float shown_in_time(float kept) {
+}  // namespace
+
+float shown_in_time(float kept) noexcept {
     return 1.0F - (4.0F - kept) * kept / 3.0F;
 }
-
-}  // namespace
 
 /// What the tiles of one range of levels have.
 struct NoiseCharacterMeter::Bin {
@@ -213,7 +213,6 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& movi
                                                             float kept) const {
     Energies standing{};
     const float shown = std::max(shown_in_time(kept), kShownAtLeast);
-    const float shared = (1.0F + kept) / (1.0F - kept);
     if (count_ <= kFirstFrames) return standing;
     constexpr auto kFirst = static_cast<float>(kFirstFrames);
     const auto all = static_cast<float>(count_);
@@ -239,7 +238,7 @@ NoiseCharacterMeter::Energies NoiseCharacterMeter::standing(const Energies& movi
         const Energies changing = energies_of(of_change, at % columns_, at / columns_);
         // What moves is in the change, and not in the mean: it would be taken for little noise.
         const float moved = left * std::accumulate(changing.begin(), changing.end(), 0.0F);
-        if (moved > kMoves * variance * std::min(shared / all, 1.0F)) continue;
+        if (moved > kMoves * variance * std::min(frames_as_one(kept) / all, 1.0F)) continue;
         for (std::size_t b = 0; b < kNoiseBands; ++b)
             shares[b].push_back((whole[b] - left * changing[b]) / variance);
     }
@@ -345,6 +344,14 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         character.kept_in_motion = std::clamp(of_two.second - 1.0F, 0.0F, kMostKeptNoise);
         character.standing = standing(character.bands, character.kept);
     }
+    Energies whole{};
+    const std::vector<Energies> still = still_grain(all);
+    for (std::size_t k = 0; k < still.size(); ++k)
+        for (std::size_t b = 0; b < kNoiseBands; ++b)
+            whole[b] += static_cast<float>(all[k].in_space.size()) * still[k][b];
+    const float energy = std::accumulate(whole.begin(), whole.end(), 0.0F);
+    for (std::size_t b = 0; energy > 0.0F && b < kNoiseBands; ++b)
+        character.bands[b] = whole[b] / energy;
     // What the finest band has in space beyond time and rounding stands still. A texture has more
     // in the coarser bands, or varies from place to place: it is no noise.
     double sum = 0.0;
@@ -368,6 +375,52 @@ NoiseCharacter NoiseCharacterMeter::character() const {
         character.fixed = static_cast<float>(
             std::sqrt(sum / tiles / static_cast<double>(kWhiteBands[0])) / highest_);
     return character;
+}
+
+NoiseCharacterMeter::Energies NoiseCharacterMeter::grain_in(const Bin& bin, float highest) {
+    Energies grain{};
+    if (bin.in_space.size() < kTilesOfBin) return grain;
+    Energies here{};
+    for (std::size_t b = 0; b < kNoiseBands; ++b)
+        here[b] = quantile_of(bin.of(bin.in_space, b), kSmoothestTiles);
+    // Shapes have far more in each coarser band: up to the last dip before that it is grain. They
+    // vary from place to place, too.
+    for (std::size_t b = 0; b < kBandsOfGrain; ++b) {
+        const float typical = median_of(bin.of(bin.in_space, b));
+        if (typical > kEvenNoise * kEvenNoise * here[b]) break;
+        if (here[b + 1] > kMostRiseOfGrain * here[b]) break;
+        if (here[b + 1] < kDip * kDip * here[b]) std::copy_n(here.begin(), b + 1, grain.begin());
+    }
+    if (std::accumulate(grain.begin(), grain.end(), 0.0F) < square(kLeastNoise * highest))
+        return {};
+    return grain;
+}
+
+std::vector<NoiseCharacterMeter::Energies> NoiseCharacterMeter::still_grain(
+    const std::vector<Bin>& bins) const {
+    if (count_ != 1) return {};
+    std::vector<Energies> grain;
+    std::size_t tiles = 0;
+    std::size_t grained = 0;
+    for (const Bin& bin : bins) {
+        grain.push_back(grain_in(bin, static_cast<float>(highest_)));
+        tiles += bin.in_space.size();
+        if (grain.back().front() > 0.0F) grained += bin.in_space.size();
+    }
+    if (2 * grained <= tiles) return {};
+    return grain;
+}
+
+std::vector<LevelNoise> NoiseCharacterMeter::still_noise() const {
+    std::vector<LevelNoise> noises;
+    const std::vector<Energies> grain = still_grain(bins());
+    for (std::size_t k = 0; k < grain.size(); ++k) {
+        const float energy = std::accumulate(grain[k].begin(), grain[k].end(), 0.0F);
+        if (energy > 0.0F)
+            noises.push_back({1.0 - (static_cast<double>(k) + 0.5) / kCharacterBins,
+                              static_cast<double>(std::sqrt(energy)) / highest_});
+    }
+    return noises;
 }
 
 /// The step of a bin's levels, 0 where they are continuous. Nothing: there are too few.

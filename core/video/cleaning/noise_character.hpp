@@ -16,6 +16,18 @@ namespace dibhr {
 /// The highest correlation of noise from frame to frame that is measured or read.
 inline constexpr float kMostKeptNoise = 0.9F;
 
+/// Less noise is not felt, nor told from none: in parts of the highest level (0.1 px of 255).
+inline constexpr float kLeastNoise = 0.1F / 255.0F;
+
+/// Of the variance of noise with this correlation from frame to frame: what second differences in
+/// time show, 1 - 4/3 r + 1/3 r^2 where each frame's noise depends on the one before.
+[[nodiscard]] float shown_in_time(float kept) noexcept;
+
+/// How many times as many frames with such noise have a mean as even as independent ones.
+[[nodiscard]] inline float frames_as_one(float kept) noexcept {
+    return (1.0F + kept) / (1.0F - kept);
+}
+
 /// Independent of how much noise there is.
 struct NoiseCharacter {
     /// The share of a pixel's variance that each band of NoiseBands has.
@@ -36,6 +48,12 @@ struct LevelStep {
     double tiles;  ///< in how many tiles it was seen
 };
 
+/// The grain of levels about as far away.
+struct LevelNoise {
+    double away;       ///< 1 - level / highest
+    double deviation;  ///< parts of the highest level
+};
+
 /// Measures the middle of frames (at most 640 x 480 px), tile by tile where all pixels have data.
 class NoiseCharacterMeter {
   public:
@@ -44,6 +62,9 @@ class NoiseCharacterMeter {
 
     [[nodiscard]] NoiseCharacter character() const;
     [[nodiscard]] std::vector<LevelStep> steps() const;
+    /// Grain of a single picture, however coarse: the deviation in the smoothest tiles. Empty: in
+    /// most tiles finer bands have no more than coarser ones, as shapes do, or not all alike.
+    [[nodiscard]] std::vector<LevelNoise> still_noise() const;
 
   private:
     using Energies = std::array<float, kNoiseBands>;
@@ -69,6 +90,10 @@ class NoiseCharacterMeter {
     void compare_frames();
     [[nodiscard]] std::vector<Bin> bins() const;
     [[nodiscard]] static std::optional<float> step_in(const Bin& bin);
+    /// What one picture's grain has in each band, of each bin, 0 in bands that may be shape. Empty:
+    /// most tiles may have none.
+    [[nodiscard]] std::vector<Energies> still_grain(const std::vector<Bin>& bins) const;
+    [[nodiscard]] static Energies grain_in(const Bin& bin, float highest);
 
     double highest_{1.0};
     int columns_{0}, rows_{0};  ///< of tiles

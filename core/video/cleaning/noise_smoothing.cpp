@@ -16,10 +16,9 @@ namespace dibhr {
 namespace {
 
 constexpr int kTile_px = TimeEvidence::kTile_px;
-constexpr std::size_t kScales = 5;            ///< pairs up to 2 * 2 * 2^4 = 64 px apart
-constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level
-constexpr float kBound = 5.0F;                ///< standard deviations
-constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
+constexpr std::size_t kScales = 5;  ///< pairs up to 2 * 2 * 2^4 = 64 px apart
+constexpr float kBound = 5.0F;      ///< standard deviations
+constexpr float kRate = 0.2F;       ///< of the change towards four pairs; stable up to 0.25
 /// Where fewer frames agree than that, of those that are, the image's own roughness tells of noise,
 /// too: what stands still in more is shape. At least kLeastMany, so that one picture is rough.
 constexpr float kManyFrames = 8.0F, kManyShare = 0.75F, kLeastMany = 4.0F;
@@ -207,7 +206,7 @@ void NoiseSmoother::find_variances(const DepthImage& image, const DepthNoise& no
     const float least_variance = least(0.0F) * least(0.0F);
     variances_.resize(columns * rows);
     if (evidence.variances.empty()) {
-        const float shown = 1.0F - (4.0F - noise.character.kept) * noise.character.kept / 3.0F;
+        const float shown = shown_in_time(noise.character.kept);
         const NoiseBound deviation(noise, 1.0F / std::sqrt(std::max(shown, kLeastShown)),
                                    kLeastNoise, image.highest_level);
         for (std::size_t k = 0; k < variances_.size(); ++k) {
@@ -300,7 +299,7 @@ void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
     for (const float share : character.standing) stands += share;
     left_.moving.set_size((image.columns + 1) / 2, (image.rows + 1) / 2);
     left_.standing.set_size(stands > 0.0F ? left_.moving.columns : 0, left_.moving.rows);
-    const float per_weight = (1.0F - character.kept) / (1.0F + character.kept);
+    const float per_weight = frames_as_one(-character.kept);  // the inverse
     constexpr int kHalf = kTile_px / 2;
     row_.resize(static_cast<std::size_t>(tile_columns_ * kHalf));
     per_bound_of_tile_.resize(variances_.size());

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -157,16 +158,18 @@ void each_in_square(int reach, const Visit& visit) {
         for (int right = -reach; right <= reach; ++right) visit(right, down);
 }
 
-/// Of the pixels around one, and of the one itself.
-float median_around(const DepthImage& image, std::uint32_t pixel, int reach) {
-    std::array<float, kSide_px * kSide_px> levels{};
-    auto end = levels.begin();
+/// The pixel whose level is the median of those around one, and of the one itself.
+std::uint32_t median_around(const DepthImage& image, std::uint32_t pixel, int reach) {
+    std::array<std::pair<float, std::uint32_t>, kSide_px * kSide_px> all{};
+    auto end = all.begin();
     each_in_square(reach, [&](int right, int down) {
-        *end++ = *(image.levels.data() + pixel + down * image.columns + right);
+        const auto near = static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(pixel) + right +
+                                                     std::ptrdiff_t{down} * image.columns);
+        *end++ = {image.levels[near], near};
     });
-    const auto middle = levels.begin() + (end - levels.begin()) / 2;
-    std::nth_element(levels.begin(), middle, end);
-    return *middle;
+    const auto middle = all.begin() + (end - all.begin()) / 2;
+    std::nth_element(all.begin(), middle, end);
+    return middle->second;
 }
 
 /// A pixel and its four neighbours, without those on the border: visit(pixel).
@@ -238,21 +241,28 @@ class Sides {
         return largest_ < kTwoSides * (high - low) ? 0.0F : sum;
     }
 
-    /// Mean level of the nearest pixels on a side; NaN: there are none.
-    [[nodiscard]] float level(bool high) const {
+    struct Level {
+        float level;  ///< NaN: of no pixel
+        bool unseen;  ///< of most pixels
+    };
+    /// Mean level of the nearest pixels on a side. `unseen`: the mark of this one; null: all were
+    /// seen.
+    [[nodiscard]] Level level(bool high, const std::uint8_t* unseen) const {
         for (int reach = 1; reach <= kReach_px; ++reach) {
             float sum = 0.0F;
             int count = 0;
+            int marks = 0;
             for (int y = -reach; y <= reach; ++y)
                 for (int x = -reach; x <= reach; ++x) {
                     const float side = of(x, y);
                     if ((x == 0 && y == 0) || (high ? side <= kOnSide : side >= -kOnSide)) continue;
                     sum += at_[y * columns_ + x];
+                    marks += unseen != nullptr ? unseen[y * columns_ + x] : 0;
                     ++count;
                 }
-            if (count > 0) return sum / static_cast<float>(count);
+            if (count > 0) return {sum / static_cast<float>(count), 2 * marks > count};
         }
-        return kNaN;
+        return {kNaN, false};
     }
 
   private:
@@ -265,25 +275,25 @@ class Sides {
 
 }  // namespace
 
-void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth) {
+void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth,
+                             std::span<std::uint8_t> unseen) {
     const float step = step_of(image);
     find_steps(image, step);
-    turn_sides(image);
+    turn_sides(image, unseen);
     keep_teeth(image, step);
     touched_ = pixels_;
     for (int k = 0; k < kMostPasses && !pixels_.empty(); ++k)
-        take_teeth(image, step, k < kSpur_px ? 1 : 0);
+        take_teeth(image, step, k < kSpur_px ? 1 : 0, unseen);
     if (teeth_ <= recorded_teeth) return;
     pixels_.swap(touched_);
     keep_teeth(image, step);
     for (int k = 0; k < kMostPasses && !pixels_.empty() && teeth_ > recorded_teeth; ++k)
-        take_teeth(image, step, 1);
-    if (teeth_ <= recorded_teeth) return;
+        take_teeth(image, step, 1, unseen);
     for (int reach = 1; reach <= kReach_px && teeth_ > recorded_teeth; ++reach) {
         find_steps(image, step);
         keep_teeth(image, step);
         for (const std::uint32_t pixel : pixels_)
-            if (teeth_ > recorded_teeth) take_medians(image, pixel, step, reach);
+            if (teeth_ > recorded_teeth) take_medians(image, pixel, step, reach, unseen);
     }
 }
 
@@ -294,7 +304,7 @@ void OutlineSmoother::find_steps(const DepthImage& image, float step) {
 
 /// Moves pixels to the side that most around them have, all at once. pixels_ then has those around
 /// the moved ones, too: all that may be teeth.
-void OutlineSmoother::turn_sides(DepthImage& image) {
+void OutlineSmoother::turn_sides(DepthImage& image, std::span<std::uint8_t> unseen) {
     const auto is_inside = [](int at, int count) {
         return at >= kReach_px && at < count - kReach_px;
     };
@@ -309,12 +319,14 @@ void OutlineSmoother::turn_sides(DepthImage& image) {
         if (is_on_side && sides.is_on_line()) continue;
         const float most = sides.of_most();
         if (most == 0.0F || (is_on_side && (own > 0.0F) == (most > 0.0F))) continue;
-        const float level = sides.level(most > 0.0F);
-        if (!std::isnan(level)) turned_.emplace_back(pixel, level);
+        const Sides::Level taken =
+            sides.level(most > 0.0F, unseen.empty() ? nullptr : unseen.data() + pixel);
+        if (!std::isnan(taken.level)) turned_.push_back({pixel, taken.level, taken.unseen});
     }
-    for (const auto& [pixel, level] : turned_) {
-        image.levels[pixel] = level;
-        each_around(image, pixel, [&](std::uint32_t near) { pixels_.push_back(near); });
+    for (const Turned& turned : turned_) {
+        image.levels[turned.pixel] = turned.level;
+        if (!unseen.empty()) unseen[turned.pixel] = turned.unseen ? 1 : 0;
+        each_around(image, turned.pixel, [&](std::uint32_t near) { pixels_.push_back(near); });
     }
 }
 
@@ -328,13 +340,15 @@ void OutlineSmoother::keep_teeth(const DepthImage& image, float step) {
 
 /// Moves each tooth of pixels_ that leaves fewer, or as many if `as_many` is 1, one after the
 /// other; pixels_ then are the teeth beside those.
-void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_many) {
+void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_many,
+                                 std::span<std::uint8_t> unseen) {
     const auto is_tooth = [&](std::uint32_t pixel) { return is_tooth_at(image, pixel, step); };
     const auto teeth_around = [&](std::uint32_t pixel) {
         std::size_t count = 0;
         each_around(image, pixel, [&](std::uint32_t near) { count += is_tooth(near) ? 1 : 0; });
         return count;
     };
+    const auto columns = static_cast<std::uint32_t>(image.columns);
     turned_.clear();
     for (const std::uint32_t pixel : pixels_) {
         if (!is_tooth(pixel)) continue;
@@ -345,18 +359,22 @@ void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_m
         const float own = *at;
         const std::size_t before = teeth_around(pixel);
         // Of a tooth the two neighbours along the outline are farther away than the others' mean.
-        *at = std::fabs(down - own) > std::fabs(across - own) ? down : across;
+        const bool takes_down = std::fabs(down - own) > std::fabs(across - own);
+        *at = takes_down ? down : across;
         const std::size_t after = teeth_around(pixel);
         if (after >= before + as_many) {
             *at = own;
             continue;
         }
-        turned_.emplace_back(pixel, own);
+        const std::uint32_t apart = takes_down ? columns : 1;
+        const bool is_unseen = !unseen.empty() && unseen[pixel - apart] + unseen[pixel + apart] > 1;
+        turned_.push_back({pixel, *at, is_unseen});
+        if (!unseen.empty()) unseen[pixel] = is_unseen ? 1 : 0;
         teeth_ = teeth_ + after - before;
     }
     pixels_.clear();
-    for (const auto& turned : turned_)
-        each_around(image, turned.first, [&](std::uint32_t near) {
+    for (const Turned& turned : turned_)
+        each_around(image, turned.pixel, [&](std::uint32_t near) {
             if (is_tooth(near)) pixels_.push_back(near);
         });
     std::sort(pixels_.begin(), pixels_.end());
@@ -366,7 +384,8 @@ void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_m
 
 /// Where that leaves fewer teeth, the pixels around a tooth become the medians of those around
 /// each: some teeth only go together with their neighbours.
-void OutlineSmoother::take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach) {
+void OutlineSmoother::take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach,
+                                   std::span<std::uint8_t> unseen) {
     const int column = static_cast<int>(pixel) % image.columns;
     const int row = static_cast<int>(pixel) / image.columns;
     const int read_px = 2 * reach;  // around the tooth
@@ -387,14 +406,18 @@ void OutlineSmoother::take_medians(DepthImage& image, std::uint32_t pixel, float
     turned_.clear();
     each_in_square(reach, [&](int right, int down) {
         const std::uint32_t near = pixel_at(right, down);
-        turned_.emplace_back(near, median_around(image, near, reach));
+        const std::uint32_t median = median_around(image, near, reach);
+        turned_.push_back({near, image.levels[median], !unseen.empty() && unseen[median] != 0});
     });
-    for (auto& [near, level] : turned_) std::swap(image.levels[near], level);
+    for (Turned& turned : turned_) std::swap(image.levels[turned.pixel], turned.level);
     const std::size_t after = count_teeth();
-    if (after < before)
-        teeth_ = teeth_ + after - before;
-    else
-        for (const auto& [near, level] : turned_) image.levels[near] = level;
+    if (after >= before) {
+        for (const Turned& turned : turned_) image.levels[turned.pixel] = turned.level;
+        return;
+    }
+    teeth_ = teeth_ + after - before;
+    if (unseen.empty()) return;
+    for (const Turned& turned : turned_) unseen[turned.pixel] = turned.unseen ? 1 : 0;
 }
 
 std::size_t teeth_of(const DepthImage& image) {

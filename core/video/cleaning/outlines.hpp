@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -18,19 +18,27 @@ namespace dibhr {
 class OutlineSmoother {
   public:
     /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. While there are
-    /// more, lines one pixel wide are shortened, too, at most 64 times.
-    void smooth(DepthImage& image, std::size_t recorded_teeth);
+    /// more, lines one pixel wide are shortened, too, at most 64 times. `unseen`: 1 for each pixel
+    /// never seen, or empty; a pixel that changes sides takes the mark of its new neighbours, too.
+    void smooth(DepthImage& image, std::size_t recorded_teeth, std::span<std::uint8_t> unseen = {});
 
   private:
+    struct Turned {
+        std::uint32_t pixel;
+        float level;
+        bool unseen;
+    };
     void find_steps(const DepthImage& image, float step);
-    void turn_sides(DepthImage& image);
+    void turn_sides(DepthImage& image, std::span<std::uint8_t> unseen);
     void keep_teeth(const DepthImage& image, float step);
-    void take_teeth(DepthImage& image, float step, std::size_t as_many);
-    void take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach);
+    void take_teeth(DepthImage& image, float step, std::size_t as_many,
+                    std::span<std::uint8_t> unseen);
+    void take_medians(DepthImage& image, std::uint32_t pixel, float step, int reach,
+                      std::span<std::uint8_t> unseen);
 
     std::vector<std::uint32_t> pixels_{};   ///< beside a step; later teeth
     std::vector<std::uint32_t> touched_{};  ///< all that were teeth, at one time or another
-    std::vector<std::pair<std::uint32_t, float>> turned_{};
+    std::vector<Turned> turned_{};
     std::size_t teeth_{0};  ///< that are left
 };
 

@@ -9,7 +9,8 @@ namespace dibhr {
 /// silhouettes, time and noise; 8-bit steps in 128ths of a level. 4: silhouettes stay within the
 /// levels, and there are none in a picture of more than 3 million ramps. 5: time reaches 16 frames
 /// far, noise is weighed band by band; outlines without teeth, ramps as a whole; plain things move
-/// as their outlines do.
-inline constexpr int kSurfaceVersion = 5;
+/// as their outlines do. 6: coarse grain of single pictures is measured in full; marks of what was
+/// never seen follow outlines.
+inline constexpr int kSurfaceVersion = 6;
 
 }  // namespace dibhr

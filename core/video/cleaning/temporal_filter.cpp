@@ -24,10 +24,9 @@ constexpr std::size_t kMedianReach = 2;  ///< frames to each side
 constexpr float kAlike = 3.0F;  ///< standard deviations; beyond, a level may be another surface
 /// Noise has so many times the variance of the levels that mix, since the farthest do not.
 constexpr float kCutOff = 1.1F;
-constexpr int kTile_px = 16;                  ///< rows that are averaged together
-constexpr std::size_t kStillTile_px = 32;     ///< their columns that stand still or not as a whole
-constexpr int kRowStep_px = 4;                ///< every fourth row tells
-constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
+constexpr int kTile_px = 16;               ///< rows that are averaged together
+constexpr std::size_t kStillTile_px = 32;  ///< their columns that stand still or not as a whole
+constexpr int kRowStep_px = 4;             ///< every fourth row tells
 // A tile stands still if a group differs from the median of the nearest frames as noise does: by
 // its mean in deviations, and by its mean square in those of what both have.
 constexpr float kStillMean = 0.8F;
@@ -712,8 +711,7 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
     mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
-    const auto shared = [](float kept) { return (1.0F + kept) / (1.0F - kept); };
-    shared_ = {shared(noise.character.kept), shared(noise.character.kept_in_motion)};
+    shared_ = {frames_as_one(noise.character.kept), frames_as_one(noise.character.kept_in_motion)};
     gather(frames, now);
     far_ = {};
     if (count_ > 1)

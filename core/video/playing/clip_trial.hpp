@@ -19,9 +19,9 @@ class ClipTrial {
     /// Not cleaned: NaN is no data. Frames unlike the first one are ignored.
     void add(const DepthImage& frame);
 
-    /// The first of `ways` that feels like the best of all and like no cleaning, or better.
-    /// Nothing: there are too few frames, or too little smooth ground that stands still and is
-    /// seen.
+    /// The first of `ways` that feels like the best of all and like no cleaning, or better; the
+    /// last one if there is none. Nothing: there are too few frames, or too little smooth ground
+    /// that stands still and is seen.
     [[nodiscard]] std::optional<FeltCleaning> best_of(std::span<const CleaningSteps> ways,
                                                       const DepthNoise& noise) const;
 

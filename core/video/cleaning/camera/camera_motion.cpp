@@ -20,7 +20,6 @@ constexpr std::int64_t kBetween = 4;  ///< frames to each side whose pairs count
 constexpr std::size_t kBandsUsed = 3;
 constexpr float kLeastShare = 3e-4F;  ///< of the noise in a band
 constexpr float kMost = 6.0F;         ///< deviations; outlines are more
-constexpr float kLeastNoise = 0.1F / 255.0F;
 /// Ways are tried up to so many px to each side.
 constexpr std::array<int, 2> kReach{7, 10};
 constexpr int kBorder = 6;            ///< px: bands are not known there

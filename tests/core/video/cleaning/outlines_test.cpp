@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/frames/frame_window.hpp"
@@ -91,6 +93,25 @@ TEST_CASE("pixels of a ragged outline go back to their sides, whichever way it r
     const DepthImage smooth = smoothed(recorded);
     CHECK(teeth_of(smooth) == 0);
     CHECK(2 * changed(truth, smooth) < changed(truth, recorded));
+}
+
+TEST_CASE("a pixel that changes sides is marked as unseen as those it joins are", "[cleaning]") {
+    const Inside inside = half_plane(GENERATE(0.0, 17.0, 45.0, 90.0));
+    const double unseen_level = GENERATE(kNear, kFar);  // the other side was seen
+    DepthImage image = ragged(inside, 5);
+    const auto marks_of = [&](const DepthImage& of) {
+        std::vector<std::uint8_t> marks(of.levels.size());
+        for (std::size_t k = 0; k < marks.size(); ++k)
+            marks[k] = static_cast<double>(of.levels[k]) == unseen_level ? 1 : 0;
+        return marks;
+    };
+    const DepthImage recorded = image;
+    std::vector<std::uint8_t> marks = marks_of(recorded);
+    OutlineSmoother().smooth(image, 0, marks);
+    REQUIRE(changed(recorded, image) > 10);
+    CHECK(marks == marks_of(image));
+    // Marks change no level.
+    CHECK(smoothed(recorded, 0).levels == image.levels);
 }
 
 TEST_CASE("an outline without teeth keeps its place, also before a steep face", "[cleaning]") {

@@ -1,6 +1,7 @@
 // Which way of cleaning a trial on a clip's first frames takes, and what it says.
 #include "core/video/playing/clip_trial.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -91,6 +92,30 @@ TEST_CASE("no way is taken that feels worse than none of them", "[cleaning]") {
     REQUIRE(felt);
     constexpr double kNotFelt_N = 0.005;
     CHECK(felt->buzz_N <= std::hypot(felt->raw_N, kNotFelt_N));
+}
+
+TEST_CASE("of what `auto` tries no way is taken that feels worse than `gentle` or no cleaning",
+          "[cleaning]") {
+    const double noise_px = GENERATE(0.0, 0.1, 0.4, 1.0);
+    const bool has_ridges = GENERATE(false, true);
+    CAPTURE(noise_px, has_ridges);
+    const ClipTrial trial = trial_of(has_ridges ? ridged_px : plane_px, noise_px);
+    const auto best = trial.best_of(ways_of_automatic(1000), noise_of(noise_px));
+    const auto gentle = trial.best_of(std::array{kGentleSteps}, noise_of(noise_px));
+    REQUIRE((best && gentle));
+    constexpr double kNotFelt_N = 0.005;
+    CHECK(best->buzz_N <= std::hypot(std::min(gentle->buzz_N, best->raw_N), kNotFelt_N));
+}
+
+TEST_CASE("`auto` fills holes alone where all else feels worse than no cleaning", "[cleaning]") {
+    // A notched outline between plates: filled notches are a change of what stands still.
+    const auto plates_px = [](int, int i, int j) { return i - j % 2 < kWide / 2 ? 80.0 : 120.0; };
+    const auto felt = trial_of(plates_px, 0.0).best_of(ways_of_automatic(1000), noise_of(0.0));
+    REQUIRE(felt);
+    CHECK(felt->buzz_N == felt->raw_N);
+    CHECK(felt->steps == CleaningSteps{.fill_holes = true});
+    CHECK(in_words({}, plan_of({}, noise_of(0.0), 1000, false, felt))
+              .starts_with("auto: holes alone, "));
 }
 
 TEST_CASE("what stands still is relief only where it stands out of the noise", "[cleaning]") {
