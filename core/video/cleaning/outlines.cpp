@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <limits>
 
+#include "core/video/cleaning/patches.hpp"
 #include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
@@ -131,14 +131,9 @@ void each_marked(const DepthImage& image, Mark mark, float step, const Visit& vi
             mark({rows.above + begin, rows.row + begin, rows.below + begin}, step, 0, count,
                  marks.data());
             const auto begin_of = static_cast<std::uint32_t>(image.index(begin, j));
-            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
-                const void* const next =
-                    std::memchr(marks.data() + k, 1, static_cast<std::size_t>(count) - k);
-                if (next == nullptr) break;
-                k = static_cast<std::uint32_t>(static_cast<const std::uint8_t*>(next) -
-                                               marks.data());
-                visit(begin_of + k);
-            }
+            visit_marked(marks.data(), count, [&](int from, int end) {
+                for (int k = from; k < end; ++k) visit(begin_of + static_cast<std::uint32_t>(k));
+            });
         }
     }
 }
