@@ -26,7 +26,7 @@ constexpr float kTwoSides = 0.4F;
 constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither side
 
 constexpr int kSpur_px = 2;      ///< a line one pixel wide loses this at its ends
-constexpr int kChunk = 64;       ///< pixels of a row that are checked together
+constexpr int kChunk = 320;      ///< pixels of a row that are checked together
 constexpr int kMostPasses = 64;  ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
