@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <limits>
+#include <optional>
 #include <utility>
 
+#include "core/video/cleaning/patches.hpp"
 #include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
@@ -26,9 +26,8 @@ constexpr std::array<float, kSide_px> kWeights{kTwoAway, kOneAway, 1.0F, kOneAwa
 constexpr float kTwoSides = 0.4F;
 constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither side
 
-constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr int kSpur_px = 2;      ///< a line one pixel wide loses this at its ends
-constexpr int kChunk = 64;       ///< pixels of a row that are checked together
+constexpr int kChunk = 320;      ///< pixels of a row that are checked together
 constexpr int kMostPasses = 64;  ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
@@ -132,14 +131,9 @@ void each_marked(const DepthImage& image, Mark mark, float step, const Visit& vi
             mark({rows.above + begin, rows.row + begin, rows.below + begin}, step, 0, count,
                  marks.data());
             const auto begin_of = static_cast<std::uint32_t>(image.index(begin, j));
-            for (std::uint32_t k = 0; k < static_cast<std::uint32_t>(count); ++k) {
-                const void* const next =
-                    std::memchr(marks.data() + k, 1, static_cast<std::size_t>(count) - k);
-                if (next == nullptr) break;
-                k = static_cast<std::uint32_t>(static_cast<const std::uint8_t*>(next) -
-                                               marks.data());
-                visit(begin_of + k);
-            }
+            visit_marked(marks.data(), count, [&](int from, int end) {
+                for (int k = from; k < end; ++k) visit(begin_of + static_cast<std::uint32_t>(k));
+            });
         }
     }
 }
@@ -185,43 +179,60 @@ void each_around(const DepthImage& image, std::uint32_t pixel, const Visit& visi
     if (j + 2 < static_cast<std::uint32_t>(image.rows)) visit(pixel + columns);
 }
 
-/// The two sides of the largest step in the 3 x 3 pixels around one. (Half way between the lowest
-/// and the highest level around, a steep face behind its outline would be two sides.)
+/// The largest step in the 3 x 3 pixels around one. (Half way between the lowest and the highest
+/// level around, a steep face behind its outline would be two sides.)
+struct Step {
+    float middle, height;
+};
+
+constexpr std::size_t kTogether = 16;  ///< pixels whose steps are found together
+/// By place in the 3 x 3 around, then by pixel.
+using Around = std::array<std::array<float, kTogether>, 9>;
+struct Steps {
+    std::array<float, kTogether> middle{}, height{};
+    /// 1: the pixel and two opposite neighbours are of one side. It stays on its line. Else 0.
+    std::array<std::uint8_t, kTogether> on_line{};
+};
+
+DIBHR_VECTOR_CLONES void find_largest_steps(const Around& around, Steps& __restrict steps) {
+    for (std::size_t i = 0; i < kTogether; ++i) {
+        float height = 0.0F;
+        float middle = around[4][i];
+        const auto compare = [&](std::size_t one, std::size_t other) {
+            const float step = std::fabs(around[one][i] - around[other][i]);
+            const float between = 0.5F * (around[one][i] + around[other][i]);
+            middle = step > height ? between : middle;
+            height = std::max(height, step);
+        };
+        for (std::size_t k = 0; k < 3; ++k) {
+            compare(3 * k, 3 * k + 1);
+            compare(3 * k + 1, 3 * k + 2);
+            compare(k, k + 3);
+            compare(k + 3, k + 6);
+        }
+        const float own = (around[4][i] - middle) * (2.0F / height);
+        const float side = own > 0.0F ? 1.0F : -1.0F;
+        float on_line = 0.0F;  // above 0: with two opposite neighbours
+        for (std::size_t k = 0; k < 4; ++k)
+            on_line = std::max(on_line, std::min(side * (around[k][i] - middle),
+                                                 side * (around[8 - k][i] - middle)));
+        steps.middle[i] = middle;
+        steps.height[i] = height;
+        steps.on_line[i] = static_cast<std::uint8_t>((on_line > 0.0F ? 1 : 0) &
+                                                     (std::fabs(own) > kOnSide ? 1 : 0));
+    }
+}
+
+/// The two sides of the largest step in the 3 x 3 pixels around one.
 class Sides {
   public:
-    Sides(const float* at, std::ptrdiff_t columns) : at_(at), columns_(columns), middle_(*at) {
-        const auto compare = [&](std::ptrdiff_t one, std::ptrdiff_t other) {
-            const float step = std::fabs(at[one] - at[other]);
-            middle_ = step > largest_ ? 0.5F * (at[one] + at[other]) : middle_;
-            largest_ = std::max(largest_, step);
-        };
-        for (std::ptrdiff_t k = -1; k <= 1; ++k) {
-            compare(k * columns - 1, k * columns);
-            compare(k * columns, k * columns + 1);
-            compare(k - columns, k);
-            compare(k, k + columns);
-        }
-        per_half_ = 2.0F / largest_;
-    }
+    Sides(const float* at, std::ptrdiff_t columns, const Step& step)
+        : at_(at), columns_(columns), step_(step), per_half_(2.0F / step.height) {}
 
     /// The side of a pixel: -1 is the lower one, 1 the higher one.
     [[nodiscard]] float of(int right, int down) const {
         const float level = at_[down * columns_ + right];
-        return std::clamp((level - middle_) * per_half_, -1.0F, 1.0F);
-    }
-
-    /// Whether the pixel and two opposite neighbours are of one side: then it is on a line.
-    [[nodiscard]] bool is_on_line() const {
-        const auto above = [&](int right, int down) {
-            return at_[down * columns_ + right] - middle_;
-        };
-        const bool high = above(0, 0) > 0.0F;
-        const auto both = [&](int right, int down) {
-            const float one = above(right, down);
-            const float other = above(-right, -down);
-            return high ? std::min(one, other) > 0.0F : std::max(one, other) < 0.0F;
-        };
-        return both(1, 0) || both(0, 1) || both(1, 1) || both(1, -1);
+        return std::min(std::max((level - step_.middle) * per_half_, -1.0F), 1.0F);  // no branches
     }
 
     /// The side of most of the 5 x 5 pixels around, nearer ones weigh more: above 0 is the higher
@@ -238,16 +249,16 @@ class Sides {
                 sum += kWeights[static_cast<std::size_t>(x + kReach_px)] *
                        kWeights[static_cast<std::size_t>(y + kReach_px)] * of(x, y);
             }
-        return largest_ < kTwoSides * (high - low) ? 0.0F : sum;
+        return step_.height < kTwoSides * (high - low) ? 0.0F : sum;
     }
 
     struct Level {
-        float level;  ///< NaN: of no pixel
-        bool unseen;  ///< of most pixels
+        float level;
+        bool unseen;  ///< most of its pixels are
     };
     /// Mean level of the nearest pixels on a side. `unseen`: the mark of this one; null: all were
     /// seen.
-    [[nodiscard]] Level level(bool high, const std::uint8_t* unseen) const {
+    [[nodiscard]] std::optional<Level> level(bool high, const std::uint8_t* unseen) const {
         for (int reach = 1; reach <= kReach_px; ++reach) {
             float sum = 0.0F;
             int count = 0;
@@ -260,18 +271,34 @@ class Sides {
                     marks += unseen != nullptr ? unseen[y * columns_ + x] : 0;
                     ++count;
                 }
-            if (count > 0) return {sum / static_cast<float>(count), 2 * marks > count};
+            if (count > 0) return Level{sum / static_cast<float>(count), 2 * marks > count};
         }
-        return {kNaN, false};
+        return std::nullopt;
     }
 
   private:
     const float* at_;
     std::ptrdiff_t columns_;
-    float middle_;
-    float largest_{0.0F};
-    float per_half_{0.0F};
+    Step step_;
+    float per_half_;
 };
+
+/// The new level of a pixel if most around it are on another side.
+std::optional<Sides::Level> turned_level(const DepthImage& image, std::uint32_t pixel,
+                                         const Step& step, std::span<const std::uint8_t> unseen) {
+    const auto is_inside = [](int at, int count) {
+        return at >= kReach_px && at < count - kReach_px;
+    };
+    if (!is_inside(static_cast<int>(pixel) % image.columns, image.columns) ||
+        !is_inside(static_cast<int>(pixel) / image.columns, image.rows))
+        return std::nullopt;
+    const Sides sides(image.levels.data() + pixel, image.columns, step);
+    const float own = sides.of(0, 0);
+    const float most = sides.of_most();
+    if (most == 0.0F || (std::fabs(own) > kOnSide && (own > 0.0F) == (most > 0.0F)))
+        return std::nullopt;
+    return sides.level(most > 0.0F, unseen.empty() ? nullptr : unseen.data() + pixel);
+}
 
 }  // namespace
 
@@ -305,23 +332,25 @@ void OutlineSmoother::find_steps(const DepthImage& image, float step) {
 /// Moves pixels to the side that most around them have, all at once. pixels_ then has those around
 /// the moved ones, too: all that may be teeth.
 void OutlineSmoother::turn_sides(DepthImage& image, std::span<std::uint8_t> unseen) {
-    const auto is_inside = [](int at, int count) {
-        return at >= kReach_px && at < count - kReach_px;
-    };
     turned_.clear();
-    for (const std::uint32_t pixel : pixels_) {
-        if (!is_inside(static_cast<int>(pixel) % image.columns, image.columns) ||
-            !is_inside(static_cast<int>(pixel) / image.columns, image.rows))
-            continue;
-        const Sides sides(image.levels.data() + pixel, image.columns);
-        const float own = sides.of(0, 0);
-        const bool is_on_side = std::fabs(own) > kOnSide;
-        if (is_on_side && sides.is_on_line()) continue;
-        const float most = sides.of_most();
-        if (most == 0.0F || (is_on_side && (own > 0.0F) == (most > 0.0F))) continue;
-        const Sides::Level taken =
-            sides.level(most > 0.0F, unseen.empty() ? nullptr : unseen.data() + pixel);
-        if (!std::isnan(taken.level)) turned_.push_back({pixel, taken.level, taken.unseen});
+    Around around{};
+    Steps steps;
+    for (std::size_t begin = 0; begin < pixels_.size(); begin += kTogether) {
+        const std::size_t count = std::min(kTogether, pixels_.size() - begin);
+        for (std::size_t k = 0; k < count; ++k) {
+            const float* const at = image.levels.data() + pixels_[begin + k];
+            for (std::ptrdiff_t y = -1; y <= 1; ++y)
+                for (std::ptrdiff_t x = -1; x <= 1; ++x)
+                    around[static_cast<std::size_t>(3 * y + x + 4)][k] = at[y * image.columns + x];
+        }
+        find_largest_steps(around, steps);
+        for (std::size_t k = 0; k < count; ++k) {
+            if (steps.on_line[k] != 0) continue;
+            const std::uint32_t pixel = pixels_[begin + k];
+            const auto taken =
+                turned_level(image, pixel, {steps.middle[k], steps.height[k]}, unseen);
+            if (taken) turned_.push_back({pixel, taken->level, taken->unseen});
+        }
     }
     for (const Turned& turned : turned_) {
         image.levels[turned.pixel] = turned.level;

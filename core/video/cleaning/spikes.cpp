@@ -27,15 +27,16 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Sorts with a fixed order of comparisons (Batcher's odd-even mergesort).
 void sort_eight(std::array<float, 8>& values) {
-    for (std::size_t p = 1; p < 8; p *= 2)
-        for (std::size_t k = p; k > 0; k /= 2)
-            for (std::size_t j = k % p; j + k < 8; j += 2 * k)
-                for (std::size_t one = j; one < j + k && one + k < 8; ++one) {
-                    if (one / (2 * p) != (one + k) / (2 * p)) continue;
-                    const float low = std::min(values[one], values[one + k]);
-                    values[one + k] = std::max(values[one], values[one + k]);
-                    values[one] = low;
-                }
+    // Two digits for each pair: the compiler knows all places.
+    static constexpr std::array<std::size_t, 19> kPairs{1, 23, 45, 67, 2,  13, 46, 57, 12, 56,
+                                                        4, 15, 26, 37, 24, 35, 12, 34, 56};
+    for (const std::size_t pair : kPairs) {
+        float& one = values[pair / 10];
+        float& other = values[pair % 10];
+        const float low = std::min(one, other);
+        other = std::max(one, other);
+        one = low;
+    }
 }
 
 /// The levels of a pixel's neighbours that have data.

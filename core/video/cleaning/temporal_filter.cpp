@@ -54,6 +54,13 @@ constexpr std::size_t kSamples = 20;      ///< of these pixels
 constexpr std::size_t kSpread = 7;        ///< coprime to 20: the first samples are from all over
 constexpr float kAlikeStep = 0.2F;        ///< of a sample's distance from the median: same surface
 
+/// The number of the tile that a pixel is in.
+std::size_t tile_at(const DepthImage& image, std::size_t at) {
+    const auto columns = static_cast<std::size_t>(image.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    return at / columns / kTile_px * across + at % columns / kStillTile_px;
+}
+
 /// The rim of a patch, and how much of it is held by the surface beside it.
 struct Rim {
     int pixels{0};
@@ -141,17 +148,18 @@ void TemporalFilter::find_reference(const Neighbours& rows, const float* here, s
 float TemporalFilter::reference_at(const DepthImage& here, std::size_t at) const {
     const float own = here.levels[at];
     float reference = 0.0F;
-    Neighbours rows = rows_at(at);
-    const auto columns = static_cast<std::size_t>(here.columns);
-    const std::size_t tile =
-        at / columns / kTile_px * ((columns + kStillTile_px - 1) / kStillTile_px) +
-        at % columns / kStillTile_px;
+    Neighbours rows{};
     std::array<float, 2 * kNearInTime + 1> scratch{};
-    if (farthest_shift_ != 0 && moving_[tile] != 0)
-        for (std::size_t k = first_near_; k < first_near_ + nearest_; ++k)
-            rows[k].levels = shifted_row(
-                neighbours_[k].levels, here, rows[k].shift, static_cast<int>(at / columns),
-                static_cast<int>(at % columns), 1, FrameGroups::kNoLevel, &scratch[k]);
+    const bool moves = farthest_shift_ != 0 && moving_[tile_at(here, at)] != 0;
+    const auto columns = static_cast<std::size_t>(here.columns);
+    for (std::size_t k = first_near_; k < first_near_ + nearest_; ++k) {
+        rows[k].shift = neighbours_[k].shift;
+        rows[k].levels =
+            moves ? shifted_row(neighbours_[k].levels, here, rows[k].shift,
+                                static_cast<int>(at / columns), static_cast<int>(at % columns), 1,
+                                FrameGroups::kNoLevel, &scratch[k])
+                  : neighbours_[k].levels + at;
+    }
     find_reference(rows, &own, 1, &reference);
     return reference;
 }
@@ -575,48 +583,53 @@ void TemporalFilter::follow_patches(const DepthImage& here) {
     cv::dilate(inner(box), wide, square);
     const int count = cv::connectedComponents(wide, patches);
     cv::distanceTransform(wide, to_rim, cv::DIST_L2, cv::DIST_MASK_3);
-    const std::vector<char> held = held_patches(here, patches, to_rim, count, box.x, box.y);
+    const std::vector<char> held = held_patches(here, wide, patches, to_rim, count, box.x, box.y);
     for (int j = 0; j < box.height; ++j) {
         const int* const patch = patches.ptr<int>(j);
         auto* const pixel = wide.ptr<std::uint8_t>(j);
-        for (int i = 0; i < box.width; ++i)
-            pixel[i] = held[static_cast<std::size_t>(patch[i])] != 0 ? 1 : 0;
+        visit_marked(pixel, box.width, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i)
+                pixel[i] = held[static_cast<std::size_t>(patch[i])] != 0 ? 1 : 0;
+        });
     }
     cv::dilate(wide, wide, square);  // the corners that opening has removed
     for (int j = 0; j < box.height; ++j) {
         const auto* const pixel = wide.ptr<std::uint8_t>(j);
         const std::size_t at = here.index(box.x, box.y + j);
-        for (std::size_t i = 0; i < static_cast<std::size_t>(box.width); ++i)
-            followed_[at + i] =
-                static_cast<std::uint8_t>(followed_[at + i] | (pixel[i] & other_[at + i]));
+        visit_marked(pixel, box.width, [&](int begin, int end) {
+            for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+                followed_[at + i] =
+                    static_cast<std::uint8_t>(followed_[at + i] | (pixel[i] & other_[at + i]));
+        });
     }
 }
 
-/// `left` and `top`: the place of `patches` in the image.
-std::vector<char> TemporalFilter::held_patches(const DepthImage& here, const cv::Mat& patches,
-                                               const cv::Mat& to_rim, int count, int left,
-                                               int top) const {
+/// `wide`: not 0 on patches; `left`, `top`: the place of the three in the image.
+std::vector<char> TemporalFilter::held_patches(const DepthImage& here, const cv::Mat& wide,
+                                               const cv::Mat& patches, const cv::Mat& to_rim,
+                                               int count, int left, int top) const {
     std::vector<Rim> rims(static_cast<std::size_t>(count));
     const cv::Rect inside(0, 0, patches.cols, patches.rows);
-    for (int j = 0; j < patches.rows; ++j) {
-        const int* const row = patches.ptr<int>(j);
-        for (int i = 0; i < patches.cols; ++i) {
-            const int patch = row[i];
-            if (patch == 0) continue;
-            Rim& rim = rims[static_cast<std::size_t>(patch)];
-            rim.half_width_px = std::max(rim.half_width_px, to_rim.at<float>(j, i));
-            for (const auto& [right, down] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
-                const cv::Point beside(i + right, j + down);
-                if (!inside.contains(beside)) continue;
-                if (patches.at<int>(beside) == patch) continue;
-                ++rim.pixels;
-                const int x = left + i;
-                const int y = top + j;
-                if (other_[here.index(x, y)] == kSurelyOther)
-                    rim.held += is_held(here, held_at(here, x, y), x, y, right, down) ? 1 : 0;
-            }
+    const auto look_at = [&](int i, int j) {
+        const int patch = patches.at<int>(j, i);
+        Rim& rim = rims[static_cast<std::size_t>(patch)];
+        rim.half_width_px = std::max(rim.half_width_px, to_rim.at<float>(j, i));
+        const int x = left + i;
+        const int y = top + j;
+        std::optional<Held> own;
+        for (const auto& [right, down] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+            const cv::Point beside(i + right, j + down);
+            if (!inside.contains(beside) || patches.at<int>(beside) == patch) continue;
+            ++rim.pixels;
+            if (other_[here.index(x, y)] != kSurelyOther) continue;
+            if (!own) own = held_at(here, x, y);
+            rim.held += is_held(here, *own, x, y, right, down) ? 1 : 0;
         }
-    }
+    };
+    for (int j = 0; j < patches.rows; ++j)
+        visit_marked(wide.ptr<std::uint8_t>(j), wide.cols, [&](int begin, int end) {
+            for (int i = begin; i < end; ++i) look_at(i, j);
+        });
     std::vector<char> held(rims.size(), 0);
     for (std::size_t k = 1; k < rims.size(); ++k) {
         const double width_px = 2.0 * static_cast<double>(rims[k].half_width_px);

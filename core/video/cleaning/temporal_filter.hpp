@@ -104,9 +104,9 @@ class TemporalFilter {
     [[nodiscard]] bool is_other(const SingleFrameDepth& here, std::size_t at) const;
     void follow_between(const DepthImage& here);
     void follow_patches(const DepthImage& here);
-    [[nodiscard]] std::vector<char> held_patches(const DepthImage& here, const cv::Mat& patches,
-                                                 const cv::Mat& to_rim, int count, int left,
-                                                 int top) const;
+    [[nodiscard]] std::vector<char> held_patches(const DepthImage& here, const cv::Mat& wide,
+                                                 const cv::Mat& patches, const cv::Mat& to_rim,
+                                                 int count, int left, int top) const;
     [[nodiscard]] Held held_at(const DepthImage& here, int i, int j) const;
     [[nodiscard]] bool is_held(const DepthImage& here, const Held& held, int i, int j, int right,
                                int down) const;

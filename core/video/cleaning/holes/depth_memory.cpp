@@ -97,7 +97,7 @@ void DepthMemory::forget() noexcept {
 void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
     if (held.empty()) return;
     find_farthest(image);
-    find_seen_patches(image, held);
+    patch_of_.clear();
     const float outline = outline_levels(image);
     used_.clear();
     for (std::size_t k = 0; k < held.size(); ++k) {
@@ -107,6 +107,7 @@ void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
         const float behind = farthest_[static_cast<std::size_t>(j / kSideOfSquare_px) *
                                            static_cast<std::size_t>(squares_in(image.columns)) +
                                        static_cast<std::size_t>(i / kSideOfSquare_px)];
+        if (behind == kInfinity && patch_of_.empty()) find_seen_patches(image, held);  // it is rare
         const bool holds = behind == kInfinity ? was_seen(k)
                                                : is_like(level, behind, outline) ||
                                                      has_similar_near(image, i, j, level, outline);
@@ -141,7 +142,6 @@ void HeldFiller::find_seen_patches(const DepthImage& image, std::span<const Held
     patches_.find_holes(image);
     const std::vector<Patches::Run>& runs = patches_.runs();
     held_in_.assign(runs.size(), 0);
-    patch_of_.clear();
     auto run = runs.begin();
     for (const HeldLevel& level : held) {
         while (image.index(run->end - 1, run->row) < level.index) ++run;

@@ -80,6 +80,11 @@ DIBHR_VECTOR_CLONES void lower_of(const float* a, const float* b, const float* c
     for (std::size_t i = 0; i < count; ++i) lowest[i] = std::min(std::min(a[i], b[i]), c[i]);
 }
 
+/// The lowest level of each pixel and those within kReach_px to both sides.
+void find_lowest_beside(const float* eight, float* beside, std::size_t count) {
+    lower_of(eight, eight + 8, eight + 13, beside, count);
+}
+
 /// The lowest levels within the spans of each pixel, from the row `padded` by kReach_px on both
 /// sides and from its lowest_of_eight.
 void find_lowest_of_spans(const float* padded, const float* eight,
@@ -90,7 +95,7 @@ void find_lowest_of_spans(const float* padded, const float* eight,
     lower_of(eight + 3, eight + 10, spans[3], count);
     lower_of(eight + 2, eight + 10, padded + 18, spans[4], count);
     lower_of(eight + 1, eight + 9, eight + 12, spans[5], count);
-    lower_of(eight, eight + 8, eight + 13, spans[6], count);
+    find_lowest_beside(eight, spans[6], count);
 }
 
 /// Lowers levels to the lowest of seven rows.
@@ -107,6 +112,15 @@ DIBHR_VECTOR_CLONES void lower(const float* const* rows, std::size_t at, float* 
 DIBHR_VECTOR_CLONES void make_holes_infinite(const float* levels, float* __restrict out,
                                              std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) out[i] = levels[i] == levels[i] ? levels[i] : kAbove;
+}
+
+/// Whether any hole has no level yet, or one lower than a pit below `beside`.
+DIBHR_VECTOR_CLONES bool any_low(const float* levels, const float* seen, const float* beside,
+                                 float pit, std::size_t count) {
+    int any = 0;
+    for (std::size_t i = 0; i < count; ++i)
+        any |= (seen[i] != seen[i] ? 1 : 0) & (levels[i] >= beside[i] - pit ? 0 : 1);
+    return any != 0;
 }
 
 DIBHR_VECTOR_CLONES void fill_holes(float* __restrict levels, std::uint8_t* __restrict unseen,
@@ -143,10 +157,11 @@ void LargeHoleFiller::fill(DepthImage& image, const DepthImage& seen,
         return;
     }
     widened_ = 0;
-    chunks_.assign(chunks_in(image.columns), 1);
+    std::vector<std::uint8_t> chunks(chunks_in(image.columns));
     for (int j = 0; j < image.rows; ++j) {
-        if (has_data(seen, j)) continue;
-        find_farthest(seen, j, chunks_.data());
+        std::fill(chunks.begin(), chunks.end(), std::uint8_t{1});
+        if (has_data(seen, j) || !keep_low(image, seen, seen, j, chunks)) continue;
+        find_farthest(seen, j, chunks);
         if (!has_data(image, j)) fill_row(image, j, unseen);
         lift_row(image, seen, j);
     }
@@ -180,19 +195,47 @@ void LargeHoleFiller::find_wide_and_open(int columns) {
                    [](float away, float room) { return std::min(away - kReach_squares, room); });
 }
 
+/// Sets padded_ and eight_ to those of a row.
+void LargeHoleFiller::pad(const DepthImage& given, int row) {
+    const auto columns = static_cast<std::size_t>(given.columns);
+    padded_.assign(columns + 2 * std::size_t{kReach_px}, kAbove);
+    eight_.resize(padded_.size() - 7);
+    make_holes_infinite(given.levels.data() + given.index(0, row), padded_.data() + kReach_px,
+                        columns);
+    lowest_of_eight(padded_.data(), eight_.data(), eight_.size());
+}
+
+/// Of the marked chunks those stay marked that may change. Other holes are no lower than a pit
+/// below the lowest level beside them in the row, so not below the farthest one. Whether any stay.
+bool LargeHoleFiller::keep_low(const DepthImage& image, const DepthImage& seen,
+                               const DepthImage& given, int row,
+                               std::vector<std::uint8_t>& chunks) {
+    pad(given, row);
+    const auto columns = static_cast<std::size_t>(image.columns);
+    farthest_.resize(columns);
+    find_lowest_beside(eight_.data(), farthest_.data(), columns);
+    const float pit = kPit * static_cast<float>(image.highest_level);
+    for (std::size_t x = 0; x < chunks.size(); ++x) {
+        const std::size_t begin = x * kChunk;
+        const std::size_t at = image.index(0, row) + begin;
+        if (chunks[x] != 0)
+            chunks[x] = any_low(image.levels.data() + at, seen.levels.data() + at,
+                                farthest_.data() + begin, pit, std::min(kChunk, columns - begin))
+                            ? 1
+                            : 0;
+    }
+    return std::memchr(chunks.data(), 1, chunks.size()) != nullptr;
+}
+
 /// Computes the spans of the rows within reach of row `row`: the lowest level of each pixel's
 /// neighbours left and right, for each width that a row of the disc has.
 void LargeHoleFiller::widen(const DepthImage& seen, int row) {
     const auto columns = static_cast<std::size_t>(seen.columns);
     spans_.resize(kDiscRows * kSpans * columns);
-    padded_.assign(columns + 2 * std::size_t{kReach_px}, kAbove);
-    eight_.resize(padded_.size() - 7);
     above_.assign(columns, kAbove);
     widened_ = std::max(widened_, row - kReach_px);
     for (; widened_ < std::min(row + kReach_px + 1, seen.rows); ++widened_) {
-        make_holes_infinite(seen.levels.data() + seen.index(0, widened_),
-                            padded_.data() + kReach_px, columns);
-        lowest_of_eight(padded_.data(), eight_.data(), eight_.size());
+        pad(seen, widened_);
         std::array<float*, kSpans> spans{};
         for (std::size_t k = 0; k < kSpans; ++k) spans[k] = span_of(widened_, k, columns);
         find_lowest_of_spans(padded_.data(), eight_.data(), spans, columns);
@@ -205,7 +248,8 @@ float* LargeHoleFiller::span_of(int row, std::size_t number, std::size_t columns
 }
 
 /// The lowest level within reach, in those chunks of the row that are marked and have holes.
-void LargeHoleFiller::find_farthest(const DepthImage& seen, int row, const std::uint8_t* chunks) {
+void LargeHoleFiller::find_farthest(const DepthImage& seen, int row,
+                                    const std::vector<std::uint8_t>& chunks) {
     widen(seen, row);
     const auto columns = static_cast<std::size_t>(seen.columns);
     farthest_.assign(columns, kAbove);
@@ -258,8 +302,10 @@ void LargeHoleFiller::lift_beside(DepthImage& image, const DepthImage& seen,
             for (std::size_t x = 0; x < across; ++x)
                 near[x] = static_cast<std::uint8_t>(
                     near[x] | chunks_[static_cast<std::size_t>(y) * across + x]);
-        if (std::memchr(near.data(), 1, across) == nullptr || has_data(seen, j)) continue;
-        find_farthest(given_, j, near.data());
+        if (std::memchr(near.data(), 1, across) == nullptr || has_data(seen, j) ||
+            !keep_low(image, seen, given_, j, near))
+            continue;
+        find_farthest(given_, j, near);
         lift_row(image, seen, j);
     }
 }

@@ -25,9 +25,12 @@ class LargeHoleFiller {
   private:
     [[nodiscard]] bool find_behind(const DepthImage& image);
     void find_wide_and_open(int columns);
+    void pad(const DepthImage& given, int row);
+    bool keep_low(const DepthImage& image, const DepthImage& seen, const DepthImage& given, int row,
+                  std::vector<std::uint8_t>& chunks);
     void widen(const DepthImage& seen, int row);
     [[nodiscard]] float* span_of(int row, std::size_t number, std::size_t columns);
-    void find_farthest(const DepthImage& seen, int row, const std::uint8_t* chunks);
+    void find_farthest(const DepthImage& seen, int row, const std::vector<std::uint8_t>& chunks);
     void mark_chunks(const DepthImage& image, std::span<const std::size_t> rejected);
     void fill_row(DepthImage& image, int row, std::vector<std::uint8_t>& unseen);
     void lift_row(DepthImage& image, const DepthImage& seen, int row) const;
@@ -41,7 +44,7 @@ class LargeHoleFiller {
     std::vector<float> spans_{};             ///< by row and span, for the rows of one disc
     std::vector<float> padded_{}, eight_{};  ///< of a row; lowest of a pixel and the seven after it
     std::vector<float> above_{};             ///< a row of infinity
-    std::vector<std::uint8_t> chunks_{};     ///< of rows: 1 where pixels are to be checked
+    std::vector<std::uint8_t> chunks_{};     ///< of rows: 1 where pixels were refused
     std::vector<float> farthest_{};  ///< of one row: the lowest level in reach; infinity: none
     int widened_{0};                 ///< rows whose spans are known
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/cleaning/holes/large_holes.hpp"
 #include "core/video/cleaning/patches.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/sources/media.hpp"
@@ -133,6 +134,39 @@ TEST_CASE("nothing falls into a hole, wherever it is and however it flickers", "
     const std::vector<DepthImage> raw = Recording{scene, flicker, always}.frames(4);
     const std::vector<DepthImage> done = cleaned(raw, kHolesAlone);
     for (std::size_t k = 0; k < raw.size(); ++k) CHECK(count_pits(raw[k], done[k]) == 0);
+}
+
+TEST_CASE("a hole's level is at most a pit below the lowest around, whatever is in its row",
+          "[holes]") {
+    constexpr float kPit = 0.015F * static_cast<float>(kHighest);
+    constexpr int kReach_px = 10;
+    const Lost lost =
+        GENERATE(Lost([](int i, int j) { return (7 * i + 11 * j) % 31 == 0; }),  // single pixels
+                 Lost([](int, int j) { return j % 25 < 4; }),                    // whole rows
+                 Lost([](int i, int) { return i % 40 < 23; }),                   // whole columns
+                 Lost([](int i, int j) { return i < 100 && j < 100; }));
+    const DepthImage seen = image_with(box, lost);
+    std::mt19937 random(3);
+    DepthImage image = seen;  // with any levels in its holes
+    for (float& level : image.levels)
+        if (std::isnan(level)) level = static_cast<float>(random() % 3000);
+    DepthImage lifted = image;
+    std::vector<std::uint8_t> unseen(seen.levels.size());
+    LargeHoleFiller().fill(lifted, seen, {}, unseen);
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i) {
+            float lowest = std::numeric_limits<float>::infinity();
+            for (int y = std::max(j - kReach_px, 0); y <= std::min(j + kReach_px, kRows - 1); ++y)
+                for (int x = std::max(i - kReach_px, 0); x <= std::min(i + kReach_px, kColumns - 1);
+                     ++x)
+                    if ((x - i) * (x - i) + (y - j) * (y - j) <= kReach_px * kReach_px &&
+                        !std::isnan(seen.at(x, y)))
+                        lowest = std::min(lowest, seen.at(x, y));
+            const bool is_lifted = std::isnan(seen.at(i, j)) && std::isfinite(lowest);
+            const float level = image.at(i, j);
+            if (lifted.at(i, j) != (is_lifted ? std::max(level, lowest - kPit) : level))
+                FAIL_CHECK("(" << i << ", " << j << ")");
+        }
 }
 
 TEST_CASE("a finger at rest stays in contact where data flickers", "[holes]") {
