@@ -238,7 +238,10 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
     std::vector<std::uint8_t> unseen = here.unseen;
     if (is_touchable(depth)) {
-        if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
+        if (plan.steps.smooth_steps && is_eight_bit(depth))
+            steps_.smooth(depth);
+        else if (plan.steps.smooth_steps && depend_on_noise(plan.steps))
+            steps_.smooth_measured(depth, plan.noise);
         if (plan.steps.smooth_noise && steady)
             noise_.smooth(depth, plan.noise, temporal_.evidence());
         else if (plan.steps.smooth_noise)

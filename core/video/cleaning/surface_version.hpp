@@ -10,7 +10,7 @@ namespace dibhr {
 /// levels, and there are none in a picture of more than 3 million ramps. 5: time reaches 16 frames
 /// far, noise is weighed band by band; outlines without teeth, ramps as a whole; plain things move
 /// as their outlines do. 6: coarse grain of single pictures is measured in full; marks of what was
-/// never seen follow outlines.
+/// never seen follow outlines; measured steps become slopes.
 inline constexpr int kSurfaceVersion = 6;
 
 }  // namespace dibhr
