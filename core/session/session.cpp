@@ -156,6 +156,13 @@ std::string Session::fact(const std::string& key) const {
 }
 
 std::string Session::warning() const {
+    const std::string log = log_warning();
+    const std::string& schema = reader_.other_schema();
+    if (schema.empty()) return log;
+    return log.empty() ? file().string() + ": " + schema : log + "; it " + schema;
+}
+
+std::string Session::log_warning() const {
     const std::string log = file().filename().string() + "-wal";
     if (reader_.log() == SessionReader::Log::foreign)
         return file().string() + ": its recording ended, so " + log +

@@ -16,7 +16,7 @@ namespace dibhr {
 
 /// Read while it is recorded or afterwards; the file stays as it is. One thread at a time. Every
 /// call that reads throws InputError, with one plain line, for a file that is missing, foreign,
-/// damaged, cut short or of another version.
+/// damaged or cut short.
 class Session {
   public:
     /// Reads all but the ticks.
@@ -29,7 +29,8 @@ class Session {
     [[nodiscard]] const SessionFacts& facts() const noexcept { return facts_; }
     /// The fact, or an empty text.
     [[nodiscard]] std::string fact(const std::string& key) const;
-    /// A sentence on what may be missing in the file; empty: nothing.
+    /// A sentence on what may be missing in the file, and on what of it is not read; empty:
+    /// nothing.
     [[nodiscard]] std::string warning() const;
     /// In the order in which ticks first used them.
     [[nodiscard]] const std::vector<SessionParameters>& parameters() const noexcept {
@@ -62,6 +63,8 @@ class Session {
     class Ticks;
 
   private:
+    /// A sentence on a log that is missing or foreign.
+    [[nodiscard]] std::string log_warning() const;
     void read_facts();
     void read_parameters();
     void read_sources();
