@@ -211,6 +211,7 @@ int run(const StudyOptions& options) {
 
 int extract_sessions(const StudyOptions& options) {
     const StudyRecord study = read_study(options.file());
+    print_warning(study.warning);
     std::error_code ignored;
     make_folders(options.folder(), ignored);
     int written = 0;
