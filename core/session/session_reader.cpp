@@ -95,11 +95,13 @@ std::string SessionReader::unknown_parts() const {
         known.insert(row.text(0));
         known.insert(row.text(0) + '.' + row.text(1));
     }
+    std::set<std::string> named;
     std::string unknown;
     for (Statement row = rows(kColumns); row.next();) {
         const bool table = !known.contains(row.text(0));
         const std::string part = row.text(0) + (table ? "" : '.' + row.text(1));
-        if (known.insert(part).second) unknown += (unknown.empty() ? "" : ", ") + part;
+        if (known.contains(part) || !named.insert(part).second) continue;
+        unknown += (unknown.empty() ? "" : ", ") + part;
     }
     return unknown;
 }

@@ -506,6 +506,40 @@ TEST_CASE("files that are no session are refused by every command in one line", 
     }
 }
 
+TEST_CASE("a session of every schema is read by every command, and replayed to its bits",
+          "[replay]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
+    write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
+    const auto& [name, ticks] = GENERATE(from_range(std::vector<std::pair<std::string, int>>{
+        {"schema_1", 3}, {"schema_2_first_view", 80}, {"schema_2_first", 80}}));
+    CAPTURE(name);
+    run_shell(folder, "sqlite3 old.dibhr \".read '" DIBHR_SOURCE_DIR "/tests/data/sessions/" +
+                          name + ".sql'\"");
+    const auto succeeds = [&folder](const std::vector<std::string>& arguments) {
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(arguments, result.errors);
+        REQUIRE(result.exit_code == 0);
+        return result;
+    };
+    CHECK(contains(succeeds({"info", "old.dibhr"}).output, std::to_string(ticks)));
+    CHECK(split(succeeds({"export", "old.dibhr", "--csv", "-"}).output, '\n').size() ==
+          static_cast<std::size_t>(ticks) + 2);
+    succeeds({"report", "old.dibhr", "--out", "r"});
+    CHECK(contains(read_text(folder / "r/report.html"), "of the first day"));
+    const std::vector<std::string> replay{"replay",      "old.dibhr", "--algorithm", "dibhr",
+                                          "--algorithm", "pga",       "--algorithm", "neighborhood",
+                                          "--algorithm", "god-object"};
+    if (name != "schema_1") {
+        CHECK(contains(succeeds(replay).output, "dibhr, as recorded: all 80 proxies and forces"));
+        return;
+    }
+    const ProgramResult refused = run_dibhr(folder, replay);
+    CHECK(refused.exit_code != 0);
+    CHECK(contains(refused.errors, "is of format 1, the first"));
+    CHECK(contains(refused.errors, "it can be exported, but not replayed"));
+}
+
 TEST_CASE("every command reads a session of a newer dibhr, and says in one line what it is",
           "[replay]") {
     const TemporaryFolder folder;

@@ -104,19 +104,20 @@ TEST_CASE("a session of the first schema is read, and stays as it is", "[session
     CHECK(sha256_of_file(folder.file()) == before);
 }
 
-TEST_CASE("a session with the first view over the ticks is read by that view", "[session]") {
+TEST_CASE("what came after a session was recorded is off in it, by any view", "[session]") {
     const SessionFolder folder;
-    make_session(folder, "schema_2_first_view.sql");
+    make_session(folder, GENERATE("schema_2_first_view.sql", "schema_2_first.sql"));
     const Session session(folder.file());
     session.check();
     CHECK(session.warning().empty());
-    REQUIRE(session.parameters().size() == 1);
-    const SessionParameters& parameters = session.parameters()[0];
-    CHECK(parameters.touch.algorithm == Algorithm::pga);
-    CHECK(parameters.touch.shape.relief_px == 200.0);
-    CHECK(parameters.touch.friction.static_coefficient == 0.3);
-    CHECK(parameters.touch.coupling.pixel_pitch_mm == 0.25);
-    // What there was not yet is off.
+    CHECK(session.rows() == 80);
+    CHECK(session.missing() == 0);
+    REQUIRE(session.parameters().size() == 2);
+    const SessionParameters& parameters = session.parameters()[1];
+    CHECK(parameters.first_tick == 60);
+    CHECK(parameters.touch.algorithm == Algorithm::dibhr);
+    CHECK(parameters.touch.friction.static_coefficient == 0.0);
+    CHECK(parameters.touch.coupling.stiffness_newton_per_mm == 5.0);
     CHECK(parameters.touch.coupling.damping_cutoff_hz == 0.0);
     CHECK(parameters.touch.coupling.unseen_share == 1.0);
     CHECK(parameters.touch.shape.bump_size_px == 0.0);
@@ -124,34 +125,44 @@ TEST_CASE("a session with the first view over the ticks is read by that view", "
     CHECK(parameters.limits.max_force_newton == 4.0);
     CHECK(parameters.limits.watched == DeviceDynamics{});
     REQUIRE(session.sources().size() == 1);
-    const SessionSource& source = session.sources()[0];
-    CHECK(source.source == FrameSource{.media = 1, .fill_holes = true, .smooth_steps = true});
-    CHECK(source.depth.file == "/films/depth.mp4");
-    CHECK(source.depth.head_bytes == 0);
+    CHECK(session.sources()[0].source == FrameSource{.media = 1});
+    CHECK(session.sources()[0].depth.file == "/films/hill_depth.png");
+    CHECK(session.sources()[0].depth.head_bytes == 0);
     REQUIRE(session.marks().size() == 1);
     CHECK(session.marks()[0].tag == "M1");
+    REQUIRE(session.utc_at(session.begin_s()));
+    CHECK(ticks_from(session)[0].utc_s == *session.utc_at(session.begin_s()));
+}
 
-    const std::vector<TickRecord> ticks = ticks_from(session);
-    REQUIRE(ticks.size() == 3);
-    const TickRecord& first = ticks[0];
-    CHECK(first.contact);
-    CHECK(first.primitive == 1);
-    CHECK(first.buttons == 1);
-    CHECK(first.surface);
-    CHECK(first.device_ready);
-    CHECK(first.from_zero);
-    CHECK_FALSE(first.gliding);
-    CHECK(same_bits(first.proxy, {10.5, 12.25, 100.0}));
-    CHECK(same_bits(first.spring_newton, {0.0, 0.0, 13.0}));
-    CHECK(same_bits(first.sent_newton, {0.0, 0.0, 3.5}));
-    CHECK(first.frames.from_s == 0.1);
-    CHECK(first.utc_s == 1795000000.5);
-    CHECK(ticks[1].cut == 3);
-    CHECK_FALSE(ticks[1].device_ready);
-    CHECK(ticks[1].own_newton.x == 0.5);
-    CHECK(ticks[2].t_s == 0.0030000000001);
-    CHECK_FALSE(ticks[2].surface);
-    CHECK(ticks[2].mouse_fallback);
+TEST_CASE("a walk that two versions recorded, each with its own view, has the same ticks in both",
+          "[session]") {
+    const SessionFolder early;
+    const SessionFolder late;
+    make_session(early, "schema_2_first_view.sql");
+    make_session(late, "schema_2_first.sql");
+    const std::vector<TickRecord> first = ticks_from(Session(early.file()));
+    const std::vector<TickRecord> second = ticks_from(Session(late.file()));
+    REQUIRE(first.size() == 80);
+    REQUIRE(second.size() == first.size());
+    for (std::size_t k = 0; k < first.size(); ++k) {
+        CAPTURE(first[k].tick);
+        CHECK(same_record(first[k], second[k]));
+    }
+    CHECK(first[0].from_zero);
+    CHECK(first[0].buttons == 1);
+    CHECK(first[0].contact);
+    CHECK(first[0].primitive == 1);
+    CHECK(first[0].i == 17);
+    CHECK(same_bits(first[0].proxy, {17.384999999999998, 15.3125, 94.77}));
+    CHECK(first[39].cut == 3);
+    CHECK_FALSE(first[39].device_ready);
+    CHECK(first[39].surface);
+    CHECK(same_bits(first[51].own_newton, {0.1, -0.2, 1.0 / 3.0}));
+    CHECK(same_bits(first[69].sent_newton, first[69].spring_newton));
+    CHECK_FALSE(first[69].gliding);
+    CHECK_FALSE(first[75].surface);
+    CHECK(first[78].mouse_fallback);
+    CHECK(first[79].t_s == 0.0800000000001);
 }
 
 TEST_CASE("a session of a schema to come is read as far as it is understood", "[session]") {
