@@ -99,6 +99,21 @@ TEST_CASE("the Python of FORMAT.md reads the same ticks as an export, to the las
     }
 }
 
+TEST_CASE("an export says the wall time of its first tick, and the drift of the wall clock",
+          "[export]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "sqlite3 mine.dibhr \".read '" DIBHR_SOURCE_DIR
+                      "/tests/data/sessions/schema_2_first.sql'\" 'DELETE FROM clock' "
+                      "'INSERT INTO clock VALUES(1000000, 1795000000.5, 0, 0), "
+                      "(5001000000, 1795000005.75, 0, 0)'");
+    const ProgramResult result = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.output ==
+          "first tick (t = 0.001000 s): 2026-11-18 11:06:40 UTC, utc_s = 1795000000.500000\n"
+          "drift of the wall clock on t: 250.000 ms in 5.0 s\n");
+}
+
 TEST_CASE("an export needs to be told where to write, and never writes over the session",
           "[export]") {
     const TemporaryFolder folder;
