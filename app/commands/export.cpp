@@ -2,12 +2,15 @@
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>
+#include <iostream>
+#include <optional>
 #include <string>
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "core/files/csv_table.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
 #include "core/sqlite/database.hpp"
 
@@ -31,6 +34,18 @@ void append_cell(std::string& text, const Statement& ticks, int column) {
             text += csv_cell(ticks.text(column));
             break;
     }
+}
+
+/// Prints when the first tick was, and how the wall clock went beside the ticks' clock.
+void print_clock(const Session& session) {
+    const std::optional<double> begin = session.utc_at(session.begin_s());
+    if (!begin) return;
+    std::cout << "first tick (t = " << number_text(session.begin_s(), 6)
+              << " s): " << wall_time_text(*begin) << ", utc_s = " << number_text(*begin, 6)
+              << '\n';
+    if (const std::optional<ClockDrift> drift = session.drift())
+        std::cout << "drift of the wall clock on t: " << number_text(1e3 * drift->gained_s, 3)
+                  << " ms in " << number_text(drift->over_s, 1) << " s\n";
 }
 
 }  // namespace
@@ -67,6 +82,7 @@ int run_export(CLI::App& app, const Arguments& arguments) {
             bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
     }
     rows.commit();
+    if (csv != "-") print_clock(session);
     return 0;
 }
 

@@ -64,9 +64,17 @@ void print_extent(const Session& session) {
     print_fact("ticks", std::to_string(session.rows()));
     print_fact("late ticks", std::to_string(late_ticks(session.reader())));
     if (session.missing() > 0) print_fact("missing ticks", std::to_string(session.missing()));
-    for (const SessionMark& mark : session.marks())
+    if (const auto begin = session.utc_at(session.begin_s()))
+        print_fact("first tick", wall_time_text(*begin) + ", utc_s " + number_text(*begin, 3));
+    if (const auto drift = session.drift())
+        print_fact("wall clock gained", number_text(1e3 * drift->gained_s, 3) + " ms in " +
+                                            number_text(drift->over_s, 1) + " s");
+    for (const SessionMark& mark : session.marks()) {
+        const auto utc_s = session.utc_at(mark.t_s);
         print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
-                               (mark.text.empty() ? "" : ": " + mark.text));
+                               (mark.text.empty() ? "" : ": " + mark.text) +
+                               (utc_s ? "  (utc_s " + number_text(*utc_s, 3) + ")" : ""));
+    }
 }
 
 /// The most important facts first: what was touched, when and how long, with which device and which

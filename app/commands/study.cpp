@@ -211,6 +211,7 @@ int run(const StudyOptions& options) {
 
 int extract_sessions(const StudyOptions& options) {
     const StudyRecord study = read_study(options.file());
+    print_warning(study.warning);
     std::error_code ignored;
     make_folders(options.folder(), ignored);
     int written = 0;
@@ -251,6 +252,7 @@ std::vector<fs::path> study_files(const std::vector<fs::path>& given) {
 int report(const StudyOptions& options) {
     if (options.out.empty())
         throw UsageError("report needs --out DIR, the folder it is written to");
+    std::vector<std::string> warnings;
     {
         ProgressBar bar("measuring the study");
         StudyReportRequest request{.folder = options.out,
@@ -258,8 +260,9 @@ int report(const StudyOptions& options) {
                                    .analysis = options.analysis,
                                    .plot_formats = options.plot_formats};
         request.analysis.progress = [&bar](double share) { bar.show(share); };
-        write_study_report(study_files(options.files), request);
+        warnings = write_study_report(study_files(options.files), request);
     }
+    for (const std::string& warning : warnings) print_warning(warning);
     std::cout << (options.out / "report.html").string() << '\n';
     return 0;
 }

@@ -194,9 +194,12 @@ struct Recorder::Implementation {
         if (queued.empty() && batch.empty() && sums.all_ready()) return;
         open_transaction();
         if (!zero_ns && !batch.empty()) {
-            zero_ns = batch.front().zero_ns;
             first_s = batch.front().t_s;
-            set_clock(std::llround(first_s * kNanosecondsPerSecond));
+            const std::int64_t first_ns = std::llround(first_s * kNanosecondsPerSecond);
+            // Ticks of no clock of this machine count from now on.
+            zero_ns =
+                batch.front().zero_ns != 0 ? batch.front().zero_ns : nanoseconds(now()) - first_ns;
+            set_clock(first_ns);
             add_early_marks();
         }
         for (const auto& note : queued) note(*this);

@@ -2,6 +2,7 @@
 #include "core/session/session.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <set>
 #include <string_view>
@@ -156,6 +157,13 @@ std::string Session::fact(const std::string& key) const {
 }
 
 std::string Session::warning() const {
+    const std::string log = log_warning();
+    const std::string& schema = reader_.other_schema();
+    if (schema.empty()) return log;
+    return log.empty() ? file().string() + ": " + schema : log + "; it " + schema;
+}
+
+std::string Session::log_warning() const {
     const std::string log = file().filename().string() + "-wal";
     if (reader_.log() == SessionReader::Log::foreign)
         return file().string() + ": its recording ended, so " + log +
@@ -324,6 +332,25 @@ std::int64_t Session::tick_at(double t_s) const {
         }
     }
     return first;
+}
+
+std::optional<double> Session::utc_at(double t_s) const {
+    constexpr double kMost_ns = 9e18;  // beyond, a real has no whole nanoseconds in 64 bits
+    const double t_ns = t_s * kNanosecondsPerSecond;
+    if (!(std::abs(t_ns) < kMost_ns)) return std::nullopt;
+    Statement query = reader_.rows(
+        "SELECT utc_s - t_ns / 1e9 FROM clock WHERE t_ns <= " + std::to_string(std::llround(t_ns)) +
+        " ORDER BY t_ns DESC LIMIT 1");
+    return query.next() ? std::optional(query.real(0) + t_s) : std::nullopt;
+}
+
+std::optional<ClockDrift> Session::drift() const {
+    Statement query = reader_.rows(
+        "SELECT (b.utc_s - a.utc_s) - (b.t_ns - a.t_ns) / 1e9, (b.t_ns - a.t_ns) / 1e9 "
+        "FROM (SELECT min(t_ns) AS first, max(t_ns) AS last FROM clock) "
+        "JOIN clock a ON a.t_ns = first JOIN clock b ON b.t_ns = last WHERE first < last");
+    if (!query.next()) return std::nullopt;
+    return ClockDrift{query.real(0), query.real(1)};
 }
 
 HandTicks hand_ticks(const SessionReader& reader) {

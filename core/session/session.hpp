@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,15 @@
 
 namespace dibhr {
 
+/// How the wall clock went beside the ticks' monotonic one.
+struct ClockDrift {
+    double gained_s{0.0};  ///< by the wall clock; also where it was set meanwhile
+    double over_s{0.0};    ///< of the monotonic clock
+};
+
 /// Read while it is recorded or afterwards; the file stays as it is. One thread at a time. Every
 /// call that reads throws InputError, with one plain line, for a file that is missing, foreign,
-/// damaged, cut short or of another version.
+/// damaged or cut short.
 class Session {
   public:
     /// Reads all but the ticks.
@@ -29,7 +36,8 @@ class Session {
     [[nodiscard]] const SessionFacts& facts() const noexcept { return facts_; }
     /// The fact, or an empty text.
     [[nodiscard]] std::string fact(const std::string& key) const;
-    /// A sentence on what may be missing in the file; empty: nothing.
+    /// A sentence on what may be missing in the file, and on what of it is not read; empty:
+    /// nothing.
     [[nodiscard]] std::string warning() const;
     /// In the order in which ticks first used them.
     [[nodiscard]] const std::vector<SessionParameters>& parameters() const noexcept {
@@ -48,6 +56,10 @@ class Session {
     [[nodiscard]] std::int64_t rows() const noexcept { return rows_; }
     [[nodiscard]] double begin_s() const noexcept { return begin_s_; }  ///< the first tick's t_s
     [[nodiscard]] double end_s() const noexcept { return end_s_; }      ///< the last one's
+    /// The wall time since 1970 at a time of the ticks; nothing: none was recorded until then.
+    [[nodiscard]] std::optional<double> utc_at(double t_s) const;
+    /// From the first reading of the wall clock to the last; nothing: there are not two.
+    [[nodiscard]] std::optional<ClockDrift> drift() const;
     /// How many ticks are missing between the first and the last.
     [[nodiscard]] std::int64_t missing() const noexcept { return missing_; }
 
@@ -62,6 +74,8 @@ class Session {
     class Ticks;
 
   private:
+    /// A sentence on a log that is missing or foreign.
+    [[nodiscard]] std::string log_warning() const;
     void read_facts();
     void read_parameters();
     void read_sources();

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <fstream>
+#include <iterator>
+#include <set>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -30,30 +32,78 @@ SessionReader::SessionReader(const std::filesystem::path& file)
       database_(file, {.complete = log_ != Log::needed, .longest_bytes = kLongestValue_bytes},
                 [this](const DatabaseError& error) { refuse(error); }) {
     check_kind();
-    check_tables();
+    schema_ = database_.number("PRAGMA user_version");
+    if (schema_ < kFirstSessionSchema)
+        refuse("its format has the number " + std::to_string(schema_));
+    if (schema_ == kFirstSessionSchema)
+        read_first_schema();
+    else
+        check_view();
 }
 
-/// Requires the tables of a recording and dibhr's own view over them: any other could be endless.
-void SessionReader::check_tables() const {
+void SessionReader::read_first_schema() {
+    require_tables(kFirstSessionTables);
+    database_.execute(first_schema_as_this_one());
+    other_schema_ =
+        "is of format 1, the first, which held no parameters, files, marks and wall clock: it can "
+        "be exported, but not replayed";
+}
+
+void SessionReader::check_view() {
+    require_tables(kSessionTables);
+    // Recordings of before there were touch maps have no such table.
+    if (database_.number("SELECT count(*) FROM sqlite_master WHERE name = 'touch_map'") > 0)
+        require_tables(std::array{std::string_view("touch_map")});
+    Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
+    const bool there = view.next();
+    const bool later = schema_ > kSessionSchemaVersion;
+    if (!there || !(later || is_tick_view(view.text(0))))
+        refuse("its tables are not those of a recording");
+    if (!later) return;
+    const std::string unknown = unknown_parts();
+    other_schema_ = "was recorded by a newer dibhr (format " + std::to_string(schema_) +
+                    ", this one reads " + std::to_string(kSessionSchemaVersion) + "); " +
+                    (unknown.empty() ? "no table or column of it is unknown here"
+                                     : "not read: " + brief(unknown)) +
+                    "; update dibhr";
+}
+
+void SessionReader::require_tables(std::span<const std::string_view> wanted) const {
     std::string names;
-    for (const std::string_view name : kSessionTables)
+    for (const std::string_view name : wanted)
         names.append(names.empty() ? "('" : ", '").append(name).append("'");
-    // A view has no pages of its own, nor has a table that a module makes up; a hidden column may
-    // be computed. Recordings of before there were touch maps have no such table.
+    // A view has no pages of its own, nor has a table that a module makes up.
     const bool plain =
         database_.number(
-            "SELECT count(*) FROM sqlite_master WHERE name = 'touch_map' AND NOT "
-            "(type = 'table' AND rootpage > 0)") == 0 &&
-        database_.number(
             "SELECT sum(rootpage > 0) FROM sqlite_master WHERE type = 'table' AND name IN " +
-            names + ")") == std::ssize(kSessionTables) &&
+            names + ")") == std::ssize(wanted) &&
         database_.number(
             "SELECT sum(x.hidden) FROM sqlite_master m, pragma_table_xinfo(m.name) x "
             "WHERE m.name IN " +
             names + ")") == 0;
-    Statement view = rows("SELECT sql FROM sqlite_master WHERE type = 'view' AND name = 'tick'");
-    if (!plain || !view.next() || view.text(0) != tick_view())
-        refuse("its tables are not those of a recording");
+    if (!plain) refuse("its tables are not those of a recording");
+}
+
+std::string SessionReader::unknown_parts() const {
+    constexpr std::string_view kColumns =
+        "SELECT m.name, x.name FROM sqlite_master m, pragma_table_info(m.name) x "
+        "WHERE m.type IN ('table', 'view') AND m.name NOT LIKE 'sqlite%' ORDER BY m.rowid, x.cid";
+    std::set<std::string> known;
+    const Database here(":memory:");
+    here.execute(session_schema());
+    for (Statement row(here, kColumns); row.next();) {
+        known.insert(row.text(0));
+        known.insert(row.text(0) + '.' + row.text(1));
+    }
+    std::set<std::string> named;
+    std::string unknown;
+    for (Statement row = rows(kColumns); row.next();) {
+        const bool table = !known.contains(row.text(0));
+        const std::string part = row.text(0) + (table ? "" : '.' + row.text(1));
+        if (known.contains(part) || !named.insert(part).second) continue;
+        unknown += (unknown.empty() ? "" : ", ") + part;
+    }
+    return unknown;
 }
 
 /// The head of a closed file holds its length, and whether a log belongs to it. Refuses a shorter
@@ -111,13 +161,6 @@ void SessionReader::check_kind() const {
                              log + "; record it again");
     }
     if (application != kSessionApplicationId) refuse("another program's database");
-    const std::int64_t version = database_.number("PRAGMA user_version");
-    if (version == kSessionSchemaVersion) return;
-    const bool newer = version > kSessionSchemaVersion;
-    throw InputError(file_.string() + ": was recorded by " + (newer ? "a newer" : "an older") +
-                     " dibhr (format " + std::to_string(version) + ", this one reads " +
-                     std::to_string(kSessionSchemaVersion) + "); " +
-                     (newer ? "update dibhr" : "record it again"));
 }
 
 void SessionReader::check() const {
@@ -142,7 +185,8 @@ void SessionReader::refuse(const DatabaseError& error) const {
 
 void SessionReader::refuse(const std::string& reason) const {
     throw InputError(file_.string() + ": is no session that can be read (" + brief(reason) +
-                     "); choose a file that dibhr recorded");
+                     (schema_ > kSessionSchemaVersion ? "); update dibhr"
+                                                      : "); choose a file that dibhr recorded"));
 }
 
 void SessionReader::refuse_damaged(const std::string& words) const {

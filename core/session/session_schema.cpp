@@ -3,6 +3,7 @@
 
 #include <type_traits>
 
+#include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/safety.hpp"
 #include "core/haptics/surface.hpp"
@@ -214,6 +215,37 @@ std::string explanations() {
     return text;
 }
 
+/// The tables that the first schema lacks, with the columns that every reader asks for.
+constexpr std::string_view kAbsentTables = R"(
+CREATE TEMP TABLE media(id INTEGER PRIMARY KEY, file TEXT, bytes INTEGER, sha256 TEXT);
+CREATE TEMP TABLE source(id INTEGER PRIMARY KEY, first_tick INTEGER, media INTEGER, colour INTEGER,
+  depth INTEGER);
+CREATE TEMP TABLE parameters(version INTEGER PRIMARY KEY, first_tick INTEGER, algorithm TEXT,
+  force_enabled INTEGER, bump INTEGER);
+CREATE TEMP TABLE pair(id INTEGER PRIMARY KEY, source INTEGER, from_frame INTEGER,
+  to_frame INTEGER, from_s, to_s, span_s);
+CREATE TEMP TABLE clock(t_ns INTEGER PRIMARY KEY, utc_s REAL, dropped INTEGER, high_water INTEGER);
+CREATE TEMP TABLE mark(id INTEGER PRIMARY KEY, t REAL, tag TEXT, text TEXT);
+CREATE TEMP TABLE tick_data(tick INTEGER PRIMARY KEY, at INTEGER, state INTEGER);
+INSERT INTO tick_data SELECT tick, rowid, 0 FROM main.tick;
+)";
+
+/// The value of a column of the view, from the first schema's table `tick`: b.
+std::string first_schema_value(const Column& column) {
+    const std::string_view name = column.name;
+    for (const std::string_view absent : {"utc_s", "pair", "source", "settings"})
+        if (name == absent) return "NULL";
+    for (const std::string_view off : {"stand_in", "restart", "lets_go", "refused"})
+        if (name == off) return "0";
+    for (const std::string_view on : {"surface", "ready"})
+        if (name == on) return "1";
+    for (const std::string_view own : {"ox", "oy", "oz"})
+        if (name == own) return "0.0";
+    if (name == "video_s") return "b.playback_s";
+    if (name == "tick") return "d.tick";
+    return name == "to_frame" ? "b.frame + 1" : "b." + std::string(name);
+}
+
 }  // namespace
 
 std::string tick_view() {
@@ -229,6 +261,26 @@ std::string tick_view() {
     return select +
            "\nFROM tick_data d LEFT JOIN pair q ON q.id = d.pair"
            " LEFT JOIN parameters s ON s.version = d.settings";
+}
+
+std::string first_schema_as_this_one() {
+    std::string select;
+    for (const Column& column : columns())
+        select += (select.empty() ? "SELECT " : ", ") + first_schema_value(column) + " AS " +
+                  std::string(column.name);
+    return "PRAGMA temp_store = MEMORY;" + std::string(kAbsentTables) +
+           "CREATE TEMP VIEW tick AS " + select +
+           " FROM tick_data d CROSS JOIN main.tick b ON b.rowid = d.at;\n";
+}
+
+bool is_tick_view(const std::string& sql) {
+    // The SHA-256 of the view of 2026-11-20, which had other bits in `state` and coded no force
+    // that a limit shortened.
+    constexpr std::string_view kFirstView =
+        "a592b0e319a5679f766be8ea57daed734de24ea448c97e2a7cfbe3ce1fea7cfa";
+    if (sql == tick_view()) return true;
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(sql.data());
+    return sha256_of({bytes, sql.size()}) == kFirstView;
 }
 
 std::string session_schema() {

@@ -11,7 +11,10 @@ namespace dibhr {
 /// "dhap": identifies the file as a session (`PRAGMA application_id`).
 inline constexpr int kSessionApplicationId = 0x64686170;
 /// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
+/// FORMAT.md states every schema that there was, and what a change must keep.
 inline constexpr int kSessionSchemaVersion = 2;
+/// The schema that had a table `tick`, and neither parameters nor files.
+inline constexpr int kFirstSessionSchema = 1;
 
 /// Statements that make the tables of an empty database, and fill the explaining ones. A value of a
 /// tick that follows from the rest of its row is not stored in `tick_data`; the view `tick`
@@ -22,9 +25,20 @@ inline constexpr int kSessionSchemaVersion = 2;
 inline constexpr std::array<std::string_view, 8> kSessionTables{
     "session", "media", "source", "pair", "parameters", "tick_data", "clock", "mark"};
 
-/// The statement of the view `tick`, as it is stored in a session file. A reader refuses any other:
-/// a change needs a higher kSessionSchemaVersion, and a reader for the one before.
+/// The tables that are read of a file of the first schema.
+inline constexpr std::array<std::string_view, 2> kFirstSessionTables{"session", "tick"};
+
+/// Statements for a connection to a file of the first schema. They make the view `tick` over the
+/// file's table, and the other tables of kSessionTables without rows, in the connection's memory.
+[[nodiscard]] std::string first_schema_as_this_one();
+
+/// The statement of the view `tick`, as it is stored in a session file.
 [[nodiscard]] std::string tick_view();
+
+/// Whether `sql` is the statement of the view `tick` in a file of this schema: tick_view(),
+/// or that of a dibhr that coded its ticks otherwise. A reader refuses any other: a change needs a
+/// higher kSessionSchemaVersion, and the statement before it a line in is_tick_view().
+[[nodiscard]] bool is_tick_view(const std::string& sql);
 
 /// The number of columns of `tick_data`.
 inline constexpr int kTickDataColumns = 27;

@@ -71,9 +71,10 @@ struct FramePair {
 /// The whole input of a tick, and its result. Grid space [px], newtons, seconds. A number that is
 /// not finite is recorded as infinity.
 struct TickRecord {
-    std::int64_t tick{0};       ///< number of the tick in its loop; one more than the one before
-    double t_s{0.0};            ///< monotonic, since the loop began
-    std::int64_t zero_ns{0};    ///< the steady clock at t_s = 0; not read back
+    std::int64_t tick{0};  ///< number of the tick in its loop; one more than the one before
+    double t_s{0.0};       ///< monotonic, since the loop began
+    /// The steady clock at t_s = 0; 0: the ticks were computed, on no clock. Not read back.
+    std::int64_t zero_ns{0};
     double dt_s{0.0};           ///< since the tick before began
     double lateness_us{0.0};    ///< after its deadline
     double update_us{0.0};      ///< time of the update

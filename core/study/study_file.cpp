@@ -206,12 +206,25 @@ std::vector<AnsweredTrial> answered_in(const Database& database, const fs::path&
 }
 
 void require_kind(const Database& database, const fs::path& file) {
-    if (database.number("PRAGMA application_id") != kStudyApplicationId)
+    if (database.number("PRAGMA application_id") != kStudyApplicationId || version_of(database) < 1)
         refuse(file, "is no study of dibhr: name a file that dibhr study run made");
+}
+
+/// Only the dibhr of its version, or a later one, writes into a study.
+void require_writable_version(const Database& database, const fs::path& file) {
     const std::int64_t version = version_of(database);
-    if (version < 1 || version > kStudySchemaVersion)
+    if (version > kStudySchemaVersion)
         refuse(file, "is a study of another version (" + std::to_string(version) + "; this is " +
                          std::to_string(kStudySchemaVersion) + "): use the program that made it");
+}
+
+/// Empty: the file is of this version or an earlier one.
+std::string later_version(const Database& database, const fs::path& file) {
+    const std::int64_t version = version_of(database);
+    if (version <= kStudySchemaVersion) return {};
+    return one_line(file.string()) + ": was made by a newer dibhr (format " +
+           std::to_string(version) + ", this one reads " + std::to_string(kStudySchemaVersion) +
+           "); tables and columns that are new in it are not read; update dibhr";
 }
 
 /// Opens a study file for reading, and checks it like a new one.
@@ -318,6 +331,7 @@ struct StudyFile::Implementation {
 
     void resume(const StudyIdentity& wanted) {
         require_kind(database, file);
+        require_writable_version(database, file);
         identity = identity_in(database, file);
         if (identity.protocol_sha256 != wanted.protocol_sha256)
             refuse(file,
@@ -416,7 +430,8 @@ StudyRecord read_study(const fs::path& file) {
     StudyRecord record{.file = file,
                        .identity = identity_in(database, file),
                        .finished = fact(database, "finished") == "1",
-                       .answered = answered_in(database, file)};
+                       .answered = answered_in(database, file),
+                       .warning = later_version(database, file)};
     Statement rows(database,
                    "SELECT trial.trial, length(session.file) FROM trial LEFT JOIN session USING "
                    "(trial) ORDER BY trial.trial");

@@ -88,10 +88,11 @@ struct StudyRecord {
     bool finished{false};
     std::vector<AnsweredTrial> answered{};      ///< in order
     std::vector<std::int64_t> session_bytes{};  ///< of each of them; 0: none
+    std::string warning{};  ///< of a later schema: what of it is not read; empty: all is
 };
 
-/// Reads all but the sessions. Throws InputError for a file that is missing, foreign, damaged, of
-/// another version, or being run.
+/// Reads all but the sessions; of a file of a later schema what is known here. Throws InputError
+/// for a file that is missing, foreign, damaged or being run.
 [[nodiscard]] StudyRecord read_study(const std::filesystem::path& file);
 
 /// "P07-003.dibhr": participant and trial, from 1; never a condition's name.

@@ -158,8 +158,8 @@ void draw_motion(const Drawing& drawing) {
 
 }  // namespace
 
-void write_study_report(const std::vector<std::filesystem::path>& files,
-                        const StudyReportRequest& request) {
+std::vector<std::string> write_study_report(const std::vector<std::filesystem::path>& files,
+                                            const StudyReportRequest& request) {
     StudyReport report{
         .study = read_studies(files), .analysis = request.analysis, .program = request.program};
     const auto& all = report.study.participants;
@@ -188,6 +188,10 @@ void write_study_report(const std::vector<std::filesystem::path>& files,
     folder.add("report.json", json_of(report));
     folder.add("report.html", page_of(report));
     folder.commit();
+    std::vector<std::string> warnings;
+    for (const StudyRecord& one : all)
+        if (!one.warning.empty()) warnings.push_back(one.warning);
+    return warnings;
 }
 
 }  // namespace dibhr

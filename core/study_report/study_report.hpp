@@ -32,9 +32,10 @@ struct StudyReportRequest {
 };
 
 /// Writes `report.html`, `report.json`, `trials.csv`, `intervals.csv` and the pictures into the
-/// folder, all of them or none. Throws InputError: what, which file, what to do next.
-void write_study_report(const std::vector<std::filesystem::path>& files,
-                        const StudyReportRequest& request);
+/// folder, all of them or none. Returns the warnings of the files that were not read whole, a line
+/// each. Throws InputError: what, which file, what to do next.
+std::vector<std::string> write_study_report(const std::vector<std::filesystem::path>& files,
+                                            const StudyReportRequest& request);
 
 /// A row is a trial, practice too: `participant,number,pilot,trial,block,position,practice,form,
 /// reference,comparison,repetition,target,track,parameter,level,choice,chosen,answer,right,

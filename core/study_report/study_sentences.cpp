@@ -290,13 +290,18 @@ std::vector<std::string> limits_of(const StudyReport& report) {
                          ": it takes " + std::to_string(kFewestForRanks) +
                          " or more to say something about people in general.");
     std::vector<std::string> unfinished;
+    std::vector<std::string> later;
     std::set<std::string> programs;
     for (const StudyRecord& record : study.participants) {
+        if (!record.warning.empty()) later.push_back(record.identity.participant);
         if (!record.finished) unfinished.push_back(record.identity.participant);
         programs.insert(record.identity.program);
     }
     if (!unfinished.empty())
         limits.push_back("Not finished: " + listed(unfinished) + ". What they answered is in.");
+    if (!later.empty())
+        limits.push_back("Made by a newer dibhr: " + listed(later) +
+                         ". What is new in these files is not in this report.");
     if (programs.size() > 1)
         limits.push_back("Made with different versions of the program: " +
                          listed({programs.begin(), programs.end()}) + ".");

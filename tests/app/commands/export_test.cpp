@@ -9,6 +9,7 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using namespace dibhr::test;
@@ -33,7 +34,8 @@ TEST_CASE("an export has every tick, the contract's columns first, every real to
     const ProgramResult result = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"});
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
-    CHECK(result.output.empty());
+    CHECK(result.output.starts_with("first tick (t = "));
+    CHECK(contains(result.output, "drift of the wall clock on t: "));
     const auto lines = split(read_text(folder / "mine.csv"), '\n');
     REQUIRE(lines.size() == 1002);
     std::string contract(kOutputHeader);
@@ -61,6 +63,55 @@ TEST_CASE("an export has every tick, the contract's columns first, every real to
     const ProgramResult out = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "-"});
     CHECK(out.exit_code == 0);
     CHECK(out.output == read_text(folder / "mine.csv"));
+}
+
+TEST_CASE("the Python of FORMAT.md reads the same ticks as an export, to the last bit",
+          "[export]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
+    write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
+    // Past the limits of the force, and without a surface at the end: every way to code a cell.
+    record_session(folder / "mine.dibhr", {.colour = folder / "hill_color.png",
+                                           .depth = folder / "hill_depth.png",
+                                           .ticks_without_surface = 20,
+                                           .jumps = true});
+    REQUIRE(run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"}).exit_code == 0);
+    const std::string script = "PYTHONDONTWRITEBYTECODE=1 python3 '" DIBHR_SOURCE_DIR
+                               "/core/session/read_session.py' mine.dibhr python.csv >mine.json";
+    run_shell(folder, script);
+    CHECK(contains(read_text(folder / "mine.json"), R"({"key": "complete", "value": "1"})"));
+    const auto exported = split(read_text(folder / "mine.csv"), '\n');
+    const auto read = split(read_text(folder / "python.csv"), '\n');
+    REQUIRE(exported.size() > 1000);
+    REQUIRE(read.size() == exported.size());
+    REQUIRE(read[0] == exported[0]);
+    for (std::size_t k = 1; k + 1 < read.size(); ++k) {
+        CAPTURE(k);
+        const auto cells = split(read[k], ','), expected = split(exported[k], ',');
+        REQUIRE(cells.size() == expected.size());
+        for (std::size_t column = 0; column < cells.size(); ++column) {
+            CAPTURE(column, cells[column], expected[column]);
+            const bool same = cells[column] == expected[column] ||
+                              (!cells[column].empty() && !expected[column].empty() &&
+                               same_bits(real_of(cells[column]), real_of(expected[column])));
+            REQUIRE(same);
+        }
+    }
+}
+
+TEST_CASE("an export says the wall time of its first tick, and the drift of the wall clock",
+          "[export]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "sqlite3 mine.dibhr \".read '" DIBHR_SOURCE_DIR
+                      "/tests/data/sessions/schema_2_first.sql'\" 'DELETE FROM clock' "
+                      "'INSERT INTO clock VALUES(1000000, 1795000000.5, 0, 0), "
+                      "(5001000000, 1795000005.75, 0, 0)'");
+    const ProgramResult result = run_dibhr(folder, {"export", "mine.dibhr", "--csv", "mine.csv"});
+    INFO(result.errors);
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.output ==
+          "first tick (t = 0.001000 s): 2026-11-18 11:06:40 UTC, utc_s = 1795000000.500000\n"
+          "drift of the wall clock on t: 250.000 ms in 5.0 s\n");
 }
 
 TEST_CASE("an export needs to be told where to write, and never writes over the session",

@@ -480,8 +480,6 @@ TEST_CASE("files that are no session are refused by every command in one line", 
     write_text(folder / "short.dibhr", good.substr(0, good.size() / 2));
     write_text(folder / "text.dibhr", "t,x,y,z\n");
     write_text(folder / "empty.dibhr", "");
-    run_shell(folder,
-              "cp good.dibhr newer.dibhr && sqlite3 newer.dibhr 'PRAGMA user_version = 99'");
     run_shell(folder, "sqlite3 other.dibhr 'CREATE TABLE a(b)'");
     std::string damaged = good;
     for (std::size_t k = damaged.size() / 2; k < damaged.size() / 2 + 20000; ++k) damaged[k] = 'x';
@@ -492,7 +490,6 @@ TEST_CASE("files that are no session are refused by every command in one line", 
              std::vector<std::pair<std::string, std::string>>{{"short.dibhr", "cut short"},
                                                               {"text.dibhr", "no SQLite file"},
                                                               {"empty.dibhr", "empty"},
-                                                              {"newer.dibhr", "newer"},
                                                               {"other.dibhr", "another program"},
                                                               {"damaged.dibhr", "damaged"},
                                                               {"none.dibhr", "no such file"}}) {
@@ -506,6 +503,60 @@ TEST_CASE("files that are no session are refused by every command in one line", 
             CHECK(contains(result.errors, name));
             CHECK(contains(result.errors, word));
         }
+    }
+}
+
+TEST_CASE("a session of every schema is read by every command, and replayed to its bits",
+          "[replay]") {
+    const TemporaryFolder folder;
+    write_depth_png(folder / "hill_depth.png", 60, 40, 60, 2);
+    write_depth_png(folder / "hill_color.png", 60, 40, 10, 1);
+    const auto& [name, ticks] = GENERATE(from_range(std::vector<std::pair<std::string, int>>{
+        {"schema_1", 3}, {"schema_2_first_view", 80}, {"schema_2_first", 80}}));
+    CAPTURE(name);
+    run_shell(folder, "sqlite3 old.dibhr \".read '" DIBHR_SOURCE_DIR "/tests/data/sessions/" +
+                          name + ".sql'\"");
+    const auto succeeds = [&folder](const std::vector<std::string>& arguments) {
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(arguments, result.errors);
+        REQUIRE(result.exit_code == 0);
+        return result;
+    };
+    CHECK(contains(succeeds({"info", "old.dibhr"}).output, std::to_string(ticks)));
+    CHECK(split(succeeds({"export", "old.dibhr", "--csv", "-"}).output, '\n').size() ==
+          static_cast<std::size_t>(ticks) + 2);
+    succeeds({"report", "old.dibhr", "--out", "r"});
+    CHECK(contains(read_text(folder / "r/report.html"), "of the first day"));
+    const std::vector<std::string> replay{"replay",      "old.dibhr", "--algorithm", "dibhr",
+                                          "--algorithm", "pga",       "--algorithm", "neighborhood",
+                                          "--algorithm", "god-object"};
+    if (name != "schema_1") {
+        CHECK(contains(succeeds(replay).output, "dibhr, as recorded: all 80 proxies and forces"));
+        return;
+    }
+    const ProgramResult refused = run_dibhr(folder, replay);
+    CHECK(refused.exit_code != 0);
+    CHECK(contains(refused.errors, "is of format 1, the first"));
+    CHECK(contains(refused.errors, "it can be exported, but not replayed"));
+}
+
+TEST_CASE("every command reads a session of a newer dibhr, and says in one line what it is",
+          "[replay]") {
+    const TemporaryFolder folder;
+    RecordedSession session = film_session();
+    session.seconds = 0.2;
+    record_session(folder / "newer.dibhr", session);
+    run_shell(folder, "sqlite3 newer.dibhr 'PRAGMA user_version = 99'");
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info"}, {"replay"}, {"export", "--csv", "-"}}) {
+        std::vector<std::string> arguments = command;
+        arguments.push_back("newer.dibhr");
+        const ProgramResult result = run_dibhr(folder, arguments);
+        CAPTURE(command, result.errors);
+        CHECK(result.exit_code == 0);
+        CHECK_FALSE(result.output.empty());
+        CHECK(is_one_line(result.errors));
+        CHECK(contains(result.errors, "newer.dibhr: was recorded by a newer dibhr (format 99"));
     }
 }
 

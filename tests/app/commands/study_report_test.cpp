@@ -72,6 +72,61 @@ TEST_CASE("a report is a page, numbers, tables and pictures of all participants"
     CHECK_FALSE(contains(page, "<script"));
 }
 
+TEST_CASE("a study of the first schema, with a session of its time, is reported and taken out",
+          "[study report]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "sqlite3 s.dibhr <'" DIBHR_SOURCE_DIR
+                      "/tests/data/sessions/schema_2_first.sql' && "
+                      "sqlite3 P07.dibhr-study <'" DIBHR_SOURCE_DIR
+                      "/tests/data/studies/schema_1.sql' && "
+                      "sqlite3 P07.dibhr-study \"INSERT INTO session VALUES(0, "
+                      "readfile('s.dibhr'))\"");
+    const ProgramResult made =
+        run_dibhr(folder, {"study", "report", "P07.dibhr-study", "--out", "r"});
+    INFO(made.errors);
+    REQUIRE(made.exit_code == 0);
+    CHECK(made.errors.empty());
+    CHECK(report_in(folder, "r")["blocks"][0]["trials"] == 6);
+    REQUIRE(run_dibhr(folder, {"study", "sessions", "P07.dibhr-study", "--out", "s"}).exit_code ==
+            0);
+    CHECK(contains(run_dibhr(folder, {"info", "s/P07-001.dibhr"}).output, "P07"));
+}
+
+TEST_CASE("a report of a newer dibhr's study says so in one line, and on its page",
+          "[study report]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "sqlite3 P07.dibhr-study <'" DIBHR_SOURCE_DIR
+                      "/tests/data/studies/schema_1.sql' && sqlite3 P07.dibhr-study "
+                      "'ALTER TABLE trial ADD COLUMN early; ALTER TABLE trial ADD COLUMN glove; "
+                      "PRAGMA user_version = 3'");
+    const ProgramResult made =
+        run_dibhr(folder, {"study", "report", "P07.dibhr-study", "--out", "r"});
+    INFO(made.errors);
+    REQUIRE(made.exit_code == 0);
+    CHECK(contains(made.errors, "P07.dibhr-study: was made by a newer dibhr (format 3, "));
+    CHECK(made.errors.find('\n') == made.errors.size() - 1);
+    CHECK(contains(read_text(folder / "r/report.html"), "Made by a newer dibhr: P07."));
+}
+
+TEST_CASE("the Python of the study's FORMAT.md reads its trials and takes its sessions out",
+          "[study report]") {
+    const TemporaryFolder folder;
+    write_text(folder / "study.toml", kTwoAlgorithms + "repetitions = 2\n");
+    REQUIRE(run_participant(folder, "P07", "guess").exit_code == 0);
+    const std::string page = read_text(DIBHR_SOURCE_DIR "/core/study/FORMAT.md");
+    const std::string fence = "```python\n";
+    const std::size_t begin = page.find(fence) + fence.size();
+    write_text(folder / "answers/read.py", page.substr(begin, page.find("```", begin) - begin));
+    run_shell(folder,
+              "cd answers && sqlite3 P07.dibhr-study \"INSERT INTO session VALUES(1, "
+              "CAST('ticks' AS BLOB))\" && python3 read.py >trials");
+    const std::string trials = read_text(folder / "answers/trials");
+    CHECK(split(trials, '\n').size() == 3);
+    CHECK(contains(trials, "'form': 'two-interval'"));
+    CHECK(contains(trials, "('smooth-one', None, {'friction': 0.4, 'algorithm': 'dibhr'})"));
+    CHECK(read_text(folder / "answers/P07-002.dibhr") == "ticks");
+}
+
 TEST_CASE("the tables of a report hold no formula, whatever its page calls things",
           "[study report]") {
     const TemporaryFolder folder;

@@ -78,21 +78,6 @@ TickRecord any_tick(std::int64_t number, AnyReal& real) {
     return tick;
 }
 
-bool same(const TickRecord& a, const TickRecord& b) {
-    return a.tick == b.tick && same_bits(a.t_s, b.t_s) && same_bits(a.dt_s, b.dt_s) &&
-           same_bits(a.lateness_us, b.lateness_us) && same_bits(a.update_us, b.update_us) &&
-           a.settings == b.settings && a.frames == b.frames && same_bits(a.blend, b.blend) &&
-           same_bits(a.goal, b.goal) && same_bits(a.proxy, b.proxy) &&
-           same_bits(a.spring_newton, b.spring_newton) && same_bits(a.sent_newton, b.sent_newton) &&
-           same_bits(a.own_newton, b.own_newton) && a.moves == b.moves && a.i == b.i &&
-           a.j == b.j && a.contact == b.contact && a.primitive == b.primitive &&
-           a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
-           a.device_ready == b.device_ready && a.mouse_fallback == b.mouse_fallback &&
-           a.from_zero == b.from_zero && a.releases_contact == b.releases_contact &&
-           a.goal_refused == b.goal_refused && a.catching_up == b.catching_up &&
-           a.gliding == b.gliding && a.standstill == b.standstill;
-}
-
 }  // namespace
 
 TEST_CASE("whatever reals a tick holds come back bit by bit, with and without its parameters",
@@ -114,7 +99,7 @@ TEST_CASE("whatever reals a tick holds come back bit by bit, with and without it
         TickRecord back;
         REQUIRE(read.next(back));
         CAPTURE(tick.tick);
-        REQUIRE(same(tick, back));
+        REQUIRE(same_record(tick, back));
     }
     TickRecord none;
     CHECK_FALSE(read.next(none));
@@ -150,7 +135,7 @@ TEST_CASE("what the real loop computes comes back bit by bit, and little of it i
         CAPTURE(tick.tick);
         TickRecord expected = tick;
         if (!tick.surface) expected.frames = back.frames;
-        REQUIRE(same(expected, back));
+        REQUIRE(same_record(expected, back));
     }
     const std::string stored = answer(folder.file(),
                                       "SELECT avg(dt IS NULL) > 0.99 AND avg(i IS NULL) > 0.5 "

@@ -75,6 +75,22 @@ inline TickRecord tick_record(std::int64_t number) {
     return record;
 }
 
+/// All that is read back, but wall and video time.
+inline bool same_record(const TickRecord& a, const TickRecord& b) {
+    return a.tick == b.tick && same_bits(a.t_s, b.t_s) && same_bits(a.dt_s, b.dt_s) &&
+           same_bits(a.lateness_us, b.lateness_us) && same_bits(a.update_us, b.update_us) &&
+           a.settings == b.settings && a.frames == b.frames && same_bits(a.blend, b.blend) &&
+           same_bits(a.goal, b.goal) && same_bits(a.proxy, b.proxy) &&
+           same_bits(a.spring_newton, b.spring_newton) && same_bits(a.sent_newton, b.sent_newton) &&
+           same_bits(a.own_newton, b.own_newton) && a.moves == b.moves && a.i == b.i &&
+           a.j == b.j && a.contact == b.contact && a.primitive == b.primitive &&
+           a.buttons == b.buttons && a.cut == b.cut && a.surface == b.surface &&
+           a.device_ready == b.device_ready && a.mouse_fallback == b.mouse_fallback &&
+           a.from_zero == b.from_zero && a.releases_contact == b.releases_contact &&
+           a.goal_refused == b.goal_refused && a.catching_up == b.catching_up &&
+           a.gliding == b.gliding && a.standstill == b.standstill;
+}
+
 /// Pushes a record, waiting for room: nothing is dropped.
 inline void push(TickRing& ring, const TickRecord& record) {
     while (ring.size() == ring.room()) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -73,16 +73,16 @@ TEST_CASE("a file that is none is refused with one line that says which and what
         CHECK(contains(refusal(), "another program's database"));
         CHECK(is_one_line(refusal()));
     }
-    SECTION("a newer version") {
+    SECTION("of a version that there never was") {
         record_ticks(folder.file(), 10);
-        run_sql(folder.file(), "PRAGMA user_version = 3");
-        CHECK(contains(refusal(), "was recorded by a newer dibhr (format 3, this one reads 2)"));
+        run_sql(folder.file(), "PRAGMA user_version = 0");
+        CHECK(contains(refusal(), "its format has the number 0"));
         CHECK(is_one_line(refusal()));
     }
-    SECTION("an older version") {
+    SECTION("of the first version, without its tables") {
         record_ticks(folder.file(), 10);
         run_sql(folder.file(), "PRAGMA user_version = 1");
-        CHECK(contains(refusal(), "was recorded by an older dibhr (format 1, this one reads 2)"));
+        CHECK(contains(refusal(), "its tables are not those of a recording"));
     }
     SECTION("of its version, without its tables") {
         record_ticks(folder.file(), 10);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -241,6 +242,41 @@ TEST_CASE("every tick has its wall time", "[session]") {
         CHECK(tick.utc_s < after_s + tick.t_s + 0.001);
     }
     CHECK(read == 5);
+}
+
+TEST_CASE("ticks of no clock of this machine count from the moment of their recording on",
+          "[session]") {
+    const SessionFolder folder;
+    const auto wall = [] {
+        return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch())
+            .count();
+    };
+    const double before_s = wall();
+    record_ticks(folder.file(), 5);
+    const Session session(folder.file());
+    const std::optional<double> begin_s = session.utc_at(session.begin_s());
+    REQUIRE(begin_s);
+    CHECK(*begin_s > before_s - 0.001);
+    CHECK(*begin_s < wall() + 0.001);
+    CHECK_FALSE(session.utc_at(-1.0));
+}
+
+TEST_CASE("a session says how far the wall clock went from the ticks' clock", "[session]") {
+    const SessionFolder folder;
+    record_ticks(folder.file(), 5);
+    REQUIRE(change(folder.file(),
+                   "DELETE FROM clock; INSERT INTO clock VALUES (1000000000, 1795000000.0, 0, 0)"));
+    CHECK_FALSE(Session(folder.file()).drift());
+    REQUIRE(change(folder.file(),
+                   "INSERT INTO clock VALUES (5000000000, 1795000004.5, 0, 0),"
+                   "(11000000000, 1795000010.25, 0, 0)"));
+    const Session session(folder.file());
+    const std::optional<ClockDrift> drift = session.drift();
+    REQUIRE(drift);
+    CHECK(drift->gained_s == 0.25);
+    CHECK(drift->over_s == 10.0);
+    CHECK(session.utc_at(4.0) == 1795000003.0);
+    CHECK(session.utc_at(6.0) == 1795000005.5);
 }
 
 TEST_CASE("a gap in the ticks is told", "[session]") {

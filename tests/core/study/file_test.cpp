@@ -119,6 +119,19 @@ TEST_CASE("a study that was begun before early keys were counted is read, and go
     CHECK(Database(file).number("PRAGMA user_version") == kStudySchemaVersion);
 }
 
+TEST_CASE("a study of a schema to come is read, said to be one, and not written to", "[study]") {
+    const test::TemporaryFolder folder;
+    const auto file = study_file_of(folder.path(), "P07");
+    StudyFile(file, identity()).add(some_trial(0));
+    CHECK(read_study(file).warning.empty());
+    Database(file).execute("ALTER TABLE trial ADD COLUMN glove; PRAGMA user_version = 3");
+    const StudyRecord record = read_study(file);
+    CHECK(record.answered == std::vector<AnsweredTrial>{some_trial(0)});
+    CHECK(record.warning.find("by a newer dibhr (format 3, this one reads 2)") !=
+          std::string::npos);
+    CHECK_THROWS_AS(StudyFile(file, identity()), InputError);
+}
+
 TEST_CASE("labels that end in the same number are told of each other", "[study]") {
     const test::TemporaryFolder folder;
     const auto begin = [&](const char* label, int number, const char* protocol) {
