@@ -29,7 +29,7 @@ struct Room {
 // A folder inside another one comes before it.
 const std::vector<Room> kRooms{
     {"core/haptics/", {"core/haptics/"}},
-    {"core/realtime/", {"core/realtime/"}},
+    {"core/realtime/", {"core/realtime/", "core/error.hpp"}},
     {"core/files/", {"core/files/", "core/error.hpp"}},
     {"core/av/", {"core/av/", "core/error.hpp"}},
     {"core/sqlite/", {"core/sqlite/", "core/files/"}},

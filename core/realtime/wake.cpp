@@ -1,5 +1,5 @@
-// The haptic thread's way to end the poll() of a device's thread.
-#include "device/hand/wake.hpp"
+// Ends the poll() of another thread, by an eventfd.
+#include "core/realtime/wake.hpp"
 
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -15,8 +15,8 @@ namespace dibhr {
 
 Wake::Wake() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
     if (descriptor_ < 0) {
-        throw DeviceError(std::string("a device's thread cannot be made (") + std::strerror(errno) +
-                          "): close other programs");
+        throw DeviceError(std::string("a thread that waits cannot be made (") +
+                          std::strerror(errno) + "): close other programs");
     }
 }
 
