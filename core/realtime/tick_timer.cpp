@@ -133,10 +133,11 @@ void TickSchedule::start(TimePoint now) noexcept {
     last_begin_ = now;
 }
 
-TickTiming TickSchedule::begin_tick(TimePoint begin) noexcept {
-    deadline_ += period_;
+TickTiming TickSchedule::begin_tick(TimePoint begin, int periods) noexcept {
+    deadline_ = next_deadline(periods);
     TickTiming timing;
     timing.begin = begin;
+    timing.periods = periods;
     timing.dt_s = std::chrono::duration<double>(begin - last_begin_).count();
     timing.lateness = std::max(nanoseconds(begin - deadline_), nanoseconds(0));
     timing.late = timing.lateness >= period_;
@@ -152,11 +153,11 @@ TickTiming TickSchedule::begin_tick(TimePoint begin) noexcept {
 
 TickTimer::TickTimer(nanoseconds period) noexcept : schedule_(period) {}
 
-TickTiming TickTimer::wait() noexcept {
+TickTiming TickTimer::wait(int periods) noexcept {
     if (!started_) schedule_.start(std::chrono::steady_clock::now());
     started_ = true;
-    sleep_until(schedule_.next_deadline());
-    return schedule_.begin_tick(std::chrono::steady_clock::now());
+    sleep_until(schedule_.next_deadline(periods));
+    return schedule_.begin_tick(std::chrono::steady_clock::now(), periods);
 }
 
 RealtimeGrants become_realtime(const char* thread_name) {
