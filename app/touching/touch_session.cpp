@@ -1,4 +1,4 @@
-// Touching: poll and publish once a picture; start and stop of the loop.
+// Touching: poll and publish once a turn of the window; start and stop of the loop.
 #include "app/touching/touch_session.hpp"
 
 #include <algorithm>
@@ -44,6 +44,7 @@ TouchSession::TouchSession(HandDevice hand, const TouchConnections& connections,
     : connections_(connections),
       state_(state),
       hand_(std::move(hand)),
+      player_(connections.on_frames),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
