@@ -10,11 +10,12 @@ constexpr std::chrono::milliseconds kLively{300};
 /// What changes later, or in another thread, is seen so late at most.
 constexpr std::chrono::milliseconds kGlance{250};
 
-/// While the panels may change by themselves; and else. Far below the silence of the window's
-/// heartbeat that takes the force off. A hand that begins to move is seen as soon as by a window
-/// that is always drawn.
+/// While the panels may change by themselves; so that a device's hand that begins to move is seen
+/// as soon as in a window that is always drawn; and else. Each is far below the silence of the
+/// window's heartbeat that takes the force off.
 constexpr std::chrono::milliseconds kLivelyPause{16};
-constexpr std::chrono::milliseconds kRestingPause{33};
+constexpr std::chrono::milliseconds kDevicePause{33};
+constexpr std::chrono::milliseconds kRestingPause{50};
 
 }  // namespace
 
@@ -33,8 +34,9 @@ bool PictureChange::take(const PictureMark& next, Time now) {
     return true;
 }
 
-std::chrono::milliseconds PictureChange::pause(Time now) const {
-    return now < lively_until_ ? kLivelyPause : kRestingPause;
+std::chrono::milliseconds PictureChange::pause(bool by_device, Time now) const {
+    if (now < lively_until_) return kLivelyPause;
+    return by_device ? kDevicePause : kRestingPause;
 }
 
 }  // namespace dibhr

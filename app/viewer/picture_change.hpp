@@ -37,8 +37,9 @@ class PictureChange {
     /// Whether the picture differs. If so, it counts as drawn.
     [[nodiscard]] bool take(const PictureMark& next, Time now);
 
-    /// The longest time to the next turn after one that drew nothing.
-    [[nodiscard]] std::chrono::milliseconds pause(Time now) const;
+    /// The longest time to the next turn after one that drew nothing. `by_device`: a device may
+    /// move the hand; the mouse wakes the window.
+    [[nodiscard]] std::chrono::milliseconds pause(bool by_device, Time now) const;
 
     /// The last picture is not on the screen any more.
     void forget() { drawn_.reset(); }

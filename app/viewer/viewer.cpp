@@ -129,7 +129,7 @@ void Viewer::run() {
 void Viewer::wait_for_turn(Turn last) {
     if (last.drawn) return pace_.wait();
     if (last.input) std::this_thread::sleep_for(kAfterInput);
-    window_.wait_for_input(change_.pause(steady_clock::now()));
+    window_.wait_for_input(change_.pause(may_touch(state_.touch), steady_clock::now()));
 }
 
 /// Beats once the display has answered, so that a hung display stops the heartbeat, too.
