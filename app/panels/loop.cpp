@@ -34,7 +34,7 @@ void draw_loop_panel(ViewerState& state) {
              "Reading and cleaning a frame of the video");
     fact_row("Pictures", formatted("%.0f per second", state.ui.pictures_per_s),
              "How often this window is drawn");
-    fact_row("Priority", state.touch.grants ? state.touch.grants->priority.answer : "asking",
+    fact_row("Priority", state.touch.grants ? state.touch.grants->priority->get().answer : "asking",
              "Whether the system runs the haptic loop before other programs");
     fact_row("Memory lock", state.touch.grants ? state.touch.grants->memory_lock.answer : "asking",
              "Whether the system keeps the program's memory from being moved to the disk");
