@@ -3,6 +3,7 @@
 
 #include <linux/capability.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <systemd/sd-bus.h>
@@ -89,8 +90,10 @@ class RealtimeKitStandIn {
         const char* name = nullptr;
         if (sd_bus_message_read(call, "ss", &interface, &name) < 0) return 0;
         if (std::string_view(name) == "RTTimeUSecMax")
-            return sd_bus_reply_method_return(call, "v", "x", kMostRunning_us);
-        return sd_bus_reply_method_return(call, "v", "i", kHighest);
+            sd_bus_reply_method_return(call, "v", "x", kMostRunning_us);
+        else
+            sd_bus_reply_method_return(call, "v", "i", kHighest);
+        return 1;
     }
 
     int make_realtime(sd_bus_message* call) {
@@ -102,11 +105,14 @@ class RealtimeKitStandIn {
             .times = asked_.times + 1, .thread = static_cast<pid_t>(thread), .priority = priority};
         getrlimit(RLIMIT_RTTIME, &asked_.running_time);
         if (manner_ == Manner::is_silent) return 1;
-        if (manner_ == Manner::refuses)
-            return sd_bus_reply_method_errorf(call, SD_BUS_ERROR_ACCESS_DENIED, "too\nmany");
+        if (manner_ == Manner::refuses) {
+            sd_bus_reply_method_errorf(call, SD_BUS_ERROR_ACCESS_DENIED, "too\nmany");
+            return 1;
+        }
         const sched_param parameters{static_cast<int>(priority)};
         sched_setscheduler(asked_.thread, SCHED_RR | SCHED_RESET_ON_FORK, &parameters);
-        return sd_bus_reply_method_return(call, "");
+        sd_bus_reply_method_return(call, "");
+        return 1;
     }
 
     Manner manner_;
@@ -190,6 +196,7 @@ TEST_CASE("a thread whom the limits refuse priority has RealtimeKit's a little l
         CHECK(kit.asked().thread == gettid());
         CHECK(grant.granted == (policy() == SCHED_RR));
     }).join();
+    munlockall();
 }
 
 TEST_CASE("where RealtimeKit is not there, the refusal says how to install it",
