@@ -37,7 +37,7 @@ void draw_loop_panel(ViewerState& state) {
              "How often this window is drawn: only when something in it changes");
     fact_row("Processor", formatted("%.1f %% of a core", 100.0 * state.ui.cost.core_share),
              "Processor time of the whole program in the last second");
-    fact_row("Priority", state.touch.grants ? state.touch.grants->priority.answer : "asking",
+    fact_row("Priority", state.touch.grants ? state.touch.grants->priority->get().answer : "asking",
              "Whether the system runs the haptic loop before other programs");
     fact_row("Memory lock", state.touch.grants ? state.touch.grants->memory_lock.answer : "asking",
              "Whether the system keeps the program's memory from being moved to the disk");

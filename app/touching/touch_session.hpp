@@ -89,6 +89,8 @@ class TouchSession {
   private:
     void follow_others();
     void update_catching_up();
+    /// Once, where many ticks are late and the system refused real-time priority.
+    [[nodiscard]] std::optional<std::string> priority_notice();
     void publish_to_outputs();
     void publish_to_player();
 
@@ -102,6 +104,7 @@ class TouchSession {
     std::uint64_t recording_ended_at_{0};  // count of the loop's ticks when the end was published
     std::uint64_t standstills_{0};         // as of the last notice
     std::uint64_t bounds_met_{0};          // as of the last picture
+    bool priority_reported_{false};
     std::chrono::steady_clock::time_point catching_up_until_{};
     Player player_;
     TripleBuffer<HapticSettings> haptic_settings_{};

@@ -18,6 +18,8 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "core/realtime/time_slice.hpp"
 
@@ -165,8 +167,13 @@ RealtimeGrants become_realtime(const char* thread_name) {
     pthread_setname_np(pthread_self(), name.c_str());
     prctl(PR_SET_TIMERSLACK, 1UL);  // 1 ns instead of 50 us, should the priority be refused
     RealtimeGrants grants;
-    grants.priority = ask_for_priority();
-    if (!grants.priority.granted) (void)set_time_slice(kPromptSlice);
+    Grant priority = ask_for_priority();
+    const bool is_refused = !priority.granted;
+    grants.priority->set(std::move(priority));
+    if (is_refused) {
+        (void)set_time_slice(kPromptSlice);
+        PriorityBroker::request(gettid(), grants.priority);
+    }
     grants.memory_lock = ask_for_memory_lock();
     touch_stack();
     return grants;

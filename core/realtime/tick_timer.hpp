@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <memory>
+
+#include "core/realtime/priority_broker.hpp"
 
 namespace dibhr {
 
@@ -85,20 +87,15 @@ class TickTimer {
     bool started_{false};
 };
 
-/// Granted, or the reason why not, as text for the Loop panel.
-struct Grant {
-    bool granted{false};
-    std::string answer{};  ///< "SCHED_FIFO 80", "refused: needs rtprio in /etc/security/..."
-};
-
 struct RealtimeGrants {
-    Grant priority{};
+    std::shared_ptr<SharedGrant> priority{std::make_shared<SharedGrant>()};
     Grant memory_lock{};
 };
 
 /// Names the calling thread (15 characters are kept), makes its sleeps exact, requests SCHED_FIFO,
-/// and locks the process's memory when the limit allows it without starving other threads. Threads
-/// made by the caller do not inherit the priority. A refusal is no error.
+/// and locks the process's memory when the limit allows it without starving other threads. Where
+/// SCHED_FIFO is refused, PriorityBroker is asked, without waiting for it. Threads made by the
+/// caller do not inherit the priority. A refusal is no error.
 [[nodiscard]] RealtimeGrants become_realtime(const char* thread_name);
 
 }  // namespace dibhr
