@@ -209,6 +209,8 @@ void draw_cleaning(ViewerState& state) {
         "Rounds the terraces of 8-bit depth, by half a level at most");
     row("Smooth noise", steps.smooth_noise, standard.smooth_noise,
         "Within the noise of the recording; what is beyond it stays");
+    row("Smooth outlines", steps.smooth_outlines, standard.smooth_outlines,
+        "Pixels of an outline that are on the other side than those around them change sides");
     if (changed)
         cleaning = {.preset = CleaningPreset::own, .own = steps, .finger = cleaning.finger};
     choice_row("In-betweens", kInBetweensNames, state.settings.in_betweens,

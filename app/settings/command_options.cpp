@@ -201,8 +201,8 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
                if (request.preset == CleaningPreset::automatic)
                    request.depth.cleaning.emplace();  // overrides a sidecar
            },
-           "What is done to the depth: raw (nothing), gentle (holes, spikes, 8-bit steps), "
-           "sensor (also silhouettes and noise), auto (chosen by the noise of the clip)")
+           "What is done to the depth: raw (nothing), gentle (holes, spikes, 8-bit steps, teeth of "
+           "outlines), sensor (also silhouettes and noise), auto (what buzzes least on the clip)")
         ->type_name("NAME")
         ->default_str("auto");
     add_number_option(app, "--finger", 0.0, kThickestFinger_mm,

@@ -21,6 +21,7 @@ FramePair frames_of(const DepthBlend& pair) noexcept {
              .steady = steps.steady,
              .smooth_noise = steps.smooth_noise,
              .densify = steps.densify,
+             .smooth_outlines = steps.smooth_outlines,
              .in_betweens = from.in_betweens != nullptr && &from != &to,
              .motion = from.motion != nullptr && &from != &to,
              .finger_px = from.cleaning.finger.radius_px,

@@ -28,14 +28,19 @@ bool is_media(const fs::path& file) {
            is_picture_pattern(file);
 }
 
-/// Whether the cleaning of this program differs from that of the recording.
-bool cleaned_by_other_version(const Session& session) {
-    if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return false;
-    const bool is_cleaned = session.fact("fill-holes") == "yes" ||
-                            session.fact("remove-spikes") == "yes" ||
-                            session.fact("smooth-steps") == "yes";  // before there were presets
+bool is_cleaned(const Session& session) {
+    if (session.fact("fill-holes") == "yes" || session.fact("remove-spikes") == "yes" ||
+        session.fact("smooth-steps") == "yes")  // before there were presets
+        return true;
     const std::string preset = session.fact("cleaning");
-    return is_cleaned || (!preset.empty() && preset != name_of(CleaningPreset::raw));
+    return !preset.empty() && preset != name_of(CleaningPreset::raw);
+}
+
+bool has_motion(const Session& session) {
+    return std::any_of(session.sources().begin(), session.sources().end(),
+                       [](const SessionSource& source) {
+                           return source.source.motion || source.source.in_betweens;
+                       });
 }
 
 bool has_content(const fs::path& file, const SessionMedia& media) {
@@ -54,6 +59,17 @@ constexpr double kNearAhead_s = 0.5;  // nearer than this, reading on is quicker
 constexpr std::size_t kLeastKept = 16;
 
 }  // namespace
+
+std::string version_warning(const Session& session, bool cleaned_as_recorded) {
+    if (session.fact("surface-version") == std::to_string(kSurfaceVersion)) return {};
+    if (cleaned_as_recorded && is_cleaned(session))
+        return "its surfaces were made by an earlier dibhr, which treated holes and spikes "
+               "otherwise: proxies may differ from those recorded";
+    if (has_motion(session))
+        return "its surfaces' motion was found by an earlier dibhr, which did so otherwise: "
+               "proxies that it carried may differ from those recorded";
+    return {};
+}
 
 bool is_session_file(const std::filesystem::path& file) {
     if (file.extension() == ".dibhr") return true;
@@ -105,17 +121,16 @@ FrameCleaning cleaning_of(const FrameSource& source) {
              .colour_edges = source.colour_edges,
              .steady = source.steady,
              .smooth_steps = source.smooth_steps,
-             .smooth_noise = source.smooth_noise},
+             .smooth_noise = source.smooth_noise,
+             .smooth_outlines = source.smooth_outlines},
             {source.finger_px, source.finger_relief_px}};
 }
 
 SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions& options)
     : options_(options), finder_(session.file(), options.any_media) {
     find_videos(session);
-    if (!options.cleaning && cleaned_by_other_version(session))
-        finder_.warn(
-            "its surfaces were made by an earlier dibhr, which treated holes and spikes otherwise: "
-            "proxies may differ from those recorded");
+    const std::string version = version_warning(session, !options.cleaning);
+    if (!version.empty()) finder_.warn(version);
     if (!session.sources().empty()) {
         Video& first = videos_[session.sources().front().source.media];
         description_ = reader_of(first).description();

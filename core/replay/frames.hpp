@@ -23,6 +23,10 @@ namespace dibhr {
 /// Whether a file is a session: by its name, or by its first bytes.
 [[nodiscard]] bool is_session_file(const std::filesystem::path& file);
 
+/// Says what this program computes otherwise than the one that recorded the session; empty:
+/// nothing. `cleaned_as_recorded`: the recording's own steps are done.
+[[nodiscard]] std::string version_warning(const Session& session, bool cleaned_as_recorded);
+
 /// Finds a recorded file: in its recorded place, else beside the session.
 class SessionMediaFinder {
   public:

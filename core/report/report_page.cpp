@@ -74,6 +74,7 @@ std::string cleaning_text(const FrameSource& source) {
     add(source.steady, "steadied in time");
     add(source.smooth_steps, "steps smoothed");
     add(source.smooth_noise, "noise smoothed");
+    add(source.smooth_outlines, "outlines smoothed");
     add(source.in_betweens, "moved between frames");
     add(source.finger_px > 0.0, "touched with a fingertip");
     return text.empty() ? "as it is in the file" : text;

@@ -27,6 +27,7 @@ struct FrameSource {
     bool steady{false};
     bool smooth_noise{false};
     bool densify{false};
+    bool smooth_outlines{false};
     bool in_betweens{false};       ///< there are frames between the two of the pair
     bool motion{false};            ///< the motion of the first one is known
     double finger_px{0.0};         ///< the fingertip's radius; 0: a point
@@ -48,6 +49,7 @@ void visit_cleaning(Source& source, const Visit& visit) {
     visit("steady", source.steady);
     visit("smooth_noise", source.smooth_noise);
     visit("densify", source.densify);
+    visit("smooth_outlines", source.smooth_outlines);
     visit("in_betweens", source.in_betweens);
     visit("motion", source.motion);
     visit("finger_px", source.finger_px);

@@ -2,11 +2,13 @@
 #include "tests/bench/carried.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "core/haptics/touch.hpp"
@@ -23,14 +25,26 @@ using Point = MovingScene::Point;
 
 constexpr double kTick_s = 0.001;
 constexpr double kPressed_px = 20.0;
-constexpr double kBeside_px = 12.0;  // of an outline no finger begins or ends
+
+/// So near to an outline no finger begins or ends [px].
+double beside_px(const MovingScene& scene) {
+    const bool is_disc = scene.what().shape == MovingScene::Shape::disc;
+    return is_disc ? std::min(12.0, 0.4 * scene.size_px()) : 12.0;
+}
+
+/// Between places that are tried [px].
+double spacing_px(const MovingScene& scene) {
+    const bool is_disc = scene.what().shape == MovingScene::Shape::disc;
+    return is_disc ? std::min(17.0, 0.3 * scene.size_px()) : 17.0;
+}
 
 /// Frames, each with its motion to the next.
 std::vector<Frame> seen(const MovingScene& scene, const Filming& filming, int count) {
-    std::vector<Frame> frames =
-        test::film(scene, count, filming.frames_per_s,
-                   {.brightness = filming.brightness_levels, .elevation_px = filming.elevation_px},
-                   filming.coded);
+    std::vector<Frame> frames = test::film(scene, count, filming.frames_per_s,
+                                           {.brightness = filming.brightness_levels,
+                                            .elevation_px = filming.elevation_px,
+                                            .exposure = filming.exposure},
+                                           filming.coded);
     FrameMotion motion;
     InBetweenMaker maker;
     for (std::size_t k = 0; k + 1 < frames.size(); ++k) {
@@ -99,11 +113,12 @@ double angle_deg(Vec3 a, Vec3 b) {
 /// Whether the place and its surroundings are on the object and in the picture.
 bool is_on_thing(const MovingScene& scene, double t_s, Point at) {
     const auto& what = scene.what();
-    if (at.x < kBeside_px || at.y < kBeside_px || at.x > what.columns - 1 - kBeside_px ||
-        at.y > what.rows - 1 - kBeside_px)
+    const double beside = beside_px(scene);
+    if (at.x < beside || at.y < beside || at.x > what.columns - 1 - beside ||
+        at.y > what.rows - 1 - beside)
         return false;
-    for (const double x : {-kBeside_px, 0.0, kBeside_px})
-        for (const double y : {-kBeside_px, 0.0, kBeside_px})
+    for (const double x : {-beside, 0.0, beside})
+        for (const double y : {-beside, 0.0, beside})
             if (scene.at(t_s, {at.x + x, at.y + y}).object == 0) return false;
     return true;
 }
@@ -119,8 +134,9 @@ bool is_too_fast(const MovingScene& scene, Point at) {
 /// than the scene's speed; a few, evenly chosen.
 std::vector<Point> places_that_stay(const MovingScene& scene, double seconds) {
     std::vector<Point> found;
-    for (double y = 10.3; y < scene.what().rows; y += 17.0)
-        for (double x = 10.7; x < scene.what().columns; x += 17.0) {
+    const double spacing = spacing_px(scene);
+    for (double y = 10.3; y < scene.what().rows; y += spacing)
+        for (double x = 10.7; x < scene.what().columns; x += spacing) {
             bool stays = !is_too_fast(scene, {x, y});
             for (int k = 0; stays && k <= 10; ++k)
                 stays = is_on_thing(scene, 0.1 * k * seconds,
@@ -139,22 +155,53 @@ Vec3 over(const MovingScene& scene, double t_s, Point at, double up_px) {
     return {at.x, at.y, scene.at(t_s, at).elevation_px + up_px};
 }
 
-/// Error of a finger that presses deep, with much friction, and whose hand moves along [px].
-double astray_px(const MovingScene& scene, const std::vector<Frame>& frames, Point begun,
-                 const Filming& filming) {
+/// Errors, at those times, of a finger that presses deep, with much friction, and whose hand moves
+/// along [px].
+std::vector<double> astray_px(const MovingScene& scene, const std::vector<Frame>& frames,
+                              Point begun, const Filming& filming,
+                              std::span<const double> times_s) {
     Finger finger(frames, 5.0, filming.carry);
     finger.tick(over(scene, 0.0, begun, 2.0), 0.0);
-    const int ticks = static_cast<int>(std::lround(filming.seconds / kTick_s));
-    Vec2 place(0.0);
     Vec2 held(0.0);  // where on the thing it came down, from where it was meant to
-    for (int k = 0; k <= ticks; ++k) {
-        const Point now = scene.gone(0.0, begun, k * kTick_s);
-        const Touch& touch = finger.tick(over(scene, k * kTick_s, now, -kPressed_px), k * kTick_s);
-        place = Vec2(touch.proxy.position);
-        if (k == 0) held = place - Vec2(begun.x, begun.y);
+    std::vector<double> errors_px;
+    int k = 0;
+    for (const double time_s : times_s) {
+        const int ticks = static_cast<int>(std::lround(time_s / kTick_s));
+        Vec2 place(0.0);
+        for (; k <= ticks; ++k) {
+            const Point now = scene.gone(0.0, begun, k * kTick_s);
+            const Touch& touch =
+                finger.tick(over(scene, k * kTick_s, now, -kPressed_px), k * kTick_s);
+            place = Vec2(touch.proxy.position);
+            if (k == 0) held = place - Vec2(begun.x, begun.y);
+        }
+        const Point there = scene.gone(0.0, {begun.x + held.x, begun.y + held.y}, ticks * kTick_s);
+        errors_px.push_back(glm::length(place - Vec2(there.x, there.y)));
     }
-    const Point there = scene.gone(0.0, {begun.x + held.x, begun.y + held.y}, ticks * kTick_s);
-    return glm::length(place - Vec2(there.x, there.y));
+    return errors_px;
+}
+
+std::vector<Astray> astray_over(const MovingScene& scene, const std::vector<Frame>& frames,
+                                const Filming& filming, std::span<const double> times_s) {
+    std::vector<std::vector<double>> errors_px(times_s.size());
+    for (const Point begun : places_that_stay(scene, times_s.back())) {
+        const std::vector<double> of_one = astray_px(scene, frames, begun, filming, times_s);
+        for (std::size_t k = 0; k < of_one.size(); ++k) errors_px[k].push_back(of_one[k]);
+    }
+    std::vector<Astray> all;
+    for (std::size_t k = 0; k < times_s.size(); ++k) {
+        Astray astray{.after_s = times_s[k],
+                      .median_px = median(errors_px[k]),
+                      .fingers = static_cast<int>(errors_px[k].size())};
+        if (!errors_px[k].empty())
+            astray.worst_px = *std::max_element(errors_px[k].begin(), errors_px[k].end());
+        all.push_back(astray);
+    }
+    return all;
+}
+
+int frames_for(const Filming& filming, double seconds) {
+    return static_cast<int>(std::ceil(seconds * filming.frames_per_s)) + 2;
 }
 
 struct Resting {
@@ -190,24 +237,28 @@ Resting resting(const MovingScene& scene, const std::vector<Frame>& frames,
 
 }  // namespace
 
+std::vector<Astray> astray_after(const MovingScene& scene, const Filming& filming,
+                                 std::span<const double> times_s) {
+    const std::vector<Frame> frames = seen(scene, filming, frames_for(filming, times_s.back()));
+    return astray_over(scene, frames, filming, times_s);
+}
+
 CarriedFinger carried_finger(const MovingScene& scene, const Filming& filming) {
-    const int count = static_cast<int>(std::ceil(filming.seconds * filming.frames_per_s)) + 2;
-    const std::vector<Frame> frames = seen(scene, filming, count);
+    const std::vector<Frame> frames = seen(scene, filming, frames_for(filming, filming.seconds));
     const std::vector<Frame> true_frames = truth(scene, filming.seconds);
-    std::vector<double> astray, turned, drag;
-    for (const Point begun : places_that_stay(scene, filming.seconds))
-        astray.push_back(astray_px(scene, frames, begun, filming));
+    const std::array times_s{filming.seconds};
+    const Astray astray = astray_over(scene, frames, filming, times_s).front();
+    std::vector<double> turned, drag;
     for (const Point at : places_that_stay(scene, 0.1)) {
         const Resting one = resting(scene, frames, true_frames, at, filming);
         if (!one.turned_deg.empty()) turned.push_back(median(one.turned_deg));
         if (!one.drag_share.empty()) drag.push_back(median(one.drag_share));
     }
-    return {.astray_px = median(astray),
-            .worst_astray_px = astray.empty() ? CarriedFinger::kNone
-                                              : *std::max_element(astray.begin(), astray.end()),
+    return {.astray_px = astray.median_px,
+            .worst_astray_px = astray.worst_px,
             .turned_deg = median(turned),
             .drag_share = median(drag),
-            .fingers = static_cast<int>(astray.size())};
+            .fingers = astray.fingers};
 }
 
 }  // namespace dibhr::bench

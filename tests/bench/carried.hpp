@@ -3,6 +3,8 @@
 #pragma once
 
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "tests/core/video/moving_scene.hpp"
 
@@ -14,6 +16,7 @@ struct Filming {
     double seconds{1.0};            ///< how long a finger is carried
     double brightness_levels{2.0};  ///< standard deviation of its noise, of 255
     double elevation_px{0.0};       ///< and of the depth's, of 255
+    double exposure{0.0};           ///< how far it swings (CameraNoise)
     bool coded{true};               ///< the colour, by H.264
     bool found{true};               ///< motion is found in the pictures; false: the true one
     bool carry{true};               ///< the finger is carried at all
@@ -38,6 +41,18 @@ struct CarriedFinger {
     /// Fingers that were carried to the end.
     int fingers{0};
 };
+
+/// How far fingers that stick are from their material points [px], after so long.
+struct Astray {
+    double after_s{0.0};
+    double median_px{CarriedFinger::kNone};
+    double worst_px{CarriedFinger::kNone};
+    int fingers{0};
+};
+/// After each of these times, of the fingers that are carried to the last one.
+[[nodiscard]] std::vector<Astray> astray_after(const test::MovingScene& scene,
+                                               const Filming& filming,
+                                               std::span<const double> times_s);
 
 [[nodiscard]] CarriedFinger carried_finger(const test::MovingScene& scene, const Filming& filming);
 

@@ -13,6 +13,7 @@
 #include "core/error.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/playing/clip_trial.hpp"
 #include "core/video/playing/held_levels_media.hpp"
 #include "tests/support/pressing_finger.hpp"
 
@@ -30,6 +31,8 @@ constexpr int kStroke_px = 60;
 constexpr int kSmoothed_px = 4;  ///< to each side, before the slope is taken
 constexpr double kSteepest = 0.8;
 constexpr int kTries = 300;  ///< at finding such a stroke
+
+constexpr std::size_t kBlemishesEvery = 15;  ///< frames
 
 /// A part of a recording.
 struct Stretch {
@@ -118,14 +121,18 @@ class Survey {
 /// The cleaning of a recording, chosen by its first frames.
 CleaningPlan plan_for(Media& media, const CleaningOptions& cleaning) {
     NoiseMeter meter;
+    ClipTrial trial;
     media.seek(0.0);
     for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k)
-        if (const std::optional<RawFrame> frame = media.next()) meter.add(frame->depth);
+        if (const std::optional<RawFrame> frame = media.next()) {
+            trial.add(frame->depth);
+            meter.add(frame->depth);
+        }
     const MediaDescription& description = media.description();
-    return plan_of(cleaning, meter.noise(),
-                   static_cast<std::size_t>(description.depth_columns) *
-                       static_cast<std::size_t>(description.depth_rows),
-                   description.sparse_share.has_value());
+    const DepthNoise noise = meter.noise();
+    const std::size_t pixels = description.depth_pixels();
+    return plan_of(cleaning, noise, pixels, description.sparse_share.has_value(),
+                   trial.best_of(ways_of_automatic(pixels), noise));
 }
 
 Stretch read_stretch(Media& media, double begin_s, const CleaningPlan& plan) {
@@ -176,10 +183,13 @@ class Toucher {
             rest(stretch, anywhere % stretch.raw.front().levels.size(), Way::rest_anywhere);
             if (const auto stroke = flat_stroke(stretch, of_stroke)) slide(stretch, *stroke);
         }
+        for (std::size_t k = 0; k + 1 < stretch.frames.size(); k += kBlemishesEvery)
+            blemishes_.add(*stretch.frames[k].depth, *stretch.frames[k + 1].depth);
     }
 
     [[nodiscard]] Feel feel() const {
-        Feel feel{.columns = survey_.columns(),
+        Feel feel{.blemishes = blemishes_.blemishes(),
+                  .columns = survey_.columns(),
                   .rows = survey_.rows(),
                   .frames = survey_.frames(),
                   .seconds = survey_.seconds()};
@@ -264,6 +274,7 @@ class Toucher {
     TouchParameters parameters_;
     std::mt19937 random_;
     std::array<FeelSums, kWays.size()> sums_{};
+    BlemishMeter blemishes_{};
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/sources/media.hpp"
+#include "tests/bench/blemishes.hpp"
 #include "tests/bench/finger_run.hpp"
 
 namespace dibhr::bench {
@@ -45,6 +46,7 @@ inline constexpr std::array kWays{Way::rest_quiet, Way::rest_anywhere, Way::slid
 
 struct Feel {
     std::array<FeelNumbers, kWays.size()> of{};
+    Blemishes blemishes{};  ///< of some of the cleaned frames
     int columns{0};
     int rows{0};
     std::int64_t frames{0};

@@ -1,6 +1,7 @@
 // Prints how recordings feel (feel.hpp): feel [--cleaning raw,gentle,auto] [--fitted] [--spots N]
 // [--json FILE] PLACE... A place is what `dibhr view` takes, in one word; of two files the depth
-// alone is as good.
+// alone is as good. Or, as Markdown, how scenes of our own making do (feel_scenes.hpp): feel
+// --scenes [detail,outlines,discs] [--cleaning raw,gentle,auto]
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -10,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/files/json.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "tests/bench/feel.hpp"
+#include "tests/bench/feel_scenes.hpp"
 
 namespace {
 
@@ -53,6 +56,13 @@ void print_way(const std::string& name, Way way, const FeelNumbers& feel) {
     std::fflush(stdout);
 }
 
+void print_blemishes(const Blemishes& found) {
+    std::printf(
+        "  teeth %.1f per 100,000 px, pimples %.2f (there again %.2f) per 1000 px of flat ground, "
+        "%.0f%% of the picture\n",
+        found.teeth, found.pimples, found.pimples_again, 100.0 * found.flat);
+}
+
 Json json_of(Way way, const FeelNumbers& feel) {
     Json json{{"seconds", feel.seconds},
               {"buzz_newton", feel.buzz_newton},
@@ -71,6 +81,10 @@ Json json_of(const std::string& place, const Feel& feel) {
     Json json{{"recording", place}, {"cleaning", feel.cleaning}, {"columns", feel.columns},
               {"rows", feel.rows},  {"frames", feel.frames},     {"seconds", feel.seconds}};
     for (const Way way : kWays) json[name_of(way)] = json_of(way, feel[way]);
+    json["blemishes"] = {{"teeth_per_100000_px", feel.blemishes.teeth},
+                         {"pimples_per_1000_px", feel.blemishes.pimples},
+                         {"pimples_again_per_1000_px", feel.blemishes.pimples_again},
+                         {"flat_share", feel.blemishes.flat}};
     return json;
 }
 
@@ -81,6 +95,7 @@ bool measure(const std::string& place, const std::string& cleaning, FeelOptions 
     try {
         const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
         for (const Way way : kWays) print_way(short_name(place) + " " + cleaning, way, feel[way]);
+        print_blemishes(feel.blemishes);
         std::printf("  %s\n", feel.cleaning.c_str());
         json.push_back(json_of(place, feel));
         return true;
@@ -95,16 +110,29 @@ bool measure(const std::string& place, const std::string& cleaning, FeelOptions 
 int main(int count, char** words) {
     std::vector<std::string> places;
     FeelOptions options;
+    std::vector<std::string> scenes;
     std::vector<std::string> ways{"auto"};
     std::string json_file;
     CLI::App app{"How recordings feel, in numbers."};
-    app.add_option("PLACE", places, "Recordings, each as `dibhr view` takes it")->required();
-    app.add_option("--cleaning", ways,
-                   "Presets, one after the other: raw, gentle, sensor, auto; what levels mean is "
-                   "found out in each")
-        ->delimiter(',')
-        ->check(CLI::IsMember({"raw", "gentle", "sensor", "auto"}))
-        ->capture_default_str();
+    CLI::Option* const given_places =
+        app.add_option("PLACE", places, "Recordings, each as `dibhr view` takes it");
+    const std::vector<std::string> all_scenes = feel_scenes();
+    CLI::Option* const given_scenes =
+        app.add_option("--scenes", scenes,
+                       "Scenes of our own making, as Markdown: detail, "
+                       "outlines, discs; without a name all of them")
+            ->delimiter(',')
+            ->expected(0, -1)
+            ->check(CLI::IsMember(all_scenes))
+            ->excludes(given_places);
+    CLI::Option* const given_cleaning =
+        app.add_option(
+               "--cleaning", ways,
+               "Presets, one after the other: raw, gentle, sensor, auto; what levels mean is "
+               "found out in each; of scenes all but sensor")
+            ->delimiter(',')
+            ->check(CLI::IsMember({"raw", "gentle", "sensor", "auto"}))
+            ->capture_default_str();
     app.add_flag("--fitted", options.fitted, "Relief and pitch as the viewer fits them");
     app.add_option("--spots", options.spots, "Fingers of each way to touch")
         ->check(CLI::Range(1, 100000))
@@ -113,6 +141,13 @@ int main(int count, char** words) {
     app.add_option("--json", json_file, "Writes the numbers as JSON; - is standard output");
     CLI11_PARSE(app, count, words);
     try {
+        if (*given_scenes) {
+            std::erase(scenes, "");  // CLI11's value where none is given
+            if (!*given_cleaning) ways = {"raw", "gentle", "auto"};
+            print_feel_scenes(scenes.empty() ? all_scenes : scenes, ways);
+            return 0;
+        }
+        if (places.empty()) throw InputError("no recording is given; name one, or give --scenes");
         std::optional<OutputFile> out;
         if (!json_file.empty()) out.emplace(json_file);
         Json json = Json::array();

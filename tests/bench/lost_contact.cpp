@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
 #include "tests/support/pressing_finger.hpp"
 
 namespace dibhr::bench {

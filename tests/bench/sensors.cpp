@@ -23,6 +23,7 @@ namespace dibhr::bench {
 namespace {
 
 constexpr double kHighest = 65535.0;
+constexpr double kPerStep = 2.85e-6;  ///< of a Kinect's disparity [1/mm]
 constexpr float kNoData = std::numeric_limits<float>::quiet_NaN();
 
 /// Normally distributed numbers, and chances.
@@ -127,7 +128,6 @@ void take_shadows(Sight& sight, double base_mm, double focal_px) {
 /// silhouettes 8 % of the pixels have no data in a frame and some in the next: so many flip in
 /// recordings.
 std::vector<DepthImage> kinect(const TrueFrames& truth, std::uint32_t seed) {
-    constexpr double kPerStep = 2.85e-6;
     const double grain = std::sqrt(0.25 - 1.0 / 12.0);  // rounding to steps adds the rest
     constexpr double kFlips = 0.08;
     constexpr float kFlipsWithin_px = 4.0F;
@@ -158,28 +158,32 @@ void blur_silhouettes(Sight& sight, int side_px) {
             image.levels[k] = reinterpret_cast<const float*>(blurred.data)[k];
 }
 
-/// Noise of deviation 1 that is alike within several pixels and from a frame to the next.
+/// Noise of deviation 1 that is alike within `wide_px` (0: grain) and, by the share `stays`, from a
+/// frame to the next.
 class Blotches {
   public:
-    Blotches(int columns, int rows) : now_(rows, columns, CV_32F, cv::Scalar(0.0)) {}
+    Blotches(const KnownScene& scene, double wide_px, double stays)
+        : wide_px_(wide_px), stays_(stays), now_(scene.rows, scene.columns, CV_32F) {}
 
     const float* next(Chance& chance) {
-        constexpr double kWide_px = 2.0;
-        constexpr double kStays = 0.5;  // of a frame's, in the next one
         cv::Mat fresh(now_.size(), CV_32F);
         std::for_each(fresh.begin<float>(), fresh.end<float>(),
                       [&](float& value) { value = static_cast<float>(chance.normal(1.0)); });
-        cv::GaussianBlur(fresh, fresh, {0, 0}, kWide_px);
-        fresh *= 2.0 * std::sqrt(std::numbers::pi) * kWide_px;  // what the filter takes of grain
+        if (wide_px_ > 0.0) {
+            cv::GaussianBlur(fresh, fresh, {0, 0}, wide_px_);
+            // What the filter takes of grain.
+            fresh *= 2.0 * std::sqrt(std::numbers::pi) * wide_px_;
+        }
         if (first_)
             now_ = fresh;
         else
-            now_ = kStays * now_ + std::sqrt(1.0 - kStays * kStays) * fresh;
+            now_ = stays_ * now_ + std::sqrt(1.0 - stays_ * stays_) * fresh;
         first_ = false;
         return now_.ptr<float>();
     }
 
   private:
+    double wide_px_, stays_;
     cv::Mat now_;
     bool first_{true};
 };
@@ -192,7 +196,7 @@ class Blotches {
 std::vector<DepthImage> stereo(const TrueFrames& truth, std::uint32_t seed) {
     constexpr double kBase_mm = 50.0, kFocal_px = 382.0, kSubpixel = 0.08;
     Chance chance(seed);
-    Blotches blotches(truth.scene().columns, truth.scene().rows);
+    Blotches blotches(truth.scene(), 2.0, 0.5);
     return each_frame(truth, [&](Sight& sight) {
         blur_silhouettes(sight, 3);
         const float* blotch = blotches.next(chance);
@@ -292,6 +296,44 @@ std::vector<DepthImage> monocular(const TrueFrames& truth, std::uint32_t seed) {
     });
 }
 
+/// Noise in millimetres or, for a Kinect v1, in whole steps of disparity (see kinect()), new in
+/// every frame.
+struct Noise {
+    std::string name{};
+    double deviation{0.0};  ///< [mm] or [steps]
+    double wide_px{0.0};    ///< alike within
+    bool in_steps{false};
+    double standing{0.0};  ///< [mm], the same in every frame
+};
+constexpr double kLidar_mm = 0.4, kLidarWide_px = 2.0;
+
+std::vector<DepthImage> noisy(const TrueFrames& truth, std::uint32_t seed, const Noise& noise) {
+    Chance chance(seed);
+    Blotches blotches(truth.scene(), noise.wide_px, 0.0);
+    Blotches standing(truth.scene(), noise.wide_px, 1.0);
+    return each_frame(truth, [&](Sight& sight) {
+        const float* blotch = blotches.next(chance);
+        const float* stays = noise.standing > 0.0 ? standing.next(chance) : nullptr;
+        for (std::size_t k = 0; k < sight.elevation.levels.size(); ++k) {
+            float& level = sight.elevation.levels[k];
+            const double off = noise.deviation * static_cast<double>(blotch[k]);
+            const double standing_mm =
+                stays != nullptr ? noise.standing * static_cast<double>(stays[k]) : 0.0;
+            const double z_mm = distance_mm(static_cast<double>(level)) + standing_mm;
+            const double seen_mm =
+                noise.in_steps ? 1.0 / (kPerStep * std::round(1.0 / (kPerStep * z_mm) + off))
+                               : z_mm + off;
+            level = static_cast<float>(elevation_px(std::round(seen_mm)));
+        }
+    });
+}
+
+Sensor sensor_of(const Noise& noise) {
+    return {noise.name, [noise](const TrueFrames& truth, std::uint32_t seed) {
+                return noisy(truth, seed, noise);
+            }};
+}
+
 /// One pixel in 20 is seen, exactly, another one in every frame.
 std::vector<DepthImage> sparse(const TrueFrames& truth, std::uint32_t seed) {
     Chance chance(seed);
@@ -307,6 +349,20 @@ std::vector<Sensor> sensors() {
     return {{"exact", exact},    {"white", white},        {"kinect", kinect},   {"stereo", stereo},
             {"lidar", lidar},    {"tof", time_of_flight}, {"8-bit", eight_bit}, {"h264", h264},
             {"mono", monocular}, {"sparse", sparse}};
+}
+
+std::vector<Sensor> noises() {
+    std::vector<Sensor> all;
+    for (const Noise& noise : {Noise{"time of flight", 1.6, 0.0},
+                               {"LiDAR", kLidar_mm, kLidarWide_px},
+                               {"Kinect v1", 0.5, 1.2, true},
+                               {"stereo", 2.5, 2.5}})
+        all.push_back(sensor_of(noise));
+    return all;
+}
+
+Sensor standing_noise() {
+    return sensor_of({"standing", kLidar_mm, kLidarWide_px, false, 1.0});
 }
 
 Sensor sensor(const std::string& name) {

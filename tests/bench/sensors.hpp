@@ -21,6 +21,13 @@ struct Sensor {
 /// "8-bit", "h264", "mono" and "sparse". The same seed gives the same frames.
 [[nodiscard]] std::vector<Sensor> sensors();
 
+/// The noise of four cameras on a surface without silhouettes: "time of flight", "LiDAR",
+/// "Kinect v1" and "stereo". Distances are whole millimetres.
+[[nodiscard]] std::vector<Sensor> noises();
+
+/// "standing": the LiDAR's noise, and 1 mm that is the same in every frame.
+[[nodiscard]] Sensor standing_noise();
+
 /// The sensor of that name, which must exist.
 [[nodiscard]] Sensor sensor(const std::string& name);
 

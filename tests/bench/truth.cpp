@@ -198,7 +198,7 @@ void NearnessMeter::keep_moving() {
 
 /// Of the moving pixels from the truth so many frames before, where the chain sees to both sides.
 double NearnessMeter::squares_from_truth(double late_frames) const {
-    const int reach = static_cast<int>(kReachInTime);
+    const int reach = static_cast<int>(kNearInTime);
     const auto columns = static_cast<std::size_t>(now_.columns);
     double squares = 0.0;
     for (std::size_t n = 0; n < moving_.size(); ++n) {
@@ -217,7 +217,7 @@ double NearnessMeter::squares_from_truth(double late_frames) const {
 
 /// Where a parabola through the least squares and those beside them is lowest.
 double NearnessMeter::lag_frames() const {
-    if (moving_.empty() || frame_ <= 2 * static_cast<int>(kReachInTime)) return Nearness::kNone;
+    if (moving_.empty() || frame_ <= 2 * static_cast<int>(kNearInTime)) return Nearness::kNone;
     std::vector<double> squares;
     for (int shift = -kShifts; shift <= kShifts; ++shift)
         squares.push_back(squares_from_truth(kShift_frames * shift));
@@ -273,19 +273,28 @@ Nearness NearnessMeter::nearness() const {
             .flicker_px = flicker_px()};
 }
 
-Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
-                        CleaningPreset preset) {
+std::string each_cleaned(const std::vector<DepthImage>& recorded, CleaningPreset preset,
+                         const std::function<void(const DepthImage&)>& take,
+                         std::vector<ColourImage> colours) {
     const CleaningOptions options{.preset = preset};
     auto media = std::make_unique<test::ListedMedia>(recorded, 1.0 / kRate);
     SparseMeter sparse;
     sparse.add(recorded.front());
     media->set_sparse(sparse.sparse_share());
+    media->set_colours(std::move(colours));
     FrameReader reader(std::move(media));
     reader.set_cleaning(options);
-    NearnessMeter meter(truth);
     for (auto frame = reader.at(0.0); frame; frame = reader.after(frame->media_s))
-        meter.add(*frame->depth);
-    return {meter.nearness(), in_words(options, reader.plan())};
+        take(*frame->depth);
+    return in_words(options, reader.plan());
+}
+
+Cleaned cleaned_against(const TrueFrames& truth, const std::vector<DepthImage>& recorded,
+                        CleaningPreset preset) {
+    NearnessMeter meter(truth);
+    std::string words =
+        each_cleaned(recorded, preset, [&](const DepthImage& depth) { meter.add(depth); });
+    return {meter.nearness(), std::move(words)};
 }
 
 }  // namespace dibhr::bench

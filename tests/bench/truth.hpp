@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/frames/cleaning_options.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "tests/bench/known_scene.hpp"
 
 namespace dibhr::bench {
@@ -84,8 +86,14 @@ class NearnessMeter {
     std::vector<double> sums_{}, squares_{};  ///< in time, of each
 };
 
-/// Reads such a recording frame by frame, cleans it as the program does, and compares it with the
-/// truth. `recorded` are of 8 or 16 bits; NaN is no data.
+/// Reads a recording frame by frame, cleaned as the program does, and gives each to `take`. Returns
+/// what was done, as text. `recorded` are of 8 or 16 bits, kRate a second; NaN is no data.
+/// `colours`: of the same view; empty: depth alone.
+std::string each_cleaned(const std::vector<DepthImage>& recorded, CleaningPreset preset,
+                         const std::function<void(const DepthImage&)>& take,
+                         std::vector<ColourImage> colours = {});
+
+/// Compares such a recording with the truth.
 struct Cleaned {
     Nearness nearness{};
     std::string words{};  ///< what was done

@@ -22,12 +22,16 @@ class ListedMedia : public Media {
         description_.frames_per_s = 1.0 / frame_s;
     }
     void set_sparse(std::optional<double> share) { description_.sparse_share = share; }
+    /// Colour of the same view, a picture a frame.
+    void set_colours(std::vector<ColourImage> colours) { colours_ = std::move(colours); }
     [[nodiscard]] const MediaDescription& description() const override { return description_; }
     std::optional<RawFrame> next() override {
         if (position_ == frames_.size()) return std::nullopt;
         if (read_ != nullptr) ++*read_;
         RawFrame frame;
         frame.depth = frames_[position_];
+        frame.colour_of_view = !colours_.empty();
+        if (frame.colour_of_view) frame.colour = colours_[position_];
         frame.media_s = static_cast<double>(position_) * frame_s_;
         frame.index = static_cast<std::int64_t>(position_++);
         return frame;
@@ -40,6 +44,7 @@ class ListedMedia : public Media {
 
   private:
     std::vector<DepthImage> frames_;
+    std::vector<ColourImage> colours_{};
     double frame_s_;
     int* read_;
     std::size_t position_{0};

@@ -29,8 +29,8 @@ class Session:
     parameters: list[dict[str, Any]]
     #: The touched files. Dictionaries: `first_tick`, `colour` and `depth` (paths), and
     #: how the depth was cleaned: `fill_holes`, `remove_spikes`, `smooth_steps`,
-    #: `sharpen_silhouettes`, `colour_edges`, `steady`, `smooth_noise`, `densify`, `in_betweens`,
-    #: `motion`, `finger_px`, `finger_relief_px`.
+    #: `sharpen_silhouettes`, `colour_edges`, `steady`, `smooth_noise`, `densify`, `smooth_outlines`,
+    #: `in_betweens`, `motion`, `finger_px`, `finger_relief_px`.
     sources: list[dict[str, Any]]
     #: The marks, by time. Dictionaries: `t` [s], `tag`, `text`.
     marks: list[dict[str, Any]]

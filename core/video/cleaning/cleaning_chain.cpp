@@ -1,6 +1,8 @@
 // The steps of cleaning, one after the other.
 #include "core/video/cleaning/cleaning_chain.hpp"
 
+#include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -19,8 +21,19 @@ namespace {
 /// Noise below this part of the highest level is not felt (0.15 px of 255, 0.005 N at 0.5 N/mm).
 constexpr float kPerceptibleNoise = 0.15F / 255.0F;
 /// Depth with little noise may have ramps all the same.
-constexpr CleaningSteps kLowNoiseSteps{
-    .remove_spikes = true, .fill_holes = true, .sharpen_silhouettes = true, .smooth_steps = true};
+constexpr CleaningSteps kLowNoiseSteps{.remove_spikes = true,
+                                       .fill_holes = true,
+                                       .sharpen_silhouettes = true,
+                                       .smooth_steps = true,
+                                       .smooth_outlines = true};
+/// Ramps that are no outlines, as an estimator's, may become steps.
+constexpr CleaningSteps kWithoutSilhouettes = [] {
+    CleaningSteps steps = kSensorSteps;
+    steps.sharpen_silhouettes = false;
+    return steps;
+}();
+/// Seen ground keeps its levels.
+constexpr CleaningSteps kHolesAlone{.fill_holes = true, .smooth_outlines = true};
 constexpr double kReportedRelief_px = 255.0;
 
 /// Scratch memory of pictures larger than 4K video is freed: it is several times as large as the
@@ -52,8 +65,8 @@ DIBHR_VECTOR_CLONES void add_marks(const std::uint8_t* more, std::uint8_t* __res
         marks[k] = static_cast<std::uint8_t>(marks[k] | more[k]);
 }
 
-CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
-                       std::size_t pixels) {
+CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels,
+                       const std::optional<FeltCleaning>& felt) {
     switch (options.preset) {
         case CleaningPreset::raw:
             return kRawSteps;
@@ -66,6 +79,7 @@ CleaningSteps steps_of(const CleaningOptions& options, const DepthNoise& noise,
         case CleaningPreset::automatic:
             break;
     }
+    if (felt) return felt->steps;
     const bool small = pixels <= kMostPixelsForSensor;
     const bool shakes = noise.at(0.5F) > kPerceptibleNoise || noise.per_frame_scale;
     return shakes && small ? kSensorSteps : kLowNoiseSteps;
@@ -79,24 +93,36 @@ bool may_densify(const CleaningOptions& options) {
 }  // namespace
 
 bool needs_noise(const CleaningOptions& options) {
-    const bool own = options.preset == CleaningPreset::own;
     return options.preset == CleaningPreset::automatic ||
            options.preset == CleaningPreset::sensor ||
-           (own &&
-            (options.own.steady || options.own.smooth_noise || options.own.sharpen_silhouettes));
+           (options.preset == CleaningPreset::own && depend_on_noise(options.own));
 }
 
 CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise, std::size_t pixels,
-                     bool is_sparse) {
-    CleaningPlan plan{steps_of(options, noise, pixels), options.finger, noise};
+                     bool is_sparse, const std::optional<FeltCleaning>& felt) {
+    CleaningPlan plan{steps_of(options, noise, pixels, felt), options.finger, noise, {}};
+    if (options.preset == CleaningPreset::automatic) plan.felt = felt;
     if (is_sparse && may_densify(options)) plan.steps.densify = true;
     return plan;
 }
 
+std::vector<CleaningSteps> ways_of_automatic(std::size_t pixels) {
+    std::vector<CleaningSteps> ways{kLowNoiseSteps};
+    if (pixels <= kMostPixelsForSensor)
+        ways.insert(ways.end(), {kSensorSteps, kWithoutSilhouettes});
+    ways.insert(ways.end(), {kGentleSteps, kHolesAlone});
+    return ways;
+}
+
 std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     std::string words(name_of(options.preset));
-    if (options.preset == CleaningPreset::automatic)
-        words += plan.steps.smooth_noise ? ": sensor" : ": gentle, silhouettes";
+    if (options.preset == CleaningPreset::automatic) {
+        words += plan.steps.smooth_noise    ? ": sensor"
+                 : plan.steps.remove_spikes ? ": gentle"
+                                            : ": holes and outlines";
+        if (plan.steps.smooth_noise != plan.steps.sharpen_silhouettes)
+            words += plan.steps.smooth_noise ? " without silhouettes" : ", silhouettes";
+    }
     if (plan.steps.densify && may_densify(options)) words += ", densified";
     if (!needs_noise(options)) return words;
     const auto px = [](float noise) {
@@ -105,8 +131,17 @@ std::string in_words(const CleaningOptions& options, const CleaningPlan& plan) {
     };
     const std::string near = px(plan.noise.at(1.0F));
     const std::string far = px(plan.noise.at(0.0F));
-    return words + ", noise " + near + (far == near ? "" : " to " + far) + " px" +
-           (plan.noise.per_frame_scale ? ", a scale a frame" : "");
+    words += ", noise " + near + (far == near ? "" : " to " + far) + " px" +
+             (plan.noise.per_frame_scale ? ", a scale a frame" : "");
+    if (!plan.felt) return words;
+    const auto parts = [](double value, double of_one) {
+        return short_text(std::round(value * of_one) / of_one);
+    };
+    words += "; a slide buzzes by " + parts(plan.felt->buzz_N, 1000.0) + " N, " +
+             parts(plan.felt->raw_N, 1000.0) + " raw";
+    if (plan.felt->relief)
+        words += ", " + parts(100.0 * *plan.felt->relief, 1.0) + " % of relief kept";
+    return words;
 }
 
 void CleaningChain::densify(DepthImage& image, const ColourImage* colour) {
@@ -145,15 +180,19 @@ void CleaningChain::close_holes(SingleFrameDepth& single_frame, bool fill,
 SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan& plan,
                                             std::span<const HeldLevel> held,
                                             const ColourImage* colour) {
-    SingleFrameDepth single_frame{std::move(image), {}, {}};
+    static std::atomic<std::uint64_t> made{0};
+    SingleFrameDepth single_frame{std::move(image), {}, {}, 0, -1, ++made};
     const bool touchable = is_touchable(single_frame.depth);
+    if (touchable && plan.steps.smooth_outlines) single_frame.teeth = teeth_of(single_frame.depth);
     interpolated_.clear();
     if (touchable && plan.steps.densify && has_holes(single_frame.depth)) {
         densify(single_frame.depth, colour);
         held = in_holes(held, single_frame.depth);
     }
     spikes_.forget();
-    if (touchable && plan.steps.remove_spikes) spikes_.remove(single_frame.depth);
+    const float noise = plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
+    if (touchable && plan.steps.remove_spikes)
+        spikes_.remove(single_frame.depth, depend_on_noise(plan.steps) ? noise : 0.0F);
     if (has_holes(single_frame.depth))
         close_holes(single_frame, touchable && plan.steps.fill_holes, held);
     if (!interpolated_.empty()) {
@@ -164,8 +203,6 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
     free_if_large(pixels, sparse_, interpolated_, spikes_, seen_, held_, small_holes_,
                   large_holes_);
     if (touchable && plan.steps.sharpen_silhouettes) {
-        const float noise =
-            plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
         silhouettes_.sharpen(single_frame.depth, plan.steps.colour_edges ? colour : nullptr, noise);
         free_if_large(pixels, silhouettes_);
     }
@@ -181,19 +218,28 @@ Frame CleaningChain::clean_and_finish(DepthImage image, const CleaningPlan& plan
 
 DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                            std::size_t now, const DepthNoise& noise) {
-    if (noise.per_frame_scale) frames = scale_.on_one_scale(frames, now);
+    if (noise.per_frame_scale) {  // farther frames have scales of their own
+        const std::size_t first = now - std::min(now, kNearInTime);
+        frames =
+            frames.subspan(first, std::min(frames.size() - first, now - first + kNearInTime + 1));
+        now -= first;
+        frames = scale_.on_one_scale(frames, now);
+    }
     return temporal_.filtered(frames, now, noise);
 }
 
 Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frames, std::size_t now,
                                   const CleaningPlan& plan, Frame frame) {
     const SingleFrameDepth& here = *frames[now];
-    DepthImage depth = plan.steps.steady && frames.size() > 1
-                           ? filtered_in_time(frames, now, plan.noise)
-                           : here.depth;
+    const bool steady = plan.steps.steady && frames.size() > 1;
+    DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth)) steps_.smooth(depth);
-        if (plan.steps.smooth_noise) noise_.smooth(depth, plan.noise);
+        if (plan.steps.smooth_noise && steady)
+            noise_.smooth(depth, plan.noise, temporal_.evidence());
+        else if (plan.steps.smooth_noise)
+            noise_.smooth(depth, plan.noise);
+        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth);
     }
     if (!here.unseen.empty())
         frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(here.unseen);

@@ -3,19 +3,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/fingertip.hpp"
 #include "core/video/cleaning/frame_scale.hpp"
-#include "core/video/cleaning/large_holes.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
+#include "core/video/cleaning/holes/large_holes.hpp"
+#include "core/video/cleaning/holes/small_holes.hpp"
 #include "core/video/cleaning/noise_smoothing.hpp"
+#include "core/video/cleaning/outlines.hpp"
 #include "core/video/cleaning/silhouettes.hpp"
-#include "core/video/cleaning/small_holes.hpp"
 #include "core/video/cleaning/sparse_interpolation.hpp"
 #include "core/video/cleaning/spikes.hpp"
 #include "core/video/cleaning/step_smoothing.hpp"
@@ -25,11 +27,24 @@
 
 namespace dibhr {
 
+/// What a sliding finger would feel of a way of cleaning, on ground that stands still.
+struct FeltCleaning {
+    CleaningSteps steps{};
+    /// Predicted buzz, RMS in 30 to 500 Hz, of a point at 100 mm/s with the default spring and
+    /// pitch. On relief that stands out of the noise: of the difference from it.
+    double buzz_N{0.0};
+    double raw_N{0.0};               ///< the same without cleaning
+    std::optional<double> relief{};  ///< the share of such relief that is kept; nothing: none
+
+    bool operator==(const FeltCleaning&) const = default;
+};
+
 /// The cleaning of the frames of one clip.
 struct CleaningPlan {
     CleaningSteps steps{};
     Fingertip finger{};
-    DepthNoise noise{};  ///< measured in the clip
+    DepthNoise noise{};                  ///< measured in the clip
+    std::optional<FeltCleaning> felt{};  ///< why `automatic` takes these steps; else by the noise
 
     bool operator==(const CleaningPlan&) const = default;
 };
@@ -38,23 +53,36 @@ struct CleaningPlan {
 inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 
 /// The steps for a clip of this noise and size. `automatic` chooses the steps that the clip needs
-/// and that there is time for. Sparse depth is densified, except with `raw` and `own`.
+/// and that there is time for: what felt best of ways_of_automatic(), or by the noise. Sparse depth
+/// is densified, except with `raw` and `own`.
 [[nodiscard]] CleaningPlan plan_of(const CleaningOptions& options, const DepthNoise& noise,
-                                   std::size_t pixels = 0, bool is_sparse = false);
+                                   std::size_t pixels = 0, bool is_sparse = false,
+                                   const std::optional<FeltCleaning>& felt = {});
+
+/// What `automatic` chooses from, for pictures of this size: the first one if they feel alike.
+[[nodiscard]] std::vector<CleaningSteps> ways_of_automatic(std::size_t pixels);
 
 /// Whether the clip's noise must be measured before its steps are known.
 [[nodiscard]] bool needs_noise(const CleaningOptions& options);
 
+/// Whether any of the steps depends on the clip's noise: then spikes do, too, which in `gentle`
+/// must be the same whether the noise was measured or not.
+[[nodiscard]] constexpr bool depend_on_noise(const CleaningSteps& steps) noexcept {
+    return steps.steady || steps.smooth_noise || steps.sharpen_silhouettes;
+}
+
 /// Whether the steps that need one frame only are the same in both.
 [[nodiscard]] inline bool same_single_frame_steps(const CleaningSteps& a,
                                                   const CleaningSteps& b) noexcept {
-    return a.densify == b.densify && a.remove_spikes == b.remove_spikes &&
-           a.fill_holes == b.fill_holes &&
+    return depend_on_noise(a) == depend_on_noise(b) && a.densify == b.densify &&
+           a.remove_spikes == b.remove_spikes && a.fill_holes == b.fill_holes &&
            a.sharpen_silhouettes == b.sharpen_silhouettes &&  // by the noise, which is the clip's
-           a.colour_edges == b.colour_edges;
+           a.colour_edges == b.colour_edges &&
+           a.smooth_outlines == b.smooth_outlines;  // the recorded ones are looked at
 }
 
-/// In one line, for a person: "auto: sensor, noise 0.9 px near, 6.9 far".
+/// In one line, for a person: "auto: sensor, noise 0.9 to 6.9 px; a slide buzzes by 0.01 N, 0.07
+/// raw".
 [[nodiscard]] std::string in_words(const CleaningOptions& options, const CleaningPlan& plan);
 
 /// Cleans frames in two parts: clean_frame() needs one frame only, finish_frame() those before and
@@ -100,6 +128,7 @@ class CleaningChain {
     TemporalFilter temporal_{};
     StepSmoother steps_{};
     NoiseSmoother noise_{};
+    OutlineSmoother outlines_{};
     FingertipDilation finger_{};
 };
 

@@ -116,8 +116,15 @@ Powers fitted(const std::vector<Sample>& samples) {
 
 std::string text_of(const DepthNoise& noise) {
     const auto text = [](float value) { return number_text(static_cast<double>(value)); };
+    std::string character;
+    for (const float share : noise.character.bands) character += " " + text(share);
+    for (const float value : {noise.character.kept, noise.character.fixed, noise.step.constant,
+                              noise.step.linear, noise.step.square})
+        character += " " + text(value);
+    for (const float share : noise.character.standing) character += " " + text(share);
+    character += " " + text(noise.character.kept_in_motion);
     return text(noise.constant) + " " + text(noise.linear) + " " + text(noise.square) + " " +
-           text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0");
+           text(noise.correlation) + " " + (noise.per_frame_scale ? "1" : "0") + character;
 }
 
 std::optional<DepthNoise> noise_in(const std::string& text) {
@@ -126,7 +133,18 @@ std::optional<DepthNoise> noise_in(const std::string& text) {
     DepthNoise noise;
     words >> noise.constant >> noise.linear >> noise.square >> noise.correlation >>
         noise.per_frame_scale;
-    return words ? std::optional(noise) : std::nullopt;
+    if (!words) return std::nullopt;
+    DepthNoise whole = noise;
+    for (float& share : whole.character.bands) words >> share;
+    words >> whole.character.kept >> whole.character.fixed >> whole.step.constant >>
+        whole.step.linear >> whole.step.square;
+    for (float& share : whole.character.standing) words >> share;
+    if (!words) return noise;
+    if (!(words >> whole.character.kept_in_motion))
+        whole.character.kept_in_motion = whole.character.kept;
+    for (float* const kept : {&whole.character.kept, &whole.character.kept_in_motion})
+        *kept = std::clamp(*kept, 0.0F, kMostKeptNoise);
+    return whole;
 }
 
 void NoiseMeter::add_tile(Tile& tile, const DepthImage& frame, int left, int top) const {
@@ -169,6 +187,7 @@ void NoiseMeter::add(DepthImage frame) {
         for (int x = 0; x < columns; ++x, ++tile)
             add_tile(*tile, frame, x * kTile_px, y * kTile_px);
     if (small_.size() < kEnoughFrames) small_.push_back({small_of(frame), {}, {}});
+    character_.add(frame);
     before_last_ = std::move(last_);
     last_ = std::move(frame);
 }
@@ -216,12 +235,28 @@ DepthNoise NoiseMeter::noise() const {
         samples.push_back({away, quantile(noises[k], kQuietShare),
                            std::sqrt(static_cast<double>(noises[k].size()))});
     }
-    const bool per_frame_scale = has_per_frame_scale();
-    if (samples.empty()) return {.per_frame_scale = per_frame_scale};
+    DepthNoise noise;
+    noise.per_frame_scale = has_per_frame_scale();
+    noise.character = character_.character();
+    noise.step = step();
+    if (samples.empty()) return noise;
     const Powers powers = fitted(samples);
     const double grain = grains.empty() ? 1.0 : std::min(1.0, quantile(grains, 0.5));
+    noise.constant = static_cast<float>(powers[0]);
+    noise.linear = static_cast<float>(powers[1]);
+    noise.square = static_cast<float>(powers[2]);
+    noise.correlation = static_cast<float>(1.0 - grain);
+    return noise;
+}
+
+StepByDistance NoiseMeter::step() const {
+    std::vector<Sample> samples;
+    for (const LevelStep& one : character_.steps())
+        samples.push_back({one.away, one.step, std::sqrt(one.tiles)});
+    if (samples.empty()) return {};
+    const Powers powers = fitted(samples);
     return {static_cast<float>(powers[0]), static_cast<float>(powers[1]),
-            static_cast<float>(powers[2]), static_cast<float>(1.0 - grain), per_frame_scale};
+            static_cast<float>(powers[2])};
 }
 
 }  // namespace dibhr

@@ -9,9 +9,24 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/noise_character.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
 
 namespace dibhr {
+
+/// The step from a level to the next one that occurs, in parts of the highest level: constant for
+/// whole levels, growing with the square of the distance for disparities.
+struct StepByDistance {
+    float constant{0.0F}, linear{0.0F}, square{0.0F};
+
+    bool operator==(const StepByDistance&) const = default;
+
+    /// 0: levels are continuous. `height`: the level over the highest one.
+    [[nodiscard]] float at(float height) const noexcept {
+        const float away = 1.0F - height;
+        return constant + away * (linear + away * square);
+    }
+};
 
 /// Standard deviation of a level by the surface's distance: a constant, a linear and a square part,
 /// as stereo cameras have it (K. Khoshelham and S. Oude Elberink, Sensors 12, 2012). All in parts
@@ -24,6 +39,8 @@ struct DepthNoise {
     float correlation{0.0F};
     /// Each frame has its own scale and shift, as from estimators of depth from single pictures.
     bool per_frame_scale{false};
+    NoiseCharacter character{};
+    StepByDistance step{};
 
     bool operator==(const DepthNoise&) const = default;
 
@@ -39,13 +56,15 @@ struct DepthNoise {
 inline constexpr const char* kNoiseTag = "DIBHR_NOISE";
 inline constexpr const char* kBitsTag = "DIBHR_BITS";
 [[nodiscard]] std::string text_of(const DepthNoise& noise);
-/// The noise in such a text; nothing if it is none.
+/// The noise in such a text; nothing if it is none. Texts of older versions end before its
+/// character, or before its last value.
 [[nodiscard]] std::optional<DepthNoise> noise_in(const std::string& text);
 
 /// How far levels of one surface may differ: a number of standard deviations.
 class NoiseBound {
   public:
     NoiseBound() = default;
+    bool operator==(const NoiseBound&) const = default;
     /// `least`: lower limit of the constant part, in parts of the highest level.
     NoiseBound(const DepthNoise& noise, float deviations, float least, double highest_level)
         : per_level_(1.0F / static_cast<float>(highest_level)) {
@@ -64,6 +83,18 @@ class NoiseBound {
   private:
     float constant_{0.0F}, linear_{0.0F}, square_{0.0F};
     float per_level_{1.0F};
+};
+
+/// What a frame's neighbours in time tell of its pixels. Without variances: there are none.
+struct TimeEvidence {
+    static constexpr int kTile_px = 8;
+
+    std::size_t near_frames{0};    ///< of those that count one by one: with this one
+    /// Of each pixel: how many frames its level is the mean of, as if all shared as much noise as
+    /// NoiseCharacter::kept says.
+    std::vector<float> weights{};
+    /// The variance of one frame's levels, of tiles of kTile_px, row-major [levels^2].
+    std::vector<float> variances{};
 };
 
 /// Measures the noise of surfaces that stand still or move evenly.
@@ -105,8 +136,10 @@ class NoiseMeter {
 
     void add_tile(Tile& tile, const DepthImage& frame, int left, int top) const;
     [[nodiscard]] bool has_per_frame_scale() const;
+    [[nodiscard]] StepByDistance step() const;
 
     std::vector<Tile> tiles_{};
+    NoiseCharacterMeter character_{};
     DepthImage last_{}, before_last_{};
     std::vector<SingleFrameDepth> small_{};  ///< each frame, with fewer pixels
 };

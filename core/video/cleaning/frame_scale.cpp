@@ -218,9 +218,9 @@ bool FrameScale::flickers(std::span<const Pair> pairs) const {
 std::vector<LevelMap> FrameScale::maps(std::span<const SingleFrameDepth* const> frames,
                                        std::size_t now) {
     std::vector<LevelMap> maps(frames.size());
-    const std::size_t begin = now - std::min(now, kReachInTime);
+    const std::size_t begin = now - std::min(now, kNearInTime);
     const auto near =
-        frames.subspan(begin, std::min(frames.size() - begin, now - begin + kReachInTime + 1));
+        frames.subspan(begin, std::min(frames.size() - begin, now - begin + kNearInTime + 1));
     const DepthImage& here = frames[now]->depth;
     highest_ = here.highest_level;
     levels_per_px_ = highest_ / kRelief_px;
@@ -273,6 +273,7 @@ std::span<const SingleFrameDepth* const> FrameScale::on_one_scale(
 
 void scale_levels(const SingleFrameDepth& frame, const LevelMap& map, SingleFrameDepth& scaled) {
     scaled = frame;
+    scaled.id = 0;
     const auto gain = static_cast<float>(map.gain);
     const auto offset = static_cast<float>(map.offset);
     const auto highest = static_cast<float>(frame.depth.highest_level);

@@ -29,7 +29,7 @@ struct LevelMap {
 /// Estimators of depth from single pictures are right except for a scale and a shift, which differ
 /// from frame to frame (R. Ranftl et al., Towards robust monocular depth estimation, TPAMI 2022):
 /// the whole scene flickers. Both are measured between consecutive frames, where most of the
-/// picture agrees on them, and replaced by their means over kReachInTime frames to each side. So
+/// picture agrees on them, and replaced by their means over kNearInTime frames to each side. So
 /// even changes are followed without lag, except in the first and last frames.
 ///
 /// Without such flicker levels keep their bits: with noise, holes, steps of levels, and motion in
@@ -38,7 +38,7 @@ struct LevelMap {
 class FrameScale {
   public:
     /// The maps that bring each of `frames`, which follow each other in time, onto the scale that
-    /// frame `now` should have. The identity for frames farther than kReachInTime, behind a cut or
+    /// frame `now` should have. The identity for frames farther than kNearInTime, behind a cut or
     /// of another size, and for all frames if nothing flickers. NaN and filled pixels do not count.
     [[nodiscard]] std::vector<LevelMap> maps(std::span<const SingleFrameDepth* const> frames,
                                              std::size_t now);
@@ -82,7 +82,7 @@ class FrameScale {
     [[nodiscard]] double median_residual(const Samples& samples, const LevelMap& change);
     [[nodiscard]] bool flickers(std::span<const Pair> pairs) const;
 
-    std::array<std::vector<float>, 2 * kReachInTime + 1> levels_{};  ///< of frames, on a grid
+    std::array<std::vector<float>, 2 * kNearInTime + 1> levels_{};  ///< of frames, on a grid
     double highest_{0.0};
     double levels_per_px_{1.0};
     Samples all_{}, thinned_{}, balanced_{};  ///< of two frames

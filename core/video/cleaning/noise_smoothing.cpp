@@ -1,43 +1,49 @@
-// Medians, then a pyramid of pairs of opposite pixels.
+// A pyramid of pairs of opposite pixels; what it takes is weighed against the noise, band by band.
 #include "core/video/cleaning/noise_smoothing.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "core/video/cleaning/patches.hpp"
 #include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
 
 namespace {
 
-constexpr int kTile_px = 8;
+constexpr int kTile_px = TimeEvidence::kTile_px;
 constexpr std::size_t kScales = 5;            ///< pairs up to 2 * 2 * 2^4 = 64 px apart
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level
-constexpr float kBound = 3.0F;                ///< standard deviations
-/// A pixel farther from its median is a true shape: limits in bounds of the image, and in
-/// deviations of the clip's noise, as its codec may add noise of its own.
-constexpr float kMedianBounds = 4.0F, kMedianNoises = 12.0F;
-constexpr int kBorder_px = 2;  ///< of medians of medians
+constexpr float kBound = 5.0F;                ///< standard deviations
+constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
+/// Where fewer frames agree than that, of those that are, the image's own roughness tells of noise,
+/// too: what stands still in more is shape. At least kLeastMany, so that one picture is rough.
+constexpr float kManyFrames = 8.0F, kManyShare = 0.75F, kLeastMany = 4.0F;
+
 /// Factor for the roughness, since its tails are heavier than a normal distribution's.
-constexpr float kRoughShare = 2.0F;
-/// Part of the clip's noise that is left after the filter in time: of grain, and of blotches.
-constexpr float kGrainLeft = 0.35F, kBlotchesLeft = 1.0F;
+constexpr float kRoughShare = 2.5F;
+/// A tile with an outline is rough because of it. Noise beyond so many times the variance that is
+/// known would let smoothing cross the outline.
+constexpr float kMostRough = 4.0F;
 /// For a normal distribution: the mean of absolute values cut at twice that mean, times the
 /// deviation of a pixel from the mean of four others.
 constexpr float kOfRoughness = 1.0F / (0.735F * 1.118F);
 constexpr int kClippings = 5;
-constexpr float kRate = 0.2F;  ///< of the change towards four pairs; stable up to 0.25
-
-/// Shapes beyond this many deviations of noise, after a binomial filter of 5 x 5, are added again.
-/// The filter leaves 0.27 of grain, but all of blotches: with those shapes must be much larger.
-constexpr float kPutBackBeyond = 2.2F / kRoughShare;
-constexpr float kBinomialLeaves = 0.27F;
-/// Part of grain that is left in every second pixel: the next scale's noise. Blotches stay.
-constexpr float kLeftByTwoPasses = 0.35F;
-constexpr std::array<float, 5> kBinomial{1.0F / 16, 4.0F / 16, 6.0F / 16, 4.0F / 16, 1.0F / 16};
+/// A pixel farther from its median is a true shape: limits in bounds of the image, and in
+/// deviations of the clip's noise, as its codec may add noise of its own.
+constexpr float kMedianBounds = 4.0F, kMedianNoises = 12.0F;
+constexpr int kBorder_px = 2;  ///< of medians of medians
+/// Noise that may be left, of the highest level: a third of what a finger feels.
+constexpr float kStatedNoise = 0.05F / 255.0F;
+/// Of the noise's variance: what means in time have in the finest band beyond its share, where
+/// neighbours share noise. Each has frames of its own that are beyond the noise.
+constexpr float kFinestOfMeans = 0.03F;
+/// Of the noise's variance, where frames are alike: codecs repeat pixels.
+constexpr float kLeastShown = 0.3F;
 
 /// Change towards the mean of two opposite pixels, smaller the farther that is from the centre.
 inline float towards(float one, float other, float centre, float per_bound) {
@@ -108,33 +114,42 @@ DIBHR_VECTOR_CLONES void add_changes(const float* now_above, const float* before
         changes[i] = 0.5F * ((now_above[i] - before_above[i]) + (now_below[i] - before_below[i]));
 }
 
-/// What smoothing removed, at most three deviations: an outlier is no shape.
-DIBHR_VECTOR_CLONES void taken_away(const float* before, const float* now, const float* per_bound,
-                                    float* __restrict out, std::ptrdiff_t count) {
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const float most = (3.0F / kBound) / per_bound[i];
-        out[i] = std::min(std::max(before[i] - now[i], -most), most);
+DIBHR_VECTOR_CLONES void find_taken(const float* before, const float* now, float* __restrict taken,
+                                    std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) taken[i] = before[i] - now[i];
+}
+
+DIBHR_VECTOR_CLONES void add_within(const float* base, const float* shapes, float lowest,
+                                    float highest, float* __restrict out, std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+        out[i] = std::min(std::max(base[i] + shapes[i], lowest), highest);
+}
+
+/// A pixel beyond all eight around it takes the level of the one that is next.
+DIBHR_VECTOR_CLONES void keep_among(const float* up, const float* row, const float* down,
+                                    float* __restrict out, std::ptrdiff_t columns) {
+    for (std::ptrdiff_t i = 1; i + 1 < columns; ++i) {
+        const float low_up = std::min(std::min(up[i - 1], up[i]), up[i + 1]);
+        const float low_down = std::min(std::min(down[i - 1], down[i]), down[i + 1]);
+        const float high_up = std::max(std::max(up[i - 1], up[i]), up[i + 1]);
+        const float high_down = std::max(std::max(down[i - 1], down[i]), down[i + 1]);
+        const float lowest = std::min(std::min(low_up, low_down), std::min(row[i - 1], row[i + 1]));
+        const float highest =
+            std::max(std::max(high_up, high_down), std::max(row[i - 1], row[i + 1]));
+        out[i] = std::min(std::max(row[i], lowest), highest);
     }
 }
 
-DIBHR_VECTOR_CLONES void sum_of_five(const std::array<const float*, 5>& rows, float* __restrict out,
-                                     std::ptrdiff_t begin, std::ptrdiff_t end) {
-    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3], *e = rows[4];
-    for (std::ptrdiff_t i = begin; i < end; ++i)
-        out[i] = kBinomial[0] * (a[i] + e[i]) + kBinomial[1] * (b[i] + d[i]) + kBinomial[2] * c[i];
+DIBHR_VECTOR_CLONES void add_to(const float* more, float* __restrict sums, std::ptrdiff_t count) {
+    for (std::ptrdiff_t i = 0; i < count; ++i) sums[i] += more[i];
 }
 
-/// Adds nearly all of shapes far beyond the noise, nothing of those within it (the non-negative
-/// garrote).
-DIBHR_VECTOR_CLONES void add_beyond(const float* shape, const float* per_bound, float noise_part,
-                                    const float* now, float* __restrict out,
-                                    std::ptrdiff_t columns) {
-    for (std::ptrdiff_t i = 0; i < columns; ++i) {
-        const float most = noise_part / per_bound[i];
-        const float size = std::max(std::fabs(shape[i]), 1e-20F);
-        const float part = most / size;
-        out[i] = now[i] + shape[i] * std::max(1.0F - part * part, 0.0F);
-    }
+/// The variance of the mean of so many frames, of every second pixel. `per_weight`: of one of them
+/// over the others, for noise that neighbouring frames share.
+DIBHR_VECTOR_CLONES void share_among(const float* variances, const float* weights, float per_weight,
+                                     float* __restrict out, std::ptrdiff_t columns) {
+    for (std::ptrdiff_t i = 0; i < columns; ++i)
+        out[i] = variances[i] / std::max(weights[2 * i] * per_weight, 1.0F);
 }
 
 /// Levels become their medians, unless they are farther away than outliers are.
@@ -146,12 +161,6 @@ DIBHR_VECTOR_CLONES void move_to_medians(const float* medians, const float* per_
         const bool is_within = off * per_bound[i] < kMedianBounds && off < most(medians[i]);
         levels[i] = is_within ? medians[i] : levels[i];
     }
-}
-
-DIBHR_VECTOR_CLONES void clamp_row(float* levels, float lowest, float highest,
-                                   std::ptrdiff_t columns) {
-    for (std::ptrdiff_t i = 0; i < columns; ++i)
-        levels[i] = std::min(std::max(levels[i], lowest), highest);
 }
 
 DIBHR_VECTOR_CLONES void find_range(const float* levels, float* __restrict lowest,
@@ -189,6 +198,43 @@ DIBHR_VECTOR_CLONES void spread(const float* tiles, std::ptrdiff_t count, float*
 
 }  // namespace
 
+/// The variance of a frame's noise, of tiles, each with those around it.
+void NoiseSmoother::find_variances(const DepthImage& image, const DepthNoise& noise,
+                                   const TimeEvidence& evidence) {
+    const auto columns = static_cast<std::size_t>(tile_columns_);
+    const auto rows = static_cast<std::size_t>(tile_rows_);
+    const NoiseBound least({}, 1.0F, kLeastNoise, image.highest_level);
+    const float least_variance = least(0.0F) * least(0.0F);
+    variances_.resize(columns * rows);
+    if (evidence.variances.empty()) {
+        const float shown = 1.0F - (4.0F - noise.character.kept) * noise.character.kept / 3.0F;
+        const NoiseBound deviation(noise, 1.0F / std::sqrt(std::max(shown, kLeastShown)),
+                                   kLeastNoise, image.highest_level);
+        for (std::size_t k = 0; k < variances_.size(); ++k) {
+            const int i = static_cast<int>(k % columns) * kTile_px + kTile_px / 2;
+            const int j = static_cast<int>(k / columns) * kTile_px + kTile_px / 2;
+            const float of =
+                deviation(image.at(std::min(i, image.columns - 1), std::min(j, image.rows - 1)));
+            variances_[k] = of * of;
+        }
+        return;
+    }
+    const auto seen = [&](std::size_t x, std::size_t y) {
+        return std::max(evidence.variances[y * columns + x], least_variance);
+    };
+    for (std::size_t y = 0; y < rows; ++y) {
+        const std::size_t above = y - std::min<std::size_t>(y, 1);
+        const std::size_t below = std::min(y + 1, rows - 1);
+        const auto of_column = [&](std::size_t x) {
+            return 0.25F * (seen(x, above) + seen(x, below)) + 0.5F * seen(x, y);
+        };
+        for (std::size_t x = 0; x < columns; ++x)
+            variances_[y * columns + x] = 0.25F * (of_column(x - std::min<std::size_t>(x, 1)) +
+                                                   of_column(std::min(x + 1, columns - 1))) +
+                                          0.5F * of_column(x);
+    }
+}
+
 /// For one row of tiles: means of the absolute differences from the pixels around, cut at twice the
 /// mean, so that outlines count less. Rows [first_row, rows) of the row of tiles are known.
 void NoiseSmoother::clip_to_twice_the_mean(int columns, int rows, int first_row) {
@@ -220,36 +266,89 @@ void NoiseSmoother::clip_to_twice_the_mean(int columns, int rows, int first_row)
     for (std::ptrdiff_t x = whole; x < tile_columns_; ++x) clip_part(x);
 }
 
-void NoiseSmoother::measure_tiles(const DepthImage& image, const DepthNoise& noise) {
+/// What a row of tiles has in space, as variances: where neighbours in time tell little.
+void NoiseSmoother::find_roughness(const DepthImage& image, int y) {
+    const int top = std::max(y * kTile_px, 1);
+    const int bottom = std::min((y + 1) * kTile_px, image.rows - 1);
+    rough_.assign(static_cast<std::size_t>(image.columns) * kTile_px, 0.0F);
+    for (int j = top; j < bottom; ++j) {
+        const float* const row = image.levels.data() + image.index(0, j);
+        roughness(row - image.columns, row, row + image.columns,
+                  rough_.data() + std::ptrdiff_t{j - y * kTile_px} * image.columns, image.columns);
+    }
+    clip_to_twice_the_mean(image.columns, bottom - y * kTile_px, top - y * kTile_px);
+    for (float& cap : caps_) {
+        const float deviation = kRoughShare * kOfRoughness * cap / 2.0F;
+        cap = deviation * deviation;
+    }
+}
+
+/// How much noise is in the image: of every second pixel for the bands, of tiles for the bounds.
+void NoiseSmoother::find_noise(const DepthImage& image, const DepthNoise& noise,
+                               const TimeEvidence& evidence) {
     tile_columns_ = (image.columns + kTile_px - 1) / kTile_px;
     tile_rows_ = (image.rows + kTile_px - 1) / kTile_px;
-    per_bound_of_tile_.clear();
-    rough_.assign(static_cast<std::size_t>(image.columns) * kTile_px, 0.0F);
-    lows_.assign(image.levels.begin(), image.levels.begin() + image.columns);
-    highs_ = lows_;
-    const float left_share =
-        kGrainLeft + (kBlotchesLeft - kGrainLeft) * std::min(noise.correlation, 1.0F);
-    const NoiseBound left(noise, left_share, kLeastNoise, image.highest_level);
+    find_variances(image, noise, evidence);
+    const NoiseCharacter& character = noise.character;
+    left_.moving_shares = character.bands;
+    if (!evidence.variances.empty()) left_.moving_shares.front() += kFinestOfMeans;
+    left_.standing_shares = character.standing;
+    const float many =
+        std::clamp(kManyShare * static_cast<float>(evidence.near_frames), kLeastMany, kManyFrames);
+    left_.stated = kStatedNoise * static_cast<float>(image.highest_level);
+    float stands = 0.0F;
+    for (const float share : character.standing) stands += share;
+    left_.moving.set_size((image.columns + 1) / 2, (image.rows + 1) / 2);
+    left_.standing.set_size(stands > 0.0F ? left_.moving.columns : 0, left_.moving.rows);
+    const float per_weight = (1.0F - character.kept) / (1.0F + character.kept);
+    constexpr int kHalf = kTile_px / 2;
+    row_.resize(static_cast<std::size_t>(tile_columns_ * kHalf));
+    per_bound_of_tile_.resize(variances_.size());
+    few_frames_.resize(variances_.size());
     for (int y = 0; y < tile_rows_; ++y) {
-        for (int j = y * kTile_px; j < std::min((y + 1) * kTile_px, image.rows); ++j)
-            find_range(image.levels.data() + image.index(0, j), lows_.data(), highs_.data(),
-                       image.columns);
-        const int top = std::max(y * kTile_px, 1);
-        const int bottom = std::min(y * kTile_px + kTile_px, image.rows - 1);
-        for (int j = top; j < bottom; ++j) {
-            const float* row = image.levels.data() + image.index(0, j);
-            roughness(row - image.columns, row, row + image.columns,
-                      rough_.data() + std::ptrdiff_t{j - y * kTile_px} * image.columns,
-                      image.columns);
+        const float* const variances = variances_.data() + std::ptrdiff_t{y} * tile_columns_;
+        for (int x = 0; x < tile_columns_ * kHalf; ++x)
+            row_[static_cast<std::size_t>(x)] = variances[x / kHalf];
+        tiles_.assign(static_cast<std::size_t>(tile_columns_), 0.0F);
+        const int bottom = std::min((y + 1) * kHalf, left_.moving.rows);
+        for (int j = y * kHalf; j < bottom; ++j) {
+            float* const out = left_.moving.row(j);
+            if (evidence.variances.empty())
+                std::copy_n(row_.begin(), left_.moving.columns, out);
+            else
+                share_among(row_.data(), evidence.weights.data() + image.index(0, 2 * j),
+                            per_weight, out, left_.moving.columns);
+            if (stands > 0.0F)
+                std::copy_n(row_.begin(), left_.moving.columns, left_.standing.row(j));
+            for (int x = 0; x < left_.moving.columns; ++x)
+                tiles_[static_cast<std::size_t>(x / kHalf)] += out[x];
         }
-        clip_to_twice_the_mean(image.columns, bottom - y * kTile_px, top - y * kTile_px);
-        const int middle = std::min(y * kTile_px + kTile_px / 2, image.rows - 1);
+        std::uint8_t any = 0;
         for (int x = 0; x < tile_columns_; ++x) {
-            const int i = std::min(x * kTile_px + kTile_px / 2, image.columns - 1);
-            const float rough =
-                caps_[static_cast<std::size_t>(x)] / 2.0F * kOfRoughness * kRoughShare;
-            per_bound_of_tile_.push_back(1.0F /
-                                         (kBound * std::max(rough, left(image.at(i, middle)))));
+            const int width = std::min(kHalf, left_.moving.columns - x * kHalf);
+            float& left = tiles_[static_cast<std::size_t>(x)];
+            left /= static_cast<float>(width * (bottom - y * kHalf));
+            const std::uint8_t few = variances[x] < many * left ? 1 : 0;
+            few_frames_[static_cast<std::size_t>(y * tile_columns_ + x)] = few;
+            any |= few;
+        }
+        if (any != 0) {
+            find_roughness(image, y);
+            for (int x = 0; x < tile_columns_; ++x) {
+                const auto at = static_cast<std::size_t>(x);
+                const float frames = variances[x] / tiles_[at];
+                const float share = std::clamp(2.0F - 2.0F * frames / many, 0.0F, 1.0F);
+                const float rough = std::min(share * caps_[at], kMostRough * variances[x]);
+                tiles_[at] += rough;
+                std::fill_n(row_.begin() + std::ptrdiff_t{x} * kHalf, kHalf, rough);
+            }
+            for (int j = y * kHalf; j < bottom; ++j)
+                add_to(row_.data(), left_.moving.row(j), left_.moving.columns);
+        }
+        for (int x = 0; x < tile_columns_; ++x) {
+            const float variance = tiles_[static_cast<std::size_t>(x)] + stands * variances[x];
+            per_bound_of_tile_[static_cast<std::size_t>(y * tile_columns_ + x)] =
+                1.0F / (kBound * std::sqrt(variance));
         }
     }
 }
@@ -341,43 +440,22 @@ void NoiseSmoother::add_coarse(Scale& fine, const Scale& coarse, int j) {
 }
 
 /// The way back to the finer scale, again row by row together.
-void NoiseSmoother::smooth_to_finer(Scale& fine, const float* before, const Scale* coarse) {
-    for (Ring* ring : {&first_, &second_, &taken_, &bounds_}) ring->resize(fine.columns);
+void NoiseSmoother::smooth_to_finer(Scale& fine, const Scale* coarse) {
+    for (Ring* ring : {&first_, &bounds_}) ring->resize(fine.columns);
     bounds_made_ = 0;
     const auto levels = [&](int j) { return fine.levels.data() + fine.index(0, j); };
     const auto once = [&](int j) -> const float* { return first_.row(j); };
-    for (int tick = 0; tick < fine.rows + 5; ++tick) {
+    for (int tick = 0; tick < fine.rows + 4; ++tick) {
         if (coarse != nullptr && tick < fine.rows) add_coarse(fine, *coarse, tick);
         if (const int j = tick - 2; j >= 0 && j < fine.rows)
             pass(fine, levels, j, 2, first_.row(j));
-        if (const int j = tick - 3; j >= 0 && j < fine.rows) {
-            pass(fine, once, j, 1, second_.row(j));
-            taken_away(before + fine.index(0, j), second_.row(j), bounds_of(fine, j), taken_.row(j),
-                       fine.columns);
-        }
-        if (const int j = tick - 5; j >= 0) put_back(fine, j, levels(j));
+        // The row that the first pass has just read for the last time.
+        if (const int j = tick - 4; j >= 0) pass(fine, once, j, 1, levels(j));
     }
 }
 
-void NoiseSmoother::put_back(const Scale& scale, int j, float* out) {
-    const std::ptrdiff_t columns = scale.columns;
-    across_.resize(static_cast<std::size_t>(columns));
-    both_.resize(static_cast<std::size_t>(columns));
-    std::array<const float*, 5> rows{};
-    for (int k = 0; k < 5; ++k)
-        rows[static_cast<std::size_t>(k)] = taken_.row(std::clamp(j + k - 2, 0, scale.rows - 1));
-    sum_of_five(rows, across_.data(), 0, columns);
-    const float* const centre = across_.data();
-    const std::ptrdiff_t begin = std::min<std::ptrdiff_t>(2, columns);
-    const std::ptrdiff_t end = std::max<std::ptrdiff_t>(columns - 2, begin);
-    std::copy(centre, centre + begin, both_.begin());
-    sum_of_five({centre - 2, centre - 1, centre, centre + 1, centre + 2}, both_.data(), begin, end);
-    std::copy(centre + end, centre + columns, both_.begin() + end);
-    add_beyond(both_.data(), bounds_of(scale, j), scale.noise_part, second_.row(j), out, columns);
-}
-
-/// Smooths from fine to coarse and back. `before`: the scale's levels, `from`: without outliers.
-void NoiseSmoother::smooth_scales(std::size_t number, const float* from, const float* before) {
+/// Smooths from fine to coarse and back.
+void NoiseSmoother::smooth_scales(std::size_t number, const float* from) {
     Scale& fine = scales_[number];
     Scale* const coarse = number + 1 < scales_.size() ? &scales_[number + 1] : nullptr;
     if (coarse != nullptr) {
@@ -385,56 +463,101 @@ void NoiseSmoother::smooth_scales(std::size_t number, const float* from, const f
         coarse->per_bound.resize(coarse->before.size());
     }
     smooth_to_coarser(fine, from, coarse);
-    if (coarse != nullptr) smooth_scales(number + 1, coarse->before.data(), coarse->before.data());
-    smooth_to_finer(fine, before, coarse);
+    if (coarse != nullptr) smooth_scales(number + 1, coarse->before.data());
+    smooth_to_finer(fine, coarse);
 }
 
-/// The median of nine, twice, also removes outliers of two pixels by two. The median of 25 would
-/// cost four times as much and remove more small shapes.
+/// Levels stay within those that were given.
+void NoiseSmoother::put_back(DepthImage& image) {
+    const std::vector<float>& base = scales_.front().levels;
+    const auto count = static_cast<std::ptrdiff_t>(base.size());
+    lows_.assign(image.levels.begin(), image.levels.begin() + image.columns);
+    highs_ = lows_;
+    for (int j = 0; j < image.rows; ++j)
+        find_range(image.levels.data() + image.index(0, j), lows_.data(), highs_.data(),
+                   image.columns);
+    taken_.set_size(image.columns, image.rows);
+    find_taken(image.levels.data(), base.data(), taken_.values.data(), count);
+    bands_.keep_shapes(taken_, left_);
+    add_within(base.data(), taken_.values.data(), *std::min_element(lows_.begin(), lows_.end()),
+               *std::max_element(highs_.begin(), highs_.end()), image.levels.data(), count);
+}
+
+/// The median of nine, twice, also removes outliers of two pixels by two. It takes ridges too, so
+/// it is for tiles of which few frames tell.
 void NoiseSmoother::take_medians(DepthImage& image, const DepthNoise& noise) {
+    const auto tile_columns = static_cast<std::ptrdiff_t>(tile_columns_);
     medians_.resize(image.levels.size());
-    before_ = image.levels;
-    const auto picture = [&](std::vector<float>& levels) {
-        return cv::Mat(image.rows, image.columns, CV_32F, levels.data());
-    };
-    cv::Mat medians = picture(medians_);
-    cv::medianBlur(picture(image.levels), medians, 3);
-    cv::medianBlur(medians, medians, 3);
     bounds_.resize(image.columns);
     bounds_made_ = 0;
     const NoiseBound most(noise, kMedianNoises, 0.0F, image.highest_level);
+    const auto picture = [&](std::vector<float>& levels, int top, int bottom) {
+        return cv::Mat(bottom - top, image.columns, CV_32F, levels.data() + image.index(0, top));
+    };
+    const auto has_few = [&](int y) {
+        const auto few = few_frames_.begin() + y * tile_columns;
+        return y < tile_rows_ && std::find(few, few + tile_columns, 1) != few + tile_columns;
+    };
+    for (int y = 0; y < tile_rows_; ++y) {
+        const int first = y;
+        while (has_few(y)) ++y;
+        if (y == first) continue;
+        // With the rows beside them that medians of medians depend on.
+        const int top = std::max(first * kTile_px - kBorder_px, 0);
+        const int bottom = std::min(y * kTile_px + kBorder_px, image.rows);
+        cv::Mat medians;
+        cv::medianBlur(picture(image.levels, top, bottom), medians, 3);
+        cv::medianBlur(medians, medians, 3);
+        const int end = std::min(y * kTile_px, image.rows);
+        for (int j = first * kTile_px; j < end; ++j)
+            std::copy_n(medians.ptr<float>(j - top), image.columns,
+                        medians_.begin() + static_cast<std::ptrdiff_t>(image.index(0, j)));
+    }
     // At the border a slope's median is not on the slope.
     for (int j = kBorder_px; j < image.rows - kBorder_px; ++j) {
-        const std::size_t at = image.index(kBorder_px, j);
-        move_to_medians(medians_.data() + at, bounds_of(scales_.front(), j) + kBorder_px, most,
-                        image.levels.data() + at, image.columns - 2 * kBorder_px);
+        const std::uint8_t* const few = few_frames_.data() + j / kTile_px * tile_columns;
+        const float* bounds = nullptr;
+        visit_marked(few, tile_columns_, [&](int begin, int end) {
+            if (bounds == nullptr) bounds = bounds_of(scales_.front(), j);
+            const int left = std::max(begin * kTile_px, kBorder_px);
+            const int right = std::min(end * kTile_px, image.columns - kBorder_px);
+            if (left >= right) return;
+            const std::size_t at = image.index(left, j);
+            move_to_medians(medians_.data() + at, bounds + left, most, image.levels.data() + at,
+                            right - left);
+        });
     }
 }
 
-void NoiseSmoother::smooth(DepthImage& image, const DepthNoise& noise) {
-    measure_tiles(image, noise);
-    const float lowest = *std::min_element(lows_.begin(), lows_.end());
-    const float highest = *std::max_element(highs_.begin(), highs_.end());
+/// What stands out alone is an outlier, which would be an edge for the next step.
+void NoiseSmoother::remove_outliers(DepthImage& image) {
+    const auto columns = static_cast<std::ptrdiff_t>(image.columns);
+    lows_.assign(image.levels.begin(), image.levels.begin() + columns);
+    highs_.resize(lows_.size());
+    for (int j = 1; j + 1 < image.rows; ++j) {  // lows_: the row above, highs_: this one, as given
+        float* const row = image.levels.data() + image.index(0, j);
+        std::copy(row, row + columns, highs_.begin());
+        keep_among(lows_.data(), highs_.data(), row + columns, row, columns);
+        lows_.swap(highs_);
+    }
+}
+
+void NoiseSmoother::smooth(DepthImage& image, const DepthNoise& noise,
+                           const TimeEvidence& evidence) {
+    find_noise(image, noise, evidence);
     scales_.resize(kScales);
     int columns = image.columns;
     int rows = image.rows;
-    const float grain = 1.0F - std::min(noise.correlation, 0.99F);
-    const float left = std::lerp(1.0F, kLeftByTwoPasses, grain);
-    float noise_part = kPutBackBeyond * kBinomialLeaves / (grain * grain) / kBound;
     for (Scale& scale : scales_) {
-        scale.noise_part = noise_part;
-        noise_part *= left;
         scale.columns = columns;
         scale.rows = rows;
         columns = (columns + 1) / 2;
         rows = (rows + 1) / 2;
     }
     take_medians(image, noise);
-    smooth_scales(0, image.levels.data(), before_.data());
-    Scale& finest = scales_.front();
-    clamp_row(finest.levels.data(), lowest, highest,
-              static_cast<std::ptrdiff_t>(finest.levels.size()));
-    finest.levels.swap(image.levels);
+    remove_outliers(image);
+    smooth_scales(0, image.levels.data());
+    put_back(image);
 }
 
 }  // namespace dibhr

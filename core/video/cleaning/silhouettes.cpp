@@ -34,6 +34,7 @@ constexpr std::uint32_t kPixelsPerVote =
 
 constexpr int kFace_px = 3;        ///< a face's slope is taken over twice this length
 constexpr int kSmooth_px = 2;      ///< faces are smoothed over this distance to all sides
+constexpr int kTogether_px = 4;    ///< over this distance pixels of a ramp go together
 constexpr float kAlike = 0.03F;    ///< of the highest level: largest difference on one face
 constexpr int kWide_px = 5;        ///< in a narrower ramp the colour's edge is no better
 constexpr float kColours = 48.0F;  ///< least difference of two faces' colours [of 255]
@@ -286,8 +287,10 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     votes_number_.assign(image.levels.size(), 0);
     votes_.clear();
     ramps_.clear();
+    steep_.clear();
     if (!find_ramps(scene)) return;
     for (Votes& votes : votes_) decide(votes);
+    decide_together(image);
     for (const Votes& votes : votes_) {
         if (votes.side == Side::neither) continue;
         float& level = image.levels[votes.pixel];
@@ -332,6 +335,27 @@ void SilhouetteSharpener::decide(Votes& votes) {
                        : votes.low / static_cast<float>(votes.lows);
 }
 
+/// A pixel keeps its side only where at least a third of those around that may be on a ramp have
+/// one. (Of half the gaps between fingers would be lost.)
+void SilhouetteSharpener::decide_together(const DepthImage& image) {
+    decided_.assign(image.levels.size(), 0);
+    for (const std::uint32_t pixel : steep_) decided_[pixel] = -1;
+    for (const Votes& votes : votes_)
+        if (votes.side != Side::neither) decided_[votes.pixel] = 2;
+    for (Votes& votes : votes_) {
+        if (votes.side == Side::neither) continue;
+        const int x = static_cast<int>(votes.pixel) % image.columns;
+        const int y = static_cast<int>(votes.pixel) / image.columns;
+        const int left = std::max(x - kTogether_px, 0);
+        const int right = std::min(x + kTogether_px, image.columns - 1);
+        const int bottom = std::min(y + kTogether_px, image.rows - 1);
+        int balance = 0;
+        for (int j = std::max(y - kTogether_px, 0); j <= bottom; ++j)
+            for (int i = left; i <= right; ++i) balance += decided_[image.index(i, j)];
+        if (balance < 0) votes.side = Side::neither;
+    }
+}
+
 /// Mean level of a pixel and its neighbours on the same side of the outline: each was continued
 /// along its own line, and without smoothing their noise would look like a comb.
 float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) const {
@@ -370,7 +394,10 @@ void SilhouetteSharpener::scan_row(const Scene& scene, int row, int begin, int e
                         reach, count, least, steep.data()))
             continue;
         for (int i = 0; i < count; ++i)
-            if (steep[static_cast<std::size_t>(i)] != 0) find_ramp_at(scene, begin + i, row);
+            if (steep[static_cast<std::size_t>(i)] != 0) {
+                steep_.push_back(static_cast<std::uint32_t>(image.index(begin + i, row)));
+                find_ramp_at(scene, begin + i, row);
+            }
     }
 }
 

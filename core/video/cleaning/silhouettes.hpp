@@ -13,10 +13,11 @@ struct ColourImage;
 
 /// Sensors, codecs, scaling and estimators blur an object's outline into a ramp from near to far,
 /// which is neither. A pixel on a ramp of up to 13 px is moved to one of its sides, where that
-/// side's surface is continued. Unchanged: slopes that go on beyond (a cone, a sphere's side, a
-/// cheek), steps that are crisp already, and pictures with more ramps, or pixels on ramps, than
-/// kMostRamps, which bounds memory. The same input gives the same bits. Scratch memory is kept
-/// inside.
+/// side's surface is continued. Pixels of a ramp go together: where fewer than a third around
+/// can be decided, none is moved, since an outline would be crisp in some rows only. Unchanged:
+/// slopes that go on beyond (a cone, a sphere's side, a cheek), steps that are crisp already, and
+/// pictures with more ramps, or pixels on ramps, than kMostRamps, which bounds memory. The same
+/// input gives the same bits. Scratch memory is kept inside.
 class SilhouetteSharpener {
   public:
     static constexpr std::size_t kMostRamps = std::size_t{3} << 20;  ///< 38 % of 4K video
@@ -67,6 +68,7 @@ class SilhouetteSharpener {
         return ramps_.size() > kMostRamps || votes_.size() > kMostRamps;
     }
     static void decide(Votes& votes);
+    void decide_together(const DepthImage& image);
     [[nodiscard]] static float within(const DepthImage& image, float recorded,
                                       float level) noexcept;
     [[nodiscard]] float smoothed(const DepthImage& image, const Votes& own) const;
@@ -74,6 +76,8 @@ class SilhouetteSharpener {
     std::vector<std::uint32_t> votes_number_{};  ///< place in votes_, from 1; 0: not on a ramp
     std::vector<Votes> votes_{};
     std::vector<FoundRamp> ramps_{};
+    std::vector<std::uint32_t> steep_{};  ///< pixels that may be on a ramp
+    std::vector<std::int8_t> decided_{};  ///< 2: has a side; -1: is steep, and has none; 0: neither
 };
 
 }  // namespace dibhr

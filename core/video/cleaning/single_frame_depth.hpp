@@ -10,7 +10,10 @@
 namespace dibhr {
 
 /// A cleaned frame depends on this many frames before it, and as many after it.
-inline constexpr std::size_t kReachInTime = 5;
+inline constexpr std::size_t kReachInTime = 16;
+/// Of these so many to each side count one by one, those farther in groups of kGroupInTime.
+inline constexpr std::size_t kNearInTime = 5;
+inline constexpr std::size_t kGroupInTime = 4;
 
 /// Whether the levels of both can be compared pixel by pixel.
 [[nodiscard]] inline bool are_alike(const DepthImage& a, const DepthImage& b) noexcept {
@@ -22,6 +25,13 @@ struct SingleFrameDepth {
     DepthImage depth{};                  ///< no NaN
     std::vector<std::uint8_t> filled{};  ///< 1 for pixels that had no data; empty: all had data
     std::vector<std::uint8_t> unseen{};  ///< 1 for pixels never seen; empty: all were seen
+    std::size_t teeth{0};                ///< of the recorded outlines, if they are smoothed
+    /// By its time in the media, so that groups of frames are the same however it was reached;
+    /// below 0: not known.
+    std::int64_t number{-1};
+    /// Another one for each frame that clean_frame makes in this process; frames with one id have
+    /// the same levels. 0: not known.
+    std::uint64_t id{0};
 };
 
 }  // namespace dibhr

@@ -19,6 +19,8 @@ namespace {
 constexpr double kSpike_share = 8.0 / 255.0;
 constexpr double kPit_share = 4.0 / 255.0;
 constexpr double kSpike_levels = 100.0;
+/// Where levels are finer than that, noise is beyond all neighbours by so many deviations.
+constexpr double kSpikeNoises = 3.0;
 constexpr std::uint8_t kSpikeRounds = 16;  ///< a removed spike may leave another beside it
 constexpr int kIslandsInWidth = 80;        ///< a smaller island than the width over this is removed
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -81,20 +83,6 @@ class Neighbours {
     float lowest_{kInfinity}, highest_{-kInfinity};
 };
 
-/// How far a spike is above or below all its neighbours, at least.
-struct SpikeThreshold {
-    explicit SpikeThreshold(double highest_level)
-        : above(static_cast<float>(std::min(kSpike_share * highest_level, kSpike_levels))),
-          below(static_cast<float>(std::min(kPit_share * highest_level, kSpike_levels))) {}
-
-    /// Whether `level` is a spike; `least`, `most`: of the neighbours. False for NaN.
-    [[nodiscard]] bool operator()(float level, float least, float most) const {
-        return level > most + above || level < least - below;
-    }
-
-    float above, below;
-};
-
 /// As std::max and std::min, but a `level` of NaN is ignored.
 float higher(float level, float most) {
     return level > most ? level : most;
@@ -114,10 +102,8 @@ DIBHR_VECTOR_CLONES void find_range(const float* up, const float* down, float* _
 
 /// Marks the spikes among pixels [1, columns - 1) of a row. Returns whether there are any.
 DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const float* low,
-                                      SpikeThreshold is_spike, std::uint8_t* __restrict outlying,
+                                      float above, float below, std::uint8_t* __restrict outlying,
                                       std::size_t columns) {
-    const float above = is_spike.above;
-    const float below = is_spike.below;
     int found = 0;
     for (std::size_t i = 1; i + 1 < columns; ++i) {
         const float most = higher(
@@ -135,7 +121,6 @@ DIBHR_VECTOR_CLONES int mark_outlying(const float* row, const float* high, const
 
 /// Whole rows at a time; the pixels of the picture's border one by one.
 void SpikeRemover::find_spikes(const DepthImage& image) {
-    const SpikeThreshold is_spike(image.highest_level);
     const int columns = image.columns;
     highest_.resize(static_cast<std::size_t>(columns));
     lowest_.resize(static_cast<std::size_t>(columns));
@@ -145,8 +130,8 @@ void SpikeRemover::find_spikes(const DepthImage& image) {
         const float* row = up + columns;
         const float* down = row + columns;
         find_range(up, down, highest_.data(), lowest_.data(), highest_.size());
-        if (mark_outlying(row, highest_.data(), lowest_.data(), is_spike, outlying_.data(),
-                          outlying_.size()) == 0)
+        if (mark_outlying(row, highest_.data(), lowest_.data(), is_spike_.above, is_spike_.below,
+                          outlying_.data(), outlying_.size()) == 0)
             continue;
         visit_marked(outlying_.data(), columns, [&](int begin, int end) {
             for (int i = begin; i < end; ++i)
@@ -162,12 +147,15 @@ void SpikeRemover::find_spikes(const DepthImage& image) {
 void SpikeRemover::check_for_spike(const DepthImage& image, int i, int j) {
     Neighbours around(image, i, j);
     const float level = image.at(i, j);
-    if (SpikeThreshold(image.highest_level)(level, around.lowest(), around.highest()))
+    if (is_spike_(level, around.lowest(), around.highest()))
         spikes_.push_back({i, j, around.median()});
 }
 
-void SpikeRemover::remove(DepthImage& image) {
+void SpikeRemover::remove(DepthImage& image, float noise) {
     forget();
+    const double levels = std::max(kSpike_levels, kSpikeNoises * static_cast<double>(noise));
+    is_spike_ = {static_cast<float>(std::min(kSpike_share * image.highest_level, levels)),
+                 static_cast<float>(std::min(kPit_share * image.highest_level, levels))};
     remove_spikes(image);
     remove_islands(image);
 }
@@ -191,13 +179,12 @@ void SpikeRemover::remove_spikes(DepthImage& image) {
 /// cannot be spikes.
 void SpikeRemover::check_neighbours(const DepthImage& image, const Spike& spike,
                                     std::uint8_t round) {
-    const SpikeThreshold is_spike(image.highest_level);
     for (int j = std::max(spike.row - 1, 0); j <= std::min(spike.row + 1, image.rows - 1); ++j) {
         for (int i = std::max(spike.column - 1, 0);
              i <= std::min(spike.column + 1, image.columns - 1); ++i) {
             const std::size_t at = image.index(i, j);
             const bool may_be_spike =
-                std::isnan(spike.level) || is_spike(image.levels[at], spike.level, spike.level);
+                std::isnan(spike.level) || is_spike_(image.levels[at], spike.level, spike.level);
             if (may_be_spike && std::exchange(checked_in_round_[at], round) != round)
                 check_for_spike(image, i, j);
         }

@@ -18,7 +18,9 @@ class SpikeRemover {
     /// median; its neighbours are then checked again. A pixel without such neighbours loses its
     /// data. So do islands of data in holes with fewer pixels than a square of an eightieth of the
     /// image's width: sensors invent them at outlines. The image has at least 2 x 2 pixels.
-    void remove(DepthImage& image);
+    /// `noise`: standard deviation of its noise [levels]. The threshold is 100 levels, or three
+    /// deviations where that is more, and at most 8 of 255 of the range (4 for pits).
+    void remove(DepthImage& image, float noise = 0.0F);
 
     /// The next image is not given to remove(): no pixel is refused.
     void forget() noexcept { rejected_.clear(); }
@@ -37,6 +39,17 @@ class SpikeRemover {
     void check_neighbours(const DepthImage& image, const Spike& spike, std::uint8_t round);
     void remove_islands(DepthImage& image);
 
+    /// How far a spike is above or below all its neighbours, at least.
+    struct Threshold {
+        float above{0.0F}, below{0.0F};
+
+        /// Whether `level` is a spike; `least`, `most`: of the neighbours. False for NaN.
+        [[nodiscard]] bool operator()(float level, float least, float most) const {
+            return level > most + above || level < least - below;
+        }
+    };
+
+    Threshold is_spike_{};
     std::vector<std::size_t> rejected_{};
     Patches patches_{};
     std::vector<Spike> spikes_{}, removed_{};

@@ -1,9 +1,10 @@
-// Medians of five frames, then means of those of eleven frames that are like the median.
+// Medians of five frames, then means of those of up to 27 frames that are like the median.
 #include "core/video/cleaning/temporal_filter.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -11,16 +12,32 @@
 
 #include "core/video/cleaning/even_motion.hpp"
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/frames/vector_clones.hpp"
+#include "core/video/cleaning/rows_in_time.hpp"
 
 namespace dibhr {
 
+using namespace in_time;
+
 namespace {
 
-constexpr std::size_t kMedianReach = 2;       ///< frames to each side
-constexpr float kAlike = 3.0F;                ///< standard deviations; beyond, levels do not mix
-constexpr float kFilledShare = 0.05F;         ///< weight of a filled pixel against a seen one
+constexpr std::size_t kMedianReach = 2;  ///< frames to each side
+constexpr float kAlike = 3.0F;  ///< standard deviations; beyond, a level may be another surface
+/// Noise has so many times the variance of the levels that mix, since the farthest do not.
+constexpr float kCutOff = 1.1F;
+constexpr int kTile_px = 16;                  ///< rows that are averaged together
+constexpr std::size_t kStillTile_px = 32;     ///< their columns that stand still or not as a whole
+constexpr int kRowStep_px = 4;                ///< every fourth row tells
 constexpr float kLeastNoise = 0.1F / 255.0F;  ///< of the highest level: least assumed noise
+// A tile stands still if a group differs from the median of the nearest frames as noise does: by
+// its mean in deviations, and by its mean square in those of what both have.
+constexpr float kStillMean = 0.8F;
+constexpr float kStillSquares = 2.5F;
+constexpr float kOfMedian = 0.29F;       ///< variance of a median of five
+constexpr int kMisfitRow_px = 8;         ///< every eighth row tells how tiles move
+constexpr float kBetter = 0.03F;         ///< by so much of the misfit, about what noise makes of it
+constexpr std::size_t kMovingTiles = 4;  ///< one of so many, or more: the camera moves
+constexpr float kFits = 1.0F;            ///< misfit: noise alone has a third; else something passes
+constexpr float kLeastCounted = 32.0F;   ///< pixels of a tile
 
 // A patch that lasts less than three frames is kept if enough of its rim is connected to ("held
 // by") a surface that stays. Measured on people who walk past within two frames, whose feet touch
@@ -30,7 +47,6 @@ constexpr double kHeldShare = 0.4;   ///< of the rim
 constexpr double kHeldWidths = 0.7;  ///< of a thin patch: rim pixels a width
 constexpr int kThinInWidth = 20;  ///< a thin patch is at most this part of the image's width wide
 constexpr int kHeldWithin_px = 4;
-constexpr float kSurely = 2.0F;  ///< bounds; beyond, a level is another surface and not noise
 
 // Moving parts are found in the frames before and after, by regions as wide as a finger.
 constexpr int kRegion_px = 32;
@@ -38,148 +54,6 @@ constexpr std::size_t kLeastOthers = 32;  ///< surely other pixels; with fewer a
 constexpr std::size_t kSamples = 20;      ///< of these pixels
 constexpr std::size_t kSpread = 7;        ///< coprime to 20: the first samples are from all over
 constexpr float kAlikeStep = 0.2F;        ///< of a sample's distance from the median: same surface
-
-float median_of_three(float a, float b, float c) {
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-}
-
-float median_of_five(float a, float b, float c, float d, float e) {
-    const float low = std::max(std::min(a, b), std::min(c, d));
-    const float high = std::min(std::max(a, b), std::max(c, d));
-    return median_of_three(e, low, high);
-}
-
-DIBHR_VECTOR_CLONES void medians(const float* a, const float* b, const float* c, const float* d,
-                                 const float* e, float* __restrict out, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) out[i] = median_of_five(a[i], b[i], c[i], d[i], e[i]);
-}
-
-DIBHR_VECTOR_CLONES void medians(const float* a, const float* b, const float* c,
-                                 float* __restrict out, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) out[i] = median_of_three(a[i], b[i], c[i]);
-}
-
-constexpr std::uint8_t kSurelyOther = 3;  ///< another surface, and not noise; 1: maybe
-
-/// Marks levels of another surface than the reference. Returns whether there are any.
-DIBHR_VECTOR_CLONES bool mark_other(const float* levels, const float* reference,
-                                    const NoiseBound& bound, std::uint8_t* __restrict marks,
-                                    std::size_t count) {
-    const NoiseBound of = bound;
-    int any = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const float off = std::fabs(levels[i] - reference[i]);
-        const int other = off > of(reference[i]) ? 1 : 0;
-        const int surely = off > kSurely * of(levels[i]) ? 3 : 1;
-        const int mark = -other & surely;
-        marks[i] = static_cast<std::uint8_t>(mark);
-        any |= mark;
-    }
-    return any != 0;
-}
-
-DIBHR_VECTOR_CLONES void unmark(const std::uint8_t* filled, std::uint8_t* __restrict marks,
-                                std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-        marks[i] = static_cast<std::uint8_t>(filled[i] != 0 ? 0 : marks[i]);
-}
-
-DIBHR_VECTOR_CLONES void invert(const float* reference, const NoiseBound& bound,
-                                float* __restrict per_bound, std::size_t count) {
-    const NoiseBound of = bound;
-    for (std::size_t i = 0; i < count; ++i) per_bound[i] = 1.0F / of(reference[i]);
-}
-
-/// Tukey's biweight: 0 at the bound and beyond.
-inline float weight_of(float off, float per_bound) {
-    const float part = off * per_bound;
-    const float near = std::max(1.0F - part * part, 0.0F);
-    return near * near;
-}
-
-/// The weighted mean of a pixel's differences from its reference.
-struct Mean {
-    float sum, weight;
-
-    void add(float level, float seen, float reference, float per_bound) {
-        const float off = level - reference;
-        const float more = seen * weight_of(off, per_bound);
-        sum += more * off;
-        weight += more;
-    }
-    void add(float level, float reference, float per_bound) {
-        add(level, 1.0F, reference, per_bound);
-    }
-};
-
-inline float share_of(std::uint8_t filled) {
-    return 1.0F - (1.0F - kFilledShare) * static_cast<float>(filled);
-}
-
-/// Rows of four frames at once: sums and weights are read and written a quarter as often.
-using Four = std::array<const float*, 4>;
-using FourFilled = std::array<const std::uint8_t*, 4>;
-
-DIBHR_VECTOR_CLONES void add_four(const Four& rows, const float* reference, const float* per_bound,
-                                  float* __restrict sum, float* __restrict weights,
-                                  std::size_t count) {
-    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
-    for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
-        mean.add(a[i], reference[i], per_bound[i]);
-        mean.add(b[i], reference[i], per_bound[i]);
-        mean.add(c[i], reference[i], per_bound[i]);
-        mean.add(d[i], reference[i], per_bound[i]);
-        sum[i] = mean.sum;
-        weights[i] = mean.weight;
-    }
-}
-
-DIBHR_VECTOR_CLONES void add_four(const Four& rows, const FourFilled& filled,
-                                  const float* reference, const float* per_bound,
-                                  float* __restrict sum, float* __restrict weights,
-                                  std::size_t count) {
-    const float *a = rows[0], *b = rows[1], *c = rows[2], *d = rows[3];
-    const std::uint8_t *at_a = filled[0], *at_b = filled[1], *at_c = filled[2], *at_d = filled[3];
-    for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
-        mean.add(a[i], share_of(at_a[i]), reference[i], per_bound[i]);
-        mean.add(b[i], share_of(at_b[i]), reference[i], per_bound[i]);
-        mean.add(c[i], share_of(at_c[i]), reference[i], per_bound[i]);
-        mean.add(d[i], share_of(at_d[i]), reference[i], per_bound[i]);
-        sum[i] = mean.sum;
-        weights[i] = mean.weight;
-    }
-}
-
-DIBHR_VECTOR_CLONES void add_one(const float* levels, const float* reference,
-                                 const float* per_bound, float* __restrict sum,
-                                 float* __restrict weights, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
-        mean.add(levels[i], reference[i], per_bound[i]);
-        sum[i] = mean.sum;
-        weights[i] = mean.weight;
-    }
-}
-
-DIBHR_VECTOR_CLONES void add_one(const float* levels, const std::uint8_t* filled,
-                                 const float* reference, const float* per_bound,
-                                 float* __restrict sum, float* __restrict weights,
-                                 std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) {
-        Mean mean{sum[i], weights[i]};
-        mean.add(levels[i], share_of(filled[i]), reference[i], per_bound[i]);
-        sum[i] = mean.sum;
-        weights[i] = mean.weight;
-    }
-}
-
-DIBHR_VECTOR_CLONES void divide(const float* reference, const float* sum, const float* weights,
-                                float* __restrict out, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = reference[i] + (weights[i] > 0.0F ? sum[i] / weights[i] : 0.0F);
-}
 
 /// The rim of a patch, and how much of it is held by the surface beside it.
 struct Rim {
@@ -192,52 +66,383 @@ struct Rim {
 
 void TemporalFilter::gather(std::span<const SingleFrameDepth* const> frames, std::size_t now) {
     const SingleFrameDepth& here = *frames[now];
-    const std::size_t first = now - std::min(now, kReachInTime);
-    const std::size_t end = std::min(frames.size(), now + kReachInTime + 1);
+    const std::size_t first = now - std::min(now, kNearInTime);
+    const std::size_t end = std::min(frames.size(), now + kNearInTime + 1);
     count_ = 0;
     nearest_ = 0;
+    any_filled_ = false;
     for (std::size_t k = first; k < end; ++k) {
         if (!are_alike(frames[k]->depth, here.depth)) continue;
         const std::size_t away = k > now ? k - now : now - k;
+        any_filled_ = any_filled_ || !frames[k]->filled.empty();
         if (away <= kMedianReach && nearest_++ == 0) first_near_ = count_;
+        if (k == now) now_ = count_;
         neighbours_[count_++] = {frames[k]->depth.levels.data(),
                                  frames[k]->filled.empty() ? nullptr : frames[k]->filled.data()};
     }
 }
 
-/// The median of `count` pixels over the frame and those near it: over five frames, else three.
-void TemporalFilter::find_reference(const float* here, std::size_t at, std::size_t count,
+/// The rows of the neighbours from that pixel on, in its place.
+TemporalFilter::Neighbours TemporalFilter::rows_at(std::size_t at) const {
+    Neighbours rows = neighbours_;
+    for (std::size_t k = 0; k < count_; ++k) {
+        rows[k].levels += at;
+        if (rows[k].filled != nullptr) rows[k].filled += at;
+    }
+    return rows;
+}
+
+/// The rows of the neighbours that show what the piece of row `j` does.
+TemporalFilter::Neighbours TemporalFilter::rows_of(const Piece& piece, int j,
+                                                   const DepthImage& size) {
+    if (!piece.moves) return rows_at(size.index(piece.left, j));
+    Neighbours rows = neighbours_;
+    for (std::size_t k = 0; k < count_; ++k) {
+        const std::size_t scratch = k * static_cast<std::size_t>(size.columns);
+        rows[k].levels = shifted_row(rows[k].levels, size, rows[k].shift, j, piece.left,
+                                     piece.count, FrameGroups::kNoLevel, shifted_.data() + scratch);
+        if (rows[k].filled != nullptr)
+            rows[k].filled =
+                shifted_row<std::uint8_t>(rows[k].filled, size, rows[k].shift, j, piece.left,
+                                          piece.count, 1, shifted_filled_.data() + scratch);
+    }
+    return rows;
+}
+
+/// The same of a group, the `number`-th one.
+const float* TemporalFilter::row_of(const FrameGroup& group, const Piece& piece, int j,
+                                    std::size_t number, const DepthImage& size) {
+    return shifted_row(
+        group.levels, size, group.shift, j, piece.left, piece.count, FrameGroups::kNoLevel,
+        shifted_.data() + (neighbours_.size() + number) * static_cast<std::size_t>(size.columns));
+}
+
+/// The median of `count` pixels over the frame and those near it: over five frames, else three. It
+/// is the frame's own level where one of them does not show the pixel.
+void TemporalFilter::find_reference(const Neighbours& rows, const float* here, std::size_t count,
                                     float* reference) const {
-    const Neighbour* n = neighbours_.data() + first_near_;
+    const Neighbour* n = rows.data() + first_near_;
+    std::size_t of = 1;
     if (nearest_ == 5) {
-        medians(n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at,
-                n[4].levels + at, reference, count);
+        medians(n[0].levels, n[1].levels, n[2].levels, n[3].levels, n[4].levels, reference, count);
+        of = 5;
     } else if (nearest_ >= 3) {
-        if (nearest_ == 4 && n[1].levels != here) ++n;
-        medians(n[0].levels + at, n[1].levels + at, n[2].levels + at, reference, count);
+        if (nearest_ == 4 && first_near_ + 1 != now_) ++n;
+        medians(n[0].levels, n[1].levels, n[2].levels, reference, count);
+        of = 3;
     } else {
-        std::copy_n(here + at, count, reference);
+        std::copy_n(here, count, reference);
+    }
+    if (farthest_shift_ == 0) return;
+    for (std::size_t k = 0; k < of; ++k)
+        if (n[k].shift != Shift{}) take_where_missing(n[k].levels, here, reference, count);
+}
+
+/// Of one pixel, as its tile is read.
+float TemporalFilter::reference_at(const DepthImage& here, std::size_t at) const {
+    const float own = here.levels[at];
+    float reference = 0.0F;
+    Neighbours rows = rows_at(at);
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const std::size_t tile =
+        at / columns / kTile_px * ((columns + kStillTile_px - 1) / kStillTile_px) +
+        at % columns / kStillTile_px;
+    std::array<float, 2 * kNearInTime + 1> scratch{};
+    if (farthest_shift_ != 0 && moving_[tile] != 0)
+        for (std::size_t k = first_near_; k < first_near_ + nearest_; ++k)
+            rows[k].levels = shifted_row(
+                neighbours_[k].levels, here, rows[k].shift, static_cast<int>(at / columns),
+                static_cast<int>(at % columns), 1, FrameGroups::kNoLevel, &scratch[k]);
+    find_reference(rows, &own, 1, &reference);
+    return reference;
+}
+
+void TemporalFilter::Sums::start(std::size_t count, float* weights_there) {
+    reference.resize(count);
+    per_bound.resize(count);
+    sum.resize(count);
+    squares.resize(count);
+    weights = weights_there;
+}
+
+/// How most of the picture moves to each neighbour, which tiles do, and groups along that.
+void TemporalFilter::find_motion(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                                 const DepthNoise& noise) {
+    farthest_shift_ = 0;
+    moving_far_ = {};
+    if (count_ < 2 || noise.per_frame_scale) return;
+    const std::span<const PictureWay> ways = camera_.ways(frames, now, noise);
+    if (ways.empty()) return;
+    const auto add = [this](const Shift& shift) {
+        farthest_shift_ = std::max({farthest_shift_, std::abs(shift.right), std::abs(shift.down)});
+    };
+    for (std::size_t k = now - std::min(now, kNearInTime), n = 0; n < count_; ++k) {
+        if (frames[k]->depth.levels.data() != neighbours_[n].levels) continue;
+        neighbours_[n].shift = rounded(ways[k]);
+        add(neighbours_[n++].shift);
+    }
+    if (farthest_shift_ == 0) return;
+    const DepthImage& here = frames[now]->depth;
+    choose_tiles(here);
+    if (farthest_shift_ == 0) return;
+    moving_far_ = moving_groups_.around(
+        frames, now, NoiseBound(noise, 1.0F, kLeastNoise, here.highest_level), ways);
+    for (const FrameGroup& group : moving_far_) add(group.shift);
+}
+
+/// A tile moves with the picture where the frames beside fit along that way, and better than in
+/// place, in the tiles around it, too: they tell more than one tile where noise is strong.
+void TemporalFilter::choose_tiles(const DepthImage& here) {
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    const auto down = static_cast<std::size_t>((here.rows + kTile_px - 1) / kTile_px);
+    moving_.assign(across * down, 1);
+    for (const bool moves : {false, true}) {
+        misfits_[moves ? 1 : 0].clear();
+        for (std::size_t y = 0; y < down; ++y) {
+            squared_off_.assign(columns, 0.0F);
+            counted_.assign(columns, 0.0F);
+            const int top = static_cast<int>(y) * kTile_px;
+            for (int j = top + kMisfitRow_px / 2; j < std::min(top + kTile_px, here.rows);
+                 j += kMisfitRow_px)
+                add_misfits(j, moves, here);
+            for (std::size_t x = 0; x < across; ++x) {
+                float squared = 0.0F;
+                float counted = 0.0F;
+                for (std::size_t i = x * kStillTile_px;
+                     i < std::min((x + 1) * kStillTile_px, columns); ++i) {
+                    squared += squared_off_[i];
+                    counted += counted_[i];
+                }
+                misfits_[moves ? 1 : 0].push_back(counted > 0.0F ? squared / counted
+                                                  : moves        ? kMostMisfit * kMostMisfit
+                                                                 : 0.0F);
+            }
+        }
+    }
+    for (std::size_t y = 0; y < down; ++y)
+        for (std::size_t x = 0; x < across; ++x) {
+            float better = 0.0F;
+            float along = 0.0F;
+            for (std::size_t v = y - std::min<std::size_t>(y, 1); v < std::min(y + 2, down); ++v)
+                for (std::size_t u = x - std::min<std::size_t>(x, 1); u < std::min(x + 2, across);
+                     ++u) {
+                    const float weight = (u == x ? 2.0F : 1.0F) * (v == y ? 2.0F : 1.0F);
+                    const std::size_t k = v * across + u;
+                    better += weight * (misfits_[0][k] - misfits_[1][k]);
+                    along += weight * misfits_[1][k];
+                }
+            const bool fits = misfits_[1][y * across + x] < kFits;
+            moving_[y * across + x] = fits && better > kBetter * along ? 1 : 0;
+        }
+    // A few may be a hand that moves evenly, and chance.
+    const auto count = static_cast<std::size_t>(std::count(moving_.begin(), moving_.end(), 1));
+    if (kMovingTiles * count < moving_.size()) farthest_shift_ = 0;
+}
+
+/// What is smoothed afterwards takes a frame's weight for less than one where noise is alike from
+/// frame to frame. Along the motion it is less alike than shapes that move make it in place.
+void TemporalFilter::share_weights(const DepthImage& out) {
+    const float factor = shared_[0] / shared_[1];
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const std::size_t across = (columns + kStillTile_px - 1) / kStillTile_px;
+    for (int j = 0; j < out.rows; ++j)
+        visit_marked(moving_.data() + static_cast<std::size_t>(j / kTile_px) * across,
+                     static_cast<int>(across), [&](int begin, int end) {
+                         float* const row = evidence_.weights.data() + out.index(0, j);
+                         for (std::size_t i = kStillTile_px * static_cast<std::size_t>(begin);
+                              i < std::min(kStillTile_px * static_cast<std::size_t>(end), columns);
+                              ++i)
+                             row[i] *= factor;
+                     });
+}
+
+/// Adds how far the farther neighbours are from the median, read in place or along the motion.
+void TemporalFilter::add_misfits(int j, bool moves, const DepthImage& here) {
+    const auto columns = static_cast<std::size_t>(here.columns);
+    const Piece whole{0, columns, moves};
+    const Neighbours rows = rows_of(whole, j, here);
+    run_.start(columns, nullptr);
+    find_reference(rows, here.levels.data() + here.index(0, j), columns, run_.reference.data());
+    invert(run_.reference.data(), mixing_, run_.per_bound.data(), columns);
+    for (std::size_t k = 0; k < count_; ++k)
+        if (k < first_near_ || k >= first_near_ + nearest_)
+            add_misfit(rows[k].levels, run_.reference.data(), run_.per_bound.data(),
+                       squared_off_.data(), counted_.data(), columns);
+}
+
+/// Tiles side by side that are read alike; those from which some frame is read beyond the border
+/// are apart, as they are copied.
+void TemporalFilter::find_pieces(std::size_t row_of_tiles, std::size_t tiles, std::size_t columns) {
+    pieces_.clear();
+    if (farthest_shift_ == 0) {
+        pieces_.push_back({0, columns, false});
+        return;
+    }
+    const std::uint8_t* const moves = moving_.data() + row_of_tiles * tiles;
+    const std::size_t beside =
+        (static_cast<std::size_t>(farthest_shift_) + kStillTile_px - 1) / kStillTile_px;
+    for (std::size_t x = 0, end = 0; x < tiles; x = end) {
+        const auto is_at_border = [&](std::size_t tile) {
+            return tile < beside || tile + beside + 1 >= tiles;
+        };
+        for (end = x + 1; end < tiles && moves[end] == moves[x] &&
+                          (moves[x] == 0 || is_at_border(end) == is_at_border(x));)
+            ++end;
+        const std::size_t left = x * kStillTile_px;
+        pieces_.push_back(
+            {static_cast<int>(left), std::min(end * kStillTile_px, columns) - left, moves[x] != 0});
     }
 }
 
-/// Averages row by row, so that each row stays in the cache. Returns whether any of the frame's own
-/// levels is another surface than the median.
+/// Averages tiles side by side together, so that their rows stay in the cache. Returns whether any
+/// of the frame's own levels is another surface than the median.
 bool TemporalFilter::average_rows(const SingleFrameDepth& here, DepthImage& out) {
     const auto columns = static_cast<std::size_t>(out.columns);
+    const std::size_t tiles = (columns + kStillTile_px - 1) / kStillTile_px;
     other_.resize(out.levels.size());
-    reference_.resize(columns);
+    rows_.resize(kTile_px);
     bool any = false;
-    for (int j = 0; j < out.rows; ++j) {
-        const std::size_t at = out.index(0, j);
-        find_reference(here.depth.levels.data(), at, columns, reference_.data());
-        if (mark_other(here.depth.levels.data() + at, reference_.data(), bound_, other_.data() + at,
-                       columns)) {
-            if (!here.filled.empty()) unmark(here.filled.data() + at, other_.data() + at, columns);
-            any = true;
+    for (int top = 0; top < out.rows; top += kTile_px) {
+        const int rows = std::min(kTile_px, out.rows - top);
+        find_pieces(static_cast<std::size_t>(top / kTile_px), tiles, columns);
+        for (int j = 0; j < rows; ++j) {
+            const std::size_t at = out.index(0, top + j);
+            const float* const levels = here.depth.levels.data() + at;
+            Sums& sums = rows_[static_cast<std::size_t>(j)];
+            sums.start(columns, evidence_.weights.data() + at);
+            for (const Piece& piece : pieces_) {
+                const auto left = static_cast<std::size_t>(piece.left);
+                const Neighbours near = rows_of(piece, top + j, out);
+                find_reference(near, levels + left, piece.count, sums.reference.data() + left);
+                add_near(near, left, piece.count, sums);
+            }
+            if (mark_other(levels, sums.reference.data(), bound_, other_.data() + at, columns)) {
+                if (!here.filled.empty())
+                    unmark(here.filled.data() + at, other_.data() + at, columns);
+                any = true;
+            }
         }
-        average(reference_.data(), at, columns, out);
+        if (count_ > 1) measure_variances(rows, out);
+        for (const Piece& piece : pieces_) add_groups(piece, top, rows, out);
+        for (int j = 0; j < rows; ++j)
+            take_mean(rows_[static_cast<std::size_t>(j)], out.index(0, top + j), out);
     }
     return any;
+}
+
+/// The variance of levels in time, in which motion has no part: levels of other surfaces do not
+/// count. Where too few frames count it is that of the clip's noise.
+void TemporalFilter::measure_variances(int rows, const DepthImage& out) {
+    constexpr int kPart = TimeEvidence::kTile_px;
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const int tile_columns = (out.columns + kPart - 1) / kPart;
+    for (int part = 0; part < rows; part += kPart) {
+        off_.assign(columns, 0.0F);
+        counted_.assign(columns, 0.0F);
+        const int bottom = std::min(part + kPart, rows);
+        for (int j = part; j < bottom; j += 2) {  // every second row tells
+            const Sums& sums = rows_[static_cast<std::size_t>(j)];
+            add_variances(sums.sum.data(), sums.weights, sums.squares.data(), off_.data(),
+                          counted_.data(), columns);
+        }
+        const Sums& middle = rows_[static_cast<std::size_t>((part + bottom) / 2)];
+        for (int x = 0; x < tile_columns; ++x) {
+            const auto left = static_cast<std::size_t>(x * kPart);
+            const std::size_t right = std::min(left + kPart, columns);
+            float variance = 0.0F;
+            float counted = 0.0F;
+            for (std::size_t i = left; i < right; ++i) {
+                variance += off_[i];
+                counted += counted_[i];
+            }
+            const float law = bound_(middle.reference[(left + right) / 2]) / kAlike;
+            const auto pixels =
+                static_cast<float>(right - left) * static_cast<float>((bottom - part + 1) / 2);
+            evidence_.variances.push_back(2.0F * counted < pixels ? law * law
+                                                                  : kCutOff * variance / counted);
+        }
+    }
+}
+
+/// Adds groups of frames where the tile stands still: else what moves slowly would be smeared. All
+/// of them or none, since those of one side alone would be late.
+void TemporalFilter::add_groups(const Piece& piece, int top, int rows, const DepthImage& out) {
+    const std::span<const FrameGroup> far = piece.moves ? moving_far_ : far_;
+    if (far.empty()) return;
+    const std::size_t tiles = (piece.count + kStillTile_px - 1) / kStillTile_px;
+    still_.assign(tiles, 1);
+    for (const FrameGroup& group : far) find_still(group, piece, top, rows, out);
+    visit_marked(still_.data(), static_cast<int>(tiles), [&](int begin, int end) {
+        const std::size_t from = kStillTile_px * static_cast<std::size_t>(begin);
+        const std::size_t count =
+            std::min(kStillTile_px * static_cast<std::size_t>(end), piece.count) - from;
+        const Piece part{piece.left + static_cast<int>(from), count, piece.moves};
+        const auto left = static_cast<std::size_t>(part.left);
+        for (int j = 0; j < rows; ++j) {
+            Sums& sums = rows_[static_cast<std::size_t>(j)];
+            const float* const reference = sums.reference.data() + left;
+            const float* const per_bound = sums.per_bound.data() + left;
+            const auto row = [&](std::size_t k) { return row_of(far[k], part, top + j, k, out); };
+            std::size_t k = 0;
+            for (; k + 4 <= far.size(); k += 4) {
+                const FrameGroup* g = far.data() + k;
+                add_four_groups({row(k), row(k + 1), row(k + 2), row(k + 3)},
+                                {g[0].weight, g[1].weight, g[2].weight, g[3].weight}, reference,
+                                per_bound, sums.sum.data() + left, sums.weights + left, count);
+            }
+            for (; k < far.size(); ++k)
+                add_group(row(k), far[k].weight, reference, per_bound, sums.sum.data() + left,
+                          sums.weights + left, count);
+        }
+    });
+}
+
+/// Unmarks tiles of the piece that do not stand still from that group to the frame.
+void TemporalFilter::find_still(const FrameGroup& group, const Piece& piece, int top, int rows,
+                                const DepthImage& out) {
+    const auto columns = static_cast<std::size_t>(out.columns);
+    const auto first_column = static_cast<std::size_t>(piece.left);
+    for (std::vector<float>* sums : {&off_, &squared_off_, &counted_}) sums->assign(columns, 0.0F);
+    for (int j = kRowStep_px / 2; j < rows; j += kRowStep_px) {
+        const Sums& sums = rows_[static_cast<std::size_t>(j)];
+        add_differences(row_of(group, piece, top + j, 0, out), sums.reference.data() + first_column,
+                        sums.per_bound.data() + first_column, off_.data() + first_column,
+                        squared_off_.data() + first_column, counted_.data() + first_column,
+                        piece.count);
+    }
+    constexpr int kPart = TimeEvidence::kTile_px;
+    const auto parts = static_cast<std::size_t>((out.columns + kPart - 1) / kPart);
+    const std::size_t first = parts * static_cast<std::size_t>(top / kPart);
+    const float shared = shared_[piece.moves ? 1 : 0];
+    for (std::size_t x = 0; x < still_.size(); ++x) {
+        float off = 0.0F;
+        float squared = 0.0F;
+        float counted = 0.0F;
+        const std::size_t left = first_column + kStillTile_px * x;
+        const std::size_t right = std::min(left + kStillTile_px, columns);
+        for (std::size_t i = left; i < right; ++i) {
+            off += off_[i];
+            squared += squared_off_[i];
+            counted += counted_[i];
+        }
+        if (counted < kLeastCounted) {
+            still_[x] = 0;
+            continue;
+        }
+        float variance = 0.0F;
+        float count = 0.0F;
+        for (int y = 0; y * kPart < rows; ++y)
+            for (std::size_t part = left / kPart; part * kPart < right; ++part, ++count)
+                variance += evidence_.variances[first + static_cast<std::size_t>(y) * parts + part];
+        variance /= count;
+        const float of_group = std::min(shared / static_cast<float>(kGroupInTime), 1.0F);
+        const float of_median = std::min(shared * kOfMedian, 1.0F);
+        const float mean = off / counted;
+        if (mean * mean > kStillMean * kStillMean * variance ||
+            squared / counted > kStillSquares * (of_group + of_median) * variance)
+            still_[x] = 0;
+    }
 }
 
 /// Where a frame has another level than the median, that level lasts two frames at most. It is kept
@@ -300,8 +505,7 @@ bool TemporalFilter::take_samples(const DepthImage& here, const Region& region,
         const std::size_t at =
             surely_other_[k * kSpread % kSamples * surely_other_.size() / kSamples];
         const float level = here.levels[at];
-        float reference = 0.0F;
-        find_reference(here.levels.data(), at, 1, &reference);
+        const float reference = reference_at(here, at);
         search.add({static_cast<std::ptrdiff_t>(at), static_cast<int>(at % columns),
                     static_cast<int>(at / columns), level,
                     std::max(bound_(level), kAlikeStep * std::fabs(level - reference))});
@@ -314,15 +518,16 @@ void TemporalFilter::follow_region(const SingleFrameDepth& here, const Region& r
                                    const EvenMotionSearch& search, DepthImage& out) {
     const std::optional<EvenMotion> motion = search.found();
     if (!motion) return;
+    std::array<float, kRegion_px> levels{};
     for (int j = region.top; j < region.bottom; ++j) {
         std::size_t run = 0;
         for (int i = region.left; i < region.right; ++i) {
             const std::optional<float> level = is_other(here, here.depth.index(i, j))
                                                    ? search.level_along(*motion, i, j, bound_)
                                                    : std::nullopt;
-            if (level) reference_[run++] = *level;
+            if (level) levels[run++] = *level;
             if (run == 0 || (level && i + 1 < region.right)) continue;
-            average(reference_.data(), here.depth.index(level ? i + 1 : i, j) - run, run, out);
+            average(levels.data(), here.depth.index(level ? i + 1 : i, j) - run, run, out);
             run = 0;
         }
     }
@@ -332,8 +537,7 @@ void TemporalFilter::follow_region(const SingleFrameDepth& here, const Region& r
 bool TemporalFilter::is_other(const SingleFrameDepth& here, std::size_t at) const {
     if (followed_[at] != 0) return false;
     if (here.filled.empty() || here.filled[at] == 0) return other_[at] != 0;
-    float reference = 0.0F;
-    find_reference(here.depth.levels.data(), at, 1, &reference);
+    const float reference = reference_at(here.depth, at);
     return std::fabs(here.depth.levels[at] - reference) > bound_(reference);
 }
 
@@ -426,8 +630,7 @@ std::vector<char> TemporalFilter::held_patches(const DepthImage& here, const cv:
 
 TemporalFilter::Held TemporalFilter::held_at(const DepthImage& here, int i, int j) const {
     const std::size_t at = here.index(i, j);
-    float reference = 0.0F;
-    find_reference(here.levels.data(), at, 1, &reference);
+    const float reference = reference_at(here, at);
     return {here.levels[at], reference, kSurely * bound_(here.levels[at])};
 }
 
@@ -446,39 +649,60 @@ bool TemporalFilter::is_held(const DepthImage& here, const Held& held, int i, in
     return false;
 }
 
-/// Averages `count` pixels from `at` on, in one row; `reference`: from the first pixel on.
+/// Averages `count` pixels from `at` on, in one row, over the nearest frames; `reference`: from the
+/// first pixel on.
 void TemporalFilter::average(const float* reference, std::size_t at, std::size_t count,
                              DepthImage& out) {
-    per_bound_.resize(count);
-    invert(reference, bound_, per_bound_.data(), count);
-    sum_.assign(count, 0.0F);
-    weights_.assign(count, 0.0F);
-    std::size_t k = 0;
-    for (; k + 4 <= count_; k += 4) {
-        const Neighbour* n = neighbours_.data() + k;
-        const Four rows{n[0].levels + at, n[1].levels + at, n[2].levels + at, n[3].levels + at};
-        const FourFilled filled{filled_of(n[0], at), filled_of(n[1], at), filled_of(n[2], at),
-                                filled_of(n[3], at)};
-        if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.filled != nullptr; }))
-            add_four(rows, filled, reference, per_bound_.data(), sum_.data(), weights_.data(),
-                     count);
-        else
-            add_four(rows, reference, per_bound_.data(), sum_.data(), weights_.data(), count);
-    }
-    for (; k < count_; ++k) {
-        const Neighbour& n = neighbours_[k];
-        if (n.filled == nullptr)
-            add_one(n.levels + at, reference, per_bound_.data(), sum_.data(), weights_.data(),
-                    count);
-        else
-            add_one(n.levels + at, n.filled + at, reference, per_bound_.data(), sum_.data(),
-                    weights_.data(), count);
-    }
-    divide(reference, sum_.data(), weights_.data(), out.levels.data() + at, count);
+    run_.start(count, evidence_.weights.data() + at);
+    std::copy_n(reference, count, run_.reference.begin());
+    add_near(rows_at(at), 0, count, run_);
+    take_mean(run_, at, out);
 }
 
-const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n, std::size_t at) const {
-    return n.filled == nullptr ? nothing_filled_.data() : n.filled + at;
+void TemporalFilter::take_mean(const Sums& sums, std::size_t at, DepthImage& out) {
+    divide(sums.reference.data(), sums.sum.data(), sums.weights, out.levels.data() + at,
+           sums.sum.size());
+}
+
+/// The sums of the nearest frames, whose rows begin at the pixel `left` of the sums.
+void TemporalFilter::add_near(const Neighbours& rows, std::size_t left, std::size_t count,
+                              Sums& sums) const {
+    const float* const reference = sums.reference.data() + left;
+    float* const per_bound = sums.per_bound.data() + left;
+    invert(reference, mixing_, per_bound, count);
+    float* const sum = sums.sum.data() + left;
+    float* const weights = sums.weights + left;
+    float* const squares = sums.squares.data() + left;
+    if (count_ == rows.size() && !any_filled_) {
+        Near all{};
+        for (std::size_t k = 0; k < rows.size(); ++k) all[k] = rows[k].levels;
+        add_near_frames(all, reference, per_bound, sum, weights, squares, count);
+        return;
+    }
+    std::fill_n(sum, count, 0.0F);
+    std::fill_n(weights, count, 0.0F);
+    std::fill_n(squares, count, 0.0F);
+    std::size_t k = 0;
+    for (; k + 4 <= count_; k += 4) {
+        const Neighbour* n = rows.data() + k;
+        const Four four{n[0].levels, n[1].levels, n[2].levels, n[3].levels};
+        const FourFilled filled{filled_of(n[0]), filled_of(n[1]), filled_of(n[2]), filled_of(n[3])};
+        if (std::any_of(n, n + 4, [](const Neighbour& one) { return one.filled != nullptr; }))
+            add_four(four, filled, reference, per_bound, sum, weights, squares, count);
+        else
+            add_four(four, reference, per_bound, sum, weights, squares, count);
+    }
+    for (; k < count_; ++k) {
+        const Neighbour& n = rows[k];
+        if (n.filled == nullptr)
+            add_one(n.levels, reference, per_bound, sum, weights, squares, count);
+        else
+            add_one(n.levels, n.filled, reference, per_bound, sum, weights, squares, count);
+    }
+}
+
+const std::uint8_t* TemporalFilter::filled_of(const Neighbour& n) const {
+    return n.filled == nullptr ? nothing_filled_.data() : n.filled;
 }
 
 DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> frames,
@@ -487,9 +711,24 @@ DepthImage TemporalFilter::filtered(std::span<const SingleFrameDepth* const> fra
     DepthImage out{here.depth.columns, here.depth.rows, here.depth.highest_level, {}};
     out.levels.resize(here.depth.levels.size());
     bound_ = NoiseBound(noise, kAlike, kLeastNoise, here.depth.highest_level);
+    mixing_ = NoiseBound(noise, kApart - kMixes, kLeastNoise, here.depth.highest_level);
+    const auto shared = [](float kept) { return (1.0F + kept) / (1.0F - kept); };
+    shared_ = {shared(noise.character.kept), shared(noise.character.kept_in_motion)};
     gather(frames, now);
-    nothing_filled_.assign(static_cast<std::size_t>(out.columns), 0);
+    far_ = {};
+    if (count_ > 1)
+        far_ = groups_.around(frames, now,
+                              NoiseBound(noise, 1.0F, kLeastNoise, here.depth.highest_level));
+    evidence_.near_frames = count_;
+    evidence_.weights.resize(out.levels.size());
+    evidence_.variances.clear();
+    const auto columns = static_cast<std::size_t>(out.columns);
+    nothing_filled_.assign(columns, 0);
+    shifted_.resize((neighbours_.size() + kReachInTime) * columns);
+    shifted_filled_.resize(neighbours_.size() * columns);
+    find_motion(frames, now, noise);
     if (average_rows(here, out)) follow_parts(here, out);
+    if (farthest_shift_ != 0 && shared_[0] != shared_[1]) share_weights(out);
     return out;
 }
 

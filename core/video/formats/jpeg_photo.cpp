@@ -337,7 +337,8 @@ StillPicture read_jpeg_photo(const fs::path& file, PictureRole role) {
         return {original, 8, "JPEG"};
     }
     cv::Mat levels;
-    if (photo) levels = grey_of(upright_picture(photo->depth, *photo, cv::IMREAD_UNCHANGED));
+    if (photo) levels = upright_picture(photo->depth, *photo, cv::IMREAD_UNCHANGED);
+    if (!levels.empty()) levels = grey_of(levels);
     if (levels.depth() != CV_8U && levels.depth() != CV_16U) levels.release();
     if (levels.empty())
         throw InputError(shown(file) +

@@ -18,6 +18,7 @@ struct CleaningSteps {
     bool steady{false};               ///< filter in time: what does not move keeps its level
     bool smooth_steps{false};         ///< 8-bit terraces, within half a level of the data
     bool smooth_noise{false};         ///< within the noise of the recording
+    bool smooth_outlines{false};      ///< outlines lose their teeth
 
     bool operator==(const CleaningSteps&) const = default;
 };
@@ -33,6 +34,7 @@ void visit_steps(Steps& steps, const Visit& visit) {
     visit("steady", steps.steady);
     visit("smooth-steps", steps.smooth_steps);
     visit("smooth-noise", steps.smooth_noise);
+    visit("smooth-outlines", steps.smooth_outlines);
 }
 
 /// Whether these steps depend on the colour picture, too.
@@ -44,7 +46,7 @@ void visit_steps(Steps& steps, const Visit& visit) {
 inline constexpr CleaningSteps kRawSteps{};
 /// The steps that need one frame only, and no measured noise.
 inline constexpr CleaningSteps kGentleSteps{
-    .remove_spikes = true, .fill_holes = true, .smooth_steps = true};
+    .remove_spikes = true, .fill_holes = true, .smooth_steps = true, .smooth_outlines = true};
 /// For the depth of cameras and estimators: all steps but those that need the colour. (Of presets,
 /// sparse depth alone is densified: plan_of.)
 inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
@@ -52,9 +54,10 @@ inline constexpr CleaningSteps kSensorSteps{.remove_spikes = true,
                                             .sharpen_silhouettes = true,
                                             .steady = true,
                                             .smooth_steps = true,
-                                            .smooth_noise = true};
+                                            .smooth_noise = true,
+                                            .smooth_outlines = true};
 
-/// Which steps: a named set, the set chosen by the clip's noise (automatic), or the user's own.
+/// Which steps: a named set, the set that feels best on the clip (automatic), or the user's own.
 enum class CleaningPreset : std::uint8_t { automatic, raw, gentle, sensor, own };
 
 inline constexpr std::array<NamedValue<CleaningPreset>, 5> kCleaningPresetNames{

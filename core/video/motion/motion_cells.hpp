@@ -47,7 +47,29 @@ struct MotionSums {
     [[nodiscard]] const MotionLayers& operator[](MotionSum sum) const {
         return of[static_cast<std::size_t>(sum)];
     }
+    /// Not with so few pixels.
+    [[nodiscard]] bool is_known(std::size_t part, std::size_t k) const {
+        constexpr float kFewPixels = 2.0F;
+        return (*this)[MotionSum::n].of[part].values[k] > kFewPixels;
+    }
+    /// Mean square of the differences of a part, without their common offset.
+    [[nodiscard]] float mean_square(std::size_t part, std::size_t k) const {
+        const float n = (*this)[MotionSum::n].of[part].values[k];
+        const float r = (*this)[MotionSum::r].of[part].values[k] / n;
+        return (*this)[MotionSum::rr].of[part].values[k] / n - r * r;
+    }
 };
+
+/// Mean square at which a part's trust is a quarter [levels^2].
+inline constexpr float kMotionFits = 50.0F;
+/// Trust of a part that does not fit at all.
+inline constexpr float kLeastMotionTrust = 0.01F;
+
+/// Weight, in [0, 1], of a part with this mean square: Geman and McClure's.
+[[nodiscard]] inline float motion_trust(float mean_square, float fits = kMotionFits) {
+    const float share = fits / (fits + mean_square);
+    return std::max(share * share, kLeastMotionTrust);
+}
 
 /// How far parts move [px of the largest picture].
 struct MotionWays {
@@ -61,6 +83,21 @@ struct MotionWays {
         right.fill(value);
         down.fill(value);
     }
+};
+
+/// Depths that differ by less may be of one surface [depth, 0 to 255].
+inline constexpr float kMotionAlike = 12.0F;
+
+/// How alike two parts are in depth, in [0, 1], by the gap between their depths.
+[[nodiscard]] inline float alike_across(float gap) {
+    const float alike = 1.0F - gap * (1.0F / kMotionAlike);
+    return std::min(std::max(alike, 0.0F), 1.0F);
+}
+
+/// The near part of a cell (0), or the far one (1).
+struct MotionPart {
+    int i, j;
+    std::size_t part;
 };
 
 /// Cells of kMotionCell_px squared.
@@ -80,6 +117,38 @@ struct MotionCells {
     [[nodiscard]] bool has(std::size_t part, int i, int j) const {
         return highest.of[part].row(j)[i] != kNoPart;
     }
+    [[nodiscard]] MotionPart part_at(std::size_t part, std::size_t k) const {
+        const auto across = static_cast<std::size_t>(columns);
+        return {static_cast<int>(k % across), static_cast<int>(k / across), part};
+    }
+    /// Between the depths of two parts.
+    [[nodiscard]] float gap(const MotionPart& a, const MotionPart& b) const {
+        const auto depth = [](const MotionLayers& of, const MotionPart& part) {
+            return of.of[part.part].row(part.j)[part.i];
+        };
+        return std::max(depth(lowest, a) - depth(highest, b), depth(lowest, b) - depth(highest, a));
+    }
+
+    /// visit(part, index of its cell) for all parts.
+    template <typename Visit>
+    void each_part(const Visit& visit) const {
+        for (int j = 0; j < rows; ++j)
+            for (int i = 0; i < columns; ++i) visit(MotionPart{i, j, 0}, threshold.index(i, j));
+        for (const std::uint32_t k : split) visit(part_at(1, k), std::size_t{k});
+    }
+    /// visit(part, index of its cell, how alike in depth) for the parts around one that are of its
+    /// surface.
+    template <typename Visit>
+    void each_alike(const MotionPart& of, const Visit& visit) const {
+        for (int j = std::max(of.j - 1, 0); j <= std::min(of.j + 1, rows - 1); ++j)
+            for (int i = std::max(of.i - 1, 0); i <= std::min(of.i + 1, columns - 1); ++i)
+                for (std::size_t part = 0; part < 2; ++part) {
+                    if (!has(part, i, j) || (i == of.i && j == of.j && part == of.part)) continue;
+                    const MotionPart beside{i, j, part};
+                    const float alike = alike_across(gap(of, beside));
+                    if (alike > 0.0F) visit(beside, threshold.index(i, j), alike);
+                }
+    }
 };
 
 /// One of the two frames.
@@ -98,15 +167,6 @@ void split_into_cells(MotionSide& side);
 struct MotionRows {
     int begin{0}, end{0};
 };
-
-/// Depths that differ by less may be of one surface [depth, 0 to 255].
-inline constexpr float kMotionAlike = 12.0F;
-
-/// How alike two parts are in depth, in [0, 1], by the gap between their depths.
-[[nodiscard]] inline float alike_across(float gap) {
-    const float alike = 1.0F - gap * (1.0F / kMotionAlike);
-    return std::min(std::max(alike, 0.0F), 1.0F);
-}
 
 /// Sums over ways of parts around a place; in a vector: around several places.
 template <typename Value>

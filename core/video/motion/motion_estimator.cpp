@@ -14,16 +14,16 @@ namespace dibhr {
 
 namespace {
 
-constexpr float kUnchanged = 0.1F;    // mean square below which nothing has changed [levels^2]
-constexpr std::size_t kSmall = 1;     // number of the picture in which changes are found
-constexpr float kNoise = 0.08F;       // share of the rest by which noise alone falls by chance
-constexpr float kFewPixels = 2.0F;    // with as few pixels a part is not known
-constexpr float kFits = 50.0F;        // mean square at which a part's trust is a quarter
-constexpr float kLeastTrust = 0.01F;  // of a part that does not fit at all
-constexpr float kStiff = 0.5F;        // squared slope of every pixel that holds a part in place
-constexpr float kMostStep = 1.5F;     // downhill, at once [px of the picture]
-constexpr float kOwnShare = 0.9F;     // factor on the mean square of a part's own way
-constexpr float kApart_px = 0.5F;     // ways that differ by less are not tried
+constexpr float kUnchanged = 0.1F;  // mean square below which nothing has changed [levels^2]
+// Mean square of a part that is covered as a whole, if it stays: it has changed.
+constexpr float kCoveredSquare = 400.0F;
+constexpr std::size_t kSmall = 1;      // number of the picture in which changes are found
+constexpr float kNoise = 0.08F;        // share of the rest by which noise alone falls by chance
+constexpr float kLeastPixels = 0.02F;  // of a part and those around it, times their trust
+constexpr float kStiff = 0.5F;         // squared slope of every pixel that holds a part in place
+constexpr float kMostStep = 1.5F;      // downhill, at once [px of the picture]
+constexpr float kOwnShare = 0.9F;      // factor on the mean square of a part's own way
+constexpr float kApart_px = 0.5F;      // ways that differ by less are not tried
 // A part surely moves (kSure), or moves if others do (kLikely), if its mean square falls by this
 // share of the rest plus a floor: what codecs change in a still picture.
 constexpr float kSure = 0.8F;
@@ -32,22 +32,9 @@ constexpr float kSureWay_px = 0.12F;
 constexpr float kSurePixels = 500.0F;
 constexpr float kLikely = 0.2F;
 constexpr float kLikelyFloor = 0.3F;
-constexpr float kPlain = 3.0F;     // a part is plain if a way changes its mean square by less
-constexpr float kTried_px = 2.0F;  // least length of that way
-constexpr int kMostPlain = 8;      // cells from a part that surely moves
-constexpr int kJudges = 2;         // cells to each side that are judged together with one
-constexpr int kNeighbour = 2;      // cells to the next part whose way is tried
-
-/// Mean square of the differences of a part, without their common offset.
-float mean_square(const MotionSums& sums, std::size_t part, std::size_t k) {
-    const float n = sums[MotionSum::n].of[part].values[k];
-    const float r = sums[MotionSum::r].of[part].values[k] / n;
-    return sums[MotionSum::rr].of[part].values[k] / n - r * r;
-}
-
-bool is_known(const MotionSums& sums, std::size_t part, std::size_t k) {
-    return sums[MotionSum::n].of[part].values[k] > kFewPixels;
-}
+constexpr int kMostPlain = 8;  // cells from a part that has changed, or surely moves
+constexpr int kJudges = 2;     // cells to each side that are judged together with one
+constexpr int kNeighbour = 2;  // cells to the next part whose way is tried
 
 /// Changes the sums to those of a way that is shorter by `way`, linearly by the slopes.
 void shift_sums(MotionField::Way way, std::size_t part, std::size_t k, MotionSums& sums) {
@@ -82,44 +69,24 @@ float stepped(float from, float to) {
 
 }  // namespace
 
-template <typename Visit>
-void MotionEstimator::each_part(const Visit& visit) const {
-    for (int j = 0; j < from_.cells.rows; ++j)
-        for (int i = 0; i < from_.cells.columns; ++i)
-            visit(Part{i, j, 0}, from_.cells.threshold.index(i, j));
-    const auto columns = static_cast<std::uint32_t>(from_.cells.columns);
-    for (const std::uint32_t k : from_.cells.split)
-        visit(Part{static_cast<int>(k % columns), static_cast<int>(k / columns), 1}, k);
-}
-
-MotionEstimator::Verdict& MotionEstimator::verdict(const Part& part) {
+MotionEstimator::Verdict& MotionEstimator::verdict(const MotionPart& part) {
     return verdicts_[part.part][from_.cells.threshold.index(part.i, part.j)];
 }
 
-MotionEstimator::Way MotionEstimator::way_of(const Part& part) const {
+MotionEstimator::Way MotionEstimator::way_of(const MotionPart& part) const {
     return {ways_.right.of[part.part].row(part.j)[part.i],
             ways_.down.of[part.part].row(part.j)[part.i]};
 }
 
-void MotionEstimator::set_way(const Part& part, Way way) {
+void MotionEstimator::set_way(const MotionPart& part, Way way) {
     ways_.right.of[part.part].row(part.j)[part.i] = way.right;
     ways_.down.of[part.part].row(part.j)[part.i] = way.down;
-}
-
-float MotionEstimator::gap(const Part& a, const Part& b) const {
-    const auto lowest = [this](const Part& of) {
-        return from_.cells.lowest.of[of.part].row(of.j)[of.i];
-    };
-    const auto highest = [this](const Part& of) {
-        return from_.cells.highest.of[of.part].row(of.j)[of.i];
-    };
-    return std::max(lowest(a) - highest(b), lowest(b) - highest(a));
 }
 
 /// The rows that have wanted parts.
 void MotionEstimator::find_rows() {
     rows_ = {};
-    each_part([this](const Part& part, std::size_t k) {
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
         if (!(wanted_.of[part.part].values[k] > 0.0F)) return;
         rows_.begin = rows_.end == 0 ? part.j : std::min(rows_.begin, part.j);
         rows_.end = std::max(rows_.end, part.j + 1);
@@ -128,7 +95,7 @@ void MotionEstimator::find_rows() {
 
 void MotionEstimator::sum(std::size_t size, const MotionLayers& wanted, const MotionWays& ways,
                           MotionMeasure measure) {
-    sum_differences(from_, to_, size, wanted, ways, measure, sums_);
+    sum_differences({from_, to_, gain_}, size, wanted, plain_.layers(), ways, measure, sums_);
 }
 
 void MotionEstimator::gather(int reach, MotionMeasure measure) {
@@ -138,39 +105,45 @@ void MotionEstimator::gather(int reach, MotionMeasure measure) {
 /// Finds parts in or around which anything has changed. False: there are none.
 bool MotionEstimator::find_changed() {
     wanted_.fill(0.0F);
-    each_part([this](const Part& part, std::size_t k) { wanted_.of[part.part].values[k] = 1.0F; });
+    from_.cells.each_part(
+        [this](const MotionPart& part, std::size_t k) { wanted_.of[part.part].values[k] = 1.0F; });
     ways_.fill(0.0F);
     sums_.fill(0.0F);
     rows_ = {0, from_.cells.rows};
-    sum(kSmall, wanted_, ways_, MotionMeasure::slopes);
+    plain_.clear(from_.cells);
+    sum(kSmall, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
     bool any = false;
-    each_part([this, &any](const Part& part, std::size_t k) {
+    from_.cells.each_part([this, &any](const MotionPart& part, std::size_t k) {
         const auto gathered = [&](MotionSum which) {
             return gathered_[which].of[part.part].values[k];
         };
-        const bool known = is_known(gathered_, part.part, k);
-        still_.of[part.part].values[k] = known ? mean_square(gathered_, part.part, k) : 0.0F;
-        // A part that is covered as a whole has changed, too.
+        const bool known = gathered_.is_known(part.part, k);
+        still_.of[part.part].values[k] =
+            known ? gathered_.mean_square(part.part, k) : kCoveredSquare;
         const bool changed =
             !known || gathered(MotionSum::rr) > kUnchanged * gathered(MotionSum::n);
         float& wanted = wanted_.of[part.part].values[k];
         if (!changed) wanted = 0.0F;
         any = any || wanted > 0.0F;
     });
-    if (any) similar_.gather(rows_, 1, MotionMeasure::slopes, sums_, slopes_);
+    if (!any) return false;
+    sum_structure(from_, kSmall, sums_);
+    gather(1, MotionMeasure::slopes);
+    plain_.find(from_.cells, wanted_, gathered_, kMostPlain);
+    sums_.fill(0.0F);
     find_rows();
-    return any;
+    return true;
 }
 
 /// Drops parts that only noise has changed: with their way they fit no better than without.
 void MotionEstimator::drop_noise() {
     sum(kSmall, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
-    each_part([this](const Part& part, std::size_t k) {
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
         const std::size_t of = part.part;
-        if (!is_known(gathered_, of, k)) return;
-        const float left = mean_square(gathered_, of, k);
+        if (plain_.has(of, k) || !gathered_.is_known(of, k)) return;
+        const float left = gathered_.mean_square(of, k);
         if (still_.of[of].values[k] - left > kNoise * (left + kUnchanged)) return;
         wanted_.of[of].values[k] = 0.0F;
         set_way(part, {});
@@ -179,17 +152,18 @@ void MotionEstimator::drop_noise() {
     find_rows();
 }
 
-/// A part that fits badly gets little weight for those around it: Geman and McClure's weights.
-void MotionEstimator::weigh_by_fit() {
+/// A part that fits badly gets little weight for those around it.
+void MotionEstimator::find_trust() {
     trust_ = wanted_;
-    each_part([this](const Part& part, std::size_t k) {
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
         float& trust = trust_.of[part.part].values[k];
         if (!(trust > 0.0F)) return;
-        const float share = is_known(sums_, part.part, k)
-                                ? kFits / (kFits + mean_square(sums_, part.part, k))
-                                : 0.0F;
-        trust = std::max(share * share, kLeastTrust);
+        trust = sums_.is_known(part.part, k) ? motion_trust(sums_.mean_square(part.part, k))
+                                             : kLeastMotionTrust;
     });
+}
+
+void MotionEstimator::weigh_by_trust() {
     for (MotionLayers& layers : sums_.of)
         for (std::size_t part = 0; part < layers.of.size(); ++part) {
             std::vector<float>& values = layers.of[part].values;
@@ -199,30 +173,32 @@ void MotionEstimator::weigh_by_fit() {
 }
 
 /// One step of least squares. Similar parts turn and grow together, so they share one correction to
-/// even motion.
+/// even motion. Plain parts settle all at once.
 void MotionEstimator::go_downhill(std::size_t size) {
     const float scale = 1.0F / static_cast<float>(1 << size);
     const float farthest = static_cast<float>(kFarthestMotion) *
                            static_cast<float>(kMotionCell_px * from_.cells.columns);
     sum(size, wanted_, ways_, MotionMeasure::slopes);
-    weigh_by_fit();
+    find_trust();
+    plain_.settle(sums_, wanted_, trust_, ways_, scale);
+    weigh_by_trust();
     similar_.smooth(trust_, ways_, even_);
-    const auto even_way = [&](const Part& part, std::size_t k) {
+    const auto even_way = [&](const MotionPart& part, std::size_t k) {
         return Way{even_.right.of[part.part].values[k], even_.down.of[part.part].values[k]};
     };
     const auto beyond = [&](Way way, Way even) {
         return Way{scale * (way.right - even.right), scale * (way.down - even.down)};
     };
-    const auto goes = [&](const Part& part, std::size_t k) {
-        return wanted_.of[part.part].values[k] > 0.0F;
+    const auto goes = [&](const MotionPart& part, std::size_t k) {
+        return wanted_.of[part.part].values[k] > 0.0F && !plain_.has(part.part, k);
     };
-    each_part([&](const Part& part, std::size_t k) {
+    from_.cells.each_part([&](const MotionPart& part, std::size_t k) {
         if (goes(part, k)) shift_sums(beyond(way_of(part), even_way(part, k)), part.part, k, sums_);
     });
     gather(1, MotionMeasure::slopes);
-    each_part([&](const Part& part, std::size_t k) {
+    from_.cells.each_part([&](const MotionPart& part, std::size_t k) {
         const float pixels = gathered_[MotionSum::n].of[part.part].values[k];
-        if (!goes(part, k) || !(pixels > kLeastTrust * kFewPixels)) return;
+        if (!goes(part, k) || !(pixels > kLeastPixels)) return;
         const Way even = even_way(part, k);
         const Way now = beyond(way_of(part), even);
         const Way there = lowest(gathered_, part.part, k, now);
@@ -232,14 +208,16 @@ void MotionEstimator::go_downhill(std::size_t size) {
         set_way(part,
                 {to(even.right, now.right, there.right), to(even.down, now.down, there.down)});
     });
+    plain_.take(kMostStep / scale, farthest, ways_);
 }
 
 /// Tries for each part the way of the most similar part this many cells away.
 void MotionEstimator::propose(int right, int down) {
-    each_part([&](const Part& part, std::size_t k) {
+    from_.cells.each_part([&](const MotionPart& part, std::size_t k) {
         const int x = std::clamp(part.i + right, 0, from_.cells.columns - 1);
         const int y = std::clamp(part.j + down, 0, from_.cells.rows - 1);
-        const bool far = from_.cells.has(1, x, y) && gap(part, {x, y, 1}) < gap(part, {x, y, 0});
+        const bool far = from_.cells.has(1, x, y) &&
+                         from_.cells.gap(part, {x, y, 1}) < from_.cells.gap(part, {x, y, 0});
         const Way way = way_of({x, y, far ? std::size_t{1} : std::size_t{0}});
         tried_.right.of[part.part].values[k] = way.right;
         tried_.down.of[part.part].values[k] = way.down;
@@ -249,9 +227,9 @@ void MotionEstimator::propose(int right, int down) {
 /// Takes the tried ways where they fit better.
 void MotionEstimator::take_better(float share) {
     gather(1, MotionMeasure::difference);
-    each_part([&](const Part& part, std::size_t k) {
-        if (!is_known(gathered_, part.part, k)) return;
-        const float off = share * mean_square(gathered_, part.part, k);
+    from_.cells.each_part([&](const MotionPart& part, std::size_t k) {
+        if (plain_.has(part.part, k) || !gathered_.is_known(part.part, k)) return;
+        const float off = share * gathered_.mean_square(part.part, k);
         if (!(off < best_.of[part.part].values[k])) return;
         best_.of[part.part].values[k] = off;
         chosen_.right.of[part.part].values[k] = tried_.right.of[part.part].values[k];
@@ -263,9 +241,9 @@ void MotionEstimator::take_better(float share) {
 void MotionEstimator::attempt(std::size_t size) {
     const auto apart = [](float a, float b) { return std::fabs(a - b) > kApart_px; };
     bool any = false;
-    each_part([&](const Part& part, std::size_t k) {
+    from_.cells.each_part([&](const MotionPart& part, std::size_t k) {
         const std::size_t of = part.part;
-        const bool differs = wanted_.of[of].values[k] > 0.0F &&
+        const bool differs = wanted_.of[of].values[k] > 0.0F && !plain_.has(of, k) &&
                              (apart(tried_.right.of[of].values[k], ways_.right.of[of].values[k]) ||
                               apart(tried_.down.of[of].values[k], ways_.down.of[of].values[k]));
         differs_.of[of].values[k] = differs ? 1.0F : 0.0F;
@@ -278,7 +256,8 @@ void MotionEstimator::attempt(std::size_t size) {
     take_better(1.0F);
 }
 
-/// Chooses for each part its own way, a neighbour's or none: search and steps may fail.
+/// Chooses for each part its own way, a neighbour's or none: search and steps may fail. Plain parts
+/// keep theirs, which is not of their own pixels.
 void MotionEstimator::choose(std::size_t size) {
     best_.resize(from_.cells.columns, from_.cells.rows);
     best_.fill(std::numeric_limits<float>::infinity());
@@ -302,17 +281,17 @@ void MotionEstimator::judge() {
     tried_.fill(0.0F);
     sum(0, wanted_, tried_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
-    each_part([this](const Part& part, std::size_t k) {
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
         still_.of[part.part].values[k] =
-            is_known(gathered_, part.part, k) ? mean_square(gathered_, part.part, k) : 0.0F;
+            gathered_.is_known(part.part, k) ? gathered_.mean_square(part.part, k) : kCoveredSquare;
     });
     sum(0, wanted_, ways_, MotionMeasure::difference);
     gather(kJudges, MotionMeasure::difference);
     for (auto& verdicts : verdicts_)
         verdicts.assign(from_.cells.threshold.values.size(), Verdict::stays);
-    each_part([this](const Part& part, std::size_t k) {
-        if (!(wanted_.of[part.part].values[k] > 0.0F) || !is_known(gathered_, part.part, k)) return;
-        const float left = mean_square(gathered_, part.part, k);
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
+        if (!(wanted_.of[part.part].values[k] > 0.0F) || !gathered_.is_known(part.part, k)) return;
+        const float left = gathered_.mean_square(part.part, k);
         const float better = still_.of[part.part].values[k] - left;
         const Way way = way_of(part);
         const bool enough = gathered_[MotionSum::n].of[part.part].values[k] > kSurePixels;
@@ -324,56 +303,28 @@ void MotionEstimator::judge() {
     });
 }
 
-/// Whether a part has too little texture to show if it moves this way.
-bool MotionEstimator::is_plain(const Part& part, Way way) const {
-    const std::size_t k = from_.cells.threshold.index(part.i, part.j);
-    if (!is_known(slopes_, part.part, k)) return true;
-    const auto mean = [&, n = slopes_[MotionSum::n].of[part.part].values[k]](MotionSum sum) {
-        return slopes_[sum].of[part.part].values[k] / n;
-    };
-    const float x = mean(MotionSum::x);
-    const float y = mean(MotionSum::y);
-    // The slopes are those of the smaller picture.
-    constexpr float kPerWay = 1.0F / static_cast<float>(1 << (2 * kSmall));
-    const float change = kPerWay * (way.right * way.right * (mean(MotionSum::xx) - x * x) +
-                                    2.0F * way.right * way.down * (mean(MotionSum::xy) - x * y) +
-                                    way.down * way.down * (mean(MotionSum::yy) - y * y));
-    const float squared = way.right * way.right + way.down * way.down;
-    return change * std::max(kTried_px * kTried_px / squared, 1.0F) < kPlain;
-}
-
 /// From parts that surely move on: a similar neighbour that may move does, and plain ones, up to
-/// kMostPlain cells away, take the same way.
+/// kMostPlain cells away.
 void MotionEstimator::confirm_neighbours() {
     std::deque<Confirmed> sure;
-    each_part([this, &sure](const Part& part, std::size_t) {
+    from_.cells.each_part([this, &sure](const MotionPart& part, std::size_t) {
         if (verdict(part) == Verdict::goes) sure.push_back({part, 0});
     });
-    const auto take = [this, &sure](const Confirmed& from, const Part& part) {
-        if (!from_.cells.has(part.part, part.i, part.j) || verdict(part) == Verdict::goes ||
-            !(alike_across(gap(from.part, part)) > 0.0F))
-            return;
-        const Way way = way_of(from.part);
-        const bool may_go = verdict(part) == Verdict::may_go;
-        if (!may_go && (from.plain >= kMostPlain || !is_plain(part, way))) return;
-        if (!may_go) set_way(part, way);
-        verdict(part) = Verdict::goes;
-        sure.push_back({part, may_go ? 0 : from.plain + 1});
-    };
-    while (!sure.empty()) {
+    for (; !sure.empty(); sure.pop_front()) {
         const Confirmed at = sure.front();
-        sure.pop_front();
-        for (int j = std::max(at.part.j - 1, 0); j <= std::min(at.part.j + 1, from_.cells.rows - 1);
-             ++j)
-            for (int i = std::max(at.part.i - 1, 0);
-                 i <= std::min(at.part.i + 1, from_.cells.columns - 1); ++i)
-                for (std::size_t part = 0; part < 2; ++part) take(at, {i, j, part});
+        from_.cells.each_alike(at.part, [&](const MotionPart& part, std::size_t k, float) {
+            if (verdict(part) == Verdict::goes) return;
+            const bool may_go = verdict(part) == Verdict::may_go;
+            if (!may_go && (at.plain >= kMostPlain || !plain_.has(part.part, k))) return;
+            verdict(part) = Verdict::goes;
+            sure.push_back({part, may_go ? 0 : at.plain + 1});
+        });
     }
 }
 
 /// Parts that do not surely move stay.
 void MotionEstimator::stop_unconfirmed() {
-    each_part([this](const Part& part, std::size_t) {
+    from_.cells.each_part([this](const MotionPart& part, std::size_t) {
         if (verdict(part) != Verdict::goes) set_way(part, {});
     });
 }
@@ -396,18 +347,19 @@ std::shared_ptr<const MotionField> MotionEstimator::estimate(const Frame& from, 
     last_depth_ = to.drawn();
     last_colour_ = to.colour;
     similar_.find(from_.cells);
+    gain_ = by_depth ? 1.0F : motion_gain(from_.pictures, to_.pictures);
     wanted_.resize(from_.cells.columns, from_.cells.rows);
     still_.resize(from_.cells.columns, from_.cells.rows);
     ways_.resize(from_.cells.columns, from_.cells.rows);
     even_.resize(from_.cells.columns, from_.cells.rows);
     sums_.resize(from_.cells.columns, from_.cells.rows);
     if (!find_changed()) return nullptr;
-    sums_.fill(0.0F);
     const int reach =
         std::max(1, static_cast<int>(kFarthestMotion * static_cast<double>(from_.cells.columns)));
-    searcher_.search(from_, to_, similar_, rows_, reach, ways_);
-    each_part([this](const Part& part, std::size_t k) {
-        if (!(wanted_.of[part.part].values[k] > 0.0F)) set_way(part, {});
+    searcher_.search(from_, to_, gain_, similar_, plain_, rows_, reach, ways_);
+    from_.cells.each_part([this](const MotionPart& part, std::size_t k) {
+        if (!(wanted_.of[part.part].values[k] > 0.0F) && !plain_.has(part.part, k))
+            set_way(part, {});
     });
     go_downhill(2);
     go_downhill(2);

@@ -10,6 +10,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_pictures.hpp"
+#include "core/video/motion/motion_plain.hpp"
 #include "core/video/motion/motion_search.hpp"
 #include "core/video/motion/motion_sums.hpp"
 #include "core/video/motion/object_pool.hpp"
@@ -29,15 +30,10 @@ class MotionEstimator {
 
   private:
     using Way = MotionField::Way;
-    /// The near part of a cell (0), or the far one (1).
-    struct Part {
-        int i, j;
-        std::size_t part;
-    };
     enum class Verdict : std::uint8_t { stays, may_go, goes };
     struct Confirmed {
-        Part part;
-        int plain;  ///< steps over parts without texture
+        MotionPart part;
+        int plain;  ///< steps over plain parts
     };
 
     [[nodiscard]] bool find_changed();
@@ -45,7 +41,8 @@ class MotionEstimator {
     void sum(std::size_t size, const MotionLayers& wanted, const MotionWays& ways,
              MotionMeasure measure);
     void gather(int reach, MotionMeasure measure);
-    void weigh_by_fit();
+    void find_trust();
+    void weigh_by_trust();
     void go_downhill(std::size_t size);
     void choose(std::size_t size);
     void propose(int right, int down);
@@ -56,14 +53,9 @@ class MotionEstimator {
     void confirm_neighbours();
     void stop_unconfirmed();
 
-    /// visit(part, index of its cell) for all parts.
-    template <typename Visit>
-    void each_part(const Visit& visit) const;
-    [[nodiscard]] Way way_of(const Part& part) const;
-    void set_way(const Part& part, Way way);
-    [[nodiscard]] bool is_plain(const Part& part, Way way) const;
-    [[nodiscard]] Verdict& verdict(const Part& part);
-    [[nodiscard]] float gap(const Part& a, const Part& b) const;  ///< between their depths
+    [[nodiscard]] Way way_of(const MotionPart& part) const;
+    void set_way(const MotionPart& part, Way way);
+    [[nodiscard]] Verdict& verdict(const MotionPart& part);
 
     MotionPictureMaker maker_{};
     MotionSearcher searcher_{};
@@ -73,15 +65,17 @@ class MotionEstimator {
     std::shared_ptr<const ColourImage> last_colour_{};
     bool by_depth_{false};
     SimilarParts similar_{};  ///< of the first frame's parts
-    MotionLayers wanted_{};   ///< 1: the part is processed
-    MotionLayers trust_{};    ///< weight of a part for those around it, in [0, 1]
+    PlainParts plain_{};
+    float gain_{1.0F};       ///< of the second frame's grey
+    MotionLayers wanted_{};  ///< 1: the part is processed
+    MotionLayers trust_{};   ///< weight of a part for those around it, in [0, 1]
     MotionRows rows_{};
     MotionLayers differs_{};  ///< 1: the tried way is another one
     MotionWays ways_{}, tried_{}, chosen_{}, even_{};
     MotionLayers best_{};   ///< least mean square of the tried ways
     MotionLayers still_{};  ///< mean square without motion
     std::array<std::vector<Verdict>, 2> verdicts_{};
-    MotionSums sums_{}, own_{}, gathered_{}, slopes_{};
+    MotionSums sums_{}, own_{}, gathered_{};
     ObjectPool<MotionField> fields_{};
 };
 

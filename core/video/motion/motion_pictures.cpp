@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
+#include <vector>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -76,13 +78,14 @@ DIBHR_VECTOR_CLONES void soften_columns(const float* __restrict from, float* __r
     to[count - 1] = from[count - 1];
 }
 
-void soften(MotionPlane& plane, MotionPlane& scratch) {
-    scratch.resize(plane.columns, plane.rows);
-    for (int j = 0; j < plane.rows; ++j)
-        soften_rows(plane.row(std::max(j - 1, 0)), plane.row(j),
-                    plane.row(std::min(j + 1, plane.rows - 1)), scratch.row(j), plane.columns);
-    for (int j = 0; j < plane.rows; ++j)
-        soften_columns(scratch.row(j), plane.row(j), plane.columns);
+/// `to` may be `from`.
+void soften(const MotionPlane& from, MotionPlane& scratch, MotionPlane& to) {
+    scratch.resize(from.columns, from.rows);
+    for (int j = 0; j < from.rows; ++j)
+        soften_rows(from.row(std::max(j - 1, 0)), from.row(j),
+                    from.row(std::min(j + 1, from.rows - 1)), scratch.row(j), from.columns);
+    to.resize(from.columns, from.rows);
+    for (int j = 0; j < from.rows; ++j) soften_columns(scratch.row(j), to.row(j), from.columns);
 }
 
 DIBHR_VECTOR_CLONES void nearest_of_rows(const float* __restrict row, float* __restrict nearest,
@@ -154,20 +157,38 @@ int motion_step(int columns, int rows) {
     return step;
 }
 
+/// The median over places, most of which show the same, or what is alike.
+float motion_gain(const MotionPictures& from, const MotionPictures& to) {
+    constexpr float kDark = 16.0F;
+    constexpr float kBright = 240.0F;
+    const std::vector<float>& before = from.grey.back().values;
+    const std::vector<float>& after = to.grey.back().values;
+    std::vector<float> gains;
+    constexpr std::size_t kEach = 3;
+    gains.reserve(before.size() / kEach + 1);
+    for (std::size_t k = 0; k < before.size(); k += kEach)
+        if (std::min(before[k], after[k]) > kDark && std::max(before[k], after[k]) < kBright)
+            gains.push_back(before[k] / after[k]);
+    if (gains.empty()) return 1.0F;
+    const auto middle = gains.begin() + static_cast<std::ptrdiff_t>(gains.size() / 2);
+    std::nth_element(gains.begin(), middle, gains.end());
+    return *middle;
+}
+
 void MotionPictureMaker::make(const Frame& frame, bool by_depth, MotionPictures& pictures) {
     const DepthImage& depth = *frame.drawn();
     pictures.step = motion_step(depth.columns, depth.rows);
     thin_out(depth, pictures.step, depth_);
     nearest_around(depth_, scratch_, pictures.near[0]);
-    pictures.here[0] = by_depth ? pictures.near[0] : depth_;
-    pictures.level[0] = depth_;
-    soften(pictures.level[0], scratch_);
+    soften(depth_, scratch_, pictures.level[0]);
     if (by_depth) {
+        pictures.here[0] = pictures.near[0];
         pictures.grey[0] = pictures.level[0];
     } else {
+        std::swap(pictures.here[0], depth_);
         grey_of(*frame.colour, (depth.columns + pictures.step - 1) / pictures.step,
                 (depth.rows + pictures.step - 1) / pictures.step, pictures.grey[0]);
-        soften(pictures.grey[0], scratch_);
+        soften(pictures.grey[0], scratch_, pictures.grey[0]);
     }
     for (std::size_t k = 1; k < kMotionSizes; ++k) {
         halve(pictures.grey[k - 1], pictures.grey[k]);

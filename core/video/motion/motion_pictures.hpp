@@ -45,6 +45,10 @@ struct MotionPictures {
     std::array<MotionPlane, kMotionSizes> here{}, near{};
 };
 
+/// By what the grey of the second pictures is multiplied to be as bright as that of the first: an
+/// exposure that changes is no motion.
+[[nodiscard]] float motion_gain(const MotionPictures& from, const MotionPictures& to);
+
 /// Makes a frame's pictures; keeps scratch memory.
 class MotionPictureMaker {
   public:

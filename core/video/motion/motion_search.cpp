@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <vector>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -29,12 +31,14 @@ constexpr std::size_t tap_of(int right, int down) {
 
 struct Compared {
     const float *grey, *moved_grey, *near, *moved_near;
+    float gain;
 };
 
 DIBHR_VECTOR_CLONES void compare_row(const Compared& row, float* __restrict off, int begin,
                                      int end) {
+    const float gain = row.gain;
     for (int i = begin; i < end; ++i) {
-        const float grey = std::fabs(row.moved_grey[i] - row.grey[i]);
+        const float grey = std::fabs(gain * row.moved_grey[i] - row.grey[i]);
         const float near = std::fabs(row.moved_near[i] - row.near[i]);
         off[i] = std::min(grey, kMostOff) + std::min(near, kMostOff);
     }
@@ -101,7 +105,7 @@ void MotionSearcher::weigh(const MotionSide& from, const SimilarParts& similar) 
 }
 
 /// Compares the wanted rows and those around. Values between rows and beyond them have weight 0.
-void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to,
+void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& to, float gain,
                              const MotionRows& rows, int right, int down) {
     const MotionPlane& grey = from.grey.back();
     const int columns = grey.columns;
@@ -116,7 +120,7 @@ void MotionSearcher::compare(const MotionPictures& from, const MotionPictures& t
         if (!inside) continue;
         std::fill(off + end, off + columns, kOutside);
         const Compared row{grey.row(j), to.grey.back().row(j + down) + right,
-                           from.near.back().row(j), to.near.back().row(j + down) + right};
+                           from.near.back().row(j), to.near.back().row(j + down) + right, gain};
         compare_row(row, off, begin, end);
     }
 }
@@ -135,6 +139,20 @@ void MotionSearcher::attempt(const MotionRows& rows, int right, int down, Motion
     take_better(score_.data() + begin, stays ? kStayShare : 1.0F, stays ? -kStayLess : far, way,
                 best_.data() + begin, ways.right.of[0].values.data() + begin,
                 ways.down.of[0].values.data() + begin, end - begin);
+}
+
+/// A group's differences are added up: parts of its outline alone leave the way along it open.
+void MotionSearcher::attempt_groups(const PlainParts& plain, int right, int down) {
+    group_score_.assign(plain.groups(),
+                        kPerCell * static_cast<float>(std::abs(right) + std::abs(down)));
+    for (const PlainParts::Part& part : plain.parts())
+        if (part.part == 0) group_score_[part.group] += score_[part.k];
+    for (std::size_t group = 0; group < plain.groups(); ++group) {
+        if (!(group_score_[group] < group_best_[group])) continue;
+        group_best_[group] = group_score_[group];
+        group_ways_[group] = {static_cast<float>(right * kMotionCell_px),
+                              static_cast<float>(down * kMotionCell_px)};
+    }
 }
 
 /// Far parts take the way of the most similar near part around.
@@ -160,9 +178,9 @@ void MotionSearcher::follow(const MotionCells& cells, MotionWays& ways) const {
     }
 }
 
-void MotionSearcher::search(const MotionSide& from, const MotionSide& to,
-                            const SimilarParts& similar, const MotionRows& rows, int reach,
-                            MotionWays& ways) {
+void MotionSearcher::search(const MotionSide& from, const MotionSide& to, float gain,
+                            const SimilarParts& similar, const PlainParts& plain,
+                            const MotionRows& rows, int reach, MotionWays& ways) {
     const MotionCells& cells = from.cells;
     ways.resize(cells.columns, cells.rows);
     ways.fill(0.0F);
@@ -170,13 +188,25 @@ void MotionSearcher::search(const MotionSide& from, const MotionSide& to,
     columns_ = cells.columns;
     margin_ = static_cast<std::size_t>(kAround * (columns_ + 1));
     off_.assign(best_.size() + 2 * margin_ + kAtOnce, kOutside);
+    group_best_.assign(plain.groups(), 1e9F);
+    group_ways_.assign(plain.groups(), {});
     weigh(from, similar);
     for (int down = -reach; down <= reach; ++down)
         for (int right = -reach; right <= reach; ++right) {
-            compare(from.pictures, to.pictures, rows, right, down);
+            compare(from.pictures, to.pictures, gain, rows, right, down);
             attempt(rows, right, down, ways);
+            attempt_groups(plain, right, down);
         }
     follow(cells, ways);
+    // Far parts alone have no score: they keep what they follow.
+    std::vector<std::uint8_t> has_near(plain.groups(), 0);
+    for (const PlainParts::Part& part : plain.parts())
+        if (part.part == 0) has_near[part.group] = 1;
+    for (const PlainParts::Part& part : plain.parts()) {
+        if (has_near[part.group] == 0) continue;
+        ways.right.of[part.part].values[part.k] = group_ways_[part.group].right;
+        ways.down.of[part.part].values[part.k] = group_ways_[part.group].down;
+    }
 }
 
 }  // namespace dibhr

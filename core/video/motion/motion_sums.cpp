@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
+#include <vector>
 
 #include "core/video/frames/vector_clones.hpp"
 
@@ -16,6 +18,7 @@ namespace {
 
 constexpr float kCovered = 16.0F;  // if this much nearer, a place shows another surface
 constexpr float kOutline = 20.0F;  // an outline's contrast, to each side
+constexpr float kCliff = 8.0F;     // an outline's slope, over two pixels
 constexpr float kLost2 = 400.0F;   // squared difference of pixels that cannot have moved there
 
 /// Weights of four pixels for a place between them.
@@ -27,6 +30,11 @@ struct Between {
 Between between(float right, float down) {
     return {(1.0F - right) * (1.0F - down), right * (1.0F - down), (1.0F - right) * down,
             right * down};
+}
+
+/// For a picture that is multiplied by `gain`.
+Between gained(const Between& by, float gain) {
+    return {gain * by.a, gain * by.b, gain * by.c, gain * by.d};
 }
 
 /// Pixels of one cell whose moved places are inside.
@@ -41,8 +49,10 @@ struct Block {
     int columns, rows;
     int at_left, at_right;  ///< 1: there is no pixel beyond that side
     Between weights;
+    Between grey_weights;  ///< times the gain of the second picture
     float threshold;
     bool near_part, slopes, outline;
+    bool colour;  ///< counts, too
 };
 
 // Always inline: only code inside DIBHR_VECTOR_CLONES functions is compiled for wider vectors.
@@ -135,7 +145,7 @@ template <int kSide, bool kSlopes>
     for (int j = 0; j < kSide; ++j) {
         const std::ptrdiff_t at = j * block.stride;
         load<kSide>(grey, block.grey + at);
-        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.weights);
+        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.grey_weights);
         const Pixels<kSide> r = moved - grey;
         lanes.r += r;
         lanes.rr += r * r;
@@ -205,9 +215,10 @@ template <int kSide, bool kSlopes>
         const Pixels<kSide> lost = moved_near < here - kCovered ? own : none;
         const Pixels<kSide> w = moved_here > near + kCovered ? none : own - lost;
         load<kSide>(grey, block.grey + at);
-        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.weights);
+        load_between<kSide>(moved, block.moved_grey + at, block.stride, block.grey_weights);
         const Pixels<kSide> r = moved - grey;
         lanes.n += w;
+        if (!block.colour) continue;
         lanes.r += w * r;
         lanes.rr += w * (r * r) + lost * kLost2;
         if (!kSlopes) continue;
@@ -234,8 +245,7 @@ template <int kSide, bool kSlopes>
         return 0.5F * (at[i + 1 == block.columns ? 1 - block.at_right : 1] -
                        at[i == 0 ? block.at_left - 1 : -1]);
     };
-    const auto moved = [&block](const float* at) {
-        const Between& k = block.weights;
+    const auto moved = [&block](const float* at, const Between& k) {
         return (k.a * at[0] + k.b * at[1]) + (k.c * at[block.stride] + k.d * at[block.stride + 1]);
     };
     const auto contrast = [&block](float value) {
@@ -256,11 +266,13 @@ template <int kSide, bool kSlopes>
             const bool covered = block.moved_here[at] > block.near[at] + kCovered;
             if (lost) sum(MotionSum::rr) += kLost2;
             if (own && !lost && !covered) {
-                const float r = moved(block.moved_grey + at) - block.grey[at];
+                const float r = moved(block.moved_grey + at, block.grey_weights) - block.grey[at];
                 sum(MotionSum::n) += 1.0F;
-                sum(MotionSum::r) += r;
-                sum(MotionSum::rr) += r * r;
-                if (block.slopes) {
+                if (block.colour) {
+                    sum(MotionSum::r) += r;
+                    sum(MotionSum::rr) += r * r;
+                }
+                if (block.colour && block.slopes) {
                     const float x = slope(block.grey + at, i, j, false);
                     const float y = slope(block.grey + at, i, j, true);
                     sum(MotionSum::x) += x;
@@ -270,7 +282,7 @@ template <int kSide, bool kSlopes>
             }
             if (!block.outline || !(block.near[at] > block.threshold)) continue;
             const float before = contrast(block.level[at]);
-            const float r = contrast(moved(block.moved_level + at)) - before;
+            const float r = contrast(moved(block.moved_level + at, block.weights)) - before;
             sum(MotionSum::rr) += r * r;
             if (block.slopes && before > -kOutline && before < kOutline)
                 add(1.0F, r, slope(block.level + at, i, j, false),
@@ -308,6 +320,37 @@ DIBHR_VECTOR_CLONES void sum_block(const Block& block, float* sums) {
         sum_pixels(block, sums);
 }
 
+/// A row of a picture, with those above and below.
+struct ThreeRows {
+    const float *above, *here, *below;
+};
+
+/// Adds slopes and their products in each column.
+DIBHR_VECTOR_CLONES void add_structure(const ThreeRows& grey, const ThreeRows& level, int count,
+                                       float* __restrict n, float* __restrict x,
+                                       float* __restrict y, float* __restrict xx,
+                                       float* __restrict xy, float* __restrict yy) {
+    const float* const grey_here = grey.here;
+    const float* const grey_above = grey.above;
+    const float* const grey_below = grey.below;
+    const float* const level_here = level.here;
+    const float* const level_above = level.above;
+    const float* const level_below = level.below;
+    for (int i = 1; i + 1 < count; ++i) {
+        const float right = std::fabs(level_here[i + 1] - level_here[i - 1]);
+        const float down = std::fabs(level_below[i] - level_above[i]);
+        const float w = std::max(right, down) < kCliff ? 1.0F : 0.0F;
+        const float slope_x = 0.5F * w * (grey_here[i + 1] - grey_here[i - 1]);
+        const float slope_y = 0.5F * w * (grey_below[i] - grey_above[i]);
+        n[i] += w;
+        x[i] += slope_x;
+        y[i] += slope_y;
+        xx[i] += slope_x * slope_x;
+        xy[i] += slope_x * slope_y;
+        yy[i] += slope_y * slope_y;
+    }
+}
+
 struct Span {
     int begin, end;
 };
@@ -317,23 +360,19 @@ Span inside(int begin, int end, int way, int count) {
     return {std::max(begin, -way), std::min(end, count - 1 - way)};
 }
 
-struct Part {
-    int i, j;
-    std::size_t layer;
-};
-
 /// Computes the sums part by part.
 class Summing {
   public:
-    Summing(const MotionSide& from, const MotionSide& to, std::size_t size, bool slopes)
-        : from_(from),
-          to_(to),
+    Summing(const MotionSides& sides, std::size_t size, bool slopes)
+        : from_(sides.from),
+          to_(sides.to),
+          gain_(sides.gain),
           size_(size),
           halvings_(kMotionSizes - 1 - static_cast<int>(size)),
           side_(1 << halvings_),
           slopes_(slopes) {}
 
-    void sum(const Part& part, float right, float down, float* sums) const;
+    void sum(const MotionPart& part, float right, float down, bool colour, float* sums) const;
 
   private:
     /// The moved pixels of a part [px of the picture].
@@ -341,13 +380,14 @@ class Summing {
         Span x{}, y{};
         int right, down;  ///< whole pixels
     };
-    [[nodiscard]] bool is_plain(const Part& part, const Moved& moved) const;
+    [[nodiscard]] bool is_plain(const MotionPart& part, const Moved& moved) const;
     void sum_plain(const Moved& to, const Between& weights, float* sums) const;
-    void sum_any(const Part& part, const Moved& to, const Between& weights, std::ptrdiff_t nearest,
-                 float* sums) const;
+    void sum_any(const MotionPart& part, const Moved& to, const Between& weights,
+                 std::ptrdiff_t nearest, bool colour, float* sums) const;
 
     const MotionSide& from_;
     const MotionSide& to_;
+    float gain_;
     std::size_t size_;
     int halvings_;  ///< of a cell
     int side_;      ///< of a cell [px]
@@ -355,9 +395,9 @@ class Summing {
 };
 
 /// Whether the part is a whole cell of one surface, about as deep as all at its destination.
-bool Summing::is_plain(const Part& part, const Moved& moved) const {
+bool Summing::is_plain(const MotionPart& part, const Moved& moved) const {
     const MotionPlane& grey = from_.pictures.grey[size_];
-    if (halvings_ < 2 || part.layer != 0 || moved.x.end - moved.x.begin < side_ ||
+    if (halvings_ < 2 || part.part != 0 || moved.x.end - moved.x.begin < side_ ||
         moved.y.end - moved.y.begin < side_ || moved.x.begin == 0 || moved.y.begin == 0 ||
         moved.x.end == grey.columns || moved.y.end == grey.rows)
         return false;
@@ -376,13 +416,13 @@ void Summing::sum_plain(const Moved& to, const Between& weights, float* sums) co
     block.moved_grey = to_.pictures.grey[size_].values.data() +
                        grey.index(to.x.begin + to.right, to.y.begin + to.down);
     block.stride = grey.columns;
-    block.weights = weights;
+    block.grey_weights = gained(weights, gain_);
     block.slopes = slopes_;
     sum_plain_block(block, side_, sums);
 }
 
-void Summing::sum_any(const Part& part, const Moved& to, const Between& weights,
-                      std::ptrdiff_t nearest, float* sums) const {
+void Summing::sum_any(const MotionPart& part, const Moved& to, const Between& weights,
+                      std::ptrdiff_t nearest, bool colour, float* sums) const {
     const MotionPictures& pictures = from_.pictures;
     const MotionPictures& others = to_.pictures;
     const MotionPlane& grey = pictures.grey[size_];
@@ -405,15 +445,17 @@ void Summing::sum_any(const Part& part, const Moved& to, const Between& weights,
     block.at_left = to.x.begin == 0 ? 1 : 0;
     block.at_right = to.x.end == grey.columns ? 1 : 0;
     block.weights = weights;
+    block.grey_weights = gained(weights, gain_);
     block.threshold = from_.cells.threshold.row(part.j)[part.i];
-    block.near_part = part.layer == 0;
+    block.near_part = part.part == 0;
     block.slopes = slopes_;
     block.outline = block.near_part && from_.cells.has(1, part.i, part.j);
+    block.colour = colour || !block.outline;
     sum_block(block, sums);
 }
 
 /// `right`, `down`: the way in pixels of the picture.
-void Summing::sum(const Part& part, float right, float down, float* sums) const {
+void Summing::sum(const MotionPart& part, float right, float down, bool colour, float* sums) const {
     const MotionPlane& grey = from_.pictures.grey[size_];
     Moved to{};
     to.right = static_cast<int>(std::floor(right));
@@ -426,28 +468,54 @@ void Summing::sum(const Part& part, float right, float down, float* sums) const 
     std::fill_n(sums, kMotionSums, 0.0F);
     if (to.x.begin >= to.x.end || to.y.begin >= to.y.end) return;
     const std::ptrdiff_t nearest = (v < 0.5F ? 0 : grey.columns) + (u < 0.5F ? 0 : 1);
-    sum_any(part, to, between(u, v), nearest, sums);
+    sum_any(part, to, between(u, v), nearest, colour, sums);
 }
 
 }  // namespace
 
-void sum_differences(const MotionSide& from, const MotionSide& to, std::size_t size,
-                     const MotionLayers& wanted, const MotionWays& ways, MotionMeasure measure,
+void sum_differences(const MotionSides& sides, std::size_t size, const MotionLayers& wanted,
+                     const MotionLayers& plain, const MotionWays& ways, MotionMeasure measure,
                      MotionSums& sums) {
     const auto count = static_cast<std::size_t>(measure);
-    const Summing summing(from, to, size, measure == MotionMeasure::slopes);
+    const Summing summing(sides, size, measure == MotionMeasure::slopes);
     const float scale = 1.0F / static_cast<float>(1 << size);
-    const auto columns = static_cast<std::size_t>(from.cells.columns);
+    const MotionCells& cells = sides.from.cells;
     std::array<float, kMotionSums> of_part{};
     const auto sum = [&](std::size_t layer, std::size_t at) {
         if (!(wanted.of[layer].values[at] > 0.0F)) return;
-        summing.sum({static_cast<int>(at % columns), static_cast<int>(at / columns), layer},
-                    scale * ways.right.of[layer].values[at], scale * ways.down.of[layer].values[at],
+        summing.sum(cells.part_at(layer, at), scale * ways.right.of[layer].values[at],
+                    scale * ways.down.of[layer].values[at], !(plain.of[layer].values[at] > 0.0F),
                     of_part.data());
         for (std::size_t k = 0; k < count; ++k) sums.of[k].of[layer].values[at] = of_part[k];
     };
     for (std::size_t at = 0; at < wanted.of[0].values.size(); ++at) sum(0, at);
-    for (const std::uint32_t at : from.cells.split) sum(1, at);
+    for (const std::uint32_t at : cells.split) sum(1, at);
+}
+
+void sum_structure(const MotionSide& side, std::size_t size, MotionSums& sums) {
+    const MotionPlane& grey = side.pictures.grey[size];
+    const MotionPlane& level = side.pictures.level[size];
+    const int cell = kMotionCell_px >> size;
+    constexpr std::array kKinds{MotionSum::n,  MotionSum::x,  MotionSum::y,
+                                MotionSum::xx, MotionSum::xy, MotionSum::yy};
+    std::array<std::vector<float>, kKinds.size()> columns;
+    sums.fill(0.0F);
+    for (int j = 0; j < side.cells.rows; ++j) {
+        for (auto& each : columns) each.assign(static_cast<std::size_t>(grey.columns), 0.0F);
+        for (int y = std::max(j * cell, 1); y < std::min((j + 1) * cell, grey.rows - 1); ++y)
+            add_structure({grey.row(y - 1), grey.row(y), grey.row(y + 1)},
+                          {level.row(y - 1), level.row(y), level.row(y + 1)}, grey.columns,
+                          columns[0].data(), columns[1].data(), columns[2].data(),
+                          columns[3].data(), columns[4].data(), columns[5].data());
+        for (std::size_t kind = 0; kind < kKinds.size(); ++kind) {
+            const float* of_cell = columns[kind].data();
+            float* const to = sums[kKinds[kind]].of[0].row(j);
+            for (int i = 0; i < side.cells.columns; ++i, of_cell += cell)
+                to[i] = std::accumulate(of_cell, of_cell + cell, 0.0F);
+        }
+    }
+    for (const std::uint32_t k : side.cells.split)
+        for (MotionLayers& layers : sums.of) layers.of[0].values[k] = 0.0F;
 }
 
 }  // namespace dibhr

@@ -2,6 +2,8 @@
 #include "core/video/playing/frame_assembly.hpp"
 
 #include <chrono>
+#include <cmath>
+#include <utility>
 #include <vector>
 
 namespace dibhr {
@@ -11,8 +13,10 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     const auto begin = now_();
     const std::vector<HeldLevel> held = std::move(raw.held);
     const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
-    raw.single_frame = std::make_shared<const SingleFrameDepth>(
-        chain_.clean_frame(std::move(raw.depth), plan, held, colour));
+    SingleFrameDepth single_frame = chain_.clean_frame(std::move(raw.depth), plan, held, colour);
+    // By its time: after some jumps the index is an estimate.
+    single_frame.number = std::llround(raw.media_s / interval_s_);
+    raw.single_frame = std::make_shared<const SingleFrameDepth>(std::move(single_frame));
     raw.single_frame_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
 }
 

@@ -33,10 +33,13 @@ class FrameAssembly {
     void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
     void set_number(std::uint32_t number) { number_ = number; }
     [[nodiscard]] std::uint32_t number() const { return number_; }
+    /// From frame to frame, by which frames are numbered.
+    void set_interval(double interval_s) { interval_s_ = interval_s; }
     void set_motion(const MotionRequest& wanted) { wanted_ = wanted; }
     [[nodiscard]] const MotionRequest& motion() const { return wanted_; }
 
-    /// Does the cleaning that needs no other frame. Moves the depth into `raw.lone`. Any thread.
+    /// Does the cleaning that needs no other frame. Moves the depth into `raw.single_frame`. Any
+    /// thread.
     void clean_frame(RawFrame& raw, const CleaningPlan& plan);
     /// The frame without its depth. Moves the colour out of `raw`.
     [[nodiscard]] Frame without_depth(RawFrame& raw) const;
@@ -66,6 +69,7 @@ class FrameAssembly {
     CleaningPlan plan_{};
     std::shared_ptr<const TouchMaps> maps_{};
     std::uint32_t number_{0};
+    double interval_s_{1.0 / 25.0};
     FrameMotion motion_{};
     MotionThrottle throttle_;
     MotionRequest wanted_{};

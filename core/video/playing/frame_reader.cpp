@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
+#include "core/video/playing/clip_trial.hpp"
 #include "core/video/playing/held_levels_media.hpp"
 
 namespace dibhr {
@@ -19,8 +20,10 @@ namespace {
 
 constexpr std::size_t kMostKept = 48;
 constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beside what cleaning needs
-constexpr double kMostReadBack = 12.0;                     ///< frames read at once to step back
-constexpr double kReach_s = 0.5;                           ///< farther frames do not clean this one
+/// Frames read at once to step back: all that clean the frame before.
+constexpr auto kMostReadBack = static_cast<double>(kReachInTime + 1);
+/// Farther frames do not clean this one: all that could at 30 frames/s are nearer.
+constexpr double kReach_s = 0.55;
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
 /// After so many frames in a row, more than a window holds, the media counts as playing.
 constexpr int kPlaysAfter = static_cast<int>(FrameWindow::kFrames);
@@ -55,6 +58,7 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
       frames_since_skip_(kKeepsUpAfter) {
     assembly_.set_number(number);
+    assembly_.set_interval(interval_s(description()));
 }
 
 double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
@@ -150,7 +154,10 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 }
 
 std::size_t FrameReader::reach() const {
-    return plan().steps.steady ? kReachInTime : 0;
+    if (!plan().steps.steady) return 0;
+    // Farther frames of large pictures need more memory than most machines have.
+    const bool is_large = description().depth_pixels() > kMostPixelsForSensor;
+    return plan().noise.per_frame_scale || is_large ? kNearInTime : kReachInTime;
 }
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
@@ -218,35 +225,46 @@ void FrameReader::prefetch_after_kept(double media_s) {
     prefetch_ = {from_s, kept_to_s};
 }
 
-/// The noise of the following frames, up to a read error, which the read of that frame reports.
-DepthNoise FrameReader::noise_of(Media& media) {
+/// Measures the following frames, up to a read error, which the read of that frame reports. The
+/// trial takes as long again, and is of use for `automatic` alone.
+void FrameReader::measure() {
     NoiseMeter meter;
+    ClipTrial trial;
     try {
         for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k) {
-            std::optional<RawFrame> raw = media.next();
+            std::optional<RawFrame> raw = media_.next();
             if (!raw) break;
+            if (tries()) trial.add(raw->depth);
             meter.add(std::move(raw->depth));
         }
     } catch (const InputError&) {
     }
-    return meter.noise();
+    noise_ = meter.noise();
+    if (!tries()) return;
+    felt_ = trial.best_of(ways_of_automatic(description().depth_pixels()), *noise_);
+    tried_ = true;
+}
+
+/// Whether the choice of `automatic` is still open.
+bool FrameReader::tries() const {
+    return options_.preset == CleaningPreset::automatic && !tried_ && !description().noise;
 }
 
 /// Measures the noise before the first frame is cleaned, where the options depend on it.
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
-    if (needs_noise(options_) && !noise_) {
+    if ((needs_noise(options_) && !noise_) || tries()) {
         media_.prepare_with(nullptr);
         const auto begin = now_();
         jump_to(0.0);
-        noise_ = noise_of(media_);
+        measure();
         jump_to(0.0);
         waited_s_ += seconds_since(begin);
     }
     const CleaningPlan plan =
         plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
-                description().sparse_share.has_value());
+                description().sparse_share.has_value(), felt_);
     if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
@@ -365,7 +383,9 @@ FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
         Kept* previous = here->previous_s ? find(*here->previous_s) : nullptr;
         if (previous != nullptr && previous->has(needs)) return previous;
     }
-    double back_s = frames_read_back(description()) * interval_s(description());
+    const double frames =
+        std::max(frames_read_back(description()), static_cast<double>(reach() + 1));
+    double back_s = frames * interval_s(description());
     for (;; back_s *= 2.0) {
         const double from_s = std::max(0.0, media_s - back_s);
         jump_to(from_s);

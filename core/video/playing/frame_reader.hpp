@@ -151,7 +151,8 @@ class FrameReader {
     void make_plan();
     void clean_ahead();
     void adapt_to_load(std::int64_t skipped_frames);
-    [[nodiscard]] static DepthNoise noise_of(Media& media);
+    void measure();
+    [[nodiscard]] bool tries() const;
     Neighbours neighbours(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
@@ -160,7 +161,9 @@ class FrameReader {
     FrameAssembly assembly_;
     DecodedAhead media_;  // declared after all that its thread uses
     CleaningOptions options_{};
-    std::optional<DepthNoise> noise_{};  ///< of the clip, measured when first needed
+    std::optional<DepthNoise> noise_{};   ///< of the clip, measured when first needed
+    std::optional<FeltCleaning> felt_{};  ///< what felt best on its first frames
+    bool tried_{false};                   ///< felt_ is known, or that nothing tells
     /// A read error after a frame that was read ahead: thrown when that frame is requested.
     struct PendingError {
         double after_s{0.0};

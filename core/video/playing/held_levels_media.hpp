@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {

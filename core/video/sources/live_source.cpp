@@ -39,6 +39,15 @@ struct LiveCursor {
     std::int64_t index{-1};  ///< of the pair, counted from the first
     bool is_read{false};     ///< next() has returned a pair
 
+    /// The first time, takes the newest pair, or the one that the opening inspected last: a stream
+    /// may have ended since. Then waits for the next pair. Throws InputError when none arrives.
+    void take_next() {
+        if (std::exchange(is_read, true)) return advance();
+        auto newest = feed->after(pair->number, Clock::now());
+        if (!newest) return;
+        pair = std::move(newest);
+        ++index;
+    }
     /// Waits for the next pair. Throws InputError when none arrives.
     void advance() {
         if (!goes_on()) throw InputError(why_none());
@@ -96,10 +105,9 @@ class LivePictures : public PictureSource {
     }
 
     [[nodiscard]] const SourceFacts& facts() const override { return facts_; }
-    /// The depth source begins with the pair that the opening inspected last, as a stream may have
-    /// ended since, and then advances to the next pair; the colour source gives the present pair.
+    /// The depth source advances to the next pair; the colour source gives the present pair.
     std::optional<TimedPicture> next() override {
-        if (which_ != Which::colour && std::exchange(cursor_->is_read, true)) cursor_->advance();
+        if (which_ != Which::colour) cursor_->take_next();
         const double time_s = cursor_->pair->depth.stamp_s - cursor_->first_s;
         TimedPicture taken{mat(), time_s, cursor_->index};
         taken.pair = cursor_->pair;

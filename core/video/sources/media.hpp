@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/error.hpp"
-#include "core/video/cleaning/depth_memory.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
 #include "core/video/depth/findings.hpp"
 #include "core/video/frames/frame_window.hpp"

@@ -33,7 +33,7 @@ constexpr std::uint64_t kHeldTicks = 320;  // of a moment: more than held_moment
 
 // The places of the buttons: the first one in the panels as at the start, some pixels higher or
 // lower with other fonts; the others at the panels' end.
-constexpr const char* kBark = "mousemove 1063 424 click 1";
+constexpr const char* kBark = "mousemove 1063 437 click 1";
 constexpr const char* kReplayIt = "mousemove 1026 680 click 1";
 constexpr const char* kReport = "mousemove 1182 680 click 1";
 constexpr const char* kFrictionToZero =

@@ -158,6 +158,32 @@ TEST_CASE("who replays a session whose surfaces were cleaned otherwise is told",
     CHECK(warning({{"cleaning", "raw"}, {"surface-version", "1"}}).empty());
 }
 
+TEST_CASE("who replays a session whose motion was found otherwise is told, however it is cleaned",
+          "[replay]") {
+    const auto warning = [](const std::string& version, const auto& set) {
+        const SessionFolder folder;
+        MovingSurface surface;
+        {
+            const auto ring = std::make_unique<TickRing>();
+            Recorder recorder(folder.file(), *ring, {{"surface-version", version}});
+            Exploration hand(surface);
+            recorder.media(1, "colour.mp4", "depth.mp4");
+            TickRecord tick = hand.next();
+            set(tick.frames.source);
+            push(*ring, tick);
+        }
+        return version_warning(Session(folder.file()), false);
+    };
+    const std::string now = std::to_string(kSurfaceVersion);
+    const auto carried = [](FrameSource& source) { source.motion = true; };
+    const auto between = [](FrameSource& source) { source.in_betweens = true; };
+    const auto neither = [](FrameSource&) {};
+    CHECK(contains(warning("4", carried), "motion was found by an earlier dibhr"));
+    CHECK(contains(warning("4", between), "motion was found by an earlier dibhr"));
+    CHECK(warning("4", neither).empty());
+    CHECK(warning(now, carried).empty());
+}
+
 TEST_CASE("a session without its parameters can be read, but says why it is not replayed",
           "[replay]") {
     const SessionFolder folder;

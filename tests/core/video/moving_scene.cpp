@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <memory>
+#include <numbers>
 #include <random>
 #include <stdexcept>
 
@@ -16,8 +17,10 @@ namespace dibhr::test {
 
 namespace {
 
+constexpr double kSwings_hz = 2.0;   // of the exposure
 constexpr double kRadius_px = 0.19;  // of the sphere, in picture widths; the hand's reach is alike
 constexpr double kWall_px = 60.0;
+constexpr double kDisc_px = 60.0;  // before the wall
 
 double hash_of(int x, int y, int seed) {
     auto bits = static_cast<std::uint32_t>(x) * 374761393U +
@@ -37,12 +40,6 @@ double waves(double x, double y, int seed) {
     const double b = smooth(y - j);
     return std::lerp(std::lerp(hash_of(i, j, seed), hash_of(i + 1, j, seed), a),
                      std::lerp(hash_of(i, j + 1, seed), hash_of(i + 1, j + 1, seed), a), b);
-}
-
-double texture(MovingScene::Point at, int seed) {
-    return 50.0 * waves(at.x / 3.1, at.y / 3.1, seed) +
-           60.0 * waves(at.x / 9.3, at.y / 9.3, seed + 1) +
-           70.0 * waves(at.x / 31.0, at.y / 31.0, seed + 2);
 }
 
 struct Bar {
@@ -69,8 +66,13 @@ double hand_height(MovingScene::Point at) {
 
 }  // namespace
 
+double texture(double x, double y, int seed) {
+    return 50.0 * waves(x / 3.1, y / 3.1, seed) + 60.0 * waves(x / 9.3, y / 9.3, seed + 1) +
+           70.0 * waves(x / 31.0, y / 31.0, seed + 2);
+}
+
 double MovingScene::size_px() const {
-    return kRadius_px * what_.columns;
+    return what_.shape == Shape::disc ? 0.5 * what_.diameter_px : kRadius_px * what_.columns;
 }
 
 /// It passes the middle of the picture at half a second.
@@ -113,6 +115,8 @@ MovingScene::Seen MovingScene::at(Point on, Point place) const {
         const double left = size_px() * size_px() - on.x * on.x - on.y * on.y;
         if (left > 0.0) return {80.0 + std::sqrt(left), 1};
     }
+    if (what_.shape == Shape::disc && std::hypot(on.x, on.y) < size_px())
+        return {kWall_px + kDisc_px, 1};
     if (what_.shape == Shape::hand) {
         const double scale = what_.columns / 640.0;
         const double height = scale * hand_height({on.x / scale, on.y / scale});
@@ -123,7 +127,10 @@ MovingScene::Seen MovingScene::at(Point on, Point place) const {
 
 double MovingScene::brightness(double t_s, Point place) const {
     const Point on = on_thing(t_s, place);
-    return at(on, place).object == 0 ? 110.0 + texture(place, 31) : 140.0 + 0.8 * texture(on, 3);
+    if (at(on, place).object == 0) return 110.0 + texture(place.x, place.y, 31);
+    if (what_.look == Look::textured) return 140.0 + 0.8 * texture(on.x, on.y, 3);
+    const double shade = what_.look == Look::shaded ? (0.6 * on.x - 0.8 * on.y) / size_px() : 0.0;
+    return 150.0 + 50.0 * shade;
 }
 
 MovingScene::Point MovingScene::gone(double t_s, Point place, double later_s) const {
@@ -147,12 +154,15 @@ std::shared_ptr<const MotionField> MovingScene::motion(double from_s, double to_
 Frame MovingScene::frame(double t_s, const CameraNoise& noise) const {
     std::mt19937 random(noise.seed);
     std::normal_distribution<double> normal;
+    const double exposed =
+        1.0 + noise.exposure * std::sin(2.0 * std::numbers::pi * kSwings_hz * t_s);
     auto colour = std::make_shared<ColourImage>(ColourImage{what_.columns, what_.rows, {}});
     colour->rgb.reserve(3 * static_cast<std::size_t>(what_.columns * what_.rows));
     const DepthImage depth = image_of(what_.columns, what_.rows, 255.0, [&](int i, int j) {
         double bright = noise.brightness * normal(random);
         for (const double x : {-0.25, 0.25})
-            for (const double y : {-0.25, 0.25}) bright += 0.25 * brightness(t_s, {i + x, j + y});
+            for (const double y : {-0.25, 0.25})
+                bright += 0.25 * exposed * brightness(t_s, {i + x, j + y});
         const auto grey = static_cast<std::uint8_t>(std::clamp(std::lround(bright), 0L, 255L));
         colour->rgb.insert(colour->rgb.end(), {grey, grey, grey});
         const double off_px = noise.elevation_px > 0.0 ? noise.elevation_px * normal(random) : 0.0;

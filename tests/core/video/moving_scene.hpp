@@ -16,12 +16,18 @@ struct CameraNoise {
     double brightness{0.0};  ///< standard deviation [levels of 255]
     double elevation_px{0.0};
     std::uint32_t seed{1};
+    double exposure{0.0};  ///< how far it swings, twice a second [share of the brightness]
 };
+
+/// Brightness around 0 that is random from one pixel to the next, and over tens of them [levels].
+[[nodiscard]] double texture(double x, double y, int seed);
 
 /// Formulas, in pixels and seconds; elevations of a highest level of 255 px.
 class MovingScene {
   public:
-    enum class Shape : std::uint8_t { plane, sphere, hand };
+    enum class Shape : std::uint8_t { plane, sphere, hand, disc };
+    /// Of the thing. Shaded: brighter towards one side of its rim.
+    enum class Look : std::uint8_t { textured, plain, shaded };
     /// Of the whole; a turn and growth are of the shape's rim: for ever, or (swelling) only at
     /// first, and then as much faster as it is larger.
     enum class Goes : std::uint8_t { along, round, apart, swelling };
@@ -31,6 +37,8 @@ class MovingScene {
         double speed_px_per_s{0.0};
         int columns{640};
         int rows{480};
+        Look look{Look::textured};
+        double diameter_px{0.0};  ///< of a disc
     };
     struct Point {
         double x{0.0}, y{0.0};
@@ -55,9 +63,9 @@ class MovingScene {
     [[nodiscard]] Frame frame(double t_s, const CameraNoise& noise = {}) const;
 
     [[nodiscard]] const What& what() const { return what_; }
+    [[nodiscard]] double size_px() const;  ///< from its middle to its rim
 
   private:
-    [[nodiscard]] double size_px() const;
     [[nodiscard]] Point middle(double t_s) const;
     [[nodiscard]] double grown(double t_s) const;
     [[nodiscard]] Point on_thing(double t_s, Point place) const;

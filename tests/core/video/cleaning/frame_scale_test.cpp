@@ -59,8 +59,8 @@ std::vector<DepthImage> in_scales(std::vector<DepthImage> frames,
 /// A level in the mean of the scales around frame `now`.
 double common(const std::vector<LevelMap>& scales, std::size_t now, double level) {
     double sum = 0.0;
-    for (std::size_t k = now - kReachInTime; k <= now + kReachInTime; ++k) sum += scales[k](level);
-    return sum / (2.0 * kReachInTime + 1.0);
+    for (std::size_t k = now - kNearInTime; k <= now + kNearInTime; ++k) sum += scales[k](level);
+    return sum / (2.0 * kNearInTime + 1.0);
 }
 
 bool are_identities(const std::vector<LevelMap>& maps) {

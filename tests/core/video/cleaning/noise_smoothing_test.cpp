@@ -27,10 +27,13 @@ DepthImage smoothed(DepthImage image, double noise) {
 /// Filters in time and smooths, as the chain does.
 DepthImage steadied_and_smoothed(const NoisyScene& scene, double noise) {
     std::vector<SingleFrameDepth> frames;
-    for (DepthImage& frame : scene.frames(21)) frames.push_back({std::move(frame), {}, {}});
+    for (DepthImage& frame : scene.frames(41)) frames.push_back({std::move(frame), {}, {}});
     std::vector<const SingleFrameDepth*> all;
     for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
-    return smoothed(TemporalFilter().filtered(all, 10, noise_of(noise)), noise);
+    TemporalFilter filter;
+    DepthImage image = filter.filtered(all, 20, noise_of(noise));
+    NoiseSmoother().smooth(image, noise_of(noise), filter.evidence());
+    return image;
 }
 
 /// Round bumps of 1 px, 8 px wide, every 40 px.
@@ -59,6 +62,46 @@ TEST_CASE("a bump as high as twice the noise keeps seven tenths of itself", "[sm
             kept += static_cast<double>(done.at(i, j)) - (60.0 + 0.15 * i + 0.1 * j);
     CHECK(kept / count >= 0.7);
     CHECK(rms_error(done, scene.truth(10)) < 0.06);
+}
+
+TEST_CASE("ridges lower than the noise stay where time tells of them, and the ground is even",
+          "[smoothing]") {
+    const double period_px = GENERATE(6.0, 12.0, 24.0);
+    const auto ridge = [period_px](int i) {
+        return i < 160 ? 0.5 * std::sin(2.0 * 3.14159265 * i / period_px) : 0.0;
+    };
+    const Scene ridges = [ridge](int, int i, int j) { return 60.0 + 0.1 * j + ridge(i); };
+    const NoisyScene scene{ridges, [](double) { return 0.8; }, 320, 240};
+    const DepthImage done = steadied_and_smoothed(scene, 0.8);
+    double products = 0.0;
+    double squares = 0.0;
+    double even = 0.0;
+    for (int j = 20; j < 220; ++j) {
+        for (int i = 24; i < 144; ++i) {
+            products += ridge(i) * (static_cast<double>(done.at(i, j)) - 60.0 - 0.1 * j);
+            squares += ridge(i) * ridge(i);
+        }
+        for (int i = 190; i < 300; ++i)
+            even += std::pow(static_cast<double>(done.at(i, j)) - 60.0 - 0.1 * j, 2.0);
+    }
+    CHECK(products / squares > 0.8);
+    CHECK(products / squares < 1.05);
+    CHECK(std::sqrt(even / (200.0 * 110.0)) < 0.12);
+}
+
+TEST_CASE("noise that stands still is smoothed, too", "[smoothing]") {
+    DepthNoise noise = noise_of(0.5);
+    noise.character.standing = {0.9F, 0.05F, 0.01F, 0.002F, 0.001F};
+    const Scene plane = [](int, int i, int j) { return 60.0 + 0.1 * i + 0.1 * j; };
+    const NoisyScene scene{plane, [](double) { return 0.5; }};
+    // As if the noise were the same in all of 27 frames.
+    TimeEvidence evidence;
+    evidence.near_frames = 11;
+    evidence.weights.assign(std::size_t{160} * 120, 27.0F);
+    evidence.variances.assign(std::size_t{20} * 15, 0.25F);
+    DepthImage image = scene.frames(1)[0];
+    NoiseSmoother().smooth(image, noise, evidence);
+    CHECK(rms_error(image, scene.truth(0)) < 0.13);
 }
 
 TEST_CASE("what stands out alone by some deviations of the noise goes, what does by many stays",

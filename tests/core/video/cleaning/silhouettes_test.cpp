@@ -285,6 +285,17 @@ TEST_CASE(
     CHECK(*most <= 255.0F);
 }
 
+TEST_CASE("the rows of a ramp become crisp together, or none does", "[silhouettes]") {
+    // One row in eight has a ramp that is narrow enough, or all but one in eight.
+    const bool most_are_narrow = GENERATE(true, false);
+    const auto ramp_px = [=](int row) { return (row % 8 == 3) == most_are_narrow ? 30.0 : 10.0; };
+    const DepthImage image = image_of(kColumns, kRows, 255.0, [&](int i, int j) {
+        return kFar + (kNear - kFar) * std::clamp(0.5 + (i - 320.3) / ramp_px(j), 0.0, 1.0);
+    });
+    const DepthImage crisp = sharpened(image);
+    CHECK(same(crisp, image) != most_are_narrow);
+}
+
 TEST_CASE("a picture of more ramps than outlines can have stays as it is", "[silhouettes][long]") {
     const auto striped = [](int columns, int rows) {
         return image_of(columns, rows, 255.0, [](int i, int) {

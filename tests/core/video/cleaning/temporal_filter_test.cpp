@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
+#include "core/video/cleaning/camera/camera_motion.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/noisy_scene.hpp"
 
@@ -34,6 +36,18 @@ double wall(int /*frame*/, int i, int j) {
     return 60.0 + 0.2 * i + 0.1 * j;
 }
 
+/// Ridges of one level and steps of two before a camera that moves so many pixels a frame, to the
+/// right and half as far down.
+Scene relief(double px_per_frame) {
+    return [px_per_frame](int frame, int i, int j) {
+        const double x = i + px_per_frame * frame;
+        const double y = j + 0.5 * px_per_frame * frame;
+        const double ridges = std::fmod(y + 4000.0, 80.0) < 40.0 ? std::sin(x) : 0.0;
+        const double steps = std::fmod(x + y + 4000.0, 50.0) < 25.0 ? 2.0 : 0.0;
+        return 120.0 + 0.1 * x + ridges + steps;
+    };
+}
+
 /// A hand of 60 by 70 pixels with three fingers of 12 that moves so many pixels a frame to the
 /// right.
 Scene hand(double px_per_frame) {
@@ -52,6 +66,134 @@ TEST_CASE("a still surface shimmers at most half as much", "[temporal]") {
     const auto frames = single_frames(scene.frames(15));
     CHECK(rms_error(filtered(frames, 7, kNoisy), scene.truth(7)) < 0.45);
     CHECK(rms_error(filtered(frames, 7, kNoisy), filtered(frames, 8, kNoisy)) < 0.25);
+}
+
+TEST_CASE("a still surface is the mean of what 27 frames tell, and how many and how noisy is known",
+          "[temporal]") {
+    const NoisyScene scene{wall, [](double) { return 1.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(41));
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    TemporalFilter filter;
+    CHECK(rms_error(filter.filtered(all, 20, kNoisy), scene.truth(20)) < 0.22);
+    const TimeEvidence& evidence = filter.evidence();
+    double weight = 0.0;
+    for (const float each : evidence.weights) weight += static_cast<double>(each);
+    CHECK(weight / static_cast<double>(evidence.weights.size()) > 25.0);
+    REQUIRE(evidence.variances.size() == std::size_t{40} * 30);
+    for (const float variance : evidence.variances) REQUIRE_THAT(variance, WithinAbs(1.0, 0.35));
+}
+
+TEST_CASE("what moves slowly is not smeared over the frames that are farther", "[temporal]") {
+    const Scene moving = [](int frame, int i, int j) {
+        return wall(0, i, j) + 3.0 * std::sin(0.5 * (i - 0.3 * frame));
+    };
+    const NoisyScene scene{moving, [](double) { return 0.0; }};
+    const auto frames = single_frames(scene.frames(41));
+    CHECK(rms_error(filtered(frames, 20, kNoisy), scene.truth(20)) < 0.35);
+}
+
+TEST_CASE("small shapes stay before a moving camera, and noise goes", "[temporal]") {
+    const double px = GENERATE(0.0, 0.7, -1.6, 2.5);
+    CAPTURE(px);
+    const NoisyScene scene{relief(px), [](double) { return 1.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(41));
+    CHECK(rms_error(filtered(frames, 20, kNoisy), scene.truth(20), 32) < (px == 0.0 ? 0.24 : 0.42));
+}
+
+TEST_CASE("what stands still before a picture that moves is not smeared", "[temporal]") {
+    const Scene both = [](int frame, int i, int j) {
+        return j < 160 ? relief(1.7)(frame, i, j) : relief(0.0)(0, i, j) + 20.0;
+    };
+    const NoisyScene scene{both, [](double) { return 1.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(41));
+    CHECK(rms_error(filtered(frames, 20, kNoisy), scene.truth(20), 32) < 0.55);
+}
+
+TEST_CASE("a hand before a moving camera keeps its outline", "[temporal]") {
+    const double px = GENERATE(-5.0, 1.0, 9.0);
+    CAPTURE(px);
+    const Scene both = [px](int frame, int i, int j) {
+        const double level = hand(px)(frame, i - 100, j - 60);
+        return level > 100.0 ? level + 40.0 : relief(1.7)(frame, i, j) - 60.0;
+    };
+    const NoisyScene scene{both, [](double) { return 0.2; }, 400, 240};
+    const DepthImage truth = scene.truth(20);
+    const DepthImage done = filtered(single_frames(scene.frames(41)), 20, kQuiet);
+    const auto wrong =
+        std::count_if(truth.levels.begin(), truth.levels.end(), [&](const float& level) {
+            const auto k = static_cast<std::size_t>(&level - truth.levels.data());
+            return std::fabs(done.levels[k] - level) > 10.0F;
+        });
+    CHECK(wrong < 40);  // of 3900 pixels of the hand
+    CHECK(rms_error(done, truth, 32) < 4.0);
+}
+
+TEST_CASE("a camera's motion is exact where the noise hides what moves", "[temporal]") {
+    const double px = GENERATE(0.4, -1.6, 2.5);
+    CAPTURE(px);
+    const NoisyScene scene{relief(px), [](double) { return 2.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(33));
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    CameraMotion camera;
+    const auto ways = camera.ways(all, 16, {.constant = 2.0F / 255.0F});
+    REQUIRE(ways.size() == all.size());
+    for (const std::size_t k : {6U, 11U, 21U, 26U}) {
+        const double frames_later = static_cast<double>(k) - 16.0;
+        CHECK_THAT(static_cast<double>(ways[k].right) / frames_later, WithinAbs(-px, 0.05));
+        CHECK_THAT(static_cast<double>(ways[k].down) / frames_later, WithinAbs(-0.5 * px, 0.05));
+    }
+}
+
+TEST_CASE("a camera that stands still has no motion", "[temporal]") {
+    const Scene of = GENERATE(Scene(wall), relief(0.0));
+    const NoisyScene scene{of, [](double) { return 1.0; }, 320, 240};
+    const auto frames = single_frames(scene.frames(33));
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    CHECK(CameraMotion{}.ways(all, 16, kNoisy).empty());
+}
+
+TEST_CASE("a hand that passes before a still camera does not move what is behind it",
+          "[temporal]") {
+    const double px = GENERATE(1.0, 3.0);
+    CAPTURE(px);
+    const auto with_hand = [](double px_per_frame) {
+        return [px_per_frame](int frame, int i, int j) {
+            const double level = hand(px_per_frame)(frame, i - 40, j - 60);
+            return level > 100.0 ? level + 40.0 : relief(0.0)(0, i, j) - 60.0;
+        };
+    };
+    const auto done = [&](double px_per_frame) {
+        const NoisyScene scene{with_hand(px_per_frame), [](double) { return 1.0; }, 400, 240};
+        return filtered(single_frames(scene.frames(33)), 16, kNoisy);
+    };
+    const DepthImage passed = done(px);
+    const DepthImage still = done(0.0);
+    for (int j = 176; j < 240; ++j)
+        for (int i = 0; i < 400; ++i) REQUIRE(passed.at(i, j) == still.at(i, j));
+}
+
+TEST_CASE("groups of frames are the same whichever frames are given before them", "[temporal]") {
+    const Scene of = GENERATE(Scene(wall), relief(1.6));
+    const NoisyScene scene{of, [](double) { return 1.0; }};
+    auto frames = single_frames(scene.frames(45));
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        frames[k].number = static_cast<std::int64_t>(k);
+        frames[k].id = k + 1;
+    }
+    const auto part = [&](std::size_t first, std::size_t now) {
+        return std::vector<SingleFrameDepth>(
+            frames.begin() + static_cast<std::ptrdiff_t>(first),
+            frames.begin() + static_cast<std::ptrdiff_t>(now + 17));
+    };
+    const DepthImage alone = filtered(part(8, 25), 17, kNoisy);
+    std::vector<const SingleFrameDepth*> all;
+    for (const SingleFrameDepth& frame : frames) all.push_back(&frame);
+    TemporalFilter played;
+    for (std::size_t now = 16; now < 25; ++now) (void)played.filtered(all, now, kNoisy);
+    CHECK(played.filtered(all, 25, kNoisy).levels == alone.levels);
 }
 
 TEST_CASE("at the ends of a clip less is known, and nothing is made up", "[temporal]") {

@@ -6,6 +6,7 @@
 
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_estimator.hpp"
+#include "core/video/motion/motion_plain.hpp"
 #include "core/video/motion/motion_spread.hpp"
 #include "core/video/motion/object_pool.hpp"
 #include "tests/core/haptics/surfaces.hpp"
@@ -125,6 +126,95 @@ TEST_CASE("a thing moves before a wall that stays", "[motion]") {
     CHECK(thing.quantile(0.9) < 0.9);
     CHECK(std::fabs(thing.along_px) < 0.15);
     CHECK(wall.quantile(0.9) < 0.1);
+}
+
+TEST_CASE("a thing without texture goes as its outline does, in its middle, too", "[motion]") {
+    using Look = MovingScene::Look;
+    const Look look = GENERATE(Look::plain, Look::shaded);
+    const double diameter_px = GENERATE(30.0, 60.0, 120.0);
+    const double speed = GENERATE(60.0, 150.0);
+    const double depth_noise_px = GENERATE(some_of<double>({0.0, 3.0}, 1));
+    CAPTURE(static_cast<int>(look), diameter_px, speed, depth_noise_px);
+    const MovingScene scene({.shape = Shape::disc,
+                             .speed_px_per_s = speed,
+                             .columns = 320,
+                             .rows = 240,
+                             .look = look,
+                             .diameter_px = diameter_px});
+    const std::vector<Frame> frames =
+        test::film(scene, 2, 30.0, {.brightness = 2.0, .elevation_px = depth_noise_px}, false);
+    const MotionField field = motion_of(frames[0], frames[1]);
+    const Errors thing = errors_of(scene, field, 0.0, 1.0 / 30.0, 1);
+    const Errors wall = errors_of(scene, field, 0.0, 1.0 / 30.0, 0);
+    CHECK(thing.quantile(0.5) < 0.2);
+    CHECK(thing.quantile(1.0) < 0.5);
+    CHECK(wall.quantile(0.9) < 0.1);
+}
+
+TEST_CASE("an exposure that changes is no motion, and hides none", "[motion]") {
+    const Shape shape = GENERATE(some_of<Shape>({Shape::hand, Shape::plane}, 1));
+    const double speed = GENERATE(0.0, 100.0);
+    CAPTURE(static_cast<int>(shape), speed);
+    const MovingScene scene = scene_of(shape, Goes::along, speed);
+    const std::vector<Frame> frames =
+        test::film(scene, 2, 30.0, {.brightness = 2.0, .exposure = 0.25}, false);
+    const Errors thing = errors_of(scene, motion_of(frames[0], frames[1]), 0.0, 1.0 / 30.0, 1);
+    CHECK(thing.quantile(0.5) < 0.2);
+    CHECK(thing.quantile(0.9) < (speed > 0.0 ? 0.5 : 1e-6));
+}
+
+TEST_CASE("plain parts take the ways of outlines of their own surface, none across a cliff",
+          "[motion]") {
+    constexpr int kColumns = 20;
+    constexpr int kRows = 12;
+    constexpr int kCliff = 13;  // the column from which on it is far
+    constexpr MotionField::Way kWay{3.0F, -2.0F};
+    MotionCells cells{.columns = kColumns, .rows = kRows};
+    cells.threshold.resize(kColumns, kRows);
+    cells.lowest.resize(kColumns, kRows);
+    cells.highest.resize(kColumns, kRows);
+    cells.highest.fill(MotionCells::kNoPart);
+    MotionSums structure, sums;
+    MotionLayers changed;
+    MotionWays ways;
+    for (MotionSums* each : {&structure, &sums}) {
+        each->resize(kColumns, kRows);
+        each->fill(0.0F);
+    }
+    changed.resize(kColumns, kRows);
+    changed.fill(1.0F);
+    ways.resize(kColumns, kRows);
+    ways.fill(0.0F);
+    structure[MotionSum::n].fill(100.0F);
+    sums[MotionSum::n].fill(64.0F);
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i) {
+            const bool near = i < kCliff;
+            cells.lowest.of[0].row(j)[i] = cells.highest.of[0].row(j)[i] = near ? 200.0F : 100.0F;
+            // Each side of the near surface knows one direction.
+            const bool upright = i == 0;
+            const bool level = j == 0 && near;
+            const float slope = 64.0F * 100.0F;
+            if (upright) {
+                sums[MotionSum::xx].of[0].row(j)[i] = slope;
+                sums[MotionSum::xr].of[0].row(j)[i] = -slope * kWay.right;
+            } else if (level) {
+                sums[MotionSum::yy].of[0].row(j)[i] = slope;
+                sums[MotionSum::yr].of[0].row(j)[i] = -slope * kWay.down;
+            }
+        }
+    PlainParts plain;
+    plain.find(cells, changed, structure, 8);
+    REQUIRE(plain.parts().size() == kColumns * kRows);
+    CHECK(plain.groups() == 2);
+    plain.settle(sums, changed, changed, ways, 1.0F);
+    plain.take(100.0F, 100.0F, ways);
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i) {
+            const MotionField::Way there = i < kCliff ? kWay : MotionField::Way{};
+            REQUIRE_THAT(ways.right.of[0].row(j)[i], WithinAbs(there.right, 0.05));
+            REQUIRE_THAT(ways.down.of[0].row(j)[i], WithinAbs(there.down, 0.05));
+        }
 }
 
 TEST_CASE("the colour of a video is as good a guide", "[motion]") {

@@ -1,5 +1,5 @@
 // Remembers the last levels, and decides which of them fill holes.
-#include "core/video/cleaning/depth_memory.hpp"
+#include "core/video/cleaning/holes/depth_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,8 +21,8 @@ constexpr double kMostly = 0.9;  ///< least share of a patch that has held level
 // Measured on sensors' recordings, by the next level of such pixels: with a similar level within
 // 3 px the held level comes back more often; else the background comes 2 to 10 times as often.
 constexpr int kLike_px = 3;
-constexpr int kSquare_px = 4;  ///< the levels around are found by squares,
-constexpr int kSquares = 2;    ///< this many to each side: 8 to 11 px
+constexpr int kSideOfSquare_px = 4;  ///< the levels around are found by squares,
+constexpr int kSquares = 2;          ///< this many to each side: 8 to 11 px
 
 bool is_like(float a, float b, float outline) {
     return std::fabs(a - b) <= outline;
@@ -45,14 +45,14 @@ DIBHR_VECTOR_CLONES void lower(float* __restrict levels, const float* other, std
 
 DIBHR_VECTOR_CLONES void lowest_of_squares(const float* row, float* __restrict lowest,
                                            std::size_t squares) {
-    static_assert(kSquare_px == 4);
+    static_assert(kSideOfSquare_px == 4);
     for (std::size_t i = 0; i < squares; ++i)
         lowest[i] = std::min(std::min(row[4 * i], row[4 * i + 1]),
                              std::min(row[4 * i + 2], row[4 * i + 3]));
 }
 
 int squares_in(int pixels) {
-    return (pixels + kSquare_px - 1) / kSquare_px;
+    return (pixels + kSideOfSquare_px - 1) / kSideOfSquare_px;
 }
 
 }  // namespace
@@ -104,9 +104,9 @@ void HeldFiller::fill(DepthImage& image, std::span<const HeldLevel> held) {
         const auto [index, level] = held[k];
         const auto i = static_cast<int>(index % static_cast<std::uint32_t>(image.columns));
         const auto j = static_cast<int>(index / static_cast<std::uint32_t>(image.columns));
-        const float behind = farthest_[static_cast<std::size_t>(j / kSquare_px) *
+        const float behind = farthest_[static_cast<std::size_t>(j / kSideOfSquare_px) *
                                            static_cast<std::size_t>(squares_in(image.columns)) +
-                                       static_cast<std::size_t>(i / kSquare_px)];
+                                       static_cast<std::size_t>(i / kSideOfSquare_px)];
         const bool holds = behind == kInfinity ? was_seen(k)
                                                : is_like(level, behind, outline) ||
                                                      has_similar_near(image, i, j, level, outline);
@@ -122,8 +122,9 @@ void HeldFiller::find_farthest(const DepthImage& image) {
     const auto width = static_cast<std::size_t>(columns);
     lowest_.resize(width * static_cast<std::size_t>(rows));
     for (int j = 0; j < rows; ++j) {
-        in_row_.assign(width * kSquare_px, kInfinity);
-        for (int y = j * kSquare_px; y < std::min((j + 1) * kSquare_px, image.rows); ++y)
+        in_row_.assign(width * kSideOfSquare_px, kInfinity);
+        for (int y = j * kSideOfSquare_px; y < std::min((j + 1) * kSideOfSquare_px, image.rows);
+             ++y)
             lower(in_row_.data(), image.levels.data() + image.index(0, y),
                   static_cast<std::size_t>(image.columns));
         lowest_of_squares(in_row_.data(), lowest_.data() + width * static_cast<std::size_t>(j),

@@ -1,5 +1,5 @@
 // Near data the lowest level there; farther away the background, from a pyramid of levels.
-#include "core/video/cleaning/large_holes.hpp"
+#include "core/video/cleaning/holes/large_holes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "core/video/cleaning/holes/small_holes.hpp"
 #include "core/video/cleaning/patches.hpp"
-#include "core/video/cleaning/small_holes.hpp"
 #include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {

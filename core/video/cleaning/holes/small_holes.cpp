@@ -1,5 +1,5 @@
 // Finds the nearest levels on all four sides of each pixel of a hole.
-#include "core/video/cleaning/small_holes.hpp"
+#include "core/video/cleaning/holes/small_holes.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
-#include "core/video/cleaning/level_pyramid.hpp"
+#include "core/video/cleaning/holes/level_pyramid.hpp"
 
 namespace dibhr {
 

@@ -1,5 +1,5 @@
 // Means of the farther levels of squares, and interpolation from their centres back to pixels.
-#include "core/video/cleaning/level_pyramid.hpp"
+#include "core/video/cleaning/holes/level_pyramid.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,39 @@
+// Takes the teeth off outlines: where near meets far, a pixel on the other side than those around.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "core/haptics/depth_image.hpp"
+
+namespace dibhr {
+
+/// Noise and each pixel's own decision leave outlines ragged. A pixel beside a step changes sides
+/// where most around it are on the other one, and takes the level of its neighbours there. Then
+/// each tooth that is left changes sides where that leaves fewer. Unchanged: ramps, and straight
+/// lines of pixels, but for three at their ends. The same input gives the same bits. Scratch memory
+/// is kept inside.
+class OutlineSmoother {
+  public:
+    /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. While there are
+    /// more, lines one pixel wide are shortened, too, at most 64 times.
+    void smooth(DepthImage& image, std::size_t recorded_teeth);
+
+  private:
+    void find_steps(const DepthImage& image, float step);
+    void turn_sides(DepthImage& image);
+    void find_teeth(const DepthImage& image, float step);
+    void take_teeth(DepthImage& image, float step, std::size_t as_many);
+
+    std::vector<std::uint32_t> pixels_{};  ///< beside a step; later teeth
+    std::vector<std::pair<std::uint32_t, float>> turned_{};
+    std::size_t teeth_{0};  ///< that are left
+};
+
+/// The teeth of a picture: pixels of an outline, which is a step of more than 5 % of the range,
+/// that differ in side from both neighbours along it. Pixels without data (NaN) are on no side.
+[[nodiscard]] std::size_t teeth_of(const DepthImage& image);
+
+}  // namespace dibhr
