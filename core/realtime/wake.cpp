@@ -21,19 +21,19 @@ Wake::Wake() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
 }
 
 Wake::~Wake() {
-    close(descriptor_);
+    ::close(descriptor_);
 }
 
 void Wake::signal() const noexcept {
     const std::uint64_t one = 1;
     // Fails only when the counter is full: then the descriptor is readable anyway.
-    [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
+    [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
 }
 
 void Wake::clear() const noexcept {
     std::uint64_t signals = 0;
     // Fails only when there was no signal.
-    [[maybe_unused]] const auto got = read(descriptor_, &signals, sizeof signals);
+    [[maybe_unused]] const auto got = ::read(descriptor_, &signals, sizeof signals);
 }
 
 }  // namespace dibhr
