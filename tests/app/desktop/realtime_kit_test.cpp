@@ -37,7 +37,7 @@ constexpr std::int64_t kMostRunning_us = 200'000;
 constexpr int kHighest = 20;
 constexpr const char* kLimits = "/shared/limits.conf";
 
-struct Asked {
+struct RealtimeAsked {
     int times{0};
     pid_t thread{0};
     std::uint32_t priority{0};
@@ -69,7 +69,7 @@ class RealtimeKitStandIn {
     RealtimeKitStandIn(const RealtimeKitStandIn&) = delete;
     RealtimeKitStandIn& operator=(const RealtimeKitStandIn&) = delete;
 
-    [[nodiscard]] Asked asked() const {
+    [[nodiscard]] RealtimeAsked asked() const {
         const std::lock_guard lock(mutex_);
         return asked_;
     }
@@ -118,7 +118,7 @@ class RealtimeKitStandIn {
     Manner manner_;
     std::unique_ptr<sd_bus, sd_bus* (*)(sd_bus*)> bus_;
     mutable std::mutex mutex_{};
-    Asked asked_{};
+    RealtimeAsked asked_{};
     std::jthread thread_{};
 };
 
@@ -166,7 +166,7 @@ TEST_CASE("RealtimeKit makes a thread a real-time one, within the running time t
     const EnvironmentVariable address("DBUS_SYSTEM_BUS_ADDRESS", bus.address().c_str());
     std::thread([&kit] {
         const Grant grant = ask_realtime_kit(gettid(), kLimits, {}, 1h);
-        const Asked asked = kit.asked();
+        const RealtimeAsked asked = kit.asked();
         CHECK(asked.thread == gettid());
         CHECK(asked.priority == kHighest);
         CHECK(asked.running_time.rlim_max == kMostRunning_us);
