@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -37,14 +38,42 @@ double relief_mm(std::size_t panel, double x_px) {
     return ridges.amplitude_mm * std::sin(2.0 * std::numbers::pi * x_px / ridges.period_px);
 }
 
+/// What is above the first one and below the last one is a part of it.
 std::size_t panel_at(double y_px) {
-    return static_cast<std::size_t>(y_px + 0.5) / static_cast<std::size_t>(kPanelRows);
+    return static_cast<std::size_t>(std::clamp(y_px + 0.5, 0.0, kRows - 0.5)) /
+           static_cast<std::size_t>(kPanelRows);
+}
+
+/// On the plane [px at 1 m], as a place in the picture shows it.
+struct Place {
+    double x, y;
+    double nearer_mm;  ///< than 1 m
+};
+
+Place place_at(const CameraPath& path, double frame, double x, double y) {
+    const double nearer_mm = path.nearer_mm * (frame - kAtOneMetre);
+    if (path.roll == 0.0 && path.nearer_mm == 0.0) return {x + path.right_px * frame, y, 0.0};
+    const double right = x - 0.5 * kColumns;
+    const double down = y - 0.5 * kRows;
+    const double far = 1.0 - nearer_mm / kPlane_mm;
+    const double across = far * std::cos(path.roll * frame);
+    const double along = far * std::sin(path.roll * frame);
+    return {0.5 * kColumns + across * right - along * down + path.right_px * frame,
+            0.5 * kRows + along * right + across * down, nearer_mm};
 }
 
 /// Towards the camera, from the plane.
-double measured_mm(const DepthImage& depth, int i, int j, double x_px) {
+double measured_mm(const DepthImage& depth, int i, int j, const Place& place) {
     const auto level = static_cast<double>(depth.at(i, j));
-    return plane_mm(x_px) - distance_mm(level * kRelief_px / depth.highest_level);
+    return plane_mm(place.x) - place.nearer_mm -
+           distance_mm(level * kRelief_px / depth.highest_level);
+}
+
+/// Whether all that is in reach is of one panel.
+bool is_inside(double y_px) {
+    const double in_panel = y_px - kPanelRows * std::floor(y_px / kPanelRows);
+    return y_px >= 0.0 && y_px < kRows && in_panel >= kPanelMargin_px &&
+           in_panel < kPanelRows - kPanelMargin_px;
 }
 
 int first_row(std::size_t panel) {
@@ -65,17 +94,19 @@ DepthImage flat_panel(const DepthImage& depth) {
 
 }  // namespace
 
-KnownScene detail_scene(double px_per_frame) {
+KnownScene detail_scene(const CameraPath& path) {
     KnownScene scene{.name = "detail", .columns = kColumns, .rows = kRows};
-    scene.moves = px_per_frame != 0.0;
-    scene.at = [px_per_frame](double frame, double x, double y) {
-        const double x_px = x + px_per_frame * frame;
-        return Seen{elevation_px(plane_mm(x_px) - relief_mm(panel_at(y), x_px)), 0};
+    scene.moves = path.moves();
+    scene.at = [path](double frame, double x, double y) {
+        const Place place = place_at(path, frame, x, y);
+        return Seen{elevation_px(plane_mm(place.x) - place.nearer_mm -
+                                 relief_mm(panel_at(place.y), place.x)),
+                    0};
     };
     return scene;
 }
 
-std::vector<ColourImage> detail_colours(double px_per_frame, int frames, std::uint32_t seed) {
+std::vector<ColourImage> detail_colours(const CameraPath& path, int frames, std::uint32_t seed) {
     constexpr double kMean = 128.0, kNoise = 2.0;
     constexpr int kTexture = 3;
     std::mt19937 random(seed);
@@ -85,8 +116,9 @@ std::vector<ColourImage> detail_colours(double px_per_frame, int frames, std::ui
         ColourImage& colour = colours.emplace_back(ColourImage{kColumns, kRows, {}});
         for (int j = 0; j < kRows; ++j)
             for (int i = 0; i < kColumns; ++i) {
+                const Place place = place_at(path, k, i, j);
                 const double bright =
-                    kMean + test::texture(i + px_per_frame * k, j, kTexture) + normal(random);
+                    kMean + test::texture(place.x, place.y, kTexture) + normal(random);
                 const auto grey = static_cast<std::uint8_t>(std::clamp(bright, 0.0, 255.0));
                 colour.rgb.insert(colour.rgb.end(), 3, grey);
             }
@@ -107,31 +139,33 @@ double DetailMeter::Share::share() const {
 }
 
 void DetailMeter::add(int frame, const DepthImage& depth, const DepthImage& next) {
-    for (std::size_t panel = 0; panel < kStepPanel; ++panel)
-        for (int j = first_row(panel); j < end_row(panel); ++j)
-            for (int i = kMargin_px; i < kColumns - kMargin_px; ++i) {
-                const double x_px = i + px_per_frame_ * frame;
-                const double measured = measured_mm(depth, i, j, x_px);
-                if (panel == kFlatPanel) {
-                    squares_mm2_ += measured * measured;
-                    pixels_ += 1.0;
-                } else {
-                    ridges_[panel - 1].add(relief_mm(panel, x_px), measured);
-                }
+    for (int j = kPanelMargin_px; j < kRows - kPanelMargin_px; ++j)
+        for (int i = kMargin_px; i < kColumns - kMargin_px; ++i) {
+            const Place place = place_at(path_, frame, i, j);
+            const std::size_t panel = panel_at(place.y);
+            if (!is_inside(place.y) || panel == kStepPanel) continue;
+            const double measured = measured_mm(depth, i, j, place);
+            if (panel == kFlatPanel) {
+                squares_mm2_ += measured * measured;
+                pixels_ += 1.0;
+            } else {
+                ridges_[panel - 1].add(relief_mm(panel, place.x), measured);
             }
+        }
     add_steps(frame, depth);
     flat_.add(flat_panel(depth), flat_panel(next));
 }
 
 /// Of the mean of all rows, between columns.
 void DetailMeter::add_steps(int frame, const DepthImage& depth) {
-    const double gone_px = px_per_frame_ * frame;
+    if (path_.roll != 0.0 || path_.nearer_mm != 0.0) return;
+    const double gone_px = path_.right_px * frame;
     std::vector<double> profile_mm(kColumns, 0.0);
     constexpr int kMeasuredRows = kPanelRows - 2 * kPanelMargin_px;
     for (int j = first_row(kStepPanel); j < end_row(kStepPanel); ++j)
         for (int i = 0; i < kColumns; ++i)
             profile_mm[static_cast<std::size_t>(i)] +=
-                measured_mm(depth, i, j, i + gone_px) / kMeasuredRows;
+                measured_mm(depth, i, j, {i + gone_px, 0.0, 0.0}) / kMeasuredRows;
     const auto height_mm = [&](double i) {
         const auto left = static_cast<std::size_t>(i);
         return std::lerp(profile_mm[left], profile_mm[left + 1], i - std::floor(i));
@@ -150,7 +184,8 @@ void DetailMeter::add_steps(int frame, const DepthImage& depth) {
 Detail DetailMeter::detail() const {
     Detail detail;
     for (std::size_t k = 0; k < kRidges.size(); ++k) detail.ridges[k] = ridges_[k].share();
-    detail.step = rise_mm_ / rises_ / kStep_mm;
+    detail.step =
+        rises_ > 0.0 ? rise_mm_ / rises_ / kStep_mm : std::numeric_limits<double>::quiet_NaN();
     detail.noise_mm = std::sqrt(squares_mm2_ / pixels_);
     detail.flat = flat_.blemishes();
     return detail;

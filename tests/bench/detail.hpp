@@ -24,25 +24,37 @@ inline constexpr std::array kRidges{Ridges{2.0, 12.0}, Ridges{2.0, 6.0}, Ridges{
                                     Ridges{1.0, 6.0}};
 inline constexpr double kStep_mm = 3.0;
 
-/// The plane, tilted by 5 %, with panels one below the other: flat, the ridges, and steps. The
-/// camera moves to the right by so many pixels a frame; 0: it stands still.
-[[nodiscard]] KnownScene detail_scene(double px_per_frame);
+/// How the camera moves, a frame. By default it stands still.
+struct CameraPath {
+    double right_px{0.0};
+    double roll{0.0};       ///< around the picture's middle [rad]
+    double nearer_mm{0.0};  ///< so that it is 1 m away in frame kAtOneMetre
+
+    [[nodiscard]] bool moves() const noexcept {
+        return right_px != 0.0 || roll != 0.0 || nearer_mm != 0.0;
+    }
+};
+inline constexpr double kAtOneMetre = 30.0;
+
+/// The plane, tilted by 5 %, with panels one below the other: flat, the ridges, and steps.
+[[nodiscard]] KnownScene detail_scene(const CameraPath& path);
 
 /// Its colour, a picture a frame: a texture with noise of 2 levels.
-[[nodiscard]] std::vector<ColourImage> detail_colours(double px_per_frame, int frames,
+[[nodiscard]] std::vector<ColourImage> detail_colours(const CameraPath& path, int frames,
                                                       std::uint32_t seed);
 
 struct Detail {
     std::array<double, kRidges.size()> ridges{};  ///< share of the amplitude that is kept [1]
-    double step{0.0};                             ///< share of its height that is within 4 px [1]
-    double noise_mm{0.0};                         ///< RMS on the flat panel
-    Blemishes flat{};                             ///< there
+    /// Share of its height that is within 4 px [1]; NaN before a camera that rolls or comes nearer.
+    double step{0.0};
+    double noise_mm{0.0};  ///< RMS on the flat panel
+    Blemishes flat{};      ///< there
 };
 
 /// Measures frames of a detail_scene(), of any highest level: no NaN.
 class DetailMeter {
   public:
-    explicit DetailMeter(double px_per_frame) : px_per_frame_(px_per_frame) {}
+    explicit DetailMeter(const CameraPath& path) : path_(path) {}
 
     /// That frame of the scene; `next` follows it.
     void add(int frame, const DepthImage& depth, const DepthImage& next);
@@ -59,7 +71,7 @@ class DetailMeter {
 
     void add_steps(int frame, const DepthImage& depth);
 
-    double px_per_frame_;
+    CameraPath path_;
     std::array<Share, kRidges.size()> ridges_{};
     double rise_mm_{0.0}, rises_{0.0};
     double squares_mm2_{0.0}, pixels_{0.0};

@@ -194,6 +194,8 @@ class Toucher {
                   .frames = survey_.frames(),
                   .seconds = survey_.seconds()};
         for (std::size_t k = 0; k < kWays.size(); ++k) feel.of[k] = sums_[k].numbers();
+        feel.slide_smooth = smooth_.numbers();
+        feel.slide_cliffs = cliffs_.numbers();
         return feel;
     }
 
@@ -223,6 +225,16 @@ class Toucher {
         const auto reversals =
             reversal_updates(felt.goals, felt.depths_px, parameters_.friction.dynamic_coefficient);
         sums_of(Way::slide).add(felt, reversals, {});
+        smooth_.add(felt, and_where(felt.near_cliff, 1, reversals), {});
+        cliffs_.add(felt, and_where(felt.near_cliff, 0, reversals), {});
+    }
+
+    /// `left_out`, and the milliseconds whose mark is `value`.
+    [[nodiscard]] static std::vector<char> and_where(const std::vector<char>& marks, char value,
+                                                     std::vector<char> left_out) {
+        for (std::size_t k = 0; k < marks.size(); ++k)
+            if (marks[k] == value) left_out[k] = 1;
+        return left_out;
     }
 
     /// The left end of one to the right with data on half of its pixels that is nowhere too steep.
@@ -274,6 +286,7 @@ class Toucher {
     TouchParameters parameters_;
     std::mt19937 random_;
     std::array<FeelSums, kWays.size()> sums_{};
+    FeelSums smooth_{}, cliffs_{};
     BlemishMeter blemishes_{};
 };
 

@@ -46,6 +46,9 @@ inline constexpr std::array kWays{Way::rest_quiet, Way::rest_anywhere, Way::slid
 
 struct Feel {
     std::array<FeelNumbers, kWays.size()> of{};
+    /// The milliseconds of slides in which no cliff is near (is_near_cliff), and the others.
+    FeelNumbers slide_smooth{};
+    FeelNumbers slide_cliffs{};
     Blemishes blemishes{};  ///< of some of the cleaned frames
     int columns{0};
     int rows{0};

@@ -34,26 +34,36 @@ std::string short_name(const std::filesystem::path& place) {
 }
 
 void print_head() {
-    std::printf("%-43s %-13s %9s %9s %9s %7s %8s %8s |", "recording", "way", "buzz N", "p99 N/ms",
-                "p99.9", "stuck", "contact", "of s");
+    std::printf("%-43s %-13s %9s %9s %9s %7s %8s %8s %8s |", "recording", "way", "buzz N",
+                "p99 N/ms", "p99.9", "stuck", "contact", "no holes", "of s");
     for (const Cause cause : kCauses) std::printf(" %12s", name_of(cause));
-    std::printf("  [%% of the time lost to it]\n");
+    std::printf("  [%% of the time lost to it; no holes: contact, holes aside]\n");
 }
 
-void print_way(const std::string& name, Way way, const FeelNumbers& feel) {
-    std::printf("%-43s %-13s %9.4f %9.4f %9.4f", name.c_str(), name_of(way), feel.buzz_newton,
-                feel.step_p99, feel.step_p999);
-    const bool slides = way == Way::slide;
+void print_way(const std::string& name, const char* way, bool slides, const FeelNumbers& feel) {
+    std::printf("%-43s %-13s %9.4f %9.4f %9.4f", name.c_str(), way, feel.buzz_newton, feel.step_p99,
+                feel.step_p999);
     if (slides)
         std::printf(" %6.1f%%", 100.0 * feel.stuck);
     else
         std::printf(" %7s", "");
-    std::printf(" %7.2f%% %8.1f |", 100.0 * feel.contact, feel.seconds);
+    std::printf(" %7.2f%%", 100.0 * feel.contact);
+    if (slides)
+        std::printf(" %8s", "");
+    else
+        std::printf(" %7.2f%%", 100.0 * contact_beside_holes(feel));
+    std::printf(" %8.1f |", feel.seconds);
     for (const Cause cause : kCauses)
         if (!slides && feel.seconds > 0.0)
             std::printf(" %12.2f", 100.0 * seconds(feel.lost[cause]) / feel.seconds);
     std::printf("\n");
     std::fflush(stdout);
+}
+
+void print_feel(const std::string& name, const Feel& feel) {
+    for (const Way way : kWays) print_way(name, name_of(way), way == Way::slide, feel[way]);
+    print_way(name, "slide-smooth", true, feel.slide_smooth);
+    print_way(name, "slide-cliffs", true, feel.slide_cliffs);
 }
 
 void print_blemishes(const Blemishes& found) {
@@ -63,16 +73,17 @@ void print_blemishes(const Blemishes& found) {
         found.teeth, found.pimples, found.pimples_again, 100.0 * found.flat);
 }
 
-Json json_of(Way way, const FeelNumbers& feel) {
+Json json_of(bool slides, const FeelNumbers& feel) {
     Json json{{"seconds", feel.seconds},
               {"buzz_newton", feel.buzz_newton},
               {"step_p99_newton_per_ms", feel.step_p99},
               {"step_p999_newton_per_ms", feel.step_p999},
               {"contact", feel.contact}};
-    if (way == Way::slide) {
+    if (slides) {
         json["stuck"] = feel.stuck;
         return json;
     }
+    json["contact_beside_holes"] = contact_beside_holes(feel);
     for (const Cause cause : kCauses) json["lost_ms"][name_of(cause)] = feel.lost[cause];
     return json;
 }
@@ -80,7 +91,9 @@ Json json_of(Way way, const FeelNumbers& feel) {
 Json json_of(const std::string& place, const Feel& feel) {
     Json json{{"recording", place}, {"cleaning", feel.cleaning}, {"columns", feel.columns},
               {"rows", feel.rows},  {"frames", feel.frames},     {"seconds", feel.seconds}};
-    for (const Way way : kWays) json[name_of(way)] = json_of(way, feel[way]);
+    for (const Way way : kWays) json[name_of(way)] = json_of(way == Way::slide, feel[way]);
+    json["slide-smooth"] = json_of(true, feel.slide_smooth);
+    json["slide-cliffs"] = json_of(true, feel.slide_cliffs);
     json["blemishes"] = {{"teeth_per_100000_px", feel.blemishes.teeth},
                          {"pimples_per_1000_px", feel.blemishes.pimples},
                          {"pimples_again_per_1000_px", feel.blemishes.pimples_again},
@@ -94,7 +107,7 @@ bool measure(const std::string& place, const std::string& cleaning, FeelOptions 
     options.cleaning.preset = named<CleaningPreset>(cleaning).value();
     try {
         const Feel feel = feel_of(open_media(place, {}, {.find_out = true}), options);
-        for (const Way way : kWays) print_way(short_name(place) + " " + cleaning, way, feel[way]);
+        print_feel(short_name(place) + " " + cleaning, feel);
         print_blemishes(feel.blemishes);
         std::printf("  %s\n", feel.cleaning.c_str());
         json.push_back(json_of(place, feel));

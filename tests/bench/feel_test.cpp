@@ -155,6 +155,50 @@ TEST_CASE("a finger that slides sticks where the surface is rough", "[feel][long
     CHECK(rough[Way::slide].step_p99 > 0.05);
 }
 
+TEST_CASE("slides on smooth ground and near cliffs are told apart, and add up", "[feel][long]") {
+    // A wall one pixel thin that stands up after a while, on ground that is smooth beside it.
+    const Feel walled =
+        feel([](int frame, int i, int) { return frame > 45 && i == kColumns / 2 ? 140.0 : 100.0; },
+             kRaw);
+    const Feel plane = feel([](int, int, int) { return 100.0; }, kRaw);
+    CHECK(plane.slide_cliffs.seconds == 0.0);
+    CHECK(plane.slide_smooth.seconds == plane[Way::slide].seconds);
+    CHECK(walled.slide_cliffs.seconds > 0.0);
+    CHECK(walled.slide_smooth.stuck == 0.0);
+    CHECK(walled.slide_cliffs.stuck > 0.0);
+    CHECK(walled.slide_smooth.buzz_newton < walled[Way::slide].buzz_newton);
+    CHECK(walled.slide_smooth.step_p99 < walled.slide_cliffs.step_p99);
+    CHECK_THAT(walled.slide_smooth.seconds + walled.slide_cliffs.seconds,
+               WithinAbs(walled[Way::slide].seconds, 1e-9));
+}
+
+TEST_CASE("a cliff is a slope above 3 within 6 px", "[feel]") {
+    const auto near = [](double slope, Vec2 place) {
+        const DepthImage ramp = image_of(kColumns, kRows, kHighest, [&](int i, int) {
+            return i <= 60 ? 100.0 : 100.0 + slope;  // of one cell, in columns 60 to 61
+        });
+        return is_near_cliff(DepthSurface(ramp, ramp, 0.0, {.relief_px = kHighest}), place);
+    };
+    CHECK(near(3.1, Vec2(60.5, 20.5)));
+    CHECK_FALSE(near(2.9, Vec2(60.5, 20.5)));
+    CHECK(near(3.1, Vec2(54.6, 20.5)));
+    CHECK_FALSE(near(3.1, Vec2(54.4, 20.5)));
+    CHECK(near(3.1, Vec2(66.4, 20.5)));
+    CHECK_FALSE(near(3.1, Vec2(66.6, 20.5)));
+    CHECK_FALSE(near(3.1, Vec2(0.0, 0.0)));  // at the picture's rim
+    CHECK_FALSE(near(3.1, Vec2(kColumns - 1, kRows - 1)));
+}
+
+TEST_CASE("contact beside holes leaves out the time without data", "[feel][long]") {
+    const Feel holed =
+        feel([](int frame, int i, int j) { return chosen(i, j, frame, 20) ? kNone : 150.0; }, kRaw);
+    CHECK(holed[Way::rest_anywhere].contact < 1.0);
+    CHECK_THAT(contact_beside_holes(holed[Way::rest_anywhere]), WithinAbs(1.0, 1e-3));
+    const Feel dropping = feel([](int frame, int, int) { return frame < 50 ? 150.0 : 50.0; });
+    CHECK(contact_beside_holes(dropping[Way::rest_anywhere]) ==
+          dropping[Way::rest_anywhere].contact);
+}
+
 TEST_CASE("the quieter half changes less than anywhere", "[feel][long]") {
     const Feel half = feel(
         [](int frame, int i, int) { return i < kColumns / 2 ? 100.0 : 100.0 + 30.0 * (frame % 2); },

@@ -19,6 +19,8 @@ using test::kFingerTick_s;
 
 constexpr double kBandFrom_hz = 30.0;  // to 500 Hz, which is all there is at 1 kHz
 constexpr double kStandsStill_px = 1e-3;
+constexpr double kCliffSlope = 3.0;
+constexpr double kNearCliff_px = 6.0;
 
 /// The part of a force above kBandFrom_hz: a second-order Butterworth high-pass by the bilinear
 /// transform. It begins as if the first value had always been there.
@@ -51,7 +53,32 @@ bool stands_still(Vec3 before, Vec3 now) {
     return glm::length(Vec2(now.x - before.x, now.y - before.y)) < kStandsStill_px;
 }
 
+/// Of the steeper triangle of cell (i, j).
+double slope_of_cell(const DepthSurface& surface, int i, int j) {
+    const double here = surface.elevation(i, j);
+    const double right = surface.elevation(i + 1, j);
+    const double below = surface.elevation(i, j + 1);
+    const double across = surface.elevation(i + 1, j + 1);
+    return std::max(std::hypot(right - here, below - here),
+                    std::hypot(across - below, across - right));
+}
+
 }  // namespace
+
+bool is_near_cliff(const DepthSurface& surface, Vec2 place) {
+    const auto first = [](double at) {
+        return std::max(0, static_cast<int>(std::floor(at - kNearCliff_px)));
+    };
+    const auto last = [](double at, int vertices) {
+        return std::min(vertices - 2, static_cast<int>(std::ceil(at + kNearCliff_px)));
+    };
+    for (int j = first(place.y); j <= last(place.y, surface.rows()); ++j)
+        for (int i = first(place.x); i <= last(place.x, surface.columns()); ++i)
+            if (std::hypot(i + 0.5 - place.x, j + 0.5 - place.y) <= kNearCliff_px &&
+                slope_of_cell(surface, i, j) > kCliffSlope)
+                return true;
+    return false;
+}
 
 FingerRun press(std::span<const Frame> frames, std::size_t milliseconds, double time_constant_s,
                 const Path& path, const TouchParameters& parameters) {
@@ -75,8 +102,19 @@ FingerRun press(std::span<const Frame> frames, std::size_t milliseconds, double 
             coupling_force(proxy, goal, Vec3(0.0), parameters.coupling));
         finger_run.depths_px.push_back(std::max(elevation_px - goal.z, 0.0));
         finger_run.contact.push_back(proxy.contact ? 1 : 0);
+        const Vec2 over(proxy.position.x, proxy.position.y);
+        finger_run.near_cliff.push_back(is_near_cliff(surface, over) ? 1 : 0);
     }
     return finger_run;
+}
+
+double contact_beside_holes(const FeelNumbers& numbers) {
+    std::size_t milliseconds = 0;
+    for (const Cause cause : {Cause::hole, Cause::unseen, Cause::gone})
+        milliseconds += numbers.lost[cause];
+    const double with_data_s = numbers.seconds - kFingerTick_s * static_cast<double>(milliseconds);
+    if (with_data_s < kFingerTick_s) return 1.0;
+    return std::min(1.0, numbers.contact * numbers.seconds / with_data_s);
 }
 
 void FeelSums::add(const FingerRun& finger_run, std::span<const char> left_out,

@@ -20,7 +20,12 @@ struct FingerRun {
     std::vector<Vec3> forces_newton{};
     std::vector<double> depths_px{};  ///< of the goal below the surface above it; not below 0
     std::vector<char> contact{};
+    std::vector<char> near_cliff{};
 };
+
+/// Whether a triangle of the surface has a slope above 3, of those in cells whose middle is within
+/// 6 px of `place`.
+[[nodiscard]] bool is_near_cliff(const DepthSurface& surface, Vec2 place);
 
 /// Where on the image the finger is, after so many milliseconds.
 using Path = std::function<Vec2(std::size_t)>;
@@ -41,6 +46,10 @@ struct FeelNumbers {
     double seconds{0.0};  ///< that all this is taken over
     LostContact lost{};
 };
+
+/// Share of the time with data under the finger: without what was lost where there was none (hole,
+/// unseen, gone). 1 where there never was any.
+[[nodiscard]] double contact_beside_holes(const FeelNumbers& numbers);
 
 /// Sums the numbers over several fingers.
 class FeelSums {

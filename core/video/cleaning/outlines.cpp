@@ -61,38 +61,60 @@ DIBHR_VECTOR_CLONES void mark_steps(const Rows& rows, float step, int begin, int
     }
 }
 
-/// Sets a mark to 1 where a pixel is a tooth, else 0.
-DIBHR_VECTOR_CLONES void mark_teeth(const Rows& rows, float step, int begin, int end,
-                                    std::uint8_t* __restrict marks) {
+/// More than 0: a pixel is a tooth. The differences are those to its four neighbours.
+inline float tooth(float up, float down, float left, float right, float step) {
+    // In numbers of 0 and 1, which the compiler vectorises.
+    const auto if_so = [](bool so) { return so ? 1.0F : 0.0F; };
+    const auto are_across = [&](float one, float other) {
+        return if_so(one > step) * if_so(other > step) + if_so(one < -step) * if_so(other < -step);
+    };
+    // It hangs together with one side only: a line one pixel wide is none.
+    const auto is_one_alike = [&](float one, float other) {
+        return std::fabs(if_so(std::fabs(one) <= step) - if_so(std::fabs(other) <= step));
+    };
+    return are_across(up, down) * is_one_alike(left, right) +
+           are_across(left, right) * is_one_alike(up, down);
+}
+
+/// Whether any pixel is beyond two opposite neighbours by more than `step`, as a tooth is. A
+/// neighbour without data (NaN) may count as beyond.
+DIBHR_VECTOR_CLONES bool may_have_teeth(const Rows& rows, float step, int begin, int end) {
     const float* const above = rows.above;
     const float* const row = rows.row;
     const float* const below = rows.below;
+    int found = 0;
     for (int i = begin; i < end; ++i) {
         const float up = row[i] - above[i];
         const float down = row[i] - below[i];
         const float left = row[i] - row[i - 1];
         const float right = row[i] - row[i + 1];
-        // In numbers of 0 and 1, which the compiler vectorises.
-        const auto if_so = [](bool so) { return so ? 1.0F : 0.0F; };
-        const auto are_across = [&](float one, float other) {
-            return if_so(one > step) * if_so(other > step) +
-                   if_so(one < -step) * if_so(other < -step);
-        };
-        // It hangs together with one side only: a line one pixel wide is none.
-        const auto is_one_alike = [&](float one, float other) {
-            return std::fabs(if_so(std::fabs(one) <= step) - if_so(std::fabs(other) <= step));
-        };
-        const float teeth = are_across(up, down) * is_one_alike(left, right) +
-                            are_across(left, right) * is_one_alike(up, down);
+        found |= static_cast<int>(std::min(up, down) > step) |
+                 static_cast<int>(std::max(up, down) < -step) |
+                 static_cast<int>(std::min(left, right) > step) |
+                 static_cast<int>(std::max(left, right) < -step);
+    }
+    return found != 0;
+}
+
+/// Sets a mark to 1 where a pixel is a tooth, else 0.
+DIBHR_VECTOR_CLONES void mark_each_tooth(const Rows& rows, float step, int begin, int end,
+                                         std::uint8_t* __restrict marks) {
+    const float* const above = rows.above;
+    const float* const row = rows.row;
+    const float* const below = rows.below;
+    for (int i = begin; i < end; ++i) {
+        const float teeth = tooth(row[i] - above[i], row[i] - below[i], row[i] - row[i - 1],
+                                  row[i] - row[i + 1], step);
         marks[i] = static_cast<std::uint8_t>(teeth > 0.0F ? 1 : 0);
     }
 }
 
-/// The same, quicker: few pixels are beside a step, as a tooth is.
-void mark_few_teeth(const Rows& rows, float step, int begin, int end, std::uint8_t* marks) {
-    mark_steps(rows, step, begin, end, marks);
-    if (std::memchr(marks + begin, 1, static_cast<std::size_t>(end - begin)) != nullptr)
-        mark_teeth(rows, step, begin, end, marks);
+/// The same, quicker: teeth are few.
+void mark_teeth(const Rows& rows, float step, int begin, int end, std::uint8_t* marks) {
+    if (may_have_teeth(rows, step, begin, end))
+        mark_each_tooth(rows, step, begin, end, marks);
+    else
+        std::fill(marks + begin, marks + end, std::uint8_t{0});
 }
 
 /// As the functions above.
@@ -121,13 +143,11 @@ void each_marked(const DepthImage& image, Mark mark, float step, const Visit& vi
     }
 }
 
-/// Whether `mark` marks the pixel, which is not on the border.
-bool is_marked(const DepthImage& image, std::uint32_t pixel, Mark mark, float step) {
-    const int i = static_cast<int>(pixel) % image.columns;
-    const Rows rows = rows_at(image, static_cast<int>(pixel) / image.columns);
-    std::uint8_t marked = 0;
-    mark({rows.above + i, rows.row + i, rows.below + i}, step, 0, 1, &marked);
-    return marked != 0;
+/// Whether the pixel, which is not on the border, is a tooth.
+bool is_tooth_at(const DepthImage& image, std::uint32_t pixel, float step) {
+    const float* const at = image.levels.data() + pixel;
+    return tooth(*at - at[-image.columns], *at - at[image.columns], *at - at[-1], *at - at[1],
+                 step) > 0.0F;
 }
 
 /// A pixel and its four neighbours, without those on the border: visit(pixel).
@@ -230,11 +250,13 @@ void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth) {
     const float step = step_of(image);
     find_steps(image, step);
     turn_sides(image);
-    find_teeth(image, step);
+    keep_teeth(image, step);
+    touched_ = pixels_;
     for (int k = 0; k < kMostPasses && !pixels_.empty(); ++k)
         take_teeth(image, step, k < kSpur_px ? 1 : 0);
     if (teeth_ <= recorded_teeth) return;
-    find_teeth(image, step);
+    pixels_.swap(touched_);
+    keep_teeth(image, step);
     for (int k = 0; k < kMostPasses && !pixels_.empty() && teeth_ > recorded_teeth; ++k)
         take_teeth(image, step, 1);
 }
@@ -244,7 +266,8 @@ void OutlineSmoother::find_steps(const DepthImage& image, float step) {
     each_marked(image, mark_steps, step, [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
 }
 
-/// Moves pixels to the side that most around them have, all at once.
+/// Moves pixels to the side that most around them have, all at once. pixels_ then has those around
+/// the moved ones, too: all that may be teeth.
 void OutlineSmoother::turn_sides(DepthImage& image) {
     const auto is_inside = [](int at, int count) {
         return at >= kReach_px && at < count - kReach_px;
@@ -263,22 +286,24 @@ void OutlineSmoother::turn_sides(DepthImage& image) {
         const float level = sides.level(most > 0.0F);
         if (!std::isnan(level)) turned_.emplace_back(pixel, level);
     }
-    for (const auto& [pixel, level] : turned_) image.levels[pixel] = level;
+    for (const auto& [pixel, level] : turned_) {
+        image.levels[pixel] = level;
+        each_around(image, pixel, [&](std::uint32_t near) { pixels_.push_back(near); });
+    }
 }
 
-void OutlineSmoother::find_teeth(const DepthImage& image, float step) {
-    pixels_.clear();
-    each_marked(image, mark_few_teeth, step,
-                [&](std::uint32_t pixel) { pixels_.push_back(pixel); });
+/// Of pixels_ remain the teeth, in order.
+void OutlineSmoother::keep_teeth(const DepthImage& image, float step) {
+    std::erase_if(pixels_, [&](std::uint32_t pixel) { return !is_tooth_at(image, pixel, step); });
+    std::sort(pixels_.begin(), pixels_.end());
+    pixels_.erase(std::unique(pixels_.begin(), pixels_.end()), pixels_.end());
     teeth_ = pixels_.size();
 }
 
 /// Moves each tooth of pixels_ that leaves fewer, or as many if `as_many` is 1, one after the
 /// other; pixels_ then are the teeth beside those.
 void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_many) {
-    const auto is_tooth = [&](std::uint32_t pixel) {
-        return is_marked(image, pixel, mark_teeth, step);
-    };
+    const auto is_tooth = [&](std::uint32_t pixel) { return is_tooth_at(image, pixel, step); };
     const auto teeth_around = [&](std::uint32_t pixel) {
         std::size_t count = 0;
         each_around(image, pixel, [&](std::uint32_t near) { count += is_tooth(near) ? 1 : 0; });
@@ -310,6 +335,7 @@ void OutlineSmoother::take_teeth(DepthImage& image, float step, std::size_t as_m
         });
     std::sort(pixels_.begin(), pixels_.end());
     pixels_.erase(std::unique(pixels_.begin(), pixels_.end()), pixels_.end());
+    touched_.insert(touched_.end(), pixels_.begin(), pixels_.end());
 }
 
 std::size_t teeth_of(const DepthImage& image) {

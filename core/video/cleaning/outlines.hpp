@@ -24,10 +24,11 @@ class OutlineSmoother {
   private:
     void find_steps(const DepthImage& image, float step);
     void turn_sides(DepthImage& image);
-    void find_teeth(const DepthImage& image, float step);
+    void keep_teeth(const DepthImage& image, float step);
     void take_teeth(DepthImage& image, float step, std::size_t as_many);
 
-    std::vector<std::uint32_t> pixels_{};  ///< beside a step; later teeth
+    std::vector<std::uint32_t> pixels_{};   ///< beside a step; later teeth
+    std::vector<std::uint32_t> touched_{};  ///< all that were teeth, at one time or another
     std::vector<std::pair<std::uint32_t, float>> turned_{};
     std::size_t teeth_{0};  ///< that are left
 };

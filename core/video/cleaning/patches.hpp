@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -28,22 +29,28 @@ void visit_runs(const Value* row, int columns, const IsIn& is_in, const Visit& v
     }
 }
 
+/// The first of the marks [at, count) that is set (not 0), or the first that is 0; else `count`.
+[[nodiscard]] inline int next_mark(const std::uint8_t* marks, int at, int count,
+                                   bool is_set) noexcept {
+    constexpr std::uint64_t kOnes = 0x0101010101010101U;
+    for (; std::endian::native == std::endian::little && at + 8 <= count; at += 8) {
+        std::uint64_t eight = 0;
+        std::memcpy(&eight, marks + at, sizeof eight);
+        // The lowest bit left is of the first byte that is 0: a borrow reaches later bytes only.
+        if (!is_set) eight = (eight - kOnes) & ~eight & (kOnes << 7U);
+        if (eight != 0) return at + std::countr_zero(eight) / 8;
+    }
+    while (at < count && (marks[at] != 0) != is_set) ++at;
+    return at;
+}
+
 /// visit(begin, end) for each run of marks that are not 0.
 template <typename Visit>
 void visit_marked(const std::uint8_t* row, int columns, const Visit& visit) {
-    const auto eight_from = [row](int at) {
-        std::uint64_t eight = 0;
-        std::memcpy(&eight, row + at, sizeof eight);
-        return eight;
-    };
-    int i = 0;
-    while (i < columns) {
-        while (i + 8 <= columns && eight_from(i) == 0) i += 8;
-        while (i < columns && row[i] == 0) ++i;
-        if (i >= columns) return;
-        const int begin = i;
-        while (i < columns && row[i] != 0) ++i;
-        visit(begin, i);
+    for (int begin = next_mark(row, 0, columns, true); begin < columns;) {
+        const int end = next_mark(row, begin, columns, false);
+        visit(begin, end);
+        begin = next_mark(row, end, columns, true);
     }
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/video/cleaning/cleaning_chain.hpp"
+#include "core/video/cleaning/patches.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/sources/media.hpp"
 #include "tests/core/video/pits.hpp"
@@ -358,4 +359,31 @@ TEST_CASE("after a jump nothing is known of what was seen before it", "[holes]")
     CHECK(memory.take(before, 0.0).empty());
     memory.forget();
     CHECK(memory.take(pitted, kFrame_s).empty());
+}
+
+TEST_CASE("runs of marks are those found mark by mark, at any length and value", "[holes]") {
+    std::mt19937 random(11);
+    const auto any_of = [&random](int most) {
+        return std::uniform_int_distribution<int>(0, most)(random);
+    };
+    for (int count = 0; count < 200; ++count) {
+        // Long runs of marks, and of none, of any values.
+        std::vector<std::uint8_t> marks(static_cast<std::size_t>(count));
+        const int change = 1 + any_of(20);
+        int mark = 0;
+        for (std::uint8_t& at : marks) {
+            if (any_of(change) == 0) mark = any_of(1) == 0 ? 0 : 1 + any_of(254);
+            at = static_cast<std::uint8_t>(mark);
+        }
+        std::vector<std::uint8_t> visited(marks.size(), 0);
+        int last = -1;
+        visit_marked(marks.data(), count, [&](int begin, int end) {
+            CHECK(begin > last);
+            CHECK(end > begin);
+            for (int i = begin; i < end; ++i) visited[static_cast<std::size_t>(i)] = 1;
+            last = end;
+        });
+        for (std::size_t i = 0; i < marks.size(); ++i)
+            if ((marks[i] != 0) != (visited[i] != 0)) FAIL("mark " << i << " of " << count);
+    }
 }
