@@ -31,6 +31,10 @@ class PictureChange {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
+    /// Of a video that runs: the hand and the colour of the last picture, while that is young. What
+    /// changes in them alone waits for the next frame, but not for one that comes much later.
+    [[nodiscard]] SceneMark with_drawn_hand(SceneMark scene, Time now) const;
+
     /// Whether the panels are to be laid out for take().
     [[nodiscard]] bool may_differ(const SceneMark& scene, const PanelChanges& panels, Time now);
 
@@ -46,6 +50,7 @@ class PictureChange {
 
   private:
     std::optional<PictureMark> drawn_{};
+    Time drawn_at_{};
     Time laid_out_{};      // when the panels were last
     Time lively_until_{};  // the panels may change by themselves
 };

@@ -1,6 +1,7 @@
 // The viewer's media: opening and showing a video or session, the files saved beside it, and the
 // scene.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "app/touching/scene.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/playing/live_status.hpp"
@@ -489,13 +491,11 @@ SceneContent Viewer::prepare_scene() {
 
 /// Software draws a video that runs once a frame, not more often for a hand that moves meanwhile.
 SceneMark Viewer::mark_scene(SceneContent content, glm::ivec2 viewport) const {
-    if (software_ && video_runs() && shown_.makes_surface()) {
-        content.depth = in_steps(shown_, state_.media.playback.speed);
-        content.colour = nullptr;
-        content.markers = {};
-        content.dent = {};
-    }
-    return scene_mark(content, camera_, viewport);
+    const bool by_frame = software_ && video_runs() && shown_.makes_surface();
+    if (by_frame) content.depth = in_steps(shown_, state_.media.playback.speed);
+    SceneMark mark = scene_mark(content, camera_, viewport);
+    return by_frame ? change_.with_drawn_hand(std::move(mark), std::chrono::steady_clock::now())
+                    : mark;
 }
 
 void Viewer::leave_trace(TouchMarkers& markers) {
