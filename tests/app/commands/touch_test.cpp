@@ -482,9 +482,9 @@ TEST_CASE("more goals than a block holds, from a pipe, give the rows that their 
     write_text(folder / "goals.csv",
                goals_csv(circle_goals({44, 45, 60}, {1, 0, 0}, {0, 1, 0}, 30.0, 0.11, kGoals)));
     for (const std::string goals : {"goals.csv", "/dev/stdin"})
-        run_shell(folder, "(cat goals.csv | '" DIBHR_PROGRAM
+        run_shell(folder, "{ cat goals.csv | '" DIBHR_PROGRAM
                           "' touch --depth depth.png --raw-depth --goals " +
-                              goals + ") | sed 's/,[^,]*$//' > rows_$(basename " + goals + ")");
+                              goals + " | sed 's/,[^,]*$//' > rows_$(basename " + goals + "); }");
     const std::string rows = read_text(folder / "rows_goals.csv");
     CHECK(std::count(rows.begin(), rows.end(), '\n') == kGoals + 2);  // the header, and the first
     CHECK(rows == read_text(folder / "rows_stdin"));

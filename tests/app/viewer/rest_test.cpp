@@ -59,8 +59,8 @@ std::uint64_t pictures_in(const WindowProgram& viewer, std::uint64_t turns) {
 }
 
 /// Until all that was done before has settled.
-void wait_for_rest(const WindowProgram& viewer) {
-    REQUIRE(eventually([&] { return pictures_in(viewer, kTurns) == 0; }, std::chrono::minutes(1)));
+void wait_for_rest(const WindowProgram& viewer, std::uint64_t turns = kTurns) {
+    REQUIRE(eventually([&] { return pictures_in(viewer, turns) == 0; }, std::chrono::minutes(1)));
 }
 
 /// A window at rest that is drawn when `act` is done, and then rests again.
@@ -89,6 +89,8 @@ TEST_CASE("a paused window draws nothing while its loop goes on, until something
     check_drawn_by(film.viewer, "a seek", [&] { film.desk.press("key Right"); });
     CHECK(film.viewer.seen().drawn_frame == 5 * kRate + 1);
 
+    constexpr std::uint64_t kNotice = 110;  // turns at rest: longer than a notice is there
+    wait_for_rest(film.viewer, kNotice);
     const std::string before = film.desk.picture();
     {
         WindowProgram other = film.desk.start(film.folder, {}, {OTHER_WINDOW});
