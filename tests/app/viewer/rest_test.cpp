@@ -2,13 +2,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/falcon_scene.hpp"
-#include "tests/core/video/live/senders.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/eventually.hpp"
 
@@ -126,23 +124,6 @@ TEST_CASE("software draws a video that runs once a frame", "[rest]") {
     constexpr double kSettling = 5.0;  // of what stands over the relief, and at both ends
     CHECK(static_cast<double>(end.picture - begin.picture) < frames + kSettling);
     film.quit();
-}
-
-TEST_CASE("a hand that moves is drawn while a live source sends nothing", "[rest][live]") {
-    const Desk desk;
-    const TemporaryFolder folder;
-    const int port = free_port();
-    PictureSender sender(port, {.level = [](int, int column, int) {
-                             return static_cast<std::uint16_t>(1000 + column);
-                         }});
-    std::filesystem::create_directories(folder / "config/dibhr");
-    write_text(folder / "config/dibhr/settings.toml", "[window]\npanels-visible = false\n");
-    const WindowProgram viewer = desk.start_viewer(
-        folder, {PictureSender::url(port), "--device", "mouse", "--size", "640x480"});
-    viewer.wait_for_surface();
-    sender.stop();
-    wait_for_rest(viewer);
-    check_drawn_by(viewer, "a hand that moves", [&] { desk.press("mousemove 300 240"); });
 }
 
 TEST_CASE(
