@@ -24,6 +24,10 @@ class DeviceOrMouse : public Device {
     [[nodiscard]] const DeviceSpecification& specification() const noexcept override;
     [[nodiscard]] HandReading reading_without_surface() const noexcept override;
     HandReading read(const HandContext& context) noexcept override;
+    /// The mouse is the hand and rests; a device that becomes ready is read in the next tick.
+    [[nodiscard]] bool rests() const noexcept override {
+        return touching_ == kMouse && mouse_.rests();
+    }
     void send(Vec3 force_newton) noexcept override;
 
     [[nodiscard]] const Devices& devices() const noexcept { return devices_; }

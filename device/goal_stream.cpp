@@ -1,45 +1,48 @@
-// A stream of goals from a CSV file, one row per update, repeated: scripted runs, `dibhr touch`.
+// Checks the rows of GOALS.csv.
 #include "device/goal_stream.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
-#include <string>
 #include <string_view>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/files/csv_table.hpp"
 
 namespace dibhr {
 
-std::vector<TimedGoal> read_goals(const std::filesystem::path& file) {
+GoalReader::GoalReader(const std::filesystem::path& file)
+    : file_(file.string()), table_(file, "give a CSV file with the columns t,x,y,z") {
     constexpr std::array<std::string_view, 4> kColumns{"t", "x", "y", "z"};
-    CsvTable table(file, "give a CSV file with the columns t,x,y,z");
-    std::array<std::size_t, kColumns.size()> columns{};
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
-        const auto column = table.find({&kColumns[k], 1});
+        const auto column = table_.find({&kColumns[k], 1});
         if (!column) {
-            table.refuse("column " + std::string(kColumns[k]) +
-                         " is missing; the first line must name the columns t,x,y,z");
+            table_.refuse("column " + std::string(kColumns[k]) +
+                          " is missing; the first line must name the columns t,x,y,z");
         }
-        columns[k] = *column;
+        columns_[k] = *column;
     }
-    std::vector<TimedGoal> goals;
-    while (table.next()) {
-        std::array<double, kColumns.size()> values{};
-        std::transform(columns.begin(), columns.end(), values.begin(),
-                       [&](std::size_t column) { return table.number(column); });
+}
+
+bool GoalReader::next(std::size_t most, std::vector<TimedGoal>& goals) {
+    goals.clear();
+    while (goals.size() < most && table_.next()) {
+        std::array<double, 4> values{};
+        std::transform(columns_.begin(), columns_.end(), values.begin(),
+                       [this](std::size_t column) { return table_.number(column); });
         const auto& [t_s, x, y, z] = values;
-        if (!goals.empty() && t_s < goals.back().t_s) {
-            table.refuse("column t: time falls; sort the rows by time");
-        }
+        if (last_t_s_ && t_s < *last_t_s_)
+            table_.refuse("column t: time falls; sort the rows by time");
+        last_t_s_ = t_s;
         goals.push_back({t_s, {x, y, z}});
     }
-    if (goals.empty()) {
-        throw InputError(file.string() +
-                         ": holds no goals; add at least one row below the header t,x,y,z");
-    }
+    if (!last_t_s_)
+        throw InputError(file_ + ": holds no goals; add at least one row below the header t,x,y,z");
+    return !goals.empty();
+}
+
+std::vector<TimedGoal> read_goals(const std::filesystem::path& file) {
+    std::vector<TimedGoal> goals;
+    GoalReader(file).next(goals.max_size(), goals);
     return goals;
 }
 

@@ -16,6 +16,8 @@ constexpr double kMostWheel_px = 200.0;   // any deeper, the force is at its lim
 constexpr double kReached_px = 5.0;       // pressing begins at this distance to the cursor
 constexpr double kBeyondFrame_px = 40.0;  // how far a pressing hand may leave the image
 constexpr int kLookAhead = 8;             // places checked between a hovering hand and the cursor
+constexpr double kStill_px = 0.01;        // from its anchor, a hand that rests
+constexpr double kStill_px_per_s = 0.1;   // likewise
 
 bool sensible(const MouseTarget& target) noexcept {
     return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
@@ -57,6 +59,8 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     const Vec3 before = position_in_grid_;
     move(anchor, dt_s, context.pixel_pitch_mm);
     if (!pressing_) keep_clear_of_cliffs(context.surface, before);
+    resting_ = !valid_target_.pressed && glm::length(velocity_px_per_s_) < kStill_px_per_s &&
+               glm::distance(position_in_grid_, anchor) < kStill_px;
 
     HandReading reading;
     reading.goal_in_grid = position_in_grid_;

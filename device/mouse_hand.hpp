@@ -44,6 +44,8 @@ class MouseHand final : public Device {
     /// Until the cursor has been over the relief, the hand waits above the middle of the image,
     /// higher than the relief.
     HandReading read(const HandContext& context) noexcept override;
+    /// The button is up, and the hand stands where the cursor points.
+    [[nodiscard]] bool rests() const noexcept override { return resting_; }
     /// A force that is not finite counts as none.
     void send(Vec3 force_newton) noexcept override;
 
@@ -72,6 +74,7 @@ class MouseHand final : public Device {
     double obstacle_px_{-std::numeric_limits<double>::infinity()};
     bool pressing_{false};
     bool placed_{false};
+    bool resting_{false};
 };
 
 }  // namespace dibhr

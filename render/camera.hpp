@@ -62,6 +62,8 @@ class Camera {
     };
     [[nodiscard]] Ray ray_under(glm::dvec2 screen_px, glm::ivec2 viewport) const;
 
+    bool operator==(const Camera&) const = default;
+
   private:
     [[nodiscard]] double radius_px() const;
     [[nodiscard]] double distance_px() const;

@@ -12,12 +12,14 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
 #include "core/video/frames/frame_window.hpp"
+#include "render/object_mark.hpp"
 #include "render/relief_grid.hpp"
 
 namespace dibhr {
@@ -115,22 +117,17 @@ class Offscreen {
     GlRenderbuffer merged_colour_{};
 };
 
-/// Identifies the shared object that a texture was filled from, by its control block, which no
-/// other object gets while this exists. Keeps no object alive: a frame may be tens of megabytes.
+/// Identifies the shared object that a texture was filled from.
 template <typename T>
 class UploadedFrom {
   public:
     [[nodiscard]] bool is(const std::shared_ptr<const T>& object) const noexcept {
-        return filled_ && !object_.owner_before(object) && !object.owner_before(object_);
+        return object_ == ObjectMark(object);
     }
-    void set(const std::shared_ptr<const T>& object) noexcept {
-        object_ = object;
-        filled_ = true;
-    }
+    void set(const std::shared_ptr<const T>& object) noexcept { object_ = ObjectMark(object); }
 
   private:
-    std::weak_ptr<const T> object_{};
-    bool filled_{false};
+    std::optional<ObjectMark> object_{};
 };
 
 /// A texture with one float for each vertex of the grid.

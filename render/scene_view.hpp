@@ -24,12 +24,16 @@ struct ReliefStyle {
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise
     bool dent{true};     ///< a dent with a soft shadow under the proxy; drawn only, not felt
     bool trace{true};    ///< dots at the contacts of the last seconds
+
+    bool operator==(const ReliefStyle&) const = default;
 };
 
 /// A place of an earlier contact, on the current surface. Grid space.
 struct TracePoint {
     Vec3 place{0.0};
     double strength{1.0};  ///< 1: just touched, 0: faded out
+
+    bool operator==(const TracePoint&) const = default;
 };
 
 /// A dent as of a finger in skin: drawn only, not rendered to the hand. Grid space.
@@ -38,12 +42,16 @@ struct Dent {
     double radius_px{0.0};  ///< of the dent; 0: none
     double depth_px{0.0};
     double shadow{0.0};  ///< 0: none, 1: black
+
+    bool operator==(const Dent&) const = default;
 };
 
 /// The proxy of another algorithm for the same goal. Grid space.
 struct OtherProxy {
     Vec3 place{0.0};
     glm::vec3 tint{1.0F};  ///< red, green, blue
+
+    bool operator==(const OtherProxy&) const = default;
 };
 
 /// The state of the touch, for the markers. Grid space.
@@ -63,6 +71,8 @@ struct TouchMarkers {
     std::vector<OtherProxy> others{};
     double finger_px{0.0};                 ///< radius of the ball whose lowest point is `proxy`
     std::optional<Vec3> finger_contact{};  ///< where the ball touches the drawn surface
+
+    bool operator==(const TouchMarkers&) const = default;
 };
 
 /// Everything one picture needs; a view that owns nothing.

@@ -258,6 +258,9 @@ BenchResults measure() {
     std::cerr << " loops..." << std::flush;
     results.loop = measure_loops();
     std::cerr << " done.\n";
+    TimeTaken timed;
+    for (const PathCost& cost : results.updates.paths) timed += cost.timed;
+    print_warning(busy_machine_text(timed));
     return results;
 }
 

@@ -17,6 +17,7 @@ struct PathCost {
     int rows{0};
     double depth_px{0.0};
     std::vector<RunFigures> algorithms{};  ///< in the order of all_algorithms()
+    TimeTaken timed{};
 
     /// Time of a DIBHR update divided by that of a PGA update.
     [[nodiscard]] double dibhr_to_pga() const;

@@ -68,7 +68,7 @@ int check(const std::filesystem::path& record) {
         record,
         {{"program", "dibhr " DIBHR_VERSION},
          {"program_sha256", sha256_of_file("/proc/self/exe")},
-         {"thread_priority", become_realtime("dibhr check").priority.answer}}};
+         {"thread_priority", become_realtime("dibhr check").priority->wait().answer}}};
     Settings settings = load_settings(settings_file);
     const AllDeviceSettings& chosen = settings.devices;
     const std::size_t k = kind_to_check(chosen);

@@ -85,6 +85,9 @@ void run_sweep_command(const ExperimentOptions& options, Outputs& outputs) {
     if (outputs.plots() != nullptr) {
         write_sweep_plot(points, {*outputs.plots(), options.plot_formats});
     }
+    TimeTaken timed;
+    for (const SweepPoint& point : points) timed += point.timed;
+    print_warning(busy_machine_text(timed));
     outputs.write(sweep_table_of(points, clock_us), sweep_json_of(points, range.updates, clock_us));
 }
 
@@ -112,6 +115,9 @@ void run_paths(const ExperimentOptions& options, Outputs& outputs) {
         write_plots(paths, sample ? &sample->colour : nullptr,
                     {*outputs.plots(), options.plot_formats});
     }
+    TimeTaken timed;
+    for (const PathRun& path : paths) timed += path.timed;
+    print_warning(busy_machine_text(timed));
     outputs.write(table_of(paths, clock_us), json_of(paths, clock_us));
 }
 

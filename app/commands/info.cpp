@@ -333,9 +333,20 @@ void print_depth(const MediaDescription& media) {
     print_fact("holes", number_text(100.0 * media.holes_share, 1) + " %");
 }
 
-void describe_pictures(const fs::path& file, const fs::path& other, const InfoOptions& options) {
-    const MediaDescription media = describe_media(file, options.request, other);
+/// Reports a doubt about it.
+MediaDescription described(const fs::path& file, const fs::path& other,
+                           const InfoOptions& options) {
+    MediaDescription media;
+    {
+        const WorkingLine line("Reading " + one_line(file.string()));
+        media = describe_media(file, options.request, other);
+    }
     report_doubt(media, options.must_be_sure);
+    return media;
+}
+
+void describe_pictures(const fs::path& file, const fs::path& other, const InfoOptions& options) {
+    const MediaDescription media = described(file, other, options);
     const bool is_colour = media.colour_columns > 0;
     const bool has_depth = media.depth_columns > 0;
 
@@ -439,8 +450,7 @@ void print_json(const fs::path& file, const fs::path& other, const InfoOptions& 
         std::cout << json_line(json_of_session(file)) << '\n';
         return;
     }
-    const MediaDescription media = describe_media(file, options.request, other);
-    report_doubt(media, options.must_be_sure);
+    const MediaDescription media = described(file, other, options);
     std::cout << json_line(json_of(file, media, options.why)) << '\n';
 }
 

@@ -1,10 +1,15 @@
-// Formats and writes rows; redraws the progress bar in its line.
+// Formats and writes rows; redraws the lines that show progress.
 #include "app/commands/output.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <condition_variable>
+#include <cstdio>
 #include <iostream>
+#include <mutex>
+#include <stop_token>
 #include <system_error>
 #include <utility>
 
@@ -17,7 +22,7 @@ namespace {
 
 constexpr std::size_t kPiece_bytes = std::size_t{1} << 20;
 
-constexpr auto kShowAfter = std::chrono::seconds(1);
+constexpr std::chrono::milliseconds kShowAfter{500};
 constexpr int kWidth = 40;
 
 }  // namespace
@@ -107,6 +112,33 @@ void ProgressBar::show(double share, const std::string& beside) {
     std::cerr << '\r' << title_ << " [" << std::string(full, '#') << std::string(kWidth - full, '.')
               << "] " << percent << " %" << (beside.empty() ? "" : "  ") << beside
               << (beside.empty() ? "" : "\x1b[K") << std::flush;
+}
+
+WorkingLine::WorkingLine(const std::string& title) {
+    if (::isatty(STDERR_FILENO) == 0) return;
+    terminal_ = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 0);
+    thread_ = std::jthread([title, terminal = terminal_](const std::stop_token& stop) {
+        std::mutex mutex;
+        std::condition_variable_any stopped;
+        std::unique_lock lock(mutex);
+        const auto is_over_within = [&](std::chrono::milliseconds time) {
+            stopped.wait_for(lock, stop, time, [] { return false; });
+            return stop.stop_requested();
+        };
+        int seconds = 0;
+        for (auto wait = kShowAfter; !is_over_within(wait); wait = std::chrono::seconds(1)) {
+            ::dprintf(terminal, "\r%s ... %d s", title.c_str(), seconds);
+            ++seconds;
+        }
+        if (seconds > 0) ::dprintf(terminal, "\r\x1b[K");
+    });
+}
+
+WorkingLine::~WorkingLine() {
+    if (terminal_ < 0) return;
+    thread_.request_stop();
+    thread_.join();
+    ::close(terminal_);
 }
 
 }  // namespace dibhr

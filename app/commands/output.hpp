@@ -1,5 +1,5 @@
 // Output of commands: rows of touch updates, one line an update (a contract that scripts depend
-// on), and a progress bar on stderr for work of more than a second.
+// on), and a progress bar on stderr for work of more than half a second.
 #pragma once
 
 #include <chrono>
@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <vector>
 
 #include "core/files/output_file.hpp"
@@ -64,7 +65,7 @@ class RowFile {
     std::string text_{};
 };
 
-/// Drawn only on a terminal, and only after a second; erased by the destructor.
+/// Drawn only on a terminal, and only after half a second; erased by the destructor.
 class ProgressBar {
   public:
     explicit ProgressBar(std::string title);
@@ -81,6 +82,19 @@ class ProgressBar {
     int shown_percent_{-1};
     std::string shown_beside_{};
     bool on_terminal_{false};
+};
+
+/// As ProgressBar, for work whose share is not known: shows its title and the time that it takes.
+class WorkingLine {
+  public:
+    explicit WorkingLine(const std::string& title);
+    ~WorkingLine();
+    WorkingLine(const WorkingLine&) = delete;
+    WorkingLine& operator=(const WorkingLine&) = delete;
+
+  private:
+    int terminal_{-1};  ///< a duplicate: stderr is discarded while some pictures are decoded
+    std::jthread thread_{};
 };
 
 }  // namespace dibhr

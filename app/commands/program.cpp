@@ -12,10 +12,13 @@
 #include <string>
 #include <system_error>
 
+#include "app/desktop/realtime_kit.hpp"
+#include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/terminal.hpp"
+#include "core/realtime/priority_broker.hpp"
 
 namespace dibhr {
 
@@ -61,6 +64,11 @@ int exit_code_of(const Arguments& arguments, const PictureHook& after_picture) {
     }
 }
 
+/// For threads whom the system's limits refuse real-time priority.
+Grant later_priority(pid_t thread, const std::stop_token& stop) {
+    return ask_realtime_kit(thread, shipped_limits_file().string(), stop);
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv, const PictureHook& after_picture) {
@@ -74,6 +82,7 @@ int run_program(int argc, char** argv, const PictureHook& after_picture) {
     std::cout.exceptions(std::ios::badbit);
     // Printing an error must not flush std::cout, which would throw for the failed output.
     std::cerr.tie(nullptr);
+    const PriorityBroker priorities(later_priority);
     const int exit_code = exit_code_of({argv + 1, argv + argc}, after_picture);
     // The failure has been reported; the last flush, at exit, must not throw.
     std::cout.exceptions(std::ios::goodbit);

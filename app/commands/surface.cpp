@@ -39,7 +39,11 @@ struct SurfaceOptions {
 std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters& parameters) {
     DepthRequest request = options.touch.depth_request();
     request.paints = false;
-    auto media = open_media(options.colour, options.depth, request);
+    std::unique_ptr<Media> media;
+    {
+        const WorkingLine line("Opening " + one_line(options.colour.string()));
+        media = open_media(options.colour, options.depth, request);
+    }
     print_warning(media->description().notice);
     report_doubt(media->description(), options.must_be_sure);
     options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
@@ -49,6 +53,7 @@ std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters
 /// The frame shown at `time_s` of the media and the next one, if any. The last frame is shown until
 /// the media ends; InputError for a later time.
 std::vector<Frame> frames_around(FrameReader& reader, double time_s) {
+    const WorkingLine line("Reading the surface");
     const fs::path& file = reader.description().depth_path;
     if (reader.description().live && time_s > 0.0)
         throw InputError(shown(file) + " is live: leave --time out");
@@ -114,9 +119,12 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     refuse_overwriting(options.out,
                        {media.colour_path, media.depth_path, options.touch.given.bump_file()},
                        "is also read by this command; give --out another name");
-    OutputFile file(options.out);
-    write_surface(exported, format, file);
-    file.commit();
+    {
+        const WorkingLine line("Writing " + one_line(options.out.string()));
+        OutputFile file(options.out);
+        write_surface(exported, format, file);
+        file.commit();
+    }
     std::cout << one_line(options.out.string()) << ": " << summary_text(exported, format) << '\n';
 }
 

@@ -1,5 +1,5 @@
-// `dibhr touch`: computes first and formats afterwards, block by block, so that times include
-// nothing else.
+// `dibhr touch`: reads, computes and formats block by block, so that times include nothing else and
+// memory does not grow with the goals.
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstddef>
@@ -66,8 +66,12 @@ class TouchRun {
   private:
     static DepthTimeline opened(const TouchOptions& options, TouchParameters& parameters) {
         const DepthRequest request = options.touch.depth_request();
-        auto media = options.colour.empty() ? open_depth(options.depth, request)
-                                            : open_media(options.colour, options.depth, request);
+        std::unique_ptr<Media> media;
+        {
+            const WorkingLine line("Opening " + one_line(options.depth.string()));
+            media = options.colour.empty() ? open_depth(options.depth, request)
+                                           : open_media(options.colour, options.depth, request);
+        }
         print_warning(media->description().notice);
         report_doubt(media->description(), options.must_be_sure);
         const MotionRequest motion = motion_request(
@@ -100,7 +104,9 @@ class TouchRun {
 };
 
 void touch_all(const TouchOptions& options) {
-    const std::vector<TimedGoal> goals = read_goals(options.goals);
+    GoalReader reader(options.goals);
+    std::vector<TimedGoal> goals;
+    reader.next(kBlockRows, goals);  // first: most faults of the file are reported at once
     TouchRun run(options);
     RowFile out(options.out,
                 {options.depth, options.colour, options.goals, options.touch.given.bump_file()},
@@ -108,17 +114,24 @@ void touch_all(const TouchOptions& options) {
     std::vector<OutputRow> rows;
     rows.reserve(kBlockRows);
     out.text() = kOutputHeader;
+    std::size_t updates = 0;
     std::size_t bounds_met = 0;
-    for (auto goal = goals.begin(); goal != goals.end(); rows.clear()) {
-        while (goal != goals.end() && rows.size() < kBlockRows) rows.push_back(run.update(*goal++));
-        for (const OutputRow& row : rows) {
-            append_row(out.text(), row);
-            if (row.touch.proxy.bound_met) ++bounds_met;
-        }
-        out.rows_done();
+    {
+        ProgressBar bar("Touching");
+        do {
+            rows.clear();
+            for (const TimedGoal& goal : goals) rows.push_back(run.update(goal));
+            updates += rows.size();
+            for (const OutputRow& row : rows) {
+                append_row(out.text(), row);
+                if (row.touch.proxy.bound_met) ++bounds_met;
+            }
+            out.rows_done();
+            bar.show(reader.share_read(), std::to_string(updates) + " updates");
+        } while (reader.next(kBlockRows, goals));
+        out.commit();
     }
-    out.commit();
-    if (bounds_met > 0) print_error_line(bounds_met_text(bounds_met, goals.size()));
+    if (bounds_met > 0) print_error_line(bounds_met_text(bounds_met, updates));
 }
 
 /// Warns of switches that need a moving video, where the media is a still picture.

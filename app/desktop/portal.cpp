@@ -1,27 +1,22 @@
 // The file chooser of the desktop's portal (XDG Desktop Portal, org.freedesktop.portal.FileChooser
 // and .Request): called over the session bus; its answer is a signal.
-#include <poll.h>
 #include <systemd/sd-bus.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
-#include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "app/desktop/bus.hpp"
 #include "app/desktop/file_dialog.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
 
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
-using Deadline = std::optional<SteadyClock::time_point>;  // nothing: no limit, for a person
 
 constexpr const char* kPortal = "org.freedesktop.portal.Desktop";
 constexpr const char* kPortalPath = "/org/freedesktop/portal/desktop";
@@ -31,50 +26,6 @@ constexpr const char* kToken = "dibhr";  // the same for all: each has its own c
 constexpr const char* kPortalLost =
     "type='signal',sender='org.freedesktop.DBus',member='NameOwnerChanged',"
     "arg0='org.freedesktop.portal.Desktop',arg2=''";
-
-struct CloseBus {
-    void operator()(sd_bus* bus) const { sd_bus_close_unref(bus); }
-};
-struct UnrefMessage {
-    void operator()(sd_bus_message* message) const { sd_bus_message_unref(message); }
-};
-using Bus = std::unique_ptr<sd_bus, CloseBus>;
-using Message = std::unique_ptr<sd_bus_message, UnrefMessage>;
-
-/// From now on, at least 0.
-int milliseconds_to(SteadyClock::time_point time) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(time - SteadyClock::now());
-    return static_cast<int>(std::clamp<std::int64_t>(left.count(), 0, 1'000'000));
-}
-
-/// Waits until the bus has something to do, the deadline, or cancel().
-void wait_for_bus(sd_bus* bus, const Cancellation& cancellation, const Deadline& latest) {
-    const auto events = static_cast<short>(sd_bus_get_events(bus));
-    std::array<pollfd, 2> waited{pollfd{sd_bus_get_fd(bus), events, 0},
-                                 pollfd{cancellation.descriptor(), POLLIN, 0}};
-    int wait_ms = latest ? milliseconds_to(*latest) : -1;
-    std::uint64_t due_us = UINT64_MAX;  // of the monotonic clock, as that of the deadline
-    if (sd_bus_get_timeout(bus, &due_us) >= 0 && due_us != UINT64_MAX) {
-        const int due_ms = milliseconds_to(
-            SteadyClock::time_point(std::chrono::microseconds(static_cast<std::int64_t>(due_us))));
-        wait_ms = wait_ms < 0 ? due_ms : std::min(wait_ms, due_ms);
-    }
-    ::poll(waited.data(), waited.size(), wait_ms);
-}
-
-/// Runs the bus until `done`; false: deadline passed, bus lost, or called off.
-template <typename Done>
-bool run_until(sd_bus* bus, const Cancellation& cancellation, const Deadline& latest,
-               const Done& done) {
-    while (!done()) {
-        const int worked = sd_bus_process(bus, nullptr);
-        if (worked < 0 || cancellation.is_cancelled()) return false;
-        if (worked > 0) continue;
-        if (latest && SteadyClock::now() >= *latest) return false;
-        wait_for_bus(bus, cancellation, latest);
-    }
-    return true;
-}
 
 /// Decodes "file:///home/me/a%20film.mp4"; returns other addresses unchanged.
 std::filesystem::path path_of(const std::string& address) {

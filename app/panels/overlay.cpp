@@ -142,7 +142,9 @@ std::vector<std::string> statistics_of(const ViewerState& state) {
     const PlaybackStatus& playback = state.media.playback;
     lines.push_back(formatted("Relief %d x %d, colour %d x %d", media.depth_columns,
                               media.depth_rows, media.colour_columns, media.colour_rows));
-    lines.push_back(formatted("Pictures %.0f per second", state.ui.pictures_per_s));
+    const WindowCost& cost = state.ui.cost;
+    lines.push_back(formatted("Processor %.1f %% of a core", 100.0 * cost.core_share));
+    lines.push_back(formatted("Pictures %.0f per second", cost.pictures_per_s));
     if (!state.touch.replay && !media.still) {
         lines.back() +=
             formatted(", video %.0f of %.0f", playback.shown_per_s, playback.frames_per_s);
@@ -151,9 +153,10 @@ std::vector<std::string> statistics_of(const ViewerState& state) {
     if (state.touch.replay || !media.still) lines.push_back("At " + position_text(state));
     if (!state.touch.replay) {
         const LoopSecond& second = state.touch.haptic.second;
-        lines.push_back(formatted("Ticks %.1f per second, late %s of %s", second.rate_hz,
-                                  std::to_string(state.touch.haptic.late_ticks).c_str(),
-                                  std::to_string(state.touch.haptic.ticks).c_str()));
+        lines.push_back(formatted("Ticks %.1f per second%s, late %s of %s", second.rate_hz,
+                                  state.touch.haptic.rests ? " at rest" : "",
+                                  std::to_string(second.late_ticks).c_str(),
+                                  std::to_string(second.ticks).c_str()));
         lines.push_back(formatted("Worst tick %.3f ms late", second.worst_lateness_ms));
         lines.push_back(formatted("Update %.2f us, worst %.1f us, %.1f moves", second.update_us,
                                   second.worst_update_us, second.moves));

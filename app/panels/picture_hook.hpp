@@ -1,4 +1,4 @@
-// A hook that observes the window after each picture.
+// A hook that observes the window after each turn of its loop.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@ struct StudyPosition {
     std::optional<std::chrono::steady_clock::time_point> seen_since{};
 };
 
-/// The picture that the window has just shown; valid during the call.
+/// The picture that the window shows; valid during the call.
 struct PictureShown {
     const Settings& settings;
     const TouchState& touch;
@@ -30,10 +30,11 @@ struct PictureShown {
     const DepthBlend& surface;
     const UiState* ui{nullptr};           ///< the viewer's; null in a study's window
     const StudyPosition* study{nullptr};  ///< null in the viewer's window
+    bool drawn{true};  ///< in this turn; false: it would look the same, or nobody can see it
 };
 
-/// Called on the window's thread after each picture. The tests' build of the program observes the
-/// window by it; the shipped program sets none.
+/// Called on the window's thread after each turn of its loop. The tests' build of the program
+/// observes the window by it; the shipped program sets none.
 using PictureHook = std::function<void(const PictureShown&)>;
 
 }  // namespace dibhr

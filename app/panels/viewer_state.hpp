@@ -205,7 +205,7 @@ struct UiState {
     std::optional<DepthQuestion> depth_question{};  ///< nothing: the depth is sure, or answered
     std::optional<StripHistory> paused_strips{};    ///< the values of paused charts
     float strips_end_y{0.0F};  ///< the charts' lower end in the last picture [px]
-    double pictures_per_s{0.0};
+    WindowCost cost{};
     bool touched{false};  ///< there was a contact: the first hint is not needed any more
 
     bool show_paint{false};    ///< brush switched on by key: scroll the Paint panel into view

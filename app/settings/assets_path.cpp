@@ -49,6 +49,10 @@ fs::path shipped_studies_folder() {
     return assets_folder() / "studies";
 }
 
+fs::path shipped_limits_file() {
+    return assets_folder() / "60-dibhr-realtime.conf";
+}
+
 std::vector<std::string> toml_names_in(const fs::path& folder) {
     std::vector<std::string> names;
     std::error_code none;

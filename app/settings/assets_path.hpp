@@ -21,6 +21,10 @@ struct SampleFiles {
 /// The studies that come with the program. Throws InputError when its files are missing.
 [[nodiscard]] std::filesystem::path shipped_studies_folder();
 
+/// A file for /etc/security/limits.d that grants real-time priority. Throws InputError when the
+/// program's files are missing.
+[[nodiscard]] std::filesystem::path shipped_limits_file();
+
 /// The names, in order and without ending, of the TOML files in a folder of materials or studies;
 /// none where it cannot be read.
 [[nodiscard]] std::vector<std::string> toml_names_in(const std::filesystem::path& folder);

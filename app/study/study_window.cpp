@@ -455,6 +455,7 @@ void StudyWindow::draw(const WindowInput& input) {
     gui_.begin(input.keys);
     const auto press = draw_study(run_, view_);
     gui_.end();
+    gui_.draw();
     view_.first_picture = false;
     view_.scroll = 0.0F;
     beat();

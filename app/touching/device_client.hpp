@@ -37,7 +37,7 @@ class DeviceClient {
     [[nodiscard]] std::size_t kind() const noexcept { return kind_; }
     [[nodiscard]] ForceDevice& device() const noexcept { return device_; }
 
-    /// Once a picture: copies the device's state into `touch`. Sets touch.needs_person when the
+    /// Once a turn: copies the device's state into `touch`. Sets touch.needs_person when the
     /// device begins to need help. Returns a notice when the device becomes ready.
     [[nodiscard]] std::optional<std::string> poll(TouchState& touch) {
         DeviceInfo& info = touch.devices[place_];

@@ -65,7 +65,7 @@ class TouchRecording {
     /// Marks this moment. Does nothing without a recording.
     void mark(const std::string& tag);
 
-    /// Once a picture: copies the recorder's status into the state and changed facts into the file.
+    /// Once a turn: copies the recorder's status into the state and changed facts into the file.
     /// Ends a recording that failed, and switches the force off.
     void poll();
     /// Why a recording has failed since the last call; empty: none has.

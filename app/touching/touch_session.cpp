@@ -1,4 +1,4 @@
-// Touching: poll and publish once a picture; start and stop of the loop.
+// Touching: poll and publish once a turn of the window; start and stop of the loop.
 #include "app/touching/touch_session.hpp"
 
 #include <algorithm>
@@ -44,6 +44,7 @@ TouchSession::TouchSession(HandDevice hand, const TouchConnections& connections,
     : connections_(connections),
       state_(state),
       hand_(std::move(hand)),
+      player_(connections.on_frames),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
@@ -69,6 +70,7 @@ std::vector<std::string> TouchSession::poll(bool window_in_front) {
     for (DeviceClient& device : devices_)
         if (auto notice = device.poll(touch)) notices.push_back(std::move(*notice));
     if (!touch.grants && loop_) touch.grants = loop_->grants();
+    if (auto notice = priority_notice()) notices.push_back(std::move(*notice));
     for (TickStrip strip; strips_->pop(strip);) touch.strips.add(strip);
     touch.sound = sound_.state();
     touch.moves_coils = sound_.moves_coils();
@@ -101,6 +103,18 @@ void TouchSession::update_catching_up() {
         catching_up_until_ = now + kCatchingUpTime;
     bounds_met_ = haptic.bounds_met;
     state_.touch.catching_up = now < catching_up_until_;
+}
+
+std::optional<std::string> TouchSession::priority_notice() {
+    constexpr std::uint64_t kManyTicks = 100;
+    const TouchState& touch = state_.touch;
+    if (priority_reported_ || !touch.grants || touch.haptic.late_ticks < kManyTicks) return {};
+    const Grant priority = touch.grants->priority->get();
+    if (priority.granted) return {};
+    priority_reported_ = true;
+    return std::to_string(touch.haptic.late_ticks) +
+           " ticks came late, because other programs run first. Real-time priority: " +
+           priority.answer;
 }
 
 std::string TouchSession::use_firmware(const std::filesystem::path& file) {
@@ -172,6 +186,7 @@ void TouchSession::start() {
     // Forget the state of the last loop: a new loop counts ticks from 0.
     state_.touch.haptic = {.hand = hand_.device->reading_without_surface()};
     haptic_state_.publish(state_.touch.haptic);
+    state_.touch.grants.reset();
     standstills_ = 0;
     recording_ended_at_ = 0;
     loop_ =

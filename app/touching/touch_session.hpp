@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,6 +36,8 @@ struct TouchConnections {
     const Heartbeat& window;
     const std::atomic<bool>& without_force;
     CrashNote& crash_note;
+    /// Called on another thread whenever the player has published frames; null: by nobody.
+    std::function<void()> on_frames{};
 };
 
 /// For the window's thread only. Force is sent only between start() and stop().
@@ -43,14 +46,14 @@ class TouchSession {
     /// `state` belongs to the window and must outlive the session.
     TouchSession(HandDevice hand, const TouchConnections& connections, const TouchStateRefs& state);
 
-    // Once a picture, in this order, with TouchRecording::poll() after take_presses().
+    // Once a turn of the window, in this order, with TouchRecording::poll() after take_presses().
 
     /// Copies the newest state of loop and devices into the window's state. Returns notices to show
     /// to the user.
     [[nodiscard]] std::vector<std::string> poll(bool window_in_front);
     /// The presses of device buttons since the last call.
     [[nodiscard]] std::vector<DeviceButtonPress> take_presses();
-    /// Publishes all changes of this picture: to the next tick, the devices, player and outputs.
+    /// Publishes all changes of this turn: to the next tick, the devices, player and outputs.
     void publish();
 
     /// Publishes, and starts the loop. Does nothing while the loop runs.
@@ -86,6 +89,8 @@ class TouchSession {
   private:
     void follow_others();
     void update_catching_up();
+    /// Once, where many ticks are late and the system refused real-time priority.
+    [[nodiscard]] std::optional<std::string> priority_notice();
     void publish_to_outputs();
     void publish_to_player();
 
@@ -99,8 +104,9 @@ class TouchSession {
     std::uint64_t recording_ended_at_{0};  // count of the loop's ticks when the end was published
     std::uint64_t standstills_{0};         // as of the last notice
     std::uint64_t bounds_met_{0};          // as of the last picture
+    bool priority_reported_{false};
     std::chrono::steady_clock::time_point catching_up_until_{};
-    Player player_{};
+    Player player_;
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};
     std::unique_ptr<StripRing> strips_;

@@ -39,7 +39,7 @@ class Browsing {
     /// Looks up the entered file, which advance() then opens.
     void enter(const TypedFile& entered, const OpenDialog& dialog);
 
-    /// Once a picture: takes the results of the other threads. Returns a notice, if any.
+    /// Once a turn: takes the results of the other threads. Returns a notice, if any.
     [[nodiscard]] std::optional<std::string> advance(ViewerState& state);
 
   private:

@@ -38,7 +38,7 @@ class ViewerClip {
     [[nodiscard]] bool wants(PictureOf of, Clock::time_point now) const;
     void add(ColourImage picture, Clock::time_point now);
 
-    /// Once a picture: copies the clip's status into `state`. Returns a notice once the clip is
+    /// Once a turn: copies the clip's status into `state`. Returns a notice once the clip is
     /// finished. Throws InputError, once, when it failed.
     [[nodiscard]] std::optional<std::string> poll(ViewerState& state);
 

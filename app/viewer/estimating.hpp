@@ -34,7 +34,7 @@ class ViewerEstimating {
     /// new command runs. Throws InputError where the consent cannot be saved.
     [[nodiscard]] std::optional<OpenRequest> perform(DepthOfferCommand command, ViewerState& state);
 
-    /// Once a picture: updates the progress. Returns what to open, once the depth is made and no
+    /// Once a turn: updates the progress. Returns what to open, once the depth is made and no
     /// other file was opened meanwhile.
     [[nodiscard]] std::optional<OpenRequest> poll(ViewerState& state);
 

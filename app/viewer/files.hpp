@@ -58,7 +58,7 @@ class SettingsSaver {
     SettingsSaver(Settings in_file, Settings started, std::filesystem::path file,
                   TaskQueue& writing);
 
-    /// Once a picture. Writes when a change is two seconds old; the task queue throws on failure.
+    /// Once a turn. Writes when a change is two seconds old; the task queue throws on failure.
     void poll(const Settings& now, double now_s);
 
     /// At the end: writes what is not yet written.

@@ -25,7 +25,7 @@ class MessageLog {
     /// The same, unless the last line of that kind has the same words.
     void append_if_changed(const std::string& kind, const std::string& words);
 
-    /// Once a picture: starts writing the new lines. Throws InputError, once, when that failed.
+    /// Once a turn: starts writing the new lines. Throws InputError, once, when that failed.
     void write();
 
     /// Waits, at most so long, until all lines are written. Ignores failures.

@@ -41,7 +41,7 @@ class ViewerPainting {
     /// A session is replayed: painting ends.
     void end(ViewerState& state);
 
-    /// Once a picture, while the brush is on. `under` empty: the pointer is beside the relief.
+    /// Once a turn, while the brush is on. `under` empty: the pointer is beside the relief.
     void use(bool pressed, const std::optional<Vec3>& under, const DepthBlend& shown,
              ViewerState& state, Player& player);
 
@@ -50,7 +50,7 @@ class ViewerPainting {
     /// Removes all maps; can be undone.
     void remove_all(ViewerState& state, Player& player);
 
-    /// Once a picture: updates the brush in `state`, and passes new maps to the recording. Throws
+    /// Once a turn: updates the brush in `state`, and passes new maps to the recording. Throws
     /// InputError, once, when the maps could not be saved.
     void poll(ViewerState& state, TouchRecording& recording);
     /// Before a recording ends: passes it all maps of its ticks. Waits at most `patience`.

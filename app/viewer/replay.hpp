@@ -22,7 +22,7 @@ class ViewerReplay {
     /// Null: no replay.
     [[nodiscard]] SessionPlayer* player() const { return player_.get(); }
 
-    /// Once a picture, before the panels: puts the moment that is due into `state`.
+    /// Once a turn, before the panels: puts the moment that is due into `state`.
     void advance(ViewerState& state, SessionPlayer::Time now);
     /// After the panels: computes with other parameters if the user has changed them.
     void follow_panels(const ViewerState& state);

@@ -18,7 +18,7 @@ class ServiceSettings {
   public:
     explicit ServiceSettings(TaskGroup& tasks) : tasks_(tasks) {}
 
-    /// Once a picture, after the session's poll(): copies the answers into `devices`.
+    /// Once a turn, after the session's poll(): copies the answers into `devices`.
     void update(const Settings& settings, std::vector<DeviceInfo>& devices);
 
   private:

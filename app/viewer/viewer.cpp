@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <atomic>
 #include <functional>
+#include <thread>
 #include <utility>
 
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
+#include "app/touching/device_state.hpp"
 #include "app/touching/force_law.hpp"
 #include "app/touching/picture_time.hpp"
 #include "app/window/x_server.hpp"
@@ -24,6 +26,8 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr double kNoticeTime_s = 4.0;
+/// After input that changed nothing visible: the pointer may move a thousand times a second.
+constexpr std::chrono::milliseconds kAfterInput{8};
 /// Timeout for the hashes of large files at an end by a signal or a lost display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 
@@ -69,7 +73,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       save_queue_(tasks),
       settings_saver_(options.in_file, options.settings, options.settings_file, save_queue_),
       start_(steady_clock::now()),
-      touch_(std::move(parts.hand), {heart_, shutdown.without_force(), shutdown.crash_note()},
+      touch_(std::move(parts.hand),
+             {heart_, shutdown.without_force(), shutdown.crash_note(), [this] { window_.wake(); }},
              {state_.settings, state_.touch, state_.media}) {
     if (software_) lower_drawing_priority();
     window_.on_display_loss([this] { close_without_display(); });
@@ -116,11 +121,15 @@ Viewer::~Viewer() {
 void Viewer::run() {
     start_ = steady_clock::now();
     shutdown_.crash_note().set_activity("drawing");
-    while (!over()) {
-        show_one_picture();
-        pace_.wait();
-    }
+    while (!over()) wait_for_turn(take_turn());
     finish();
+}
+
+/// After a picture: as long as until the next one. Else: for input, frames, or the next turn.
+void Viewer::wait_for_turn(Turn last) {
+    if (last.drawn) return pace_.wait();
+    if (last.input) std::this_thread::sleep_for(kAfterInput);
+    window_.wait_for_input(change_.pause(may_touch(state_.touch), steady_clock::now()));
 }
 
 /// Beats once the display has answered, so that a hung display stops the heartbeat, too.
@@ -185,7 +194,7 @@ void Viewer::save_all(const std::atomic<bool>& at_once, const Try& try_to) {
            [&] { recording.finish(at_once ? kPatienceAtAnEnd : Recorder::kPatience); });
 }
 
-/// Once a picture: the window may have moved to a display of another scale.
+/// Once a turn: the window may have moved to a display of another scale.
 void Viewer::apply_style() {
     const Settings& settings = state_.settings;
     gui_.apply({window_.scale(settings.ui_scale), settings.theme});
@@ -193,45 +202,95 @@ void Viewer::apply_style() {
     state_.ui.scale = gui_.scale();
 }
 
-void Viewer::show_one_picture() {
+/// Handles input, updates the state, and draws a picture if it differs from the last one.
+Viewer::Turn Viewer::take_turn() {
     apply_style();
     const WindowInput input = window_.take_input();
     beat();
     poll();
+    hold_unseen_video();
     take_keys(input);
     take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     const glm::ivec2 viewport = relief_viewport();
     move_hand(input, viewport);
-    draw_picture(input);
+    const bool drawn = draw_if_changed(input);
     carry_out_commands();
     show_recording_trouble();  // a command may have ended it
     publish();
     keep_settings();
     log_messages();
-    if (software_) beat_while_drawing([this] { beat(); });
-    window_.show_picture();
-    require_graphics();
-    beat();
-    if (options_.after_picture)
-        options_.after_picture({state_.settings, state_.touch, state_.media, shown_, &state_.ui});
+    if (drawn) {
+        if (software_) beat_while_drawing([this] { beat(); });
+        window_.show_picture();
+        require_graphics();
+        beat();
+    }
+    pace_.count(drawn);
+    if (options_.after_picture) {
+        options_.after_picture({.settings = state_.settings,
+                                .touch = state_.touch,
+                                .media = state_.media,
+                                .surface = shown_,
+                                .ui = &state_.ui,
+                                .drawn = drawn});
+    }
+    return {input.any, drawn};
 }
 
-/// Draws relief and panels, and passes pictures on to screenshot and clip.
-void Viewer::draw_picture(const WindowInput& input) {
+/// Draws relief and panels if they differ from the last picture, or a clip or screenshot needs one,
+/// and passes the picture on to these. False: nothing was drawn.
+bool Viewer::draw_if_changed(const WindowInput& input) {
+    if (input.damaged) change_.forget();
+    const bool of_relief = wants_picture(PictureOf::relief);
+    const bool of_window = wants_picture(PictureOf::window);
+    const bool wanted = of_relief || of_window;
+    if (!window_.visible() && !wanted) {
+        change_.forget();
+        return false;
+    }
+    const auto now = steady_clock::now();
     const glm::ivec2 viewport = relief_viewport();
-    draw_scene(viewport);
-    if (wants_picture(PictureOf::relief))
-        deliver_picture(PictureOf::relief, read_framebuffer(viewport));
+    const Camera camera = camera_;  // the panels may move it for the next picture
+    const SceneContent content = prepare_scene();
+    const SceneMark scene = mark_scene(content, viewport);
+    const PanelChanges panels{input.any, gui_.in_use(), video_runs()};
+    if (!change_.may_differ(scene, panels, now) && !wanted) return false;
+    ColourImage picture;
+    // What is drawn after `read` is on the screen, but not in saved pictures.
+    const std::function<void()> read = [&] {
+        if (of_window) picture = read_framebuffer(window_.framebuffer_size());
+    };
+    lay_out_panels(input.keys, read);
+    if (!change_.take({scene, gui_.content()}, now) && !wanted) return false;
+    scene_.draw(content, camera, viewport);
+    if (of_relief) deliver_picture(PictureOf::relief, read_framebuffer(viewport));
     beat();
-    draw_panels(input.keys);
+    gui_.draw();
+    if (of_window) deliver_picture(PictureOf::window, std::move(picture));
     beat();
+    return true;
+}
+
+/// A video that nobody can see, feel or record waits until the window is visible again.
+void Viewer::hold_unseen_video() {
+    const bool needed = window_.visible() || state_.media.live || may_touch(state_.touch) ||
+                        touch_.recording().active_or_waiting() || clip_.active();
+    if (needed && std::exchange(video_held_, false)) transport().play();
+    if (needed || !state_.play_state().playing) return;
+    transport().pause();
+    video_held_ = true;
+}
+
+/// Whether a video plays: it changes the picture with each frame.
+bool Viewer::video_runs() const {
+    return !state_.touch.replay && !state_.media.still && state_.media.playback.playing;
 }
 
 void Viewer::poll() {
     poll_touch();
-    state_.ui.pictures_per_s = pace_.pictures_per_s();
+    state_.ui.cost = pace_.cost();
     take_opened();
     take_desktop_answer();
     follow_live();
@@ -256,7 +315,9 @@ void Viewer::poll() {
 /// Polls replay, touching, device buttons and recording.
 void Viewer::poll_touch() {
     if (replay_.player() != nullptr) replay_.advance(state_, steady_clock::now());
-    for (const std::string& notice : touch_.poll(window_.in_front())) show_notice(notice);
+    // Asked only where it matters, as it takes several queries of the display server.
+    const bool in_front = may_touch(state_.touch) && window_.in_front();
+    for (const std::string& notice : touch_.poll(in_front)) show_notice(notice);
     service_settings_.update(state_.settings, state_.touch.devices);
     for (const DeviceButtonPress& press : touch_.take_presses()) {
         const std::optional<Action> action = entry_of(button_jobs(), press.action).perform;
@@ -275,7 +336,9 @@ void Viewer::show_recording_trouble() {
                             state_.keys.in_brackets(Action::toggle_force) + ".";
 }
 
-void Viewer::draw_panels(std::span<const KeyPress> pressed) {
+/// Lays out all panels, for Gui::draw(). `drawn` must exist until then: it is called when all is
+/// drawn that saved pictures contain.
+void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn) {
     gui_.begin(pressed);
     panes_.show(shown_, state_);
     draw_panes(state_);
@@ -307,15 +370,8 @@ void Viewer::draw_panels(std::span<const KeyPress> pressed) {
     draw_open_dialog(state_);
     draw_help_sheet(state_);
     draw_message_box(state_);
-    // What is drawn after `read` is on the screen, but not in saved pictures.
-    ColourImage picture;
-    const bool wanted = wants_picture(PictureOf::window);
-    const std::function<void()> read = [&] {
-        if (wanted) picture = read_framebuffer(window_.framebuffer_size());
-    };
-    draw_over_pictures(state_, read);
+    draw_over_pictures(state_, drawn);
     gui_.end();
-    if (wanted) deliver_picture(PictureOf::window, std::move(picture));
 }
 
 void Viewer::draw_explained() {
@@ -363,16 +419,19 @@ void Viewer::write_last_picture() {
     if (options_.screenshot.empty()) return;
     // Draw again: after a swap the content of the buffer is undefined.
     const glm::ivec2 relief = relief_viewport();
-    draw_scene(relief);
+    const SceneContent content = prepare_scene();
     const bool whole = options_.pictures_of == PictureOf::window;
-    if (whole) draw_panels();
+    const std::function<void()> nothing = [] {};
+    if (whole) lay_out_panels({}, nothing);
+    scene_.draw(content, camera_, relief);
+    if (whole) gui_.draw();
     write_png(read_framebuffer(whole ? window_.framebuffer_size() : relief), options_.screenshot);
 }
 
 /// For a screenshot requested in the last picture.
 void Viewer::take_last_screenshot() {
     if (screenshots_.wants(PictureOf::window) || screenshots_.wants(PictureOf::relief))
-        draw_picture();
+        static_cast<void>(draw_if_changed({}));
 }
 
 /// Logs new messages and device banners, wherever they were set.

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,6 +31,7 @@
 #include "app/viewer/message_log.hpp"
 #include "app/viewer/painting.hpp"
 #include "app/viewer/panes.hpp"
+#include "app/viewer/picture_change.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/service_settings.hpp"
@@ -126,7 +128,14 @@ class Viewer {
     void run();
 
   private:
-    void show_one_picture();
+    /// What a turn of the loop has done.
+    struct Turn {
+        bool input{false};  ///< something happened in the window
+        bool drawn{false};
+    };
+
+    Turn take_turn();
+    void wait_for_turn(Turn last);
     void apply_style();
     void poll();
     void poll_touch();
@@ -144,9 +153,11 @@ class Viewer {
     [[nodiscard]] Answer open_by_dialog();
     void take_desktop_answer();
     void move_hand(const WindowInput& input, glm::ivec2 viewport);
-    void draw_scene(glm::ivec2 viewport);
-    void draw_picture(const WindowInput& input = {});
-    void draw_panels(std::span<const KeyPress> pressed = {});
+    [[nodiscard]] SceneContent prepare_scene();
+    [[nodiscard]] SceneMark mark_scene(SceneContent content, glm::ivec2 viewport) const;
+    [[nodiscard]] bool draw_if_changed(const WindowInput& input);
+    void lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn);
+    void hold_unseen_video();
     void draw_explained();
     void carry_out_commands();
     void perform_after_picture(Action action);
@@ -179,6 +190,7 @@ class Viewer {
     void start_or_stop_recording();
     void start_or_stop_clip(PictureOf of);
     [[nodiscard]] bool wants_picture(PictureOf of) const;
+    [[nodiscard]] bool video_runs() const;
     void deliver_picture(PictureOf of, ColourImage picture);
     void beat();
     void finish();
@@ -239,7 +251,9 @@ class Viewer {
     ViewerPainting painting_;
     TaskQueue save_queue_;  // writes settings, file memories, recent files
     SettingsSaver settings_saver_;
-    DepthBlend shown_{};  // the frames of this picture
+    DepthBlend shown_{};  // the frames of this turn
+    PictureChange change_{};
+    bool video_held_{false};  // by hold_unseen_video()
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};
     bool pressed_deeper_{false};  // the wheel was used so at least once

@@ -1,6 +1,7 @@
 // The viewer's media: opening and showing a video or session, the files saved beside it, and the
 // scene.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <exception>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "app/touching/scene.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/haptics/surface.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/playing/live_status.hpp"
@@ -50,6 +52,15 @@ bool take_files(const std::vector<std::filesystem::path>& files, ViewerState& st
 /// The file whose levels are depth.
 const std::filesystem::path& depth_file(const MediaDescription& media) {
     return media.depth_path.empty() ? media.colour_path : media.depth_path;
+}
+
+/// The frames of a video that is drawn at its own rate, and of a slow one moments between them.
+DepthBlend in_steps(DepthBlend shown, double speed) {
+    constexpr double kLongest_s = 0.05;
+    const double lasts_s = (shown.to->time_s - shown.from->time_s) / speed;
+    const double steps = std::max(1.0, std::floor(lasts_s / kLongest_s));
+    shown.blend = std::min(std::floor(shown.blend * steps), steps - 1.0) / steps;
+    return shown;
 }
 
 /// The pixel at a place in grid space; nothing beside the picture.
@@ -450,7 +461,8 @@ void Viewer::frame_relief() {
                          state_.settings.touch.shape.relief_px);
 }
 
-void Viewer::draw_scene(glm::ivec2 viewport) {
+/// The relief of this turn; valid during it.
+SceneContent Viewer::prepare_scene() {
     camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
                                                          : Camera::Projection::perspective);
     state_.ui.under_hand = pixel_at(state_.touch.haptic.touch.goal, state_, shown_);
@@ -474,7 +486,16 @@ void Viewer::draw_scene(glm::ivec2 viewport) {
         content.markers.visible = false;  // the mouse paints and does not touch
     }
     leave_trace(content.markers);
-    scene_.draw(content, camera_, viewport);
+    return content;
+}
+
+/// Software draws a video that runs once a frame, not more often for a hand that moves meanwhile.
+SceneMark Viewer::mark_scene(SceneContent content, glm::ivec2 viewport) const {
+    const bool by_frame = software_ && video_runs() && shown_.makes_surface();
+    if (by_frame) content.depth = in_steps(shown_, state_.media.playback.speed);
+    SceneMark mark = scene_mark(content, camera_, viewport);
+    return by_frame ? change_.with_drawn_hand(std::move(mark), std::chrono::steady_clock::now())
+                    : mark;
 }
 
 void Viewer::leave_trace(TouchMarkers& markers) {

@@ -10,7 +10,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdlib>
+#include <functional>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -246,7 +248,39 @@ void Gui::begin(std::span<const KeyPress> pressed) {
 
 void Gui::end() {
     ImGui::Render();
+}
+
+void Gui::draw() {
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+std::size_t Gui::content() const {
+    const ImDrawData& data = *ImGui::GetDrawData();
+    std::size_t all = 0;
+    const auto add = [&all](const void* bytes, std::size_t size) {
+        const std::string_view text(static_cast<const char*>(bytes), size);
+        all = 31 * all + std::hash<std::string_view>{}(text);
+    };
+    const auto add_all = [&add](const auto& values) {
+        add(values.Data, static_cast<std::size_t>(values.size_in_bytes()));
+    };
+    add(&data.DisplaySize, sizeof data.DisplaySize);
+    for (int k = 0; k < data.CmdListsCount; ++k) {
+        const ImDrawList& list = *data.CmdLists[k];
+        add_all(list.VtxBuffer);
+        add_all(list.IdxBuffer);
+        for (const ImDrawCmd& command : list.CmdBuffer) {
+            const ImTextureID texture = command.GetTexID();
+            add(&texture, sizeof texture);
+            add(&command.ClipRect, sizeof command.ClipRect);
+            add(&command.ElemCount, sizeof command.ElemCount);
+        }
+    }
+    return all;
+}
+
+bool Gui::in_use() const {
+    return ImGui::IsAnyItemActive() || ImGui::IsAnyMouseDown();
 }
 
 void Gui::copy(const std::string& text) {

@@ -1,6 +1,7 @@
 // Dear ImGui with the program's style: fonts, sizes and the colours of a theme.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -35,7 +36,14 @@ class Gui {
 
     /// Begins a picture; panels may be drawn until end(). `pressed`: keys since the last picture.
     void begin(std::span<const KeyPress> pressed);
-    void end();  ///< draws the panels into the bound framebuffer
+    void end();
+    void draw();  ///< draws the panels, as of the last end(), into the bound framebuffer
+
+    /// A hash of all that draw() would draw, but of the pixels of pictures in the panels.
+    [[nodiscard]] std::size_t content() const;
+    /// A person presses a button of the mouse, or has hold of something in a panel: a text, a
+    /// slider.
+    [[nodiscard]] bool in_use() const;
 
     [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel or drags in one
     [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into

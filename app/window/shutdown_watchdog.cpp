@@ -3,17 +3,11 @@
 
 #include <poll.h>
 #include <pthread.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
-#include <string>
-
-#include "core/error.hpp"
 
 namespace dibhr {
 
@@ -30,24 +24,19 @@ std::optional<std::chrono::milliseconds> ShutdownRequests::time_left(Time now) c
                     milliseconds(0));
 }
 
-ShutdownWatchdog::ShutdownWatchdog(CrashNote& crash_note)
-    : crash_note_(crash_note), wake_descriptor_(eventfd(0, EFD_CLOEXEC)) {
-    if (wake_descriptor_ < 0)
-        throw DeviceError(std::string("the thread for signals cannot be made (") +
-                          std::strerror(errno) + "): close other programs");
+ShutdownWatchdog::ShutdownWatchdog(CrashNote& crash_note) : crash_note_(crash_note) {
     thread_ = std::thread([this] { run(); });
 }
 
 ShutdownWatchdog::~ShutdownWatchdog() {
     stopping_ = true;
-    eventfd_write(wake_descriptor_, 1);
+    wake_.signal();
     thread_.join();
-    close(wake_descriptor_);
 }
 
 void ShutdownWatchdog::watch_display(int connection) {
     display_ = connection;
-    eventfd_write(wake_descriptor_, 1);
+    wake_.signal();
 }
 
 void ShutdownWatchdog::run() {
@@ -62,12 +51,12 @@ void ShutdownWatchdog::run() {
             timeout_ms = static_cast<int>(left->count());
         }
         int display = display_;
-        std::array<pollfd, 3> ready{{{wake_descriptor_, POLLIN, 0},
+        std::array<pollfd, 3> ready{{{wake_.descriptor(), POLLIN, 0},
                                      {signals_.descriptor(), POLLIN, 0},
                                      {display, POLLRDHUP, 0}}};
         poll(ready.data(), ready.size(), timeout_ms);
         if (stopping_) return;
-        if (eventfd_t times = 0; ready[0].revents != 0) eventfd_read(wake_descriptor_, &times);
+        if (ready[0].revents != 0) wake_.clear();
         // Unless watch_display() has replaced the display meanwhile.
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;

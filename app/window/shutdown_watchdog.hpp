@@ -9,6 +9,7 @@
 
 #include "app/window/crash_note.hpp"
 #include "app/window/signals.hpp"
+#include "core/realtime/wake.hpp"
 
 namespace dibhr {
 
@@ -61,7 +62,7 @@ class ShutdownWatchdog {
     std::atomic<bool> without_force_{false};
     std::atomic<bool> stopping_{false};
     std::atomic<int> display_{-1};
-    int wake_descriptor_;  // an eventfd: wakes the thread when one of the two above has changed
+    Wake wake_{};  // when one of the two above has changed
     std::thread thread_{};
 };
 

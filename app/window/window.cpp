@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <ctime>
 #include <thread>
 
 #include "app/settings/settings.hpp"
@@ -25,6 +26,10 @@ PendingInput& pending_of(GLFWwindow* window) {
 
 WindowInput& input_of(GLFWwindow* window) {
     return pending_of(window).input;
+}
+
+void note_event(GLFWwindow* window) {
+    input_of(window).any = true;
 }
 
 bool pressed(GLFWwindow* window, int button) {
@@ -109,7 +114,10 @@ Window::~Window() {
 }
 
 void Window::collect_events() {
+    glfwGetWindowSize(window_, &pending_.window_size.x, &pending_.window_size.y);
+    glfwGetFramebufferSize(window_, &pending_.framebuffer_size.x, &pending_.framebuffer_size.y);
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int mods) {
+        note_event(window);
         if (action == GLFW_RELEASE) return;
         PendingInput& all = pending_of(window);
         all.key = {key, (mods & GLFW_MOD_CONTROL) != 0, action == GLFW_REPEAT,
@@ -118,19 +126,44 @@ void Window::collect_events() {
         all.input.keys.push_back(all.key);
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned character) {
+        note_event(window);
         // GLFW reports a character after the key that typed it.
         const KeyPress& by = pending_of(window).key;
         input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        note_event(window);
         if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
         PendingInput& all = pending_of(window);
         all.input.clicked_at = all.times.of(EventTimes::Kind::mouse_button, 1);
     });
-    glfwSetScrollCallback(
-        window_, [](GLFWwindow* window, double, double up) { input_of(window).wheel_steps += up; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double up) {
+        note_event(window);
+        input_of(window).wheel_steps += up;
+    });
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
+        note_event(window);
         input_of(window).dropped.assign(files, files + count);
+    });
+    glfwSetCursorPosCallback(window_,
+                             [](GLFWwindow* window, double, double) { note_event(window); });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int) { note_event(window); });
+    glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int) { note_event(window); });
+    glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
+        note_event(window);
+        pending_of(window).iconified = iconified == GLFW_TRUE;
+    });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
+        note_event(window);
+        input_of(window).damaged = true;
+    });
+    glfwSetWindowSizeCallback(window_, [](GLFWwindow* window, int width, int height) {
+        note_event(window);
+        pending_of(window).window_size = {width, height};
+    });
+    glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* window, int width, int height) {
+        note_event(window);
+        pending_of(window).framebuffer_size = {width, height};
     });
 }
 
@@ -155,6 +188,21 @@ WindowInput Window::take_input() {
     return std::exchange(pending_.input, {});
 }
 
+void Window::wait_for_input(std::chrono::milliseconds at_most) {
+    if (!wait_for_x_events(wake_.descriptor(), at_most))
+        glfwWaitEventsTimeout(std::chrono::duration<double>(at_most).count());
+    wake_.clear();
+}
+
+void Window::wake() const {
+    wake_.signal();
+    glfwPostEmptyEvent();  // for a display server other than X
+}
+
+void Window::ping_display() {
+    visible_ = glfwGetWindowAttrib(window_, GLFW_VISIBLE) == GLFW_TRUE;
+}
+
 bool Window::in_front() const {
     const auto is = [this](int attribute) {
         return glfwGetWindowAttrib(window_, attribute) == GLFW_TRUE;
@@ -167,10 +215,8 @@ bool Window::in_front() const {
 Pointer Window::pointer() const {
     glm::dvec2 position{0.0};
     glfwGetCursorPos(window_, &position.x, &position.y);
-    int width = 1;
-    int height = 1;
-    glfwGetWindowSize(window_, &width, &height);
-    const glm::dvec2 pixels_per_unit = glm::dvec2(framebuffer_size()) / glm::dvec2(width, height);
+    const glm::dvec2 pixels_per_unit =
+        glm::dvec2(framebuffer_size()) / glm::dvec2(glm::max(pending_.window_size, 1));
     return {position * pixels_per_unit, pressed(window_, GLFW_MOUSE_BUTTON_LEFT),
             pressed(window_, GLFW_MOUSE_BUTTON_MIDDLE), pressed(window_, GLFW_MOUSE_BUTTON_RIGHT),
             key_down(window_, GLFW_KEY_LEFT_SHIFT) || key_down(window_, GLFW_KEY_RIGHT_SHIFT)};
@@ -180,17 +226,8 @@ bool Window::holds(int key) const {
     return key_down(window_, key);
 }
 
-glm::ivec2 Window::framebuffer_size() const {
-    glm::ivec2 size{0};
-    glfwGetFramebufferSize(window_, &size.x, &size.y);
-    return size;
-}
-
 glm::ivec2 Window::window_size() const {
-    if (glfwGetWindowMonitor(window_) != nullptr) return size_;
-    glm::ivec2 size{0};
-    glfwGetWindowSize(window_, &size.x, &size.y);
-    return size;
+    return glfwGetWindowMonitor(window_) != nullptr ? size_ : pending_.window_size;
 }
 
 float Window::scale(double requested) const {
@@ -231,15 +268,21 @@ void Window::show_picture() {
 }
 
 void PicturePace::wait() {
-    if (next_ == Clock::time_point{}) next_ = second_begin_ = Clock::now();
+    if (next_ == Clock::time_point{}) next_ = Clock::now();
     next_ = std::max(next_ + shortest_, Clock::now());
     std::this_thread::sleep_until(next_);
-    ++pictures_;
-    const double age_s = std::chrono::duration<double>(Clock::now() - second_begin_).count();
+}
+
+void PicturePace::count(bool drawn) {
+    pictures_ += drawn ? 1 : 0;
+    const Clock::time_point now = Clock::now();
+    const double age_s = std::chrono::duration<double>(now - second_begin_).count();
     if (age_s < 1.0) return;
-    pictures_per_s_ = pictures_ / age_s;
+    const double used_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+    cost_ = {pictures_ / age_s, (used_s - used_before_s_) / age_s};
+    used_before_s_ = used_s;
     pictures_ = 0;
-    second_begin_ = Clock::now();
+    second_begin_ = now;
 }
 
 }  // namespace dibhr

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "app/window/event_times.hpp"
+#include "core/realtime/wake.hpp"
 
 struct GLFWwindow;
 
@@ -40,6 +41,8 @@ struct WindowInput {
     double wheel_steps{0.0};  ///< > 0: away from the person
     /// When the left mouse button was last pressed.
     std::optional<EventTimes::Time> clicked_at{};
+    bool any{false};      ///< something happened, also what has no entry here: the pointer moved
+    bool damaged{false};  ///< the screen has lost the window's picture, or part of it
 };
 
 /// The input that the window's callbacks collect.
@@ -47,6 +50,9 @@ struct PendingInput {
     WindowInput input{};
     KeyPress key{};  ///< the last key press: its character may follow
     EventTimes times{};
+    glm::ivec2 window_size{0};
+    glm::ivec2 framebuffer_size{0};
+    bool iconified{false};
 };
 
 /// The pointer now; position in pixels of the framebuffer from the upper left.
@@ -83,13 +89,20 @@ class Window {
 
     /// Polls for events; does not wait.
     WindowInput take_input();
+    /// Waits for an event, for wake(), or so long. The next take_input() has what happened.
+    void wait_for_input(std::chrono::milliseconds at_most);
+    /// Ends a wait_for_input() that runs, or else the next one. For any thread.
+    void wake() const;
     /// Whether a person works in the window now: it has the keyboard and is visible. Queries the
     /// display server, because events may arrive in another order than their causes.
     [[nodiscard]] bool in_front() const;
+    /// Whether a person may see the window: it is mapped and no icon, as of the last
+    /// ping_display(). (Under Wayland: as far as GLFW is told.)
+    [[nodiscard]] bool visible() const { return visible_ && !pending_.iconified; }
     [[nodiscard]] Pointer pointer() const;
     /// Whether a GLFW key is down now.
     [[nodiscard]] bool holds(int key) const;
-    [[nodiscard]] glm::ivec2 framebuffer_size() const;
+    [[nodiscard]] glm::ivec2 framebuffer_size() const { return pending_.framebuffer_size; }
     [[nodiscard]] glm::ivec2 window_size() const;  ///< when not on the full screen [screen units]
     /// Of text and panels: `requested`, or if that is 0, the display's own scale (1: an ordinary
     /// one).
@@ -100,7 +113,7 @@ class Window {
     void show_picture();  ///< swaps the buffers; with `sync`, waits for an X display
     /// A round trip to the display server, which returns only if the server responds. (Does nothing
     /// under Wayland.)
-    void ping_display() const { static_cast<void>(framebuffer_size()); }
+    void ping_display();
 
     /// The X server's ID of the window; 0: no X server.
     [[nodiscard]] unsigned long x11_window() const;
@@ -115,12 +128,20 @@ class Window {
     const std::function<void()> display_lost_{[this] { exit_without_display(); }};
     GLFWwindow* window_{nullptr};
     PendingInput pending_{};
+    Wake wake_{};
+    bool visible_{true};
     glm::ivec2 place_{0};  // before the full screen
     glm::ivec2 size_{0};
 };
 
+/// The cost of a window and its program over the last whole second.
+struct WindowCost {
+    double pictures_per_s{0.0};
+    double core_share{0.0};  ///< processor time of all threads; 1: one core's, all the time
+};
+
 /// Waits between pictures, so that the haptic thread and the decoder keep their share of the
-/// processor, and measures the picture rate.
+/// processor, and measures the window's cost.
 class PicturePace {
   public:
     /// `shortest`: least time from picture to picture; zero: do not wait.
@@ -129,7 +150,9 @@ class PicturePace {
     /// After a picture was shown: waits until the next one may be drawn.
     void wait();
 
-    [[nodiscard]] double pictures_per_s() const { return pictures_per_s_; }
+    /// Once a turn of the window. `drawn`: it showed a picture.
+    void count(bool drawn);
+    [[nodiscard]] const WindowCost& cost() const { return cost_; }
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -137,8 +160,9 @@ class PicturePace {
     std::chrono::nanoseconds shortest_;
     Clock::time_point next_{};
     Clock::time_point second_begin_{};
+    double used_before_s_{0.0};  // processor time until this second
     int pictures_{0};
-    double pictures_per_s_{0.0};
+    WindowCost cost_{};
 };
 
 }  // namespace dibhr

@@ -2,6 +2,8 @@
 // print a line of its own and call exit().
 #include "app/window/x_server.hpp"
 
+#include <poll.h>
+
 #include <algorithm>
 #include <array>
 
@@ -59,6 +61,15 @@ bool is_covered(unsigned long x11_window, int width, int height) {
                               point[1] * height / 4, &x, &y, &topmost);
         return topmost == frame;
     });
+}
+
+bool wait_for_x_events(int descriptor, std::chrono::milliseconds at_most) {
+    Display* const display = x11_display();
+    if (display == nullptr) return false;
+    if (XPending(display) > 0) return true;  // read before, with the answer to a query
+    std::array<pollfd, 2> ready{{{ConnectionNumber(display), POLLIN, 0}, {descriptor, POLLIN, 0}}};
+    poll(ready.data(), ready.size(), static_cast<int>(at_most.count()));
+    return true;
 }
 
 void set_display_loss_handler(const std::function<void()>& act) {

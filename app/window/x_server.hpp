@@ -2,6 +2,7 @@
 // its own, since Xlib's header defines plain words as macros.
 #pragma once
 
+#include <chrono>
 #include <functional>
 
 struct GLFWwindow;
@@ -15,6 +16,10 @@ namespace dibhr {
 /// nor unmaps the window. Checks the middle of a mapped window of that size [px] and the middles of
 /// its quarters. False under another display server: there a hidden window has no keyboard.
 [[nodiscard]] bool is_covered(unsigned long x11_window, int width, int height);
+
+/// Waits for events, for `descriptor` to become readable, or so long. Takes no event, so that
+/// EventTimes finds them. False under another display server: it has not waited.
+[[nodiscard]] bool wait_for_x_events(int descriptor, std::chrono::milliseconds at_most);
 
 /// From now on the thread that notices the loss of the X server calls `act`, within the call that
 /// noticed it. `act` must neither return nor use the display, and must outlive the display. Does

@@ -17,8 +17,8 @@
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/files/module.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/video/modules/module.hpp"
 
 extern "C" char** environ;  // NOLINT(readability-redundant-declaration): glibc's needs _GNU_SOURCE
 

@@ -1,6 +1,8 @@
 // Runs the algorithms over a path and measures them.
 #include "core/experiment/experiment.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
 #include "core/metrics/force_variation.hpp"
 
@@ -24,6 +27,13 @@ constexpr double kLevel = 100.0;
 constexpr double kRadius_px = 200.0;
 constexpr int kWholeRuns = 9;
 constexpr const char* kPlaneSource = "the paper's goals, 4961 px/s on a flat image";
+
+/// Of the calling thread [us].
+double processor_now_us() noexcept {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return 1e6 * static_cast<double>(now.tv_sec) + 1e-3 * static_cast<double>(now.tv_nsec);
+}
 
 /// Of the clip at update k [s].
 double time_of(const PathRun& path, std::size_t k) noexcept {
@@ -42,15 +52,31 @@ class PreparedPath {
         }
     }
 
-    /// A pass timed as a whole: an update's share [us].
-    double whole_us(ProxyAlgorithm& algorithm) const {
+    /// A pass of the algorithm alone, timed as a whole.
+    TimeTaken time_walk(ProxyAlgorithm& algorithm) const {
         algorithm.reset();
-        const auto begin = Clock::now();
+        const Stopwatch watch;
         for (std::size_t k = 0; k < path_.goals.size(); ++k) {
             algorithm.update(surfaces_[k], path_.goals[k], friction_);
         }
-        const double share = static_cast<double>(std::max<std::size_t>(path_.goals.size(), 1));
-        return us_between(begin, Clock::now()) / share;
+        return watch.taken();
+    }
+
+    /// A pass of whole updates, as the loop has them but for its glide and its record.
+    TimeTaken time_updates(TouchRenderer& renderer, Algorithm which) const {
+        const TouchParameters parameters{.algorithm = which, .friction = friction_};
+        renderer.reset();
+        const Stopwatch watch;
+        for (std::size_t k = 0; k < path_.goals.size(); ++k) {
+            renderer.update(surfaces_[k], path_.goals[k], parameters, {.dt_s = kUpdate_s}, {});
+        }
+        return watch.taken();
+    }
+
+    /// An update's share of a pass, by the processor's clock [us].
+    [[nodiscard]] double share_us(const TimeTaken& pass) const {
+        return pass.processor_us /
+               static_cast<double>(std::max<std::size_t>(path_.goals.size(), 1));
     }
 
     /// A pass that stores the result and the time of every update.
@@ -167,26 +193,64 @@ void run_algorithms(PathRun& path, const DepthClip& clip, std::span<const Algori
         if (progress) progress(static_cast<double>(++done) / static_cast<double>(passes));
     };
 
+    TouchRenderer renderer;
     std::vector<std::unique_ptr<ProxyAlgorithm>> walkers;
     std::vector<AlgorithmRun> runs;
     for (const Algorithm which : algorithms) {
         ProxyAlgorithm& walker = *walkers.emplace_back(make_algorithm(which));
-        if (careful) static_cast<void>(prepared.whole_us(walker));
+        if (careful) static_cast<void>(prepared.time_walk(walker));
+        const Stopwatch watch;
         runs.push_back(prepared.recorded(which, walker));
+        path.timed += watch.taken();
         report_progress();
     }
-    std::vector<std::vector<double>> whole_us(algorithms.size());
+    std::vector<std::vector<double>> walks_us(algorithms.size());
+    std::vector<std::vector<double>> updates_us(algorithms.size());
     for (int round = 0; round < rounds; ++round) {
         for (std::size_t a = 0; a < algorithms.size(); ++a) {
-            whole_us[a].push_back(prepared.whole_us(*walkers[a]));
+            const TimeTaken walk = prepared.time_walk(*walkers[a]);
+            const TimeTaken updates = prepared.time_updates(renderer, algorithms[a]);
+            walks_us[a].push_back(prepared.share_us(walk));
+            updates_us[a].push_back(prepared.share_us(updates));
+            path.timed += walk;
+            path.timed += updates;
             report_progress();
         }
     }
     for (std::size_t a = 0; a < algorithms.size(); ++a) {
-        runs[a].whole_run_us = statistics_of(std::move(whole_us[a])).median;
+        runs[a].whole_run_us = statistics_of(std::move(walks_us[a])).median;
+        runs[a].whole_update_us = statistics_of(std::move(updates_us[a])).median;
         evaluate(runs[a], path);
     }
     path.runs = std::move(runs);
+}
+
+TimeTaken& TimeTaken::operator+=(const TimeTaken& other) noexcept {
+    wall_us += other.wall_us;
+    processor_us += other.processor_us;
+    return *this;
+}
+
+double TimeTaken::waited_share() const noexcept {
+    return wall_us > 0.0 ? std::clamp(1.0 - processor_us / wall_us, 0.0, 1.0) : 0.0;
+}
+
+// The wall clock is read last and first: what reading the processor's costs is not in its time.
+Stopwatch::Stopwatch() noexcept
+    : processor_begin_us_(processor_now_us()), wall_begin_(Clock::now()) {}
+
+TimeTaken Stopwatch::taken() const noexcept {
+    const double wall_us = us_between(wall_begin_, Clock::now());
+    return {wall_us, processor_now_us() - processor_begin_us_};
+}
+
+std::string busy_machine_text(const TimeTaken& timed) {
+    constexpr double kSlight = 0.05;
+    const double share = timed.waited_share();
+    if (share < kSlight) return {};
+    return "other programs had the processor for " + number_text(100.0 * share, 0) +
+           " % of the time: averages leave that out, single and slowest updates do not; close them "
+           "and measure again";
 }
 
 double us_between(Clock::time_point begin, Clock::time_point end) {
@@ -214,7 +278,7 @@ std::vector<SweepPoint> run_sweep(const SweepRange& range, std::span<const Algor
                 PathRun path = make_path(mu, depth_px, range.updates);
                 run_algorithms(path, plane, algorithms, Timing::quick);
                 for (const AlgorithmRun& run : path.runs) {
-                    points.push_back({path.name, path.mu, path.depth_px, run});
+                    points.push_back({path.name, path.mu, path.depth_px, run, path.timed});
                 }
                 ++done;
                 if (progress) progress(static_cast<double>(done) / static_cast<double>(cells));

@@ -43,12 +43,39 @@ struct ExactError {
     double mean_rad{0.0};
 };
 
+/// The time of a piece of work [us].
+struct TimeTaken {
+    double wall_us{0.0};
+    double processor_us{0.0};  ///< of the thread
+
+    TimeTaken& operator+=(const TimeTaken& other) noexcept;
+    /// How much of the time the thread waited for a processor, 0 to 1.
+    [[nodiscard]] double waited_share() const noexcept;
+};
+
+/// Begins where it is made.
+class Stopwatch {
+  public:
+    Stopwatch() noexcept;
+    [[nodiscard]] TimeTaken taken() const noexcept;
+
+  private:
+    double processor_begin_us_;
+    std::chrono::steady_clock::time_point wall_begin_;
+};
+
+/// One line where other programs disturbed the measurement; empty: they did not.
+[[nodiscard]] std::string busy_machine_text(const TimeTaken& timed);
+
 /// The results of one algorithm on one path.
 struct RunFigures {
     Algorithm algorithm{Algorithm::dibhr};
     std::uint64_t bounds_met{0};  ///< updates that ended before the proxy had caught up
     SampleStatistics time_us{};   ///< of an update; each includes one reading of the clock
-    double whole_run_us{0.0};     ///< an update's share of a run timed as a whole, no clock in it
+    /// An update's share of a run timed as a whole, no clock in it: the median of several runs by
+    /// the processor's clock, which stands still while another program runs.
+    double whole_run_us{0.0};
+    double whole_update_us{0.0};  ///< likewise, with the force, its stability and its limits
     double moves_per_update{0.0};
     VariationStatistics variation{};
     std::optional<ExactError> error{};  ///< where there is an exact answer
@@ -77,6 +104,7 @@ struct PathRun {
     std::vector<Vec3> exact_proxies{};  ///< empty where no exact answer is known
     VariationStatistics exact_variation{};
     std::vector<AlgorithmRun> runs{};
+    TimeTaken timed{};  ///< all timed runs together
 };
 
 /// One cell of the sweep.
@@ -85,6 +113,7 @@ struct SweepPoint {
     double mu{0.0};
     double depth_px{0.0};
     RunFigures run{};
+    TimeTaken timed{};  ///< of all algorithms in this cell
 };
 
 /// Called with the share done, 0 to 1, from time to time.

@@ -66,7 +66,7 @@ std::string time_row(const PathRun& path, const AlgorithmRun& run) {
     const auto paper = paper_result(path.name, run.algorithm);
     std::string row = name_cell(run) + right(paper ? number_text(paper->update_us, 2) : "-", 9);
     for (const double us : {run.time_us.mean, run.time_us.median, run.time_us.p99, run.time_us.p999,
-                            run.time_us.highest, run.whole_run_us}) {
+                            run.time_us.highest, run.whole_run_us, run.whole_update_us}) {
         row += right(number_text(us, 3), 9);
     }
     return row + right(number_text(run.moves_per_update, 2), 9) +
@@ -104,7 +104,8 @@ std::string exact_row(const PathRun& path) {
 
 std::string time_table(std::span<const PathRun> paths) {
     std::string text = "\nTime of an update [us]\n" + left("", kNameWidth + 2);
-    for (const char* head : {"paper", "mean", "median", "p99", "p99.9", "max", "whole", "moves"}) {
+    for (const char* head :
+         {"paper", "mean", "median", "p99", "p99.9", "max", "whole", "+ force", "moves"}) {
         text += right(head, 9);
     }
     text += right("bound", 8) + "\n";
@@ -225,7 +226,8 @@ Json run_json(const PathRun& path, const AlgorithmRun& run) {
               {"p99", time.p99},
               {"p999", time.p999},
               {"max", time.highest},
-              {"whole_run", run.whole_run_us}}},
+              {"whole_run", run.whole_run_us},
+              {"whole_update", run.whole_update_us}}},
             {"moves_per_update", run.moves_per_update},
             {"contact_updates", std::count(run.contact.begin(), run.contact.end(), char{1})},
             {"bounds_met", run.bounds_met},
@@ -242,6 +244,7 @@ Json path_json(const PathRun& path) {
             {"columns", path.columns},
             {"rows", path.rows},
             {"updates", path.goals.size()},
+            {"waited_share", path.timed.waited_share()},
             {"settling_updates", path.settling_updates},
             {"reversal_updates", std::count(path.reversal.begin(), path.reversal.end(), char{1})},
             {"exact_variation_deg",
@@ -275,8 +278,9 @@ std::string table_of(std::span<const PathRun> paths, double clock_us) {
     text += time_table(paths);
     text +=
         "  Reading the clock, " + number_text(clock_us, 3) +
-        " us, is part of each time except \"whole\": the time of a whole run,\n"
-        "  divided by its updates.\n"
+        " us, is part of each time except \"whole\": the processor's time of a\n"
+        "  whole run, divided by its updates, and the same with the force, its stability and its "
+        "limits.\n"
         "  Moves: primitives visited; bound: updates that ended before the proxy had caught up. "
         "Paper: a Pentium\n  D, 3.4 GHz.\n";
     text += variation_table(paths);

@@ -30,8 +30,9 @@ struct PaperResult {
                                                       Algorithm algorithm) noexcept;
 
 /// `{"clock_us", "paths": [{"path", "source", "mu", "depth_px", "columns", "rows", "updates",
-///   "settling_updates", "reversal_updates", "exact_variation_deg": VARIATION or null,
-///   "runs": [{"algorithm", "time_us": {"mean", "median", "p99", "p999", "max", "whole_run"},
+///   "waited_share", "settling_updates", "reversal_updates", "exact_variation_deg": VARIATION or
+///   null, "runs": [{"algorithm", "time_us": {"mean", "median", "p99", "p999", "max", "whole_run",
+///     "whole_update"},
 ///     "moves_per_update", "contact_updates", "bounds_met", "variation_deg": VARIATION,
 ///     "error": ERROR or null, "paper": {"update_us", "mean_deg", "sd_deg"} or null}]}]}`
 /// VARIATION is `{"mean", "sd", "mean_without_reversals", "sd_without_reversals", "pairs",

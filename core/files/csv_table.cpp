@@ -7,8 +7,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "core/error.hpp"
@@ -17,20 +15,6 @@
 namespace dibhr {
 
 namespace {
-
-std::string text_of_file(const std::filesystem::path& file, const std::string& wanted) {
-    const auto refuse = [&](const std::string& what) {
-        throw InputError(file.string() + ": " + what + "; " + wanted);
-    };
-    std::error_code ignored;
-    if (std::filesystem::is_directory(file, ignored)) refuse("is a folder");
-    if (std::filesystem::is_character_file(file, ignored)) refuse("is a device");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) refuse(std::string("cannot be opened (") + std::strerror(errno) + ")");
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (stream.bad()) refuse("cannot be read");
-    return text;
-}
 
 std::string_view trimmed(std::string_view cell) {
     constexpr std::string_view kAround = " \t\r\"";
@@ -42,27 +26,42 @@ std::string_view trimmed(std::string_view cell) {
 }  // namespace
 
 CsvTable::CsvTable(const std::filesystem::path& file, const std::string& wanted)
-    : file_(file.string()), text_(text_of_file(file, wanted)) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (text_.starts_with(kByteOrderMark)) read_ = kByteOrderMark.size();
+    : file_(file.string()), wanted_(wanted) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(file, ignored)) refuse_file("is a folder");
+    if (std::filesystem::is_character_file(file, ignored)) refuse_file("is a device");
+    stream_.open(file, std::ios::binary);
+    if (!stream_) refuse_file(std::string("cannot be opened (") + std::strerror(errno) + ")");
+    if (std::filesystem::is_regular_file(file, ignored)) {
+        const std::uintmax_t size = std::filesystem::file_size(file, ignored);
+        if (!ignored) size_ = size;
+    }
     static_cast<void>(read_line());
     line_ = 1;  // also of an empty file
-    names_ = cells_;
+    names_.assign(cells_.begin(), cells_.end());
 }
 
 bool CsvTable::read_line() {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     cells_.clear();
-    if (read_ >= text_.size()) return false;
+    const bool is_read = static_cast<bool>(std::getline(stream_, text_));
+    if (stream_.bad()) refuse_file("cannot be read");
+    if (!is_read) return false;
+    read_ += text_.size() + 1;
+    std::string_view line = text_;
+    if (line_ == 0 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
     ++line_;
-    const std::size_t end = std::min(text_.find('\n', read_), text_.size());
-    const std::string_view line = std::string_view(text_).substr(read_, end - read_);
     for (std::size_t begin = 0; begin <= line.size();) {
         const std::size_t comma = std::min(line.find(',', begin), line.size());
         cells_.push_back(trimmed(line.substr(begin, comma - begin)));
         begin = comma + 1;
     }
-    read_ = end + 1;
     return true;
+}
+
+double CsvTable::share_read() const noexcept {
+    if (size_ == 0) return 0.0;
+    return std::min(1.0, static_cast<double>(read_) / static_cast<double>(size_));
 }
 
 std::optional<std::size_t> CsvTable::find(std::span<const std::string_view> names) const {
@@ -86,7 +85,7 @@ bool CsvTable::next() {
 
 double CsvTable::number(std::size_t column) const {
     const std::string_view cell = column < cells_.size() ? cells_[column] : std::string_view{};
-    const std::string which = "column " + std::string(names_[column]) + ": ";
+    const std::string which = "column " + names_[column] + ": ";
     if (cell.empty()) refuse(which + "no value; give a number");
     double value = 0.0;
     const char* const end = cell.data() + cell.size();
@@ -98,6 +97,10 @@ double CsvTable::number(std::size_t column) const {
         refuse(which + in_quotes(cell) + " is no finite number; give one such as 12.5");
     }
     return value;
+}
+
+void CsvTable::refuse_file(const std::string& what) const {
+    throw InputError(file_ + ": " + what + "; " + wanted_);
 }
 
 void CsvTable::refuse(const std::string& what) const {

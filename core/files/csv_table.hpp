@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,8 +14,8 @@
 
 namespace dibhr {
 
-/// Reads row by row. Space, quotation marks and carriage returns around a cell, empty lines, a byte
-/// order mark and unused columns are ignored.
+/// Reads row by row, and keeps one row only. Space, quotation marks and carriage returns around a
+/// cell, empty lines, a byte order mark and unused columns are ignored.
 class CsvTable {
   public:
     /// Throws InputError when the file cannot be read: the reason, then `wanted`, what to give
@@ -26,8 +28,12 @@ class CsvTable {
     /// twice.
     [[nodiscard]] std::optional<std::size_t> find(std::span<const std::string_view> names) const;
 
-    /// Goes to the next row. False after the last one.
+    /// Goes to the next row. False after the last one. Throws InputError when the file cannot be
+    /// read on.
     [[nodiscard]] bool next();
+
+    /// How much of the file has been read, 0 to 1; 0 where its size is not known (a pipe).
+    [[nodiscard]] double share_read() const noexcept;
 
     /// A cell of the row. Throws InputError with file, line and column when it is no finite number.
     [[nodiscard]] double number(std::size_t column) const;
@@ -37,12 +43,17 @@ class CsvTable {
 
   private:
     [[nodiscard]] bool read_line();
+    [[noreturn]] void refuse_file(const std::string& what) const;
 
     std::string file_;
-    std::string text_;
-    std::size_t read_{0};  ///< bytes of the text that were read
+    std::string wanted_;
+    std::ifstream stream_{};
+    std::uintmax_t size_{0};  ///< 0: not known
+    std::uintmax_t read_{0};  ///< bytes
     std::size_t line_{0};
-    std::vector<std::string_view> names_{}, cells_{};  // of the text
+    std::string text_{};  ///< of the line
+    std::vector<std::string> names_{};
+    std::vector<std::string_view> cells_{};  // of the text
 };
 
 /// A cell of a CSV file (RFC 4180), on one line, in quotation marks where needed. An apostrophe

@@ -68,6 +68,7 @@ class NeighborhoodWalk : private ProxyWalk {
     using ProxyWalk::ProxyWalk;
 
     void run() noexcept {
+        reads_left_ = half_over_bump(surface_, Neighborhood::kMostLooks);
         visit_until_rest([this] {
             if (proxy_.active.kind == PrimitiveKind::none) return visit_free();
             activate_smallest_primitive();
@@ -158,6 +159,7 @@ class NeighborhoodWalk : private ProxyWalk {
     /// At the point of a TRIANGLE that is nearest to the goal: its foot, or one of an EDGE that the
     /// foot is beyond.
     void look_into(const Primitive& which) noexcept {
+        count_reads(1);
         const Facet facet(surface_, which);
         const Vec3 foot = facet.project(goal_).foot;
         const Barycentric share = facet.barycentric(foot.x, foot.y);
@@ -182,6 +184,7 @@ class NeighborhoodWalk : private ProxyWalk {
     }
 
     void look_along_edges(const Primitive& which) noexcept {
+        count_reads(1);
         const Facet facet(surface_, which);
         for (const EdgeDirection direction : kDirections) {
             take_if_nearer(nearest_on(facet, which, direction), direction, which);

@@ -28,9 +28,11 @@ namespace dibhr {
 class Neighborhood final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere, half of them over a bump map
-    /// (README.md, "One update"): 140 us of them where nothing is in a cache, and more than the
-    /// stick and slip of the paper's paths needs, 453.
+    /// (README.md, "One update"): more than the stick and slip of the paper's paths needs, 453.
     static constexpr int kMostMoves = 460;
+    /// TRIANGLEs looked at in such an update, half of them over a bump map: up to 12 a move where
+    /// friction holds the proxy back. The stick and slip of the paper's paths needs 1675.
+    static constexpr int kMostLooks = 2000;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

@@ -33,6 +33,7 @@ class GraphWalk : private ProxyWalk {
     using ProxyWalk::ProxyWalk;
 
     void run() noexcept {
+        reads_left_ = Pga::kMostReads;
         visit_until_rest([this] {
             activate_smallest_primitive();
             switch (proxy_.active.kind) {
@@ -98,6 +99,7 @@ class GraphWalk : private ProxyWalk {
         const double here_to_goal2 = squared_distance(proxy_.position, goal_);
         for (unsigned held = 0;;) {
             const Nearest nearest = nearest_of(i, j, steps, held, here_to_goal2);
+            count_reads(steps.count);
             if (nearest.taken < 0) return rest_or_leave();
             const Step step = steps.first[nearest.taken];
             const int to_i = i + step.i;
@@ -138,6 +140,7 @@ class GraphWalk : private ProxyWalk {
         unsigned held = 0;
         for (;;) {
             const Nearest nearest = nearest_of(i, j, {kAround + first, count}, held, here_to_goal2);
+            count_reads(count);
             if (nearest.taken < 0) break;
             const int way = first + nearest.taken;
             const int to_i = i + kAround[way].i;

@@ -25,6 +25,9 @@ class Pga final : public ProxyAlgorithm {
   public:
     /// Primitives visited in an update that flies nowhere (README.md, "One update").
     static constexpr int kMostMoves = 500;
+    /// Elevations read in such an update: twice what its moves take where friction holds the proxy
+    /// back from no neighbour, up to 36 a move where it does.
+    static constexpr int kMostReads = 3000;
 
   private:
     void walk(const DepthSurface& surface, Vec3 goal, const Friction& friction,

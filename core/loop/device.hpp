@@ -50,7 +50,7 @@ struct HandReading {
     Vec3 own_force_newton{0.0};
 };
 
-/// Read once and sent to once a tick, by the haptic thread alone. Neither call allocates, locks or
+/// Read once and sent to once a tick, by the haptic thread alone. No call allocates, locks or
 /// throws.
 class Device {
   public:
@@ -61,6 +61,9 @@ class Device {
         return {.ready = false};
     }
     virtual HandReading read(const HandContext& context) noexcept = 0;
+    /// Whether the hand of the last reading stands still without touching, and needs no tick a
+    /// millisecond until it moves.
+    [[nodiscard]] virtual bool rests() const noexcept { return false; }
     /// Force on the hand [N], axes of grid space.
     virtual void send(Vec3 force_newton) noexcept = 0;
 };

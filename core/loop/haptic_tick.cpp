@@ -8,6 +8,9 @@ namespace dibhr {
 
 namespace {
 
+/// As long as a force rises, and longer than parameters glide.
+constexpr double kCalm_s = 0.5;
+
 double microseconds(std::chrono::steady_clock::duration span) {
     return std::chrono::duration<double, std::micro>(span).count();
 }
@@ -48,9 +51,15 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     TickStrip strip =
         strip_of(before, state_.touch, moved_s, microseconds(timing.lateness), context_.pitch_mm);
     if (!row.surface) strip.penetration_mm = 0.0F;  // of the last surface
-    connections_.strips.push(strip);
-    push_sound(settings);
+    carried_px_ += state_.touch.carried;
+    // One value a period, also where ticks are farther apart.
+    for (int period = 0; period < timing.periods; ++period) {
+        connections_.strips.push(strip);
+        strip.work_millijoule = 0.0F;
+        push_sound(settings);
+    }
     push_walked_tick(pair, settings, row);
+    state_.rests = update_rest(frames, pair, settings, row);
     count(timing, row.update_us);
     connections_.state.publish(state_);
 }
@@ -140,11 +149,21 @@ void HapticTick::push_sound(const HapticSettings& settings) noexcept {
     if (connections_.sound == nullptr) return;
     const Touch& touch = state_.touch;
     const bool may_act = settings.limits.max_force_newton > 0.0 && touch.cut == SafetyCut::none;
-    carried_px_ += touch.carried;
     connections_.sound->push({.proxy_mm = context_.pitch_mm * (touch.proxy.position - carried_px_),
                               .force_newton = glm::length(touch.sent_force_newton),
                               .contact = touch.proxy.contact,
                               .force_on = state_.touchable && may_act});
+}
+
+bool HapticTick::update_rest(const FrameWindow& frames, const DepthBlend& pair,
+                             const HapticSettings& settings, const TickRecord& row) noexcept {
+    const bool stands = !(frames.clock.speed > 0.0) || pair.from == pair.to;
+    const bool calm = row.surface && stands && connections_.device.rests() &&
+                      !state_.touch.proxy.contact && !row.from_zero && !settings.recording &&
+                      settings.version == calm_version_;
+    calm_version_ = settings.version;
+    calm_s_ = calm ? calm_s_ + row.dt_s : 0.0;
+    return calm_s_ >= kCalm_s;
 }
 
 void HapticTick::push_walked_tick(const DepthBlend& pair, const HapticSettings& settings,
@@ -183,8 +202,13 @@ void HapticTick::count(const TickTiming& timing, double update_us) noexcept {
     const double age_s = seconds(timing.begin - second_begin_);
     if (age_s < 1.0) return;
     const double updates = static_cast<double>(std::max<std::uint64_t>(second_updates_, 1));
-    state_.second = {static_cast<double>(second_ticks_) / age_s, sums_.worst_lateness_ms,
-                     sums_.update_us / updates, sums_.worst_update_us, sums_.moves / updates};
+    state_.second = {static_cast<double>(second_ticks_) / age_s,
+                     sums_.worst_lateness_ms,
+                     sums_.update_us / updates,
+                     sums_.worst_update_us,
+                     sums_.moves / updates,
+                     state_.ticks,
+                     state_.late_ticks};
     sums_ = {};
     second_ticks_ = second_updates_ = 0;
     second_begin_ = timing.begin;
@@ -208,7 +232,7 @@ void HapticLoop::run() {
     grants_ = become_realtime("dibhr haptic");
     granted_.store(true, std::memory_order_release);
     while (!stopping_.load(std::memory_order_relaxed)) {
-        const TickTiming timing = timer_.wait();
+        const TickTiming timing = timer_.wait(tick_.rests() ? kRestingPeriods : 1);
         tick_.run(timing, timer_.schedule().late_ticks());
     }
     tick_.send_zero_force();

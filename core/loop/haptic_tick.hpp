@@ -42,13 +42,18 @@ struct HapticSettings {
            a.force_enabled == b.force_enabled && a.bump == b.bump;
 }
 
+/// Periods from tick to tick while nobody touches: a tick of that length is far from a late one
+/// (SafetyLimits::max_tick_s).
+inline constexpr int kRestingPeriods = 8;
+
 /// The loop's timing over the last whole second.
 struct LoopSecond {
     double rate_hz{0.0};
     double worst_lateness_ms{0.0};
     double update_us{0.0};  ///< mean time of one update
     double worst_update_us{0.0};
-    double moves{0.0};  ///< mean primitives visited in an update
+    double moves{0.0};                      ///< mean primitives visited in an update
+    std::uint64_t ticks{0}, late_ticks{0};  ///< from the loop's begin to the end of that second
 };
 
 /// What the window shows of the last tick.
@@ -61,6 +66,7 @@ struct HapticState {
     std::uint64_t late_ticks{0};
     /// Ticks that ended before the proxy had caught up with its goal: it goes on in the next one.
     std::uint64_t bounds_met{0};
+    bool rests{false};  ///< nobody touches and nothing moves: ticks are kRestingPeriods apart
     LoopSecond second{};
     Standstill standstill{};  ///< the last one
 
@@ -95,6 +101,9 @@ class HapticTick {
     /// At the end of the loop, and while there is no surface; the next force begins from zero.
     void send_zero_force() noexcept;
 
+    /// Whether the next tick may come kRestingPeriods after this one.
+    [[nodiscard]] bool rests() const noexcept { return state_.rests; }
+
   private:
     /// Where one of these changes the force begins from zero. Pointers are compared, not contents.
     struct ForceContext {
@@ -119,6 +128,10 @@ class HapticTick {
     /// Adds the tick's result, and pushes the row.
     void record(TickRecord& row, const TickTiming& timing) noexcept;
     void push_sound(const HapticSettings& settings) noexcept;
+    /// Whether, for half a second, the hand has rested over a still surface with the same settings,
+    /// and nothing was recorded.
+    [[nodiscard]] bool update_rest(const FrameWindow& frames, const DepthBlend& pair,
+                                   const HapticSettings& settings, const TickRecord& row) noexcept;
     /// Pushes the input that the other algorithms' proxies need to walk to this tick's goal.
     void push_walked_tick(const DepthBlend& pair, const HapticSettings& settings,
                           const TickRecord& row) noexcept;
@@ -136,7 +149,9 @@ class HapticTick {
     bool recording_{false};
     bool reset_{false};  // in this tick: a recording begins
     StandstillWatch watch_{connections_.hearts};
-    bool standstill_{false};  // in this tick
+    bool standstill_{false};         // in this tick
+    double calm_s_{0.0};             // how long all conditions of update_rest() have been true
+    std::uint64_t calm_version_{0};  // of the settings in the last tick
     std::chrono::steady_clock::time_point start_{};
     std::chrono::steady_clock::time_point second_begin_{};
     LoopSecond sums_{};  // of the running second

@@ -18,6 +18,8 @@
 #include <cstring>
 #include <ctime>
 #include <fstream>
+#include <string>
+#include <utility>
 
 #include "core/realtime/time_slice.hpp"
 
@@ -133,10 +135,11 @@ void TickSchedule::start(TimePoint now) noexcept {
     last_begin_ = now;
 }
 
-TickTiming TickSchedule::begin_tick(TimePoint begin) noexcept {
-    deadline_ += period_;
+TickTiming TickSchedule::begin_tick(TimePoint begin, int periods) noexcept {
+    deadline_ = next_deadline(periods);
     TickTiming timing;
     timing.begin = begin;
+    timing.periods = periods;
     timing.dt_s = std::chrono::duration<double>(begin - last_begin_).count();
     timing.lateness = std::max(nanoseconds(begin - deadline_), nanoseconds(0));
     timing.late = timing.lateness >= period_;
@@ -152,11 +155,11 @@ TickTiming TickSchedule::begin_tick(TimePoint begin) noexcept {
 
 TickTimer::TickTimer(nanoseconds period) noexcept : schedule_(period) {}
 
-TickTiming TickTimer::wait() noexcept {
+TickTiming TickTimer::wait(int periods) noexcept {
     if (!started_) schedule_.start(std::chrono::steady_clock::now());
     started_ = true;
-    sleep_until(schedule_.next_deadline());
-    return schedule_.begin_tick(std::chrono::steady_clock::now());
+    sleep_until(schedule_.next_deadline(periods));
+    return schedule_.begin_tick(std::chrono::steady_clock::now(), periods);
 }
 
 RealtimeGrants become_realtime(const char* thread_name) {
@@ -164,8 +167,13 @@ RealtimeGrants become_realtime(const char* thread_name) {
     pthread_setname_np(pthread_self(), name.c_str());
     prctl(PR_SET_TIMERSLACK, 1UL);  // 1 ns instead of 50 us, should the priority be refused
     RealtimeGrants grants;
-    grants.priority = ask_for_priority();
-    if (!grants.priority.granted) (void)set_time_slice(kPromptSlice);
+    Grant priority = ask_for_priority();
+    const bool is_refused = !priority.granted;
+    grants.priority->set(std::move(priority));
+    if (is_refused) {
+        (void)set_time_slice(kPromptSlice);
+        PriorityBroker::request(gettid(), grants.priority);
+    }
     grants.memory_lock = ask_for_memory_lock();
     touch_stack();
     return grants;

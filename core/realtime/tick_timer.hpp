@@ -6,7 +6,9 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <memory>
+
+#include "core/realtime/priority_broker.hpp"
 
 namespace dibhr {
 
@@ -34,6 +36,7 @@ struct TickTiming {
     double dt_s{0.001};  ///< since the last tick began, the true one
     std::chrono::nanoseconds lateness{0};
     bool late{false};  ///< began a whole period or more after its deadline
+    int periods{1};    ///< from the deadline before to this one
 };
 
 /// The deadlines of a periodic loop and the lateness of its ticks, without a clock of its own.
@@ -46,9 +49,12 @@ class TickSchedule {
 
     /// Sets the first deadline to one period after `now`; keeps the counts.
     void start(TimePoint now) noexcept;
-    [[nodiscard]] TimePoint next_deadline() const noexcept { return deadline_ + period_; }
+    /// `periods`, here and below: after the last deadline.
+    [[nodiscard]] TimePoint next_deadline(int periods = 1) const noexcept {
+        return deadline_ + periods * period_;
+    }
     /// Counts the tick that began at `begin` for the next deadline.
-    TickTiming begin_tick(TimePoint begin) noexcept;
+    TickTiming begin_tick(TimePoint begin, int periods = 1) noexcept;
 
     [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_; }
     [[nodiscard]] std::uint64_t late_ticks() const noexcept { return late_ticks_; }
@@ -71,7 +77,7 @@ class TickTimer {
 
     /// Waits for the next deadline; the only wait of a haptic thread. The clock starts with the
     /// first call.
-    TickTiming wait() noexcept;
+    TickTiming wait(int periods = 1) noexcept;
 
     /// Its counts, and how late ticks were.
     [[nodiscard]] const TickSchedule& schedule() const noexcept { return schedule_; }
@@ -81,20 +87,15 @@ class TickTimer {
     bool started_{false};
 };
 
-/// Granted, or the reason why not, as text for the Loop panel.
-struct Grant {
-    bool granted{false};
-    std::string answer{};  ///< "SCHED_FIFO 80", "refused: needs rtprio in /etc/security/..."
-};
-
 struct RealtimeGrants {
-    Grant priority{};
+    std::shared_ptr<SharedGrant> priority{std::make_shared<SharedGrant>()};
     Grant memory_lock{};
 };
 
 /// Names the calling thread (15 characters are kept), makes its sleeps exact, requests SCHED_FIFO,
-/// and locks the process's memory when the limit allows it without starving other threads. Threads
-/// made by the caller do not inherit the priority. A refusal is no error.
+/// and locks the process's memory when the limit allows it without starving other threads. Where
+/// SCHED_FIFO is refused, PriorityBroker is asked, without waiting for it. Threads made by the
+/// caller do not inherit the priority. A refusal is no error.
 [[nodiscard]] RealtimeGrants become_realtime(const char* thread_name);
 
 }  // namespace dibhr

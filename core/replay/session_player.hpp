@@ -54,7 +54,7 @@ struct SessionPlayback : PlayState {
 };
 
 /// For the window's thread; no call waits for a disk or for decoding. The clock advances with the
-/// window's pictures: a call takes effect from the last picture on.
+/// window's turns: a call takes effect from the last turn on.
 class SessionPlayer final : public Transport {
   public:
     using Time = std::chrono::steady_clock::time_point;
@@ -78,8 +78,8 @@ class SessionPlayer final : public Transport {
     /// present moment, or before the target of a jump.
     void compare(bool algorithms);
 
-    /// Once a picture, at its time: advances to the last moment that is due, and calls `passed`
-    /// with each moment on the way.
+    /// Once a turn of the window, at its time: advances to the last moment that is due, and calls
+    /// `passed` with each moment on the way.
     void advance(Time now, const std::function<void(const SessionMoment&)>& passed);
 
     /// Null until the first one has been read.

@@ -1,5 +1,6 @@
 // The state of a Falcon as data for the panel, the session and its reports.
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -31,8 +32,10 @@ std::vector<HomedAxis> axes_of(const Reply& reply) {
 }
 
 std::vector<DeviceLine> exchange_lines(const Status& status) {
+    // Rounded: another last digit each second would have the window drawn each second.
+    const double replies_per_s = 10.0 * std::round(0.1 * status.replies_per_s);
     std::vector<DeviceLine> lines{
-        {.label = "Replies", .text = number_text(status.replies_per_s, 0) + " per second"}};
+        {.label = "Replies", .text = number_text(replies_per_s, 0) + " per second"}};
     if (status.resent + status.line_errors + status.bytes_discarded > 0) {
         lines.push_back({.label = "Link",
                          .text = std::to_string(status.resent) + " sent again, " +

@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "core/realtime/triple_buffer.hpp"
+#include "core/realtime/wake.hpp"
 #include "device/falcon/packet.hpp"
 #include "device/hand/epoch.hpp"
-#include "device/hand/wake.hpp"
 
 namespace dibhr::falcon {
 

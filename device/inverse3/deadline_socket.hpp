@@ -10,7 +10,7 @@
 #include <span>
 #include <system_error>
 
-#include "device/hand/wake.hpp"
+#include "core/realtime/wake.hpp"
 
 namespace dibhr::inverse3 {
 

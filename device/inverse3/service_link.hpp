@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "core/error.hpp"
+#include "core/realtime/wake.hpp"
 #include "device/hand/guardian.hpp"
-#include "device/hand/wake.hpp"
 
 namespace dibhr::inverse3 {
 

@@ -7,8 +7,8 @@
 
 #include "core/haptics/vec.hpp"
 #include "core/realtime/triple_buffer.hpp"
+#include "core/realtime/wake.hpp"
 #include "device/hand/epoch.hpp"
-#include "device/hand/wake.hpp"
 
 namespace dibhr::inverse3 {
 

@@ -139,6 +139,28 @@ TEST_CASE("a file that is not there, or is a folder, is named with what to do", 
           folder.path().string() + ": is a folder; give a CSV file with the columns t,x,y,z");
 }
 
+TEST_CASE("goals are read in blocks, in order of time also from one to the next", "[goals]") {
+    const GoalsFile file("t,x,y,z\n0,1,2,3\n1,4,5,6\n\n2,7,8,9\n3,1,1,1\n4,2,2,2\n");
+    dibhr::GoalReader reader(file.path());
+    std::vector<TimedGoal> block;
+    std::vector<double> times_s;
+    double share = reader.share_read();
+    while (reader.next(2, block)) {
+        CHECK(block.size() <= 2);
+        for (const TimedGoal& goal : block) times_s.push_back(goal.t_s);
+        CHECK(reader.share_read() > share);
+        share = reader.share_read();
+    }
+    CHECK(times_s == std::vector<double>{0.0, 1.0, 2.0, 3.0, 4.0});
+    CHECK_THAT(share, WithinAbs(1.0, 0.0));
+    CHECK(block.empty());
+
+    const GoalsFile falling("t,x,y,z\n0,1,2,3\n1,4,5,6\n0.5,7,8,9\n");
+    dibhr::GoalReader first_two(falling.path());
+    REQUIRE(first_two.next(2, block));
+    CHECK_THROWS_AS(first_two.next(2, block), dibhr::InputError);
+}
+
 TEST_CASE("a goal stream gives one row a tick, for ever, whatever the tick and the force",
           "[goals]") {
     GoalStream stream("goals:walk.csv", goals_of("t,x,y,z\n0,1,2,3\n5,4,5,6\n5,7,8,9\n"));

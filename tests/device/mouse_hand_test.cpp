@@ -104,6 +104,28 @@ TEST_CASE("a steadily moving cursor leads the hand by some 40 ms, whatever the t
     CHECK_THAT((x - goal.x) / kSpeed_px_per_s, WithinAbs(0.040, 0.002));
 }
 
+TEST_CASE("the hand rests where it waits and where the cursor stands, with the button up",
+          "[mouse]") {
+    HandInLoop loop(flat());
+    loop.run(1.0);
+    CHECK(loop.hand.rests());
+    loop.point_at(100.0, 150.0);
+    loop.tick();
+    CHECK_FALSE(loop.hand.rests());
+    loop.run(1.0);
+    CHECK(loop.hand.rests());
+    loop.cursor.pressed = true;
+    loop.tick();
+    CHECK_FALSE(loop.hand.rests());
+    loop.run(2.0);
+    CHECK_FALSE(loop.hand.rests());
+    loop.cursor.pressed = false;
+    loop.tick();
+    CHECK_FALSE(loop.hand.rests());
+    loop.run(1.0);
+    CHECK(loop.hand.rests());
+}
+
 TEST_CASE("the main button is passed on", "[mouse]") {
     HandInLoop loop(flat());
     loop.point_at(100.0, 100.0);

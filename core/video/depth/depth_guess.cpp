@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <opencv2/core.hpp>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -217,6 +217,34 @@ std::size_t different_values(const std::vector<float>& rising) {
     return count;
 }
 
+template <typename Level>
+void mark_levels(const cv::Mat& grey, std::vector<char>& used) {
+    for (int j = 0; j < grey.rows; ++j) {
+        const auto* const row = grey.ptr<Level>(j);
+        for (int i = 0; i < grey.cols; ++i) used[row[i]] = 1;
+    }
+}
+
+void keep_different(std::vector<float>& levels) {
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
+}
+
+/// Adds those that are finite. Keeps at most about twice as many as there are different ones.
+void add_real_levels(const cv::Mat& grey, std::vector<float>& used) {
+    std::size_t most = std::max(2 * used.size(), std::size_t{1} << 20U);
+    cv::Mat levels;
+    for (int j = 0; j < grey.rows; ++j) {
+        grey.row(j).convertTo(levels, CV_32F);
+        const float* const row = levels.ptr<float>();
+        std::copy_if(row, row + levels.cols, std::back_inserter(used),
+                     [](float level) { return std::isfinite(level); });
+        if (used.size() < most) continue;
+        keep_different(used);
+        most = std::max(2 * used.size(), most);
+    }
+}
+
 }  // namespace
 
 SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : bits_(bits) {
@@ -232,15 +260,16 @@ SampledLevels::SampledLevels(const std::vector<cv::Mat>& pictures, int bits) : b
 LevelLattice SampledLevels::lattice_of(const cv::Mat& picture) {
     const int step = std::max(
         1, static_cast<int>(std::sqrt(static_cast<double>(picture.total()) / kLatticePixels)));
-    cv::Mat all;
-    grey_of(picture).convertTo(all, CV_32F);
+    const cv::Mat grey = grey_of(picture);
     LevelLattice lattice;
-    lattice.columns = (all.cols + step - 1) / step;
-    for (int j = 0; j < all.rows; j += step) {
-        const float* row = all.ptr<float>(j);
-        for (int i = 0; i < all.cols; i += step) {
+    lattice.columns = (grey.cols + step - 1) / step;
+    cv::Mat levels;
+    for (int j = 0; j < grey.rows; j += step) {
+        grey.row(j).convertTo(levels, CV_32F);
+        const float* const row = levels.ptr<float>();
+        for (int i = 0; i < grey.cols; i += step) {
             lattice.levels.push_back(row[i]);
-            lattice.beside.push_back(row[std::min(i + 1, all.cols - 1)]);
+            lattice.beside.push_back(row[std::min(i + 1, grey.cols - 1)]);
         }
         ++lattice.rows;
     }
@@ -599,18 +628,21 @@ double SampledLevels::holes_share() const {
 }
 
 int levels_used(const std::vector<cv::Mat>& pictures) {
-    std::set<float> used;
+    constexpr std::size_t kWholeLevels = std::size_t{1} << 16U;
+    std::vector<char> whole(kWholeLevels);  // 1: used
+    std::vector<float> used;
     for (const cv::Mat& picture : pictures) {
-        cv::Mat all;
-        grey_of(picture).convertTo(all, CV_32F);
-        for (int j = 0; j < all.rows; ++j) {  // a row has far fewer levels than pixels
-            float* const row = all.ptr<float>(j);
-            float* const end = std::remove_if(row, row + all.cols,
-                                              [](float level) { return !std::isfinite(level); });
-            std::sort(row, end);
-            used.insert(row, std::unique(row, end));
-        }
+        const cv::Mat grey = grey_of(picture);
+        if (grey.depth() == CV_8U)
+            mark_levels<std::uint8_t>(grey, whole);
+        else if (grey.depth() == CV_16U)
+            mark_levels<std::uint16_t>(grey, whole);
+        else
+            add_real_levels(grey, used);
     }
+    for (std::size_t level = 0; level < kWholeLevels; ++level)
+        if (whole[level] != 0) used.push_back(static_cast<float>(level));
+    keep_different(used);
     return static_cast<int>(used.size());
 }
 

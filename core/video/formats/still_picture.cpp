@@ -42,6 +42,10 @@ bool is_tiff(const std::string& head) {
     return head.starts_with("II") || head.starts_with("MM");
 }
 
+bool is_png(std::string_view head) {
+    return head.starts_with("\x89PNG\r\n\x1a\n");
+}
+
 /// Checks the header first, because OpenCV allocates memory for any size that a header claims.
 void require_plausible_claim(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
@@ -71,9 +75,12 @@ cv::Mat decoded_text_picture(const fs::path& file, int flags) {
                            flags);
 }
 
-cv::Mat decoded(const fs::path& file, int flags) {
+cv::Mat decoded(const fs::path& file, PictureRole role) {
     require_plausible_claim(file);
+    const int flags = role == PictureRole::depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR;
     cv::Mat picture;
+    if (is_png(head_of(file))) picture = read_plain_png(file, role);
+    if (!picture.empty()) return picture;
     try {
         const QuietErrors quiet;
         picture = picture_codecs().read(file.string(), flags);
@@ -149,7 +156,8 @@ bool is_opencv_picture(const fs::path& file, std::string_view head) {
     const bool is_webp =
         head.size() >= 12 && head.starts_with("RIFF") && head.substr(8, 4) == "WEBP";
     try {
-        return is_webp || picture_codecs().can_read(file.string());
+        return is_webp || is_png(head) || head.starts_with("\xff\xd8\xff") ||
+               picture_codecs().can_read(file.string());
     } catch (const cv::Exception&) {
         return false;
     }
@@ -170,7 +178,7 @@ cv::Mat decoded_picture(std::span<const std::uint8_t> bytes, int flags) {
 
 StillPicture read_by_opencv(const fs::path& file, PictureRole role) {
     const bool is_depth = role == PictureRole::depth;
-    cv::Mat picture = decoded(file, is_depth ? cv::IMREAD_UNCHANGED : cv::IMREAD_COLOR);
+    cv::Mat picture = decoded(file, role);
     if (picture.depth() != CV_8U && picture.depth() != CV_16U) picture.convertTo(picture, CV_32F);
     const int bits = picture.depth() == CV_8U ? 8 : picture.depth() == CV_16U ? 16 : kRealBits;
     StillPicture still{picture, bits, codec_by_name(file)};

@@ -21,12 +21,17 @@ struct StillPicture {
 };
 
 /// Whether OpenCV's codecs read the file, or it is a WebP picture. OpenCV does not recognise a
-/// damaged WebP, and libav would take it for a video and end the program. Loads the codecs.
+/// damaged WebP, and libav would take it for a video and end the program. Loads the codecs, but not
+/// for the first bytes of PNG and JPEG.
 [[nodiscard]] bool is_opencv_picture(const std::filesystem::path& file, std::string_view head);
 
 /// Depth keeps its levels and channels, colour becomes 8-bit BGR. Levels with a sign, and real ones
 /// (TIFF), become real. Throws InputError.
 [[nodiscard]] StillPicture read_by_opencv(const std::filesystem::path& file, PictureRole role);
+
+/// A PNG picture of 8 or 16 bits in grey or colour, as read_by_opencv() has it, without loading the
+/// codecs. Empty when it is of another kind, or damaged.
+[[nodiscard]] cv::Mat read_plain_png(const std::filesystem::path& file, PictureRole role);
 
 /// A picture in memory, in a form that claimed_size() knows; `flags`: OpenCV's for reading. Empty
 /// when it is damaged, or beyond the bound.

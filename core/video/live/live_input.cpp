@@ -24,10 +24,10 @@ extern "C" {
 #include <thread>
 
 #include "core/error.hpp"
+#include "core/files/module.hpp"
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
-#include "core/video/modules/module.hpp"
 
 namespace dibhr {
 

@@ -1,7 +1,7 @@
 // Loads the picture codecs from their module.
 #include "core/video/modules/picture_codecs.hpp"
 
-#include "core/video/modules/module.hpp"
+#include "core/files/module.hpp"
 
 namespace dibhr {
 

@@ -65,10 +65,12 @@ struct Player::Implementation {
     template <typename Action>
     bool attempt(Action action);
     void publish();
+    void publish_status(const FrameWindow& window, Time published);
 
     TripleBuffer<FrameWindow> haptics{};
     TripleBuffer<FrameWindow> picture{};
     Heartbeat heart{}, decoding{};
+    std::function<void()> on_frames{};  ///< set before the thread starts
 
     // Used by the player thread only.
     Playback playback{};
@@ -181,6 +183,11 @@ void Player::Implementation::publish() {
     haptics.publish(live.is_open() ? window : playback.touchable());
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
+    publish_status(window, published);
+    if (on_frames) on_frames();
+}
+
+void Player::Implementation::publish_status(const FrameWindow& window, Time published) {
     const std::lock_guard lock(mutex);
     if (commands.empty()) requested = {};
     shown = window;
@@ -230,7 +237,9 @@ void Player::Implementation::publish_live() {
     status.decode_ms = status.clean_ms = live.clean_ms();
 }
 
-Player::Player() : implementation_(std::make_unique<Implementation>()) {
+Player::Player(std::function<void()> on_frames)
+    : implementation_(std::make_unique<Implementation>()) {
+    implementation_->on_frames = std::move(on_frames);
     implementation_->thread = std::thread([this] { implementation_->run(); });
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,7 +50,8 @@ struct PlaybackStatus {
 /// buffers the haptic thread reads `haptics()`, the window thread `picture()`.
 class Player final : public Transport {
   public:
-    Player();
+    /// `on_frames` is called on the player's thread whenever picture() has been published.
+    explicit Player(std::function<void()> on_frames = {});
     ~Player() override;  ///< stops the thread
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;

@@ -91,6 +91,7 @@ void check_grounds(const Json& json) {
         if (row.at("ground") != "sample") CHECK(costs[0].at("bounds_met") == 0);
         for (const Json& cost : costs) {
             CHECK(cost.at("update_ns").get<double>() > 0.0);
+            CHECK(cost.at("whole_update_ns").get<double>() > 0.0);
             CHECK(cost.at("moves").get<double>() >= 1.0);
             CHECK_THAT(cost.at("move_ns").get<double>() * cost.at("moves").get<double>(),
                        WithinRel(cost.at("update_ns").get<double>(), 1e-12));
@@ -158,6 +159,7 @@ UpdateCosts made_up_costs() {
                 {.algorithm = algorithm,
                  .time_us = statistics_of({0.1, 0.2, 0.3}),
                  .whole_run_us = 0.1 + 0.001 * static_cast<double>(path.algorithms.size()),
+                 .whole_update_us = 0.2,
                  .moves_per_update = 3.0});
     }
     for (const std::string& row : kJumps) {

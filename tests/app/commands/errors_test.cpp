@@ -122,12 +122,14 @@ TEST_CASE("a truncated video is refused in one line", "[errors]") {
     CHECK_FALSE(std::filesystem::exists(folder / "out.csv"));
 }
 
-TEST_CASE("where the picture codecs are not installed a picture is refused in one line",
+TEST_CASE("where the picture codecs are not installed a picture but a PNG is refused in one line",
           "[errors]") {
     const TemporaryFolder folder;
-    write_inputs(folder);
+    write_depth_png(folder / "depth.png", 16, 12, 100);
     std::filesystem::copy_file(DIBHR_PROGRAM, folder / "alone");
-    run_shell(folder, "! ./alone info depth.png > output.txt 2> errors.txt");
+    run_shell(folder,
+              "ffmpeg -v error -i depth.png depth.tif && ./alone info depth.png > /dev/null && "
+              "! ./alone info depth.tif > output.txt 2> errors.txt");
     CHECK(read_text(folder / "output.txt").empty());
     const std::string errors = read_text(folder / "errors.txt");
     CHECK(std::count(errors.begin(), errors.end(), '\n') == 1);

@@ -1,4 +1,5 @@
 // `dibhr touch` as scripts use it: files in, rows out, checked against exact answers.
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -471,6 +472,22 @@ TEST_CASE("the same input gives the same bits, but for the time it took", "[touc
         second[k].text.erase("ns");
         REQUIRE(first[k].text == second[k].text);
     }
+}
+
+TEST_CASE("more goals than a block holds, from a pipe, give the rows that their file gives",
+          "[touch]") {
+    constexpr int kGoals = 9000;
+    const TemporaryFolder folder;
+    write_depth_png(folder / "depth.png", 90, 90, 10, 2);
+    write_text(folder / "goals.csv",
+               goals_csv(circle_goals({44, 45, 60}, {1, 0, 0}, {0, 1, 0}, 30.0, 0.11, kGoals)));
+    for (const std::string goals : {"goals.csv", "/dev/stdin"})
+        run_shell(folder, "{ cat goals.csv | '" DIBHR_PROGRAM
+                          "' touch --depth depth.png --raw-depth --goals " +
+                              goals + " | sed 's/,[^,]*$//' > rows_$(basename " + goals + "); }");
+    const std::string rows = read_text(folder / "rows_goals.csv");
+    CHECK(std::count(rows.begin(), rows.end(), '\n') == kGoals + 2);  // the header, and the first
+    CHECK(rows == read_text(folder / "rows_stdin"));
 }
 
 TEST_CASE("cleaning fills a hole that raw depth keeps", "[touch]") {

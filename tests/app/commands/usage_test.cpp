@@ -295,6 +295,16 @@ TEST_CASE("a reader that had enough is no failure", "[usage]") {
     CHECK(read_text(folder / "code") == "0\n0\n");
 }
 
+TEST_CASE("the program starts without the libraries of videos, photos and plots", "[usage]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "{ objdump -p '" DIBHR_PROGRAM "' | grep NEEDED > needed; }");
+    const std::string needed = read_text(folder / "needed");
+    CHECK(contains(needed, "libc.so"));
+    for (const char* const library : {"libavformat", "libavcodec", "libswscale", "libheif",
+                                      "libzip", "libcairo", "libpango", "libopencv_imgcodecs"})
+        CHECK_FALSE(contains(needed, library));
+}
+
 TEST_CASE("standard output that cannot be written is a failure told in one line", "[usage]") {
     const TemporaryFolder folder;
     const std::string program = DIBHR_PROGRAM;

@@ -158,7 +158,7 @@ void WindowProgram::wait_until(const std::function<bool(const Seen&)>& is_so) co
     const bool came = eventually([&] { return is_so(seen()) || has_ended(); }, kPatience);
     const Seen last = seen();
     if (is_so(last)) return;
-    FAIL((came ? "the program has ended" : "no picture shows it") << "; the last one: " << last);
+    FAIL((came ? "the program has ended" : "no turn shows it") << "; the last one: " << last);
 }
 
 void WindowProgram::hang() const {
@@ -170,10 +170,10 @@ void WindowProgram::go_on() const {
     (*board_)->hangs = false;
 }
 
-void WindowProgram::wait_for_picture() const {
-    // The one that is being drawn may have looked for events already.
-    const std::uint64_t wanted = seen().picture + 2;
-    wait_until([wanted](const Seen& now) { return now.picture >= wanted; });
+void WindowProgram::wait_for_turn() const {
+    // The one that runs may have looked for events already.
+    const std::uint64_t wanted = seen().turn + 2;
+    wait_until([wanted](const Seen& now) { return now.turn >= wanted; });
 }
 
 void WindowProgram::wait_for_surface() const {
@@ -181,7 +181,7 @@ void WindowProgram::wait_for_surface() const {
 }
 
 void WindowProgram::act(const std::string& events) const {
-    seat_->act(events, [this] { wait_for_picture(); });
+    seat_->act(events, [this] { wait_for_turn(); });
 }
 
 DisplayServer::DisplayServer()

@@ -44,22 +44,23 @@ class Process {
     pid_t child_{-1};
 };
 
-/// The program in a window, used by keyboard and mouse and followed picture by picture.
+/// The program in a window, used by keyboard and mouse and followed turn by turn.
 class WindowProgram : public Process {
   public:
     WindowProgram(std::vector<std::string> arguments, std::vector<std::string> environment,
                   const TemporaryFolder& folder, std::shared_ptr<Seat> seat);
 
-    /// What the newest picture shows.
+    /// The newest turn of the window.
     [[nodiscard]] Seen seen() const { return (*board_)->read(); }
-    /// Until a picture shows what `is_so` asks for. The test fails when none does within a minute,
+    /// Until a turn shows what `is_so` asks for. The test fails when none does within a minute,
     /// and when the program ends before.
     void wait_until(const std::function<bool(const Seen&)>& is_so) const;
-    /// Until a picture was shown that was begun after the call: every event of before is in it.
-    void wait_for_picture() const;
+    /// Until a turn is over that was begun after the call: every event of before is done, and drawn
+    /// where it shows.
+    void wait_for_turn() const;
     /// Until its window is there, with a surface, and can be touched.
     void wait_for_surface() const;
-    /// Events as Seat::act() has them, each of them seen in a picture before the next one.
+    /// Events as Seat::act() has them, each of them done in a turn before the next one.
     void act(const std::string& events) const;
     /// The window's thread loops for ever, which it does when this returns.
     void hang() const;

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "app/commands/program.hpp"
-#include "core/video/modules/module.hpp"
+#include "core/files/module.hpp"
 #include "tests/app/program/program_start.hpp"
 
 namespace {
@@ -69,7 +69,8 @@ int main() {
     void* const shared =
         ::mmap(nullptr, sizeof(pid_t), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED) return 1;
-    // Else each program that opens a picture would load them again.
+    // Else each program that opens a picture or a video would load them again.
+    static_cast<void>(dibhr::symbol_in_module("dibhr_libav", "avformat_version"));
     static_cast<void>(dibhr::symbol_in_module("dibhr_picture_codecs", "dibhr_picture_codecs"));
     std::string message;
     for (;;) {

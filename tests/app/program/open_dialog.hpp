@@ -15,7 +15,7 @@ inline void open_by_name(const WindowProgram& viewer, const std::string& name) {
     viewer.wait_until([](const Seen& now) { return now.dialog_entries == 1; });
     viewer.act("key Return");
     viewer.wait_until([](const Seen& now) { return !now.dialog_typing; });
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
 }
 
 }  // namespace dibhr::test

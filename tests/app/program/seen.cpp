@@ -19,7 +19,7 @@ namespace {
 }  // namespace
 
 std::ostream& operator<<(std::ostream& out, const Seen& seen) {
-    out << "picture " << seen.picture << " of " << seen.file.str() << ", "
+    out << "turn " << seen.turn << ", picture " << seen.picture << " of " << seen.file.str() << ", "
         << (seen.playing ? "playing" : "paused") << " at " << seen.media_s << " s (drawn: frame "
         << seen.drawn_frame << ", " << seen.drawn_s << " s), message '" << seen.message.str()
         << "', notice '" << seen.notice.str() << "', " << seen.ticks << " ticks, "

@@ -1,5 +1,5 @@
 // What a window under test has shown last: written by the tests' build of the program after each
-// picture, read by the test through memory that both have mapped.
+// turn of its loop, read by the test through memory that both have mapped.
 #pragma once
 
 #include <algorithm>
@@ -28,9 +28,10 @@ struct SeenText {
     [[nodiscard]] std::string str() const { return characters.data(); }
 };
 
-/// The newest picture.
+/// The newest turn of the window's loop, and the picture that is on the screen after it.
 struct Seen {
-    std::uint64_t picture{0};  ///< its number, from 1; 0: none has been shown yet
+    std::uint64_t turn{0};     ///< its number, from 1
+    std::uint64_t picture{0};  ///< that picture's number, from 1; 0: none has been shown yet
 
     SeenText file{};      ///< the path of the colour, or of the session that is replayed
     bool open{false};     ///< there is media, or a session
@@ -112,7 +113,7 @@ static_assert(std::is_trivially_copyable_v<Seen>);
 /// For the message of a test that waited in vain.
 std::ostream& operator<<(std::ostream& out, const Seen& seen);
 
-/// The memory: one writer, any readers; a reader never sees half of a picture.
+/// The memory: one writer, any readers; a reader never sees half of a turn.
 struct SeenBoard {
     static constexpr const char* kVariable = "DIBHR_SEEN_BOARD";  ///< names its file
 
@@ -133,7 +134,7 @@ struct SeenBoard {
         }
     }
 
-    /// While it is true the window's thread loops after its next picture.
+    /// While it is true the window's thread loops after its next turn.
     std::atomic<bool> hangs{false};
     std::atomic<bool> is_hanging{false};  ///< it does
 

@@ -43,16 +43,7 @@ std::string line_from(int descriptor) {
 }
 
 void require_done(int result, const char* what) {
-    if (result < 0) throw std::runtime_error(std::string("the test's portal: ") + what);
-}
-
-sd_bus* connected(const std::string& address) {
-    sd_bus* bus = nullptr;
-    require_done(sd_bus_new(&bus), "new");
-    require_done(sd_bus_set_address(bus, address.c_str()), "address");
-    require_done(sd_bus_set_bus_client(bus, 1), "client");
-    require_done(sd_bus_start(bus), "start");
-    return bus;
+    if (result < 0) throw std::runtime_error(std::string("the test's service: ") + what);
 }
 
 }  // namespace
@@ -65,8 +56,17 @@ SessionBus::SessionBus()
     ::close(told_[0]);
 }
 
+sd_bus* SessionBus::connect() const {
+    sd_bus* bus = nullptr;
+    require_done(sd_bus_new(&bus), "new");
+    require_done(sd_bus_set_address(bus, address_.c_str()), "address");
+    require_done(sd_bus_set_bus_client(bus, 1), "client");
+    require_done(sd_bus_start(bus), "start");
+    return bus;
+}
+
 Portal::Portal(const SessionBus& bus, PortalManner manner)
-    : manner_(std::move(manner)), bus_(connected(bus.address()), sd_bus_flush_close_unref) {
+    : manner_(std::move(manner)), bus_(bus.connect(), sd_bus_flush_close_unref) {
     require_done(sd_bus_add_filter(bus_.get(), nullptr, &on_message, this), "filter");
     require_done(sd_bus_request_name(bus_.get(), "org.freedesktop.portal.Desktop", 0), "name");
     thread_ = std::jthread([this](const std::stop_token& stop) {

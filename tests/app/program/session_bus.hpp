@@ -23,6 +23,8 @@ class SessionBus {
 
     /// "unix:path=..."
     [[nodiscard]] const std::string& address() const { return address_; }
+    /// A new connection; the test fails when there is none.
+    [[nodiscard]] sd_bus* connect() const;
     /// It stands still, or goes on.
     void stop() const { daemon_.send(SIGSTOP); }
     void resume() const { daemon_.send(SIGCONT); }

@@ -1,5 +1,5 @@
-// The program as it is shipped, but for its main(): after each picture it writes what it has shown
-// where the test reads it, and hangs when the test asks for that.
+// The program as it is shipped, but for its main(): after each turn of its window it writes what is
+// shown where the test reads it, and hangs when the test asks for that.
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -36,7 +36,7 @@ void see_media(const PictureShown& shown, Seen& seen) {
     seen.speed = video.speed;
     seen.media_s = video.media_s;
     seen.duration_s = video.duration_s;
-    if (seen.surface) {
+    if (seen.surface && shown.drawn) {
         const Frame& frame = shown.surface.nearest();
         seen.drawn_s = frame.media_s;
         seen.drawn_frame = frame.index;
@@ -110,9 +110,17 @@ void see_touch(const TouchState& touch, Seen& seen) {
     seen.sound = static_cast<int>(touch.sound);
 }
 
-Seen seen_of(const PictureShown& shown, std::uint64_t number) {
+/// `last`: of the turn before, whose picture stays where none was drawn.
+Seen seen_of(const PictureShown& shown, const Seen& last) {
     Seen seen;
-    seen.picture = number;
+    seen.turn = last.turn + 1;
+    seen.picture = last.picture + (shown.drawn ? 1 : 0);
+    if (!shown.drawn) {
+        seen.drawn_middle = last.drawn_middle;
+        seen.drawn_s = last.drawn_s;
+        seen.drawn_frame = last.drawn_frame;
+        seen.drawn_media = last.drawn_media;
+    }
     see_media(shown, seen);
     see_touch(shown.touch, seen);
     seen.panels = shown.settings.panels_visible;
@@ -143,7 +151,7 @@ PictureHook hook_of(const char* file) {
     if (file == nullptr) return {};
     const auto board = std::make_shared<MappedBoard>(file);
     return [board, last = Seen{}](const PictureShown& shown) mutable {
-        Seen seen = seen_of(shown, last.picture + 1);
+        Seen seen = seen_of(shown, last);
         seen.question_trial = last.question_trial;
         seen.question_seen_s = last.question_seen_s;
         see_question(shown, seen);

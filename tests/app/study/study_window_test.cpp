@@ -220,7 +220,7 @@ class Participant {
         std::string last;
         std::string now = at_.desk.picture();
         while (now != last) {
-            program_.wait_for_picture();
+            program_.wait_for_turn();
             last = std::move(now);
             now = at_.desk.picture();
         }

@@ -224,7 +224,7 @@ TEST_CASE("a window that hangs when a signal ends it keeps what was written of t
     viewer.wait_until([](const Seen& now) { return now.clip; });
     const int first = wait_for_more(folder, 0);
     const int written = wait_for_more(folder, first);
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     viewer.hang();
     viewer.send(SIGTERM);
     CHECK(viewer.wait() == 1);
@@ -290,7 +290,7 @@ TEST_CASE("a clip that cannot be written is told in one line, and the program go
     viewer.wait_until([&trouble](const Seen& now) {
         return now.message.str().find(trouble) != std::string::npos;
     });
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     desk.press("key q");
     CHECK(viewer.wait() == 1);
     const std::string errors = read_text(folder / "errors.txt");

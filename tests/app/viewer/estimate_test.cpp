@@ -90,7 +90,7 @@ TEST_CASE(
     viewer.wait_until([](const Seen& now) { return now.depth_offered; });
     viewer.act(kMake);
     viewer.wait_until([](const Seen& now) { return now.asks_command; });
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     CHECK_FALSE(home.runs());
     viewer.act(kRun);
     REQUIRE(eventually([&] { return home.waits(); }, kPatience));

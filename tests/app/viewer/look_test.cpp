@@ -109,7 +109,7 @@ Look look_with(const std::vector<std::string>& options) {
     arguments.insert(arguments.end(), options.begin(), options.end());
     WindowProgram viewer = desk.start_viewer(folder, arguments);
     viewer.wait_until([](const Seen& now) { return now.surface && now.recorded_rows > 0; });
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     Look look{.picture = picture_of(desk), .columns = viewer.seen().columns};
     desk.press("key q");
     REQUIRE(viewer.wait() == 0);
@@ -130,8 +130,8 @@ bool help_sheet_scrolls(const Desk& desk, const WindowProgram& viewer) {
     const int rows = viewer.seen().rows;
     const std::vector<int> before = help_sheet(picture_of(desk), rows);
     desk.press("click 5 click 5 click 5 click 5");
-    viewer.wait_for_picture();
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
+    viewer.wait_for_turn();
     return help_sheet(picture_of(desk), rows) != before;
 }
 
@@ -170,7 +170,7 @@ TEST_CASE(
     CHECK_FALSE(help_sheet_scrolls(desk, viewer));
     viewer.act("windowsize 800 600");
     viewer.wait_until([](const Seen& now) { return now.columns == 800; });
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     CHECK(help_sheet_scrolls(desk, viewer));
 
     viewer.act("key Escape key o");

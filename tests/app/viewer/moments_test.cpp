@@ -10,6 +10,7 @@
 #include <random>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "core/haptics/vec.hpp"
@@ -169,7 +170,7 @@ TEST_CASE("colour and relief on the screen are of one moment, also on a machine 
         options.emplace_back(option);
     WindowProgram viewer = desk.start_viewer(home, options);
     viewer.wait_for_surface();
-    viewer.wait_for_picture();
+    viewer.wait_for_turn();
     const Bits still(Screen{desk});
     CAPTURE(still.depth, still.colour);
     REQUIRE(still.is_plain());

@@ -110,7 +110,7 @@ TEST_CASE(
 TEST_CASE("a disk under the video that stops takes the force off, and a signal ends the program",
           "[ways out]") {
     constexpr std::uint64_t kTicks = 300;
-    constexpr std::uint64_t kPictures = 30;
+    constexpr std::uint64_t kTurns = 30;
     const Stall stall("sample/depth.mp4");
     const Desk desk;
     const TemporaryFolder folder;
@@ -130,7 +130,7 @@ TEST_CASE("a disk under the video that stops takes the force off, and a signal e
     Seen last_on = viewer.seen();
     viewer.wait_until([&](const Seen& now) {
         if (!is_off(now)) last_on = now;
-        return now.picture > last_on.picture + kPictures &&
+        return now.turn > last_on.turn + kTurns &&
                now.recorded_rows > last_on.recorded_rows + 2 * kTicks;
     });
     check_end_by_signal(viewer, folder, "closing the window");

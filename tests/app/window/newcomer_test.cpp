@@ -75,8 +75,8 @@ class Newcomer {
     void scroll_panels() const {
         act("mousemove 1110 640");
         for (int k = 0; k < 10; ++k) desk_.press("click 5 click 5 click 5");
-        viewer_.wait_for_picture();
-        viewer_.wait_for_picture();
+        viewer_.wait_for_turn();
+        viewer_.wait_for_turn();
     }
 
     [[nodiscard]] bool holds(const std::string& file, const std::string& part) const {

@@ -2,7 +2,6 @@
 // plain walk over the VERTEXes that gives the same proxies.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
@@ -25,8 +24,6 @@ using namespace dibhr;
 using namespace dibhr::test;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 /// The first updates of a path over a ground, their surfaces made beforehand.
 struct Course {
@@ -109,9 +106,9 @@ DepthClip sample() {
 
 template <typename Run>
 double seconds_for(Run&& run) {
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     run();
-    return std::chrono::duration<double>(Clock::now() - begin).count();
+    return 1e-6 * watch.taken().processor_us;
 }
 
 double run(ProxyAlgorithm& algorithm, const Course& course) {

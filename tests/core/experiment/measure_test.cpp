@@ -1,9 +1,11 @@
 // What the experiment measures: forces that turn, reversals, the exact answer, and DIBHR against
 // it.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -11,6 +13,7 @@
 #include "core/experiment/experiment.hpp"
 #include "core/metrics/force_variation.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 using namespace dibhr;
 using Catch::Matchers::WithinAbs;
@@ -153,10 +156,25 @@ TEST_CASE("every algorithm gets the same goals and leaves one entry an update", 
         CHECK(run.contact.size() == path.goals.size());
         CHECK(run.time_us.count == path.goals.size());
         CHECK(run.whole_run_us > 0.0);
+        CHECK(run.whole_update_us > 0.0);
         CHECK(run.moves_per_update > 0.0);
         CHECK(run.bounds_met == 0);
         for (const Vec3& proxy : run.proxies) REQUIRE_THAT(proxy.z, WithinAbs(100.0, 1e-9));
     }
+}
+
+TEST_CASE("time in which other programs run is not the processor's, and is reported", "[paper]") {
+    const Stopwatch watch;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    const TimeTaken taken = watch.taken();
+    CHECK(taken.wall_us >= 20e3);
+    CHECK(taken.processor_us < taken.wall_us);
+    CHECK(taken.waited_share() > 0.0);
+    CHECK(busy_machine_text({.wall_us = 100.0, .processor_us = 99.0}).empty());
+    CHECK(busy_machine_text({}).empty());
+    TimeTaken timed{.wall_us = 100.0, .processor_us = 90.0};
+    timed += {.wall_us = 100.0, .processor_us = 50.0};
+    CHECK(test::contains(busy_machine_text(timed), "30 %"));
 }
 
 TEST_CASE("a run gives the same proxies however it is timed", "[paper]") {

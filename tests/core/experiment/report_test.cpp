@@ -88,11 +88,27 @@ TEST_CASE("the JSON holds every path and algorithm under names that stay", "[rep
     INFO(json);
     CHECK(is_balanced(json));
     CHECK(times_in(json, "\"algorithm\": ") == 2 * all_algorithms().size());
-    for (const char* name :
-         {"clock_us", "path", "source", "mu", "depth_px", "updates", "reversal_updates",
-          "settling_updates", "exact_variation_deg", "time_us", "whole_run", "p999",
-          "moves_per_update", "bounds_met", "variation_deg", "mean_without_reversals", "max_rad",
-          "contact_updates", "paper"}) {
+    for (const char* name : {"clock_us",
+                             "path",
+                             "source",
+                             "mu",
+                             "depth_px",
+                             "updates",
+                             "reversal_updates",
+                             "settling_updates",
+                             "exact_variation_deg",
+                             "time_us",
+                             "whole_run",
+                             "whole_update",
+                             "waited_share",
+                             "p999",
+                             "moves_per_update",
+                             "bounds_met",
+                             "variation_deg",
+                             "mean_without_reversals",
+                             "max_rad",
+                             "contact_updates",
+                             "paper"}) {
         CHECK(contains(json, "\"" + std::string(name) + "\": "));
     }
     CHECK(contains(json, "a \\\"quoted\\\"\\nname \\\\ "));

@@ -28,11 +28,13 @@ class TestHand final : public Device {
                 .own_force_newton = own_force_newton};
     }
     void send(Vec3 force_newton) noexcept override { sent = force_newton; }
+    [[nodiscard]] bool rests() const noexcept override { return resting; }
 
     Vec3 goal{20.0, 10.0, 90.0};
     bool lifted{false};
     bool hand_changed{false};  // by the next reading
     bool force_off{false};
+    bool resting{false};
     Vec3 own_force_newton{0.0};
     Vec3 sent{-1.0};
     std::optional<DeviceLimits> limits_now{};  // instead of the specification's

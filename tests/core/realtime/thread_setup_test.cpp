@@ -42,10 +42,11 @@ Seen seen_from_a_thread(const char* name) {
 
 TEST_CASE("the priority that is reported is the one in force", "[threads]") {
     const Seen seen = seen_from_a_thread("haptic");
-    CAPTURE(seen.grants.priority.answer);
-    CHECK(((seen.policy & ~SCHED_RESET_ON_FORK) == SCHED_FIFO) == seen.grants.priority.granted);
-    CHECK(seen.grants.priority.answer.starts_with(seen.grants.priority.granted ? "SCHED_FIFO "
-                                                                               : "refused: "));
+    CAPTURE(seen.grants.priority->get().answer);
+    CHECK(((seen.policy & ~SCHED_RESET_ON_FORK) == SCHED_FIFO) ==
+          seen.grants.priority->get().granted);
+    CHECK(seen.grants.priority->get().answer.starts_with(
+        seen.grants.priority->get().granted ? "SCHED_FIFO " : "refused: "));
 }
 
 TEST_CASE("a memory lock is granted or refused with a reason", "[threads]") {

@@ -73,6 +73,19 @@ TEST_CASE("after any tick the next deadline is on the grid, a period ahead at mo
     CHECK(schedule.ticks() == 500);
 }
 
+TEST_CASE("ticks that are some periods apart keep the grid of deadlines", "[timer]") {
+    TickSchedule schedule = started_schedule();
+    for (const int periods : {1, 8, 8, 1, 3}) {
+        const auto last = schedule.next_deadline(0);
+        CHECK(schedule.next_deadline(periods) == last + periods * 1ms);
+        const auto timing = schedule.begin_tick(last + periods * 1ms + 400us, periods);
+        CHECK(timing.lateness == 400us);
+        CHECK_FALSE(timing.late);
+        CHECK(timing.periods == periods);
+    }
+    CHECK(schedule.next_deadline() == kStart + 22ms);
+}
+
 TEST_CASE("the timer never begins a tick before its deadline", "[timer]") {
     TickTimer timer(200us);
     const auto before = std::chrono::steady_clock::now();

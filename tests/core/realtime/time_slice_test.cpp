@@ -46,7 +46,7 @@ TEST_CASE(
 TEST_CASE("a real-time thread needs no slices", "[threads]") {
     std::thread([] {
         const RealtimeGrants grants = become_realtime("slices");
-        if (grants.priority.granted) CHECK_FALSE(set_time_slice(kPatientSlice));
+        if (grants.priority->get().granted) CHECK_FALSE(set_time_slice(kPatientSlice));
     }).join();
     SUCCEED();
 }

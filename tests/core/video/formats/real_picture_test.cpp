@@ -1,11 +1,13 @@
-// Pictures of real numbers and of numbers with a sign: PFM and TIFF files.
+// Pictures of real numbers and of numbers with a sign: PFM and TIFF files; and PNG files.
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+#include <vector>
 
+#include "core/error.hpp"
 #include "core/video/formats/still_picture.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
@@ -134,4 +136,33 @@ TEST_CASE("a bump map may be of real numbers, and is flat where there are none",
     const BumpMap bump = read_bump_map(folder / "bump.pfm");
     CHECK(bump.heights[0] == 1.0F);
     for (std::size_t k = 1; k < 16; ++k) CHECK(bump.heights[k] == 0.0F);
+}
+
+TEST_CASE("PNG pictures of every kind are read as OpenCV reads them", "[png]") {
+    const TemporaryFolder folder;
+    const int type = GENERATE(CV_8UC1, CV_16UC1, CV_8UC3, CV_16UC3, CV_8UC4, CV_16UC4);
+    CAPTURE(type);
+    cv::Mat picture(37, 53, type);
+    cv::randu(picture, 0, CV_MAT_DEPTH(type) == CV_16U ? 65536 : 256);
+    const std::string file = (folder / "a.png").string();
+    REQUIRE(cv::imwrite(file, picture));
+    const auto all_different = [](const cv::Mat& a, const cv::Mat& b) {
+        return different(a.reshape(1), b.reshape(1));
+    };
+    const cv::Mat depth = read_still(file, PictureRole::depth).picture;
+    CHECK(all_different(depth, cv::imread(file, cv::IMREAD_UNCHANGED)) == 0);
+    const cv::Mat colour = read_still(file, PictureRole::colour).picture;
+    CHECK(all_different(colour, cv::imread(file, cv::IMREAD_COLOR)) == 0);
+    CHECK(read_plain_png(file, PictureRole::depth).empty() == (CV_MAT_CN(type) == 4));
+}
+
+TEST_CASE("a PNG picture that ends too early is refused", "[png]") {
+    const TemporaryFolder folder;
+    cv::Mat picture(64, 64, CV_16UC1);
+    cv::randu(picture, 0, 65536);
+    std::vector<std::uint8_t> bytes;
+    REQUIRE(cv::imencode(".png", picture, bytes));
+    write_text(folder / "a.png", std::string(bytes.begin(), bytes.begin() + 3000));
+    CHECK(read_plain_png(folder / "a.png", PictureRole::depth).empty());
+    CHECK_THROWS_AS(read_still(folder / "a.png", PictureRole::depth), InputError);
 }

@@ -1,11 +1,14 @@
 // Each kind of evidence gives its row of the table of findings.
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "core/video/depth/depth_guess.hpp"
 #include "core/video/sources/media.hpp"
 #include "tests/core/video/asks.hpp"
 #include "tests/core/video/coded_scene.hpp"
@@ -393,4 +396,16 @@ TEST_CASE("the table says who knows when frames are, the surest of whom counts",
     CHECK(by_list > sureness_of(table, "times of the depth", Evidence::numbers, "assumed"));
     CHECK(by_list > kSureEnough);
     CHECK(contains(stamped->description().timing, "timestamps.txt"));
+}
+
+TEST_CASE("the levels that pictures use are counted once, those that are not finite never",
+          "[findings]") {
+    cv::Mat millimetres(2000, 1000, CV_32FC1);  // more than are collected at a time
+    for (int j = 0; j < millimetres.rows; ++j) millimetres.row(j) = 0.25F * static_cast<float>(j);
+    millimetres.at<float>(0, 0) = std::numeric_limits<float>::infinity();
+    CHECK(levels_used({millimetres}) == 2000);
+    const cv::Mat levels = (cv::Mat_<std::uint16_t>(2, 3) << 0, 1, 1, 300, 65535, 0);
+    CHECK(levels_used({levels}) == 4);
+    CHECK(levels_used({levels, levels + 1, cv::Mat(4, 4, CV_8UC1, cv::Scalar(9))}) == 7);
+    CHECK(levels_used({}) == 0);
 }

@@ -1,4 +1,4 @@
-// The haptic thread's way to end the poll() of a device's thread.
+// A way for any thread, also the haptic one, to end the poll() of another.
 #pragma once
 
 namespace dibhr {

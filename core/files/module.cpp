@@ -1,5 +1,5 @@
 // Finds a module and loads it.
-#include "core/video/modules/module.hpp"
+#include "core/files/module.hpp"
 
 #include <dlfcn.h>
 

@@ -1,5 +1,5 @@
-// The haptic thread's way to end the poll() of a device's thread.
-#include "device/hand/wake.hpp"
+// Ends the poll() of another thread, by an eventfd.
+#include "core/realtime/wake.hpp"
 
 #include <sys/eventfd.h>
 #include <unistd.h>
@@ -15,25 +15,25 @@ namespace dibhr {
 
 Wake::Wake() : descriptor_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {
     if (descriptor_ < 0) {
-        throw DeviceError(std::string("a device's thread cannot be made (") + std::strerror(errno) +
-                          "): close other programs");
+        throw DeviceError(std::string("a thread that waits cannot be made (") +
+                          std::strerror(errno) + "): close other programs");
     }
 }
 
 Wake::~Wake() {
-    close(descriptor_);
+    ::close(descriptor_);
 }
 
 void Wake::signal() const noexcept {
     const std::uint64_t one = 1;
     // Fails only when the counter is full: then the descriptor is readable anyway.
-    [[maybe_unused]] const auto written = write(descriptor_, &one, sizeof one);
+    [[maybe_unused]] const auto written = ::write(descriptor_, &one, sizeof one);
 }
 
 void Wake::clear() const noexcept {
     std::uint64_t signals = 0;
     // Fails only when there was no signal.
-    [[maybe_unused]] const auto got = read(descriptor_, &signals, sizeof signals);
+    [[maybe_unused]] const auto got = ::read(descriptor_, &signals, sizeof signals);
 }
 
 }  // namespace dibhr

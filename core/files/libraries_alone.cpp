@@ -1,0 +1,1 @@
+// A module that holds nothing but the names of its libraries: see forward.hpp.

@@ -1,0 +1,41 @@
+// When a window draws its next picture.
+#include "app/viewer/picture_change.hpp"
+
+#include <chrono>
+
+#include "tests/support/catch.hpp"
+
+using namespace dibhr;
+using namespace std::chrono_literals;
+
+namespace {
+
+SceneMark scene_with_hand_at(double x) {
+    SceneMark scene;
+    scene.markers.goal = {x, 0.0, 0.0};
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("while a video runs a hand that moves waits for its next frame, but not for a late one",
+          "[rest]") {
+    const PanelChanges runs{.video_runs = true};
+    const PictureChange::Time begin{1h};
+    PictureChange change;
+    const auto is_drawn = [&](const SceneMark& scene, PictureChange::Time now) {
+        const SceneMark mark = change.with_drawn_hand(scene, now);
+        return change.may_differ(mark, runs, now) && change.take({mark, 0}, now);
+    };
+    REQUIRE(is_drawn(scene_with_hand_at(1.0), begin));
+    CHECK_FALSE(is_drawn(scene_with_hand_at(2.0), begin + 50ms));
+    SceneMark next = scene_with_hand_at(3.0);
+    next.blend = 0.5;
+    CHECK(is_drawn(next, begin + 60ms));
+    // The frame after it does not come.
+    next.markers.goal.x = 4.0;
+    CHECK_FALSE(is_drawn(next, begin + 150ms));
+    CHECK(is_drawn(next, begin + 170ms));
+    CHECK_FALSE(is_drawn(next, begin + 180ms));
+    CHECK_FALSE(is_drawn(next, begin + 10s));
+}
