@@ -206,7 +206,7 @@ void draw_cleaning(ViewerState& state) {
     row("Steady in time", steps.steady, standard.steady,
         "What does not move keeps its level from frame to frame");
     row("Smooth depth steps", steps.smooth_steps, standard.smooth_steps,
-        "Rounds the terraces of 8-bit depth, by half a level at most");
+        "Rounds the terraces of depth in steps, by half a step at most");
     row("Smooth noise", steps.smooth_noise, standard.smooth_noise,
         "Within the noise of the recording; what is beyond it stays");
     row("Smooth outlines", steps.smooth_outlines, standard.smooth_outlines,
