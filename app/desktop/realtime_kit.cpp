@@ -4,13 +4,13 @@
 #include <sched.h>
 #include <sys/resource.h>
 #include <systemd/sd-bus.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -26,8 +26,8 @@ namespace {
 constexpr const char* kRealtimeKit = "org.freedesktop.RealtimeKit1";
 constexpr const char* kRealtimeKitPath = "/org/freedesktop/RealtimeKit1";
 
-/// Threads that RealtimeKit made real-time ones; 0: a free place.
-std::array<std::atomic<pid_t>, 16> granted_threads{};
+/// Threads that RealtimeKit made real-time ones; 0: a free place. dibhr has fewer at a time.
+std::array<std::atomic<pid_t>, 32> granted_threads{};
 static_assert(std::atomic<pid_t>::is_always_lock_free);  // a signal handler reads them
 
 /// On SIGXCPU: one of the threads runs without a pause.
@@ -41,13 +41,23 @@ void end_priorities(int /*signal*/) {
     errno = error;
 }
 
-void note_granted(pid_t thread) {
-    static std::atomic<std::size_t> next{0};  // the oldest ones ended long ago
-    granted_threads[next++ % granted_threads.size()].store(thread, std::memory_order_relaxed);
+bool has_ended(pid_t thread) {
+    return thread == 0 || (tgkill(getpid(), thread, 0) != 0 && errno == ESRCH);
+}
+
+/// Before the grant: a thread that runs without a pause must be known. False: no place is free.
+bool note_granted(pid_t thread) {
+    const auto free = std::find_if(granted_threads.begin(), granted_threads.end(),
+                                   [](const std::atomic<pid_t>& one) {
+                                       return has_ended(one.load(std::memory_order_relaxed));
+                                   });
+    if (free == granted_threads.end()) return false;
+    free->store(thread, std::memory_order_relaxed);
     struct sigaction action {};
     action.sa_handler = end_priorities;
     action.sa_flags = SA_RESTART;
     (void)sigaction(SIGXCPU, &action, nullptr);
+    return true;
 }
 
 /// Limits are only lowered: a user cannot raise them again. False: refused.
@@ -159,8 +169,8 @@ std::string refusal_of(RealtimeKit& kit, pid_t thread) {
     const auto highest = kit.property<std::int32_t>("MaxRealtimePriority", "i");
     if (highest <= 0) return or_not_there();
     if (!bound_running_time(most_us)) return "RLIMIT_RTTIME cannot be set";
+    if (!note_granted(thread)) return "dibhr has too many threads with priority";
     if (!kit.make_realtime(thread, static_cast<std::uint32_t>(highest))) return or_not_there();
-    note_granted(thread);
     return priority_of(thread).empty() ? "its priority is not in force" : std::string();
 }
 

@@ -30,8 +30,8 @@ SceneMark PictureChange::with_drawn_hand(SceneMark scene, Time now) const {
 }
 
 bool PictureChange::may_differ(const SceneMark& scene, const PanelChanges& panels, Time now) {
-    if (panels.input) lively_until_ = now + kLively;
-    const bool lively = !panels.video_runs && now < lively_until_;
+    if (panels.input) input_until_ = lively_until_ = now + kLively;
+    const bool lively = now < input_until_ || (!panels.video_runs && now < lively_until_);
     return !drawn_ || !(drawn_->scene == scene) || panels.input || panels.in_use || lively ||
            now >= laid_out_ + kGlance;
 }

@@ -52,6 +52,7 @@ class PictureChange {
     std::optional<PictureMark> drawn_{};
     Time drawn_at_{};
     Time laid_out_{};      // when the panels were last
+    Time input_until_{};   // the panels may change by the last input
     Time lively_until_{};  // the panels may change by themselves
 };
 

@@ -101,7 +101,8 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
     }
     glfwMakeContextCurrent(window_);
     // Not under Wayland: a hidden window would wait in the swap until it is visible again.
-    glfwSwapInterval(sync && x11_window() != 0 ? 1 : 0);
+    on_x11_ = x11_window() != 0;
+    glfwSwapInterval(sync && on_x11_ ? 1 : 0);
     glfwSetWindowSizeLimits(window_, kSmallestWindow, kSmallestWindow, GLFW_DONT_CARE,
                             GLFW_DONT_CARE);
     glfwSetWindowUserPointer(window_, &pending_);
@@ -196,7 +197,7 @@ void Window::wait_for_input(std::chrono::milliseconds at_most) {
 
 void Window::wake() const {
     wake_.signal();
-    glfwPostEmptyEvent();  // for a display server other than X
+    if (!on_x11_) glfwPostEmptyEvent();
 }
 
 void Window::ping_display() {

@@ -129,6 +129,7 @@ class Window {
     GLFWwindow* window_{nullptr};
     PendingInput pending_{};
     Wake wake_{};
+    bool on_x11_{false};
     bool visible_{true};
     glm::ivec2 place_{0};  // before the full screen
     glm::ivec2 size_{0};

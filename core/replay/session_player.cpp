@@ -125,8 +125,10 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
 
 OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
     : session(file), frames((session.check(), session), {.any_media = any_media, .colour = true}) {
-    if (session.rows() == 0 || session.sources().empty())
-        throw InputError(file.string() + ": holds no tick over a video; record a longer one");
+    if (session.rows() > 0 && !session.sources().empty()) return;
+    // One of the first format says why it has no video.
+    if (!session.warning().empty()) throw InputError(session.warning());
+    throw InputError(file.string() + ": holds no tick over a video; record a longer one");
 }
 
 struct SessionPlayer::Implementation {

@@ -1,5 +1,5 @@
 """Reads a session of dibhr, schema 2 as FORMAT.md states it, with nothing but Python.
-python3 read_session.py SESSION            its tables but for the ticks, a JSON object a line
+python3 read_session.py SESSION            its tables but for ticks and maps, a JSON object a line
 python3 read_session.py SESSION TICKS.csv  also every tick, decoded from tick_data, as dibhr export"""
 import csv, json, pathlib, sqlite3, sys
 
@@ -53,5 +53,8 @@ db = sqlite3.connect(pathlib.Path(sys.argv[1]).resolve().as_uri() + "?mode=ro", 
 db.row_factory = sqlite3.Row
 for table in ("session", "parameters", "source", "media", "pair", "mark", "clock", "cut"):
     print(json.dumps({table: [dict(row) for row in db.execute("SELECT * FROM " + table)]}))
+view = db.execute("SELECT sql FROM sqlite_master WHERE name = 'tick'").fetchone()[0]
 if len(sys.argv) > 2:
+    if db.execute("PRAGMA user_version").fetchone()[0] != 2 or "typeof(d.cx)" not in view:
+        sys.exit("its ticks are coded in another way than this reads: take its view, tick")
     csv.writer(open(sys.argv[2], "w", newline=""), lineterminator="\n").writerows([NAMES, *ticks(db)])

@@ -249,7 +249,7 @@ void label_session(Database database, const StudyIdentity& identity, int trial,
     const std::string title =
         page_of(identity.protocol_text, study)["title"].value_or(std::string());
     database.restrict_untrusted(kLongestSession_bytes);
-    Statement row(database, "INSERT OR REPLACE INTO session VALUES (?, ?)");
+    Statement row(database, "INSERT OR REPLACE INTO session(key, value) VALUES (?, ?)");
     row.run("participant", identity.participant);
     row.run("note", title + ", trial " + std::to_string(trial + 1));
 }

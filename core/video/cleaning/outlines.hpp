@@ -13,13 +13,14 @@ namespace dibhr {
 /// Noise and each pixel's own decision leave outlines ragged. A pixel beside a step changes sides
 /// where most around it are on the other one, and takes the level of its neighbours there. Then
 /// each tooth that is left changes sides where that leaves fewer. Unchanged: ramps, and straight
-/// lines of pixels, but for three at their ends. The same input gives the same bits. Scratch memory
-/// is kept inside.
+/// lines of pixels, but for three at their ends and beside teeth that remain. The same input gives
+/// the same bits. Scratch memory is kept inside.
 class OutlineSmoother {
   public:
     /// `image`: without NaN. `recorded_teeth`: of the picture before any cleaning. While there are
-    /// more, lines one pixel wide are shortened, too, at most 64 times. `unseen`: 1 for each pixel
-    /// never seen, or empty; a pixel that changes sides takes the mark of its new neighbours, too.
+    /// more, lines one pixel wide are shortened, too, at most 64 times; last, the pixels around
+    /// teeth become medians of 3 x 3 and then 5 x 5. `unseen`: 1 for each pixel never seen, or
+    /// empty; a pixel that changes sides takes the mark of its new neighbours, too.
     void smooth(DepthImage& image, std::size_t recorded_teeth, std::span<std::uint8_t> unseen = {});
 
   private:

@@ -20,8 +20,8 @@ class StepSmoother {
     void smooth(DepthImage& image);
 
     /// The same for levels of any coding (hue, disparity, 8 bits in 16): within half a step of the
-    /// clip's measured levels, across differences of one step only. Levels whose noise reaches half
-    /// a step, and steps that are not felt, stay.
+    /// clip's measured levels, across differences of one step only. Levels whose noise reaches a
+    /// tenth of a step, and steps that are not felt, stay.
     void smooth_measured(DepthImage& image, const DepthNoise& noise);
 
   private:

@@ -39,3 +39,18 @@ TEST_CASE("while a video runs a hand that moves waits for its next frame, but no
     CHECK_FALSE(is_drawn(next, begin + 180ms));
     CHECK_FALSE(is_drawn(next, begin + 10s));
 }
+
+TEST_CASE("after input the panels are laid out in each turn, also while a video runs", "[rest]") {
+    const SceneMark scene = scene_with_hand_at(1.0);
+    const PictureChange::Time begin{1h};
+    for (const bool runs : {false, true}) {
+        PictureChange change;
+        REQUIRE(change.take({scene, 0}, begin));
+        REQUIRE_FALSE(change.take({scene, 0}, begin + 1s));
+        CHECK_FALSE(change.may_differ(scene, {.video_runs = runs}, begin + 1100ms));
+        CHECK(change.may_differ(scene, {.input = true, .video_runs = runs}, begin + 1110ms));
+        CHECK(change.may_differ(scene, {.video_runs = runs}, begin + 1150ms));
+        CHECK_FALSE(change.take({scene, 0}, begin + 1400ms));
+        CHECK_FALSE(change.may_differ(scene, {.video_runs = runs}, begin + 1500ms));
+    }
+}

@@ -122,7 +122,9 @@ TEST_CASE("software draws a video that runs once a frame", "[rest]") {
     const Seen end = film.viewer.seen();
     const double frames = kRate * (end.media_s - begin.media_s);
     constexpr double kSettling = 5.0;  // of what stands over the relief, and at both ends
-    CHECK(static_cast<double>(end.picture - begin.picture) < frames + kSettling);
+    const auto pictures = static_cast<double>(end.picture - begin.picture);
+    CHECK(pictures < frames + kSettling);
+    CHECK(pictures > frames / 4.0);  // a busy machine does not draw all
     film.quit();
 }
 

@@ -153,6 +153,7 @@ TEST_CASE("a hole's level is at most a pit below the lowest around, whatever is 
     DepthImage lifted = image;
     std::vector<std::uint8_t> unseen(seen.levels.size());
     LargeHoleFiller().fill(lifted, seen, {}, unseen);
+    int other = 0;  // pixels
     for (int j = 0; j < kRows; ++j)
         for (int i = 0; i < kColumns; ++i) {
             float lowest = std::numeric_limits<float>::infinity();
@@ -164,9 +165,10 @@ TEST_CASE("a hole's level is at most a pit below the lowest around, whatever is 
                         lowest = std::min(lowest, seen.at(x, y));
             const bool is_lifted = std::isnan(seen.at(i, j)) && std::isfinite(lowest);
             const float level = image.at(i, j);
-            if (lifted.at(i, j) != (is_lifted ? std::max(level, lowest - kPit) : level))
-                FAIL_CHECK("(" << i << ", " << j << ")");
+            other +=
+                lifted.at(i, j) != (is_lifted ? std::max(level, lowest - kPit) : level) ? 1 : 0;
         }
+    CHECK(other == 0);
 }
 
 TEST_CASE("a finger at rest stays in contact where data flickers", "[holes]") {

@@ -121,7 +121,9 @@ TEST_CASE("levels that noise carries from step to step, and those without steps,
     const DepthImage stepped = coded(coding, [](int i, int j) { return 20000.0 + 40.0 * i + j; });
     DepthNoise noise = measured(stepped);
     CHECK_FALSE(smoothed(stepped, noise).levels == stepped.levels);
-    noise.constant = 0.6F * noise.step.at(0.4F);
+    noise.constant = 0.05F * noise.step.at(0.4F);
+    CHECK_FALSE(smoothed(stepped, noise).levels == stepped.levels);
+    noise.constant = 0.15F * noise.step.at(0.4F);
     CHECK(smoothed(stepped, noise).levels == stepped.levels);
     CHECK(smoothed(stepped, {}).levels == stepped.levels);
 }
