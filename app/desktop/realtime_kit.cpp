@@ -70,7 +70,7 @@ bool bound_running_time(std::int64_t most_us) {
     return setrlimit(RLIMIT_RTTIME, &limits) == 0;
 }
 
-/// One conversation with RealtimeKit. An answer that is missing is empty.
+/// Calls of RealtimeKit over one connection. A missing reply is empty.
 class RealtimeKit {
   public:
     RealtimeKit(sd_bus* bus, const Cancellation& cancellation, const Deadline& latest)
@@ -81,7 +81,7 @@ class RealtimeKit {
                          [this] { return sd_bus_is_ready(bus_) > 0; });
     }
 
-    /// A number of this D-Bus type, "x" or "i"; 0 where it is not told.
+    /// A number of this D-Bus type, "x" or "i"; 0: no reply has it.
     template <typename Number>
     Number property(const char* name, const char* type) {
         const Message call = call_of("org.freedesktop.DBus.Properties", "Get");

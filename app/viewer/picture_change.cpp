@@ -5,24 +5,25 @@ namespace dibhr {
 
 namespace {
 
-/// Laid out panels settle, blink and fade: what changes again within this time is seen at once.
-constexpr std::chrono::milliseconds kLively{300};
-/// What changes later, or in another thread, is seen so late at most.
-constexpr std::chrono::milliseconds kGlance{250};
+/// After a change panels may change by themselves, as a tooltip that fades in: so long they are
+/// laid out in each turn.
+constexpr std::chrono::milliseconds kPanelsSettle{300};
+/// Later they are laid out so often.
+constexpr std::chrono::milliseconds kPanelInterval{250};
 /// How long a hand that moves may wait for the next frame of a video.
-constexpr std::chrono::milliseconds kHandWaits{100};
+constexpr std::chrono::milliseconds kLongestHandWait{100};
 
-/// While the panels may change by themselves; so that a device's hand that begins to move is seen
-/// as soon as in a window that is always drawn; and else. Each is far below the silence of the
-/// window's heartbeat that takes the force off.
-constexpr std::chrono::milliseconds kLivelyPause{16};
+/// Times between turns: while panels may change by themselves, with a device's hand, which may
+/// begin to move, and else. All are far below the time after which a silent window takes the force
+/// off.
+constexpr std::chrono::milliseconds kSettlingPause{16};
 constexpr std::chrono::milliseconds kDevicePause{33};
 constexpr std::chrono::milliseconds kRestingPause{50};
 
 }  // namespace
 
 SceneMark PictureChange::with_drawn_hand(SceneMark scene, Time now) const {
-    if (!drawn_ || now >= drawn_at_ + kHandWaits) return scene;
+    if (!drawn_ || now >= drawn_at_ + kLongestHandWait) return scene;
     scene.colour = drawn_->scene.colour;
     scene.markers = drawn_->scene.markers;
     scene.dent = drawn_->scene.dent;
@@ -30,10 +31,10 @@ SceneMark PictureChange::with_drawn_hand(SceneMark scene, Time now) const {
 }
 
 bool PictureChange::may_differ(const SceneMark& scene, const PanelChanges& panels, Time now) {
-    if (panels.input) input_until_ = lively_until_ = now + kLively;
-    const bool lively = now < input_until_ || (!panels.video_runs && now < lively_until_);
-    return !drawn_ || !(drawn_->scene == scene) || panels.input || panels.in_use || lively ||
-           now >= laid_out_ + kGlance;
+    if (panels.input) input_until_ = settling_until_ = now + kPanelsSettle;
+    const bool settling = now < input_until_ || (!panels.video_runs && now < settling_until_);
+    return !drawn_ || !(drawn_->scene == scene) || panels.input || panels.in_use || settling ||
+           now >= laid_out_ + kPanelInterval;
 }
 
 bool PictureChange::take(const PictureMark& next, Time now) {
@@ -41,12 +42,12 @@ bool PictureChange::take(const PictureMark& next, Time now) {
     if (drawn_ == next) return false;
     drawn_ = next;
     drawn_at_ = now;
-    lively_until_ = now + kLively;
+    settling_until_ = now + kPanelsSettle;
     return true;
 }
 
 std::chrono::milliseconds PictureChange::pause(bool by_device, Time now) const {
-    if (now < lively_until_) return kLivelyPause;
+    if (now < settling_until_) return kSettlingPause;
     return by_device ? kDevicePause : kRestingPause;
 }
 

@@ -51,9 +51,9 @@ class PictureChange {
   private:
     std::optional<PictureMark> drawn_{};
     Time drawn_at_{};
-    Time laid_out_{};      // when the panels were last
-    Time input_until_{};   // the panels may change by the last input
-    Time lively_until_{};  // the panels may change by themselves
+    Time laid_out_{};        // when the panels were last
+    Time input_until_{};     // the panels may change by the last input
+    Time settling_until_{};  // the panels may change by themselves
 };
 
 }  // namespace dibhr

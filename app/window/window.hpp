@@ -97,7 +97,7 @@ class Window {
     /// display server, because events may arrive in another order than their causes.
     [[nodiscard]] bool in_front() const;
     /// Whether a person may see the window: it is mapped and no icon, as of the last
-    /// ping_display(). (Under Wayland: as far as GLFW is told.)
+    /// ping_display(). (Wayland does not tell GLFW when a window is minimised.)
     [[nodiscard]] bool visible() const { return visible_ && !pending_.iconified; }
     [[nodiscard]] Pointer pointer() const;
     /// Whether a GLFW key is down now.

@@ -9,7 +9,7 @@ namespace dibhr {
 namespace {
 
 /// As long as a force rises, and longer than parameters glide.
-constexpr double kCalm_s = 0.5;
+constexpr double kRestsAfter_s = 0.5;
 
 double microseconds(std::chrono::steady_clock::duration span) {
     return std::chrono::duration<double, std::micro>(span).count();
@@ -160,10 +160,10 @@ bool HapticTick::update_rest(const FrameWindow& frames, const DepthBlend& pair,
     const bool stands = !(frames.clock.speed > 0.0) || pair.from == pair.to;
     const bool calm = row.surface && stands && connections_.device.rests() &&
                       !state_.touch.proxy.contact && !row.from_zero && !settings.recording &&
-                      settings.version == calm_version_;
-    calm_version_ = settings.version;
+                      settings.version == last_version_;
+    last_version_ = settings.version;
     calm_s_ = calm ? calm_s_ + row.dt_s : 0.0;
-    return calm_s_ >= kCalm_s;
+    return calm_s_ >= kRestsAfter_s;
 }
 
 void HapticTick::push_walked_tick(const DepthBlend& pair, const HapticSettings& settings,

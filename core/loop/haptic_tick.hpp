@@ -151,7 +151,7 @@ class HapticTick {
     StandstillWatch watch_{connections_.hearts};
     bool standstill_{false};         // in this tick
     double calm_s_{0.0};             // how long all conditions of update_rest() have been true
-    std::uint64_t calm_version_{0};  // of the settings in the last tick
+    std::uint64_t last_version_{0};  // of the settings in the last tick
     std::chrono::steady_clock::time_point start_{};
     std::chrono::steady_clock::time_point second_begin_{};
     LoopSecond sums_{};  // of the running second
