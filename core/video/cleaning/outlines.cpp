@@ -185,17 +185,17 @@ struct Step {
     float middle, height;
 };
 
-constexpr std::size_t kTogether = 16;  ///< pixels whose steps are found together
+constexpr std::size_t kStepsTogether = 16;  ///< pixels whose steps are found together
 /// By place in the 3 x 3 around, then by pixel.
-using Around = std::array<std::array<float, kTogether>, 9>;
+using Around = std::array<std::array<float, kStepsTogether>, 9>;
 struct Steps {
-    std::array<float, kTogether> middle{}, height{};
+    std::array<float, kStepsTogether> middle{}, height{};
     /// 1: the pixel and two opposite neighbours are of one side. It stays on its line. Else 0.
-    std::array<std::uint8_t, kTogether> on_line{};
+    std::array<std::uint8_t, kStepsTogether> on_line{};
 };
 
 DIBHR_VECTOR_CLONES void find_largest_steps(const Around& around, Steps& __restrict steps) {
-    for (std::size_t i = 0; i < kTogether; ++i) {
+    for (std::size_t i = 0; i < kStepsTogether; ++i) {
         float height = 0.0F;
         float middle = around[4][i];
         const auto compare = [&](std::size_t one, std::size_t other) {
@@ -335,8 +335,8 @@ void OutlineSmoother::turn_sides(DepthImage& image, std::span<std::uint8_t> unse
     turned_.clear();
     Around around{};
     Steps steps;
-    for (std::size_t begin = 0; begin < pixels_.size(); begin += kTogether) {
-        const std::size_t count = std::min(kTogether, pixels_.size() - begin);
+    for (std::size_t begin = 0; begin < pixels_.size(); begin += kStepsTogether) {
+        const std::size_t count = std::min(kStepsTogether, pixels_.size() - begin);
         for (std::size_t k = 0; k < count; ++k) {
             const float* const at = image.levels.data() + pixels_[begin + k];
             for (std::ptrdiff_t y = -1; y <= 1; ++y)
