@@ -92,10 +92,10 @@ TEST_CASE("both readers see the media play: depth and colour of the same frame",
     for (const double wanted_s : {0.08, 0.24}) {
         REQUIRE(eventually([&] {
             const FrameWindow& window = player.haptics().front();
-            return window.count > 1 && window.frames[0].time_s >= wanted_s;
+            // A busy machine may have been late at the first one already.
+            return window.count > 1 && window.frames[0].time_s >= std::max(wanted_s, last_s + 0.01);
         }));
         const FrameWindow& window = player.haptics().front();
-        REQUIRE(window.frames[0].time_s > last_s);
         last_s = window.frames[0].time_s;
         for (std::size_t k = 0; k < window.count; ++k) {
             const Frame& frame = window.frames[k];
