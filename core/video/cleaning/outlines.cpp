@@ -154,7 +154,7 @@ void each_in_square(int reach, const Visit& visit) {
 
 /// The pixel whose level is the median of those around one, and of the one itself.
 std::uint32_t median_around(const DepthImage& image, std::uint32_t pixel, int reach) {
-    std::array<std::pair<float, std::uint32_t>, kSide_px * kSide_px> all{};
+    std::array<std::pair<float, std::uint32_t>, std::size_t{kSide_px} * kSide_px> all{};
     auto end = all.begin();
     each_in_square(reach, [&](int right, int down) {
         const auto near = static_cast<std::uint32_t>(static_cast<std::ptrdiff_t>(pixel) + right +
