@@ -16,7 +16,7 @@ namespace dibhr {
 /// The highest correlation of noise from frame to frame that is measured or read.
 inline constexpr float kMostKeptNoise = 0.9F;
 
-/// Less noise is not felt, nor told from none: in parts of the highest level (0.1 px of 255).
+/// Less noise is neither felt nor measured: in parts of the highest level (0.1 px of 255).
 inline constexpr float kLeastNoise = 0.1F / 255.0F;
 
 /// Of the variance of noise with this correlation from frame to frame: what second differences in

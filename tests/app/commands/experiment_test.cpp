@@ -36,7 +36,7 @@ TEST_CASE("experiment circle prints the paper's table and writes JSON and pictur
         folder, {"experiment", "circle", "--json", "numbers.json", "--plots", "pictures"});
     INFO(result.errors);
     REQUIRE(result.exit_code == 0);
-    // No bar without a terminal; that this machine is busy may be told.
+    // No bar without a terminal; a busy machine adds one line.
     CHECK((result.errors.empty() ||
            result.errors.starts_with("dibhr: warning: other programs had the processor")));
     for (const char* part : {"207.31", "0.528 (0)", "exact answer", "god-object", "mu 0.4"}) {
