@@ -21,13 +21,21 @@ fs::path part_of_program(const std::string& file) {
     return folder.parent_path() / "lib" / "dibhr" / file;
 }
 
+void* load_library(const std::string& file, Resolve resolve, std::string& why_not) {
+    const int when = resolve == Resolve::now ? RTLD_NOW : RTLD_LAZY;
+    void* const library = dlopen(file.c_str(), when | RTLD_LOCAL);
+    if (library == nullptr) why_not = dlerror();
+    return library;
+}
+
 void* symbol_in_module(const char* name, const char* symbol) {
-    void* module =
-        dlopen(part_of_program("lib" + std::string(name) + ".so").c_str(), RTLD_LAZY | RTLD_LOCAL);
+    std::string why_not;
+    void* module = load_library(part_of_program("lib" + std::string(name) + ".so"),
+                                Resolve::when_called, why_not);
     void* found = module != nullptr ? dlsym(module, symbol) : nullptr;
     if (found == nullptr)
-        throw InputError("a part of dibhr cannot be loaded: " + std::string(dlerror()) +
-                         ": install dibhr again");
+        throw InputError("a part of dibhr cannot be loaded: " +
+                         (module != nullptr ? dlerror() : why_not) + ": install dibhr again");
     return found;
 }
 

@@ -132,10 +132,15 @@ const std::vector<Room> kRooms{
 };
 
 /// Any other folder of device/ is that of a device, and may include itself and these.
-const std::vector<std::string> kOfDevice{"device/hand/",           "device/force_device.hpp",
-                                         "device/grip_device.hpp", "core/files/",
-                                         "core/haptics/",          "core/loop/",
-                                         "core/realtime/",         "core/error.hpp"};
+const std::vector<std::string> kOfDevice{"device/hand/",
+                                         "device/force_device.hpp",
+                                         "device/grip_device.hpp",
+                                         "device/makers_library.hpp",
+                                         "core/files/",
+                                         "core/haptics/",
+                                         "core/loop/",
+                                         "core/realtime/",
+                                         "core/error.hpp"};
 
 /// A library only some rooms may include.
 struct Ownership {
