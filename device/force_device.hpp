@@ -60,6 +60,16 @@ struct DeviceFirmware {
     bool needed{false};     ///< the user has to give it now
 };
 
+/// What the device can do next only if the user agrees, because the arm then moves by itself, or
+/// its force returns.
+struct DeviceOffer {
+    /// A new number for every offer: an agreement is valid for this offer alone, never for another
+    /// start, another device or another library.
+    std::uint64_t number{0};
+    std::string label{};    ///< "Initialise the arm"
+    std::string warning{};  ///< what happens then, and what the user does first; empty: nothing
+};
+
 /// The stage of a device, and what the panel shows of it.
 struct DeviceState : DeviceStatus {
     int stage{0};              ///< a number per stage; 0: the first one
@@ -74,6 +84,7 @@ struct DeviceState : DeviceStatus {
     // On the panel, in this order:
     DeviceLine name_line{};                    ///< "Falcon", and its serial
     std::optional<DeviceFirmware> firmware{};  ///< nothing: the device takes none
+    std::optional<DeviceOffer> offer{};
     std::optional<DeviceProgress> progress{};
     std::vector<HomedAxis> homing{};           ///< empty: no axis needs to be homed
     std::optional<DeviceLamp> lamp{};          ///< without a force
@@ -103,6 +114,8 @@ class ForceDevice : public Device {
     /// Keeps a copy of the file, and loads it when the device next needs firmware. Returns the name
     /// of the firmware; empty: the device takes none. Throws InputError.
     virtual std::string use_firmware(const std::filesystem::path& /*file*/) { return {}; }
+    /// The user agrees to DeviceState::offer. Ignored unless it is the present offer.
+    virtual void agree_to(std::uint64_t /*offer*/) {}
 };
 
 /// What the command line gives for one start of the program.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -40,6 +41,10 @@ struct KeepMaterial {
 struct UseFirmware {
     std::filesystem::path file{};
 };
+struct AgreeToDevice {
+    std::size_t kind{0};     ///< index in force_device_kinds()
+    std::uint64_t offer{0};  ///< DeviceOffer::number
+};
 struct AnswerUnsafeSettings {
     bool agreed{false};  ///< to UiState::unsafe_settings
 };
@@ -66,9 +71,9 @@ struct MakeReport {
 /// A DepthStatement is a person's statement on the open depth.
 using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
-                 LoadBump, UseMaterial, KeepMaterial, UseFirmware, AnswerUnsafeSettings,
-                 AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded, LeaveReplay, ReadFolder,
-                 CompleteTyped, MakeReport>;
+                 LoadBump, UseMaterial, KeepMaterial, UseFirmware, AgreeToDevice,
+                 AnswerUnsafeSettings, AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded,
+                 LeaveReplay, ReadFolder, CompleteTyped, MakeReport>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

@@ -119,6 +119,28 @@ void draw_missing_firmware(ViewerState& state, const DeviceFirmware& firmware) {
     draw_firmware_field(state);
 }
 
+/// Two clicks: the first one shows the warning beside the button that agrees.
+void draw_offer(ViewerState& state, std::size_t kind, const DeviceOffer& offer) {
+    if (offer.warning.empty()) {
+        if (ImGui::Button(offer.label.c_str()))
+            state.commands.push(AgreeToDevice{kind, offer.number});
+        return;
+    }
+    const std::string popup = "##agree" + std::to_string(offer.number);
+    if (ImGui::Button((offer.label + "...").c_str())) ImGui::OpenPopup(popup.c_str());
+    if (!ImGui::BeginPopup(popup.c_str())) return;
+    ImGui::PushTextWrapPos(ImGui::GetFontSize() * 24.0F);
+    ImGui::TextUnformatted(offer.warning.c_str());
+    ImGui::PopTextWrapPos();
+    if (ImGui::Button(offer.label.c_str())) {
+        state.commands.push(AgreeToDevice{kind, offer.number});
+        ImGui::CloseCurrentPopup();
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Not now")) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+}
+
 void draw_progress(const DeviceProgress& progress) {
     ImGui::PushStyleColor(ImGuiCol_PlotHistogram, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
     ImGui::ProgressBar(static_cast<float>(progress.part), {-1.0F, 0.0F}, progress.text.c_str());
@@ -177,6 +199,7 @@ void draw_force_device(ViewerState& state, const DeviceInfo& info) {
     draw_sentence(device);
     if (!device.unguarded.empty()) draw_warning(capitalised(device.unguarded));
     if (device.firmware && device.firmware->needed) draw_missing_firmware(state, *device.firmware);
+    if (device.offer) draw_offer(state, info.kind, *device.offer);
     if (device.progress) draw_progress(*device.progress);
     if (!device.homing.empty()) draw_homing_guide(device.homing);
     const bool pushes = glm::length(state.touch.haptic.touch.sent_force_newton) > 0.0;

@@ -131,6 +131,11 @@ std::string TouchSession::use_firmware(const std::filesystem::path& file) {
     return std::string("Kept for the ") + (*kind)->short_name + ": " + name;
 }
 
+void TouchSession::agree_to(std::size_t kind, std::uint64_t offer) {
+    for (const DeviceClient& client : devices_)
+        if (client.kind() == kind) client.device().agree_to(offer);
+}
+
 void TouchSession::publish() {
     publish_to_outputs();
     TouchState& touch = state_.touch;

@@ -82,6 +82,8 @@ class TouchSession {
     /// Checks and stores a firmware file, and passes it to the device of that kind. Returns a
     /// notice. Throws InputError.
     std::string use_firmware(const std::filesystem::path& file);
+    /// Passes the user's agreement to the device of that kind; `offer`: DeviceOffer::number.
+    void agree_to(std::size_t kind, std::uint64_t offer);
 
     [[nodiscard]] Player& player() noexcept { return player_; }
     [[nodiscard]] TouchRecording& recording() noexcept { return recording_; }

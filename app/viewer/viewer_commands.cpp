@@ -30,6 +30,7 @@ void Viewer::carry_out_commands() {
         [this](const UseFirmware& firmware) {
             attempt([&] { show_notice(touch_.use_firmware(firmware.file)); });
         },
+        [this](AgreeToDevice agreed) { touch_.agree_to(agreed.kind, agreed.offer); },
         [this](AnswerUnsafeSettings answer) { answer_unsafe_settings(answer.agreed); },
         [this](const AnswerDepth& answer) { answer_depth(answer); },
         [this](RemovePaint) { painting_.remove_all(state_, touch_.player()); },

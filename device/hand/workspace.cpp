@@ -88,4 +88,16 @@ double fitting_scale(const ImageFrame& image, const WorkspaceOptions& options) n
     return scale_within_range(corner_mm / options.radius_mm);
 }
 
+double fitting_scale_to_box(const ImageFrame& image, double box_mm) noexcept {
+    constexpr double kLeast = 0.1;
+    constexpr double kMost = 10.0;
+    const double box = std::isfinite(box_mm) ? std::clamp(box_mm, kSmallestBox_mm, kLargestBox_mm)
+                                             : kLargestBox_mm;
+    const double longest_px =
+        std::max({static_cast<double>(image.columns - 1), static_cast<double>(image.rows - 1),
+                  std::isfinite(image.relief_px) ? image.relief_px : 0.0});
+    const double scale = longest_px * image.pixel_pitch_mm / box;
+    return std::isfinite(scale) ? std::clamp(scale, kLeast, kMost) : 1.0;
+}
+
 }  // namespace dibhr

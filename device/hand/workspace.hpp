@@ -64,6 +64,13 @@ class Workspace {
 [[nodiscard]] double fitting_scale(const ImageFrame& image,
                                    const WorkspaceOptions& options) noexcept;
 
+/// Range of the comfortable box's edge [mm].
+inline constexpr double kSmallestBox_mm = 20.0;
+inline constexpr double kLargestBox_mm = 200.0;
+
+/// The scale at which the image's longer side, and half its relief, fit into a box of that edge.
+[[nodiscard]] double fitting_scale_to_box(const ImageFrame& image, double box_mm) noexcept;
+
 /// Hand axes (x right, y up, z to the user) and grid axes (x right, y down, z to the user) differ
 /// in the sign of y.
 [[nodiscard]] constexpr Vec3 device_axes(Vec3 grid) noexcept {

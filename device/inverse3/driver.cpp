@@ -20,7 +20,7 @@ constexpr milliseconds kHandshakeTimeout{1000};
 
 }  // namespace
 
-Driver::Driver(ConnectionOptions options, ThreadBuffers& buffers)
+Driver::Driver(ConnectionOptions options, ArmBuffers& buffers)
     : options_(std::move(options)), buffers_(buffers) {
     board_.draft().unguarded = guardian_.fault();
     board_.enter(Stage::looking, "looking for the Haply Inverse Service");

@@ -9,11 +9,11 @@
 #include <string>
 #include <thread>
 
+#include "device/arm_buffers.hpp"
 #include "device/hand/guardian.hpp"
 #include "device/inverse3/exchange_loop.hpp"
 #include "device/inverse3/service_link.hpp"
 #include "device/inverse3/status.hpp"
-#include "device/inverse3/thread_buffers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -21,7 +21,7 @@ namespace dibhr::inverse3 {
 class Driver {
   public:
     /// `buffers` must outlive it.
-    Driver(ConnectionOptions options, ThreadBuffers& buffers);
+    Driver(ConnectionOptions options, ArmBuffers& buffers);
     ~Driver();  ///< sends a zero force, then closes the connection
     Driver(const Driver&) = delete;
     Driver& operator=(const Driver&) = delete;
@@ -37,7 +37,7 @@ class Driver {
     void publish_status(Stage stage, const std::string& sentence, bool trouble);
 
     const ConnectionOptions options_;
-    ThreadBuffers& buffers_;
+    ArmBuffers& buffers_;
     Board board_{};
     Guardian guardian_{"Inverse3"};
     DriverState driver_state_{};

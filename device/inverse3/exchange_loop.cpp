@@ -51,7 +51,7 @@ bool is_in(const std::array<DeviceId, ServiceMessage::kMost>& ids, const DeviceI
 }  // namespace
 
 ExchangeLoop::ExchangeLoop(ServiceLink& link, const ConnectionOptions& options, bool newer,
-                           ThreadBuffers& buffers, Board& board, DriverState& driver_state,
+                           ArmBuffers& buffers, Board& board, DriverState& driver_state,
                            Guardian& guardian)
     : link_(link),
       options_(options),

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "device/arm_buffers.hpp"
 #include "device/hand/buttons.hpp"
 #include "device/hand/delay_watch.hpp"
 #include "device/hand/guardian.hpp"
@@ -17,7 +18,6 @@
 #include "device/inverse3/service_link.hpp"
 #include "device/inverse3/service_request.hpp"
 #include "device/inverse3/status.hpp"
-#include "device/inverse3/thread_buffers.hpp"
 
 namespace dibhr::inverse3 {
 
@@ -43,8 +43,7 @@ class ExchangeLoop {
     /// All must outlive this object. `newer`: the version is 3.5 or later; a message that names its
     /// session shows this, too.
     ExchangeLoop(ServiceLink& link, const ConnectionOptions& options, bool newer,
-                 ThreadBuffers& buffers, Board& board, DriverState& driver_state,
-                 Guardian& guardian);
+                 ArmBuffers& buffers, Board& board, DriverState& driver_state, Guardian& guardian);
     /// Withdraws the pose. Without an answered close frame, leaves the connection to the guardian,
     /// which sends zero forces over it and closes it.
     ~ExchangeLoop();
@@ -102,7 +101,7 @@ class ExchangeLoop {
     ServiceLink& link_;
     const ConnectionOptions& options_;
     bool newer_;
-    ThreadBuffers& buffers_;
+    ArmBuffers& buffers_;
     Board& board_;
     DriverState& driver_state_;
     Guardian& guardian_;

@@ -20,11 +20,4 @@ class ImageTilt {
     double sine_{0.0};
 };
 
-/// Range of the comfortable box's edge [mm].
-inline constexpr double kSmallestBox_mm = 20.0;
-inline constexpr double kLargestBox_mm = 200.0;
-
-/// The scale at which the image's longer side, and half its relief, fit into a box of that edge.
-[[nodiscard]] double fitting_scale_to_box(const ImageFrame& image, double box_mm) noexcept;
-
 }  // namespace dibhr::inverse3

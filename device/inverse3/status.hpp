@@ -44,6 +44,10 @@ struct Tuning {
     [[nodiscard]] auto rendered_values() const noexcept {
         return std::tie(workspace, centre_mm, tilt_deg, centre_count);
     }
+    // As of an ArmDevice.
+    [[nodiscard]] Vec3 hand_mm(Vec3 position_m) const noexcept;
+    [[nodiscard]] Vec3 arm_newton(Vec3 hand_newton) const noexcept;
+    [[nodiscard]] static double delay_s(int exchange_ms) noexcept;
 };
 
 /// After a failure the stage is `looking` again, with the reason in Status::sentence.

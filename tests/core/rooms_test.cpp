@@ -133,6 +133,8 @@ const std::vector<Room> kRooms{
 
 /// Any other folder of device/ is that of a device, and may include itself and these.
 const std::vector<std::string> kOfDevice{"device/hand/",
+                                         "device/arm_buffers.hpp",
+                                         "device/arm_device.hpp",
                                          "device/force_device.hpp",
                                          "device/grip_device.hpp",
                                          "device/makers_library.hpp",

@@ -174,7 +174,7 @@ TEST_CASE("a tick allocates nothing", "[inverse3]") {
 TEST_CASE("on the network thread no exchange allocates, once there is a connection", "[inverse3]") {
     simulated::Service service;
     const ConnectionOptions options = options_for(service);
-    ThreadBuffers buffers;
+    ArmBuffers buffers;
     Board board;
     DriverState driver_state;
     Guardian guardian("Inverse3");

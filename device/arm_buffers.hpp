@@ -1,18 +1,19 @@
-// Buffers between the haptic thread and the network thread: the newest pose, the newest force, and
-// a wake.
+// Buffers between the haptic thread and the thread of a device whose arm gives a position in metres
+// and takes a force in newtons: the newest pose, the newest force, the limits, and a wake.
 #pragma once
 
 #include <chrono>
 #include <cstdint>
 
+#include "core/haptics/safety.hpp"
 #include "core/haptics/vec.hpp"
 #include "core/realtime/triple_buffer.hpp"
 #include "core/realtime/wake.hpp"
 #include "device/hand/epoch.hpp"
 
-namespace dibhr::inverse3 {
+namespace dibhr {
 
-/// A pose as received, in the service's axes.
+/// A pose as received, in the arm's own axes.
 struct TimedPose {
     Vec3 position_m{0.0};
     std::uint8_t buttons{0};  ///< debounced
@@ -22,17 +23,18 @@ struct TimedPose {
     int exchange_ms{1};       ///< DelayWatch::within_ms()
 };
 
-/// A force in the service's axes.
+/// A force in the arm's own axes.
 struct TimedForce {
     Vec3 newton{0.0};
     std::chrono::steady_clock::time_point at{};
     Epoch epoch{kNoEpoch};  ///< epoch of the pose that the force was computed for
 };
 
-struct ThreadBuffers {
-    TripleBuffer<TimedPose> poses{};    ///< network thread to haptic thread
-    TripleBuffer<TimedForce> forces{};  ///< haptic thread to network thread
+struct ArmBuffers {
+    TripleBuffer<TimedPose> poses{};      ///< the device's thread to the haptic thread
+    TripleBuffer<DeviceLimits> limits{};  ///< likewise; of the connected arm, hand millimetres
+    TripleBuffer<TimedForce> forces{};    ///< haptic thread to the device's thread
     Wake wake{};
 };
 
-}  // namespace dibhr::inverse3
+}  // namespace dibhr
