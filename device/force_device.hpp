@@ -185,6 +185,16 @@ struct ForceDeviceKind {
     /// has no check.
     CheckResult (*check)(const DeviceSettings& settings, const CheckRecordOptions& record_options,
                          const PrintLine& print, CheckConsole& console) = nullptr;
+    /// Lets the arm of a device initialise itself, after the user agreed. Null: none does.
+    void (*initialise)(const DeviceSettings& settings, const PrintLine& print,
+                       CheckConsole& console) = nullptr;
+    /// Records in a text file what the device's library is asked and answers, for 10 s. Throws
+    /// InputError, too. Null: it has no library.
+    void (*record)(const DeviceSettings& settings, const std::filesystem::path& file,
+                   const PrintLine& print) = nullptr;
+    /// Plays such a file as a device, and prints its stages. False: it is not of this kind. Null: as
+    /// of `record`.
+    bool (*play)(const std::filesystem::path& file, const PrintLine& print) = nullptr;
     /// Simulates a device, commanded line by line, until the stream ends. Null: no simulation.
     void (*simulate)(const DeviceSettings& settings, std::istream& input,
                      const PrintLine& print) = nullptr;

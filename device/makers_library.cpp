@@ -44,6 +44,9 @@ std::optional<Part> read_part(std::ifstream& stream, std::uint64_t from) {
 /// Of a file that is shorter the loader would touch pages that do not exist.
 bool is_whole(std::ifstream& stream, const Elf64_Ehdr& head, std::uint64_t size) {
     if (head.e_phnum == 0 || head.e_phentsize != sizeof(Elf64_Phdr)) return false;
+    // The table of sections is usually the last part of a file.
+    const std::uint64_t sections = std::uint64_t{head.e_shnum} * head.e_shentsize;
+    if (head.e_shoff > size || sections > size - head.e_shoff) return false;
     for (std::uint64_t k = 0; k < head.e_phnum; ++k) {
         const auto part = read_part<Elf64_Phdr>(stream, head.e_phoff + k * sizeof(Elf64_Phdr));
         if (!part) return false;

@@ -88,11 +88,42 @@ std::vector<std::string> simulated_kinds() {
     return names;
 }
 
-int simulate(const std::string& name) {
+/// `what`: a kind, or a file that --record has written.
+int simulate(const std::string& what) {
     const AllDeviceSettings chosen = load_settings(settings_path()).devices;
     for (std::size_t k = 0; k < chosen.size(); ++k) {
         const ForceDeviceKind& kind = *force_device_kinds()[k];
-        if (name == kind.name) kind.simulate(chosen[k], std::cin, print);
+        if (what == kind.name && kind.simulate != nullptr) {
+            kind.simulate(chosen[k], std::cin, print);
+            return 0;
+        }
+        if (kind.play != nullptr && kind.play(what, print)) return 0;
+    }
+    throw InputError(what + " is no record of a device: give a file of dibhr devices --record");
+}
+
+/// Nothing: `what` can be simulated.
+std::string why_not_simulated(std::string& what) {
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(what, ignored)) return {};
+    return CLI::IsMember(simulated_kinds())(what);
+}
+
+int initialise() {
+    const AllDeviceSettings chosen = load_settings(settings_path()).devices;
+    const auto console = make_terminal_console();
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        auto* const function = force_device_kinds()[k]->initialise;
+        if (function != nullptr) function(chosen[k], print, *console);
+    }
+    return 0;
+}
+
+int record_calls(const std::filesystem::path& file) {
+    const AllDeviceSettings chosen = load_settings(settings_path()).devices;
+    for (std::size_t k = 0; k < chosen.size(); ++k) {
+        auto* const function = force_device_kinds()[k]->record;
+        if (function != nullptr) function(chosen[k], file, print);
     }
     return 0;
 }
@@ -103,7 +134,9 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
     std::filesystem::path firmware_file;  // empty: the kept one
     std::filesystem::path record;         // empty: DEVICE-check-SERIAL-DATE.json
     bool checks = false;
+    bool initialises = false;
     std::string simulated;
+    std::filesystem::path recorded;
     add_firmware(app, firmware_file);
     auto* const check_given =
         app.add_flag("--check", checks,
@@ -114,10 +147,20 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
         ->needs(check_given);
     app.add_option("--simulate", simulated,
                    "Simulates the Haply Inverse Service, for people who have none, until its input "
-                   "ends; typed commands move the simulated hand")
+                   "ends; typed commands move the simulated hand. Or plays a file of --record")
         ->type_name(listed(simulated_kinds()))
-        ->check(CLI::IsMember(simulated_kinds()))
+        ->check(CLI::Validator(why_not_simulated, ""))
         ->excludes(check_given);
+    auto* const initialise_given =
+        app.add_flag("--initialise", initialises,
+                     "Lets the arm of a Force Dimension device drive itself to its stops, after "
+                     "you agreed that nobody touches it")
+            ->excludes(check_given);
+    add_file(app, "--record", recorded,
+             "Records for 10 seconds what the library of a Force Dimension device is asked and "
+             "answers: a text file to send with a report, which --simulate plays")
+        ->excludes(check_given)
+        ->excludes(initialise_given);
     app.footer(
         "Ends with 0 when a device can be used, or none is attached and the mouse can be; with 1 "
         "when Falcons, or Inverse3, are attached and none of them can be used.\n\nExamples:\n"
@@ -127,6 +170,8 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
         "  dibhr devices --simulate inverse3");
     if (!parse(app, arguments)) return 0;
     if (!simulated.empty()) return simulate(simulated);
+    if (initialises) return initialise();
+    if (!recorded.empty()) return record_calls(recorded);
     if (!checks)
         print("mouse: usable (point at the relief in the viewer, hold the left button to touch)");
     store_firmware(firmware_file);

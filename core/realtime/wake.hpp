@@ -1,6 +1,8 @@
 // A way for any thread, also the haptic one, to end the poll() of another.
 #pragma once
 
+#include <chrono>
+
 namespace dibhr {
 
 /// An eventfd with which one thread ends the poll() of another.
@@ -16,6 +18,8 @@ class Wake {
     void signal() const noexcept;
     /// For the waiting thread: resets the signals so far.
     void clear() const noexcept;
+    /// For the waiting thread: returns at a signal, or at this time; the signals are then reset.
+    void wait_until(std::chrono::steady_clock::time_point until) const noexcept;
     /// Readable after a signal.
     [[nodiscard]] int descriptor() const noexcept { return descriptor_; }
 

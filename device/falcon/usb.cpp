@@ -6,16 +6,14 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <fstream>
 #include <optional>
-#include <system_error>
 #include <tuple>
 #include <utility>
 
-namespace dibhr::falcon {
+#include "device/hand/udev_rule.hpp"
 
-namespace fs = std::filesystem;
+namespace dibhr::falcon {
 
 namespace {
 
@@ -80,40 +78,6 @@ std::string serial_from_device(libusb_device* device, std::uint8_t string_index)
 /// A timeout for libusb, at least 1: zero would mean no timeout.
 unsigned milliseconds_of(std::chrono::milliseconds limit) {
     return static_cast<unsigned>(std::max<std::chrono::milliseconds::rep>(limit.count(), 1));
-}
-
-/// The folders that udev reads rules from (its manual page).
-constexpr std::array<const char*, 5> kRuleFolders{"/etc/udev/rules.d", "/run/udev/rules.d",
-                                                  "/usr/local/lib/udev/rules.d",
-                                                  "/usr/lib/udev/rules.d", "/lib/udev/rules.d"};
-
-bool is_file(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
-}
-
-bool rule_is_in_place() {
-    return std::any_of(kRuleFolders.begin(), kRuleFolders.end(),
-                       [](const char* folder) { return is_file(fs::path(folder) / kRule); });
-}
-
-/// The rule of the installed program, or of the sources it was built from.
-fs::path rule_that_came_along() {
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    const fs::path installed = program.parent_path().parent_path() / "lib" / "udev" / "rules.d";
-    if (is_file(installed / kRule)) return installed / kRule;
-    return fs::path(DIBHR_SOURCE_ASSETS) / kRule;
-}
-
-/// How to install the udev rule; where it is installed, how the user gets the permission it gives.
-std::string how_to_get_permission() {
-    if (rule_is_in_place()) {
-        return "log in at this machine itself, or join the group plugdev (sudo usermod -aG plugdev "
-               "$USER, then log in again), and plug the Falcon in again";
-    }
-    return "run: sudo cp " + rule_that_came_along().string() +
-           " /etc/udev/rules.d/ && sudo udevadm control --reload; then plug the Falcon in again";
 }
 
 constexpr const char* kUnplugged =
@@ -186,7 +150,8 @@ bool UsbError::unplugged() const noexcept {
 UsbError usb_error(int code, const AttachedFalcon& falcon) {
     const std::string who = full_name_of(falcon);
     if (code == LIBUSB_ERROR_ACCESS) {
-        return {code, "no permission to open " + who + ": " + how_to_get_permission()};
+        return {code,
+                "no permission to open " + who + ": " + how_to_get_permission(kRule, "the Falcon")};
     }
     for (const Meaning& known : kMeanings) {
         if (known.code == code) return {code, who + known.sentence};

@@ -10,8 +10,6 @@ namespace {
 using std::chrono::milliseconds;
 
 // README.md, Safety numbers.
-constexpr double kFastest_m_per_s = 10.0;    // no hand is faster
-constexpr double kJumpAllowance_m = 0.02;    // added to the greatest step of that speed
 constexpr milliseconds kOwnUseWindow{1000};  // `in_use` so soon after our first force is our use
 constexpr milliseconds kOwnPushWindow{100};  // likewise after each rise of the force from zero
 constexpr double kLeastChecked_newton = 0.3;
@@ -25,9 +23,10 @@ bool is_permuted(const ArmConfig& config) noexcept {
 }  // namespace
 
 void ArmWatch::begin() noexcept {
-    const Epoch epoch = epoch_;
+    const PoseTrust trust = trust_;
     *this = ArmWatch{};
-    epoch_ = epoch;
+    trust_ = trust;
+    trust_.begin();
 }
 
 void ArmWatch::add(const Arm& arm, Time at) noexcept {
@@ -36,20 +35,11 @@ void ArmWatch::add(const Arm& arm, Time at) noexcept {
     follow_use(arm.in_use, at);
     stage_ = stage_of(arm);
     if (stands_still(arm, at) && stage_ == Stage::ready) stage_ = Stage::not_understood;
-    jumped_ = arm.position_m && jumps_to(*arm.position_m, at);
-    if (stage_ != Stage::ready || jumped_ || other_config) {
-        trusted_ = 0;
-    } else if (trusted_ < 2 && ++trusted_ == 2) {
-        ++epoch_;
-        if (epoch_ == kNoEpoch) ++epoch_;
-    }
-    last_m_ = arm.position_m;
-    last_at_ = at;
+    trust_.add(arm.position_m, at, stage_ == Stage::ready && !other_config);
 }
 
 void ArmWatch::add_gap() noexcept {
-    trusted_ = 0;
-    last_m_.reset();
+    trust_.add_gap();
 }
 
 void ArmWatch::force_sent(Time at, bool pushes) noexcept {
@@ -80,13 +70,6 @@ void ArmWatch::follow_use(bool in_use, Time at) noexcept {
 bool ArmWatch::stands_still(const Arm& arm, Time at) noexcept {
     return arm.position_m && arm.velocity_m_per_s &&
            still_.add(*arm.position_m, glm::length(*arm.velocity_m_per_s), at);
-}
-
-bool ArmWatch::jumps_to(Vec3 position_m, Time at) const noexcept {
-    if (!last_m_) return false;
-    const std::chrono::duration<double> passed = at - last_at_;
-    return glm::distance(position_m, *last_m_) >
-           kJumpAllowance_m + kFastest_m_per_s * passed.count();
 }
 
 void ForceEchoWatch::begin() noexcept {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/haptics/vec.hpp"
-#include "device/hand/epoch.hpp"
+#include "device/hand/pose_trust.hpp"
 #include "device/hand/still_pose.hpp"
 #include "device/inverse3/message.hpp"
 #include "device/inverse3/status.hpp"
@@ -30,22 +30,17 @@ class ArmWatch {
     /// Why the arm cannot touch; `ready`: it can.
     [[nodiscard]] Stage stage() const noexcept { return stage_; }
     /// From the second valid state in a row; a new epoch after each gap and jump.
-    [[nodiscard]] Epoch epoch() const noexcept { return trusted_ >= 2 ? epoch_ : kNoEpoch; }
+    [[nodiscard]] Epoch epoch() const noexcept { return trust_.epoch(); }
     /// The last position jumped: the configuration has to be read again.
-    [[nodiscard]] bool jumped() const noexcept { return jumped_; }
+    [[nodiscard]] bool jumped() const noexcept { return trust_.jumped(); }
 
   private:
     [[nodiscard]] Stage stage_of(const Arm& arm) const noexcept;
     void follow_use(bool in_use, Time at) noexcept;
     [[nodiscard]] bool stands_still(const Arm& arm, Time at) noexcept;
-    [[nodiscard]] bool jumps_to(Vec3 position_m, Time at) const noexcept;
 
     Stage stage_{Stage::no_device};
-    Epoch epoch_{kNoEpoch};
-    int trusted_{0};  // valid states in a row; stops at 2
-    bool jumped_{false};
-    std::optional<Vec3> last_m_{};
-    Time last_at_{};
+    PoseTrust trust_{};
     StillPose still_{};
     std::optional<ArmConfig> config_{};  // the last received one
     std::optional<Time> driven_since_{};

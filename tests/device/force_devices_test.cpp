@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "device/falcon/falcon_device.hpp"
+#include "device/forcedimension/forcedimension_device.hpp"
 #include "device/hand_device.hpp"
 #include "device/inverse3/inverse3_device.hpp"
 #include "tests/support/catch.hpp"
@@ -198,14 +199,15 @@ TEST_CASE("one button takes the force off and one holds the point, and agreeing 
 
 TEST_CASE("sessions number the devices as they always have", "[force_device]") {
     const auto kinds = force_device_kinds();
-    REQUIRE(kinds.size() >= 2);
+    REQUIRE(kinds.size() >= 3);
     CHECK(std::string(kinds[0]->name) == "falcon");
     CHECK(std::string(kinds[1]->name) == "inverse3");
+    CHECK(std::string(kinds[2]->name) == "forcedimension");
 }
 
 TEST_CASE("a device is named by its kind, or as one of it", "[force_device]") {
-    for (const char* const name :
-         {"auto", "mouse", "falcon", "falcon:A1", "inverse3", "inverse3:left", "goals:a.csv"}) {
+    for (const char* const name : {"auto", "mouse", "falcon", "falcon:A1", "inverse3",
+                                   "inverse3:left", "forcedimension:1234", "goals:a.csv"}) {
         CAPTURE(name);
         CHECK(names_device(name));
     }
@@ -265,5 +267,18 @@ TEST_CASE("a device is absent, needs its person, or is ready, at each of its sta
         check(state_of(status));
         CHECK(state_of(status).stage == k);
         CHECK(state_of(status).facts[1] == DeviceFacts::value_type{"id", "049D"});
+    }
+    for (int k = 0; k <= static_cast<int>(forcedimension::Stage::ready); ++k) {
+        forcedimension::Status status;
+        status.stage = static_cast<forcedimension::Stage>(k);
+        status.sentence = "a sentence";
+        status.trouble = true;
+        status.presses[2] = 7U;
+        status.serial = "1234";
+        status.type = 33;
+        check(state_of(status));
+        CHECK(state_of(status).stage == k);
+        CHECK(state_of(status).full_name == "Force Dimension omega.3");
+        CHECK(state_of(status).facts[2] == DeviceFacts::value_type{"serial", "1234"});
     }
 }

@@ -155,22 +155,21 @@ TEST_CASE("a file that the loader cannot load is named with its fault before any
                "is damaged"));
 }
 
-TEST_CASE("a library that was cut off anywhere is refused or loaded, and never read beyond its end",
+TEST_CASE("a library that was cut off anywhere is refused, and never read beyond its end",
           "[makers_library]") {
     const TemporaryFolder folder;
     const fs::path file = folder / "cut.so";
     put(SAMPLE_LIBRARY, file);
     const auto whole = fs::file_size(file);
+    const auto size = GENERATE_COPY(whole - 1, whole / 2, whole / 8, std::uintmax_t{100},
+                                    std::uintmax_t{64}, std::uintmax_t{63}, std::uintmax_t{0});
+    CAPTURE(size);
+    fs::resize_file(file, size);
     MakersLibrarySearch search = search_for_sample();
     search.chosen = file.string();
-    for (const std::uintmax_t size : {whole / 2, whole / 8, std::uintmax_t{100}, std::uintmax_t{64},
-                                      std::uintmax_t{63}, std::uintmax_t{0}}) {
-        CAPTURE(size);
-        fs::resize_file(file, size);
-        const std::string why_not = why_no_library(file);
-        CHECK(says(why_not, "install the maker's library again"));
-        CHECK(load_makers_library(search, usable).trouble == why_not);
-    }
+    const std::string why_not = why_no_library(file);
+    CHECK(says(why_not, "install the maker's library again"));
+    CHECK(load_makers_library(search, usable).trouble == why_not);
 }
 
 TEST_CASE("a library that is needed and not installed is reported by the name of its package",

@@ -1,0 +1,177 @@
+// The device's thread.
+#include "device/forcedimension/driver.hpp"
+
+#include <atomic>
+#include <exception>
+#include <utility>
+
+#include "core/realtime/tick_timer.hpp"
+#include "device/forcedimension/usb_bus.hpp"
+
+namespace dibhr::forcedimension {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kLookAgainAfter{1000};
+constexpr milliseconds kRetryOthersAfter{5000};  // where arms are attached and none can be used
+constexpr milliseconds kLastStopLimit{200};
+
+constexpr int kNoArmOpen = -1;
+
+}  // namespace
+
+/// All that the thread uses. The thread owns a part of it: a call that does not return outlives the
+/// driver.
+class Driver::Search {
+  public:
+    Search(ConnectionOptions options, FoundCalls found, std::shared_ptr<ArmBuffers> buffers)
+        : options_(std::move(options)), buffers_(std::move(buffers)) {
+        const UsbBus bus = read_usb_bus(options_.usb_devices);
+        if (found.calls == nullptr) {
+            const bool refused = !found.trouble.empty();
+            board_.enter(Stage::looking, refused ? found.trouble : why_no_library(bus),
+                         refused || bus.has_arm);
+            return;
+        }
+        library_ = std::make_shared<Library>(std::move(found.calls));
+        board_.draft().library = library_->file() + ", version " + library_->version();
+        board_.enter(Stage::looking, "looking for a Force Dimension arm");
+    }
+
+    [[nodiscard]] bool can_search() const noexcept { return library_ != nullptr; }
+    void run(const std::stop_token& stop);
+    [[nodiscard]] Status status() const { return board_.read(); }
+    void agree_to(std::uint64_t offer) {
+        offers_.agree_to(offer);
+        buffers_->wake.signal();
+    }
+    /// False: the thread still runs.
+    [[nodiscard]] bool wait_for_end(milliseconds limit) {
+        std::unique_lock lock(mutex_);
+        return changed_.wait_for(lock, limit, [this] { return ended_; });
+    }
+    /// A last stop from another thread, while a call of the device's thread does not return.
+    void stop_arm() const {
+        const int id = open_id_;
+        if (id != kNoArmOpen) library_->stop(id);
+    }
+
+  private:
+    void find_arm(const std::stop_token& stop);
+    void use(std::unique_ptr<Arm> arm, const std::stop_token& stop);
+    void forget_arm();
+    void publish_no_arm(const NoArm& why);
+
+    const ConnectionOptions options_;
+    const std::shared_ptr<ArmBuffers> buffers_;
+    std::shared_ptr<Library> library_{};
+    Board board_{};
+    Offers offers_{};
+    DriverState driver_state_{};
+    bool lost_{false};      // the sentence is about a loss
+    milliseconds pause_{};  // before the next search
+    std::atomic<int> open_id_{kNoArmOpen};
+
+    std::mutex mutex_{};
+    std::condition_variable_any changed_{};
+    bool ended_{false};  // guarded by mutex_
+};
+
+void Driver::Search::run(const std::stop_token& stop) {
+    // A refusal is shown in the Loop panel, because the haptic thread requests the same.
+    (void)become_realtime("dibhr forcedim");
+    while (!stop.stop_requested()) {
+        pause_ = kLookAgainAfter;
+        try {
+            find_arm(stop);
+        } catch (const std::exception& failure) {
+            board_.enter(Stage::looking,
+                         std::string("the thread of the Force Dimension arm failed (") +
+                             failure.what() +
+                             ") and begins again: close other programs if this happens again",
+                         true);
+        }
+        std::unique_lock lock(mutex_);
+        changed_.wait_for(lock, stop, pause_, [] { return false; });
+    }
+    const std::lock_guard lock(mutex_);
+    ended_ = true;
+    changed_.notify_all();
+}
+
+void Driver::Search::find_arm(const std::stop_token& stop) {
+    const UsbBus bus = read_usb_bus(options_.usb_devices);
+    ArmSearch search(library_, bus);
+    while (auto arm = search.next()) {
+        arm->identify(board_.draft());
+        if (options_.serial.empty() || board_.draft().serial == options_.serial)
+            return use(std::move(arm), stop);
+    }
+    forget_arm();
+    if (search.count() > 0) pause_ = kRetryOthersAfter;
+    publish_no_arm(why_no_arm(search, bus, options_.serial));
+}
+
+void Driver::Search::use(std::unique_ptr<Arm> arm, const std::stop_token& stop) {
+    open_id_ = arm->id();
+    lost_ = false;
+    try {
+        ExchangeLoop exchange_loop(*arm, *buffers_, board_, driver_state_, offers_);
+        exchange_loop.run(stop);
+    } catch (const ArmLost& loss) {
+        lost_ = true;
+        board_.draft().exchanges_per_s = 0.0;
+        board_.draft().offer.reset();
+        board_.enter(Stage::looking, loss.what(), true);
+    }
+    arm.reset();  // stops it
+    open_id_ = kNoArmOpen;
+    forget_arm();
+}
+
+void Driver::Search::forget_arm() {
+    Status& status = board_.draft();
+    status.type = -1;
+    status.serial.clear();
+    status.controller_version.reset();
+    status.watchdog_ms = 0.0;
+    status.unguarded.clear();
+}
+
+/// The sentence about a loss stays until something else is attached.
+void Driver::Search::publish_no_arm(const NoArm& why) {
+    const Status& published = board_.draft();
+    if (lost_ && why.stage == Stage::looking) return;
+    if (published.stage == why.stage && published.sentence == why.sentence) return;
+    board_.enter(why.stage, why.sentence, why.stage != Stage::looking);
+}
+
+Driver::Driver(ConnectionOptions options, FoundCalls found, std::shared_ptr<ArmBuffers> buffers)
+    : search_(std::make_shared<Search>(std::move(options), std::move(found), std::move(buffers))) {
+    if (!search_->can_search()) return;
+    thread_ = std::thread([search = search_, stop = stop_.get_token()] { search->run(stop); });
+}
+
+Driver::~Driver() {
+    if (!thread_.joinable()) return;
+    stop_.request_stop();
+    if (search_->wait_for_end(kLeaveAfter)) {
+        thread_.join();
+        return;
+    }
+    thread_.detach();
+    std::thread([search = search_] { search->stop_arm(); }).detach();
+    (void)search_->wait_for_end(kLastStopLimit);
+}
+
+Status Driver::status() const {
+    return search_->status();
+}
+
+void Driver::agree_to(std::uint64_t offer) {
+    search_->agree_to(offer);
+}
+
+}  // namespace dibhr::forcedimension
