@@ -105,6 +105,9 @@ class PictureSource {
     /// At most `most` pictures from all over the source, with the first one, chosen to be cheap to
     /// decode. The next picture returned is the first.
     virtual std::vector<cv::Mat> samples(int most);
+    /// The first picture of a depth source, with its colours: 8-bit BGR. Empty: another source has
+    /// to read it as colour.
+    virtual cv::Mat first_in_colour() { return {}; }
     /// The times of all pictures as next() gives them, rising [s]; may read the whole file, but
     /// decodes nothing. Empty: not known without decoding.
     [[nodiscard]] virtual std::vector<double> picture_times_s() const { return {}; }

@@ -128,10 +128,16 @@ bool VideoDecoder::decode() {
             ++failures;
             continue;
         }
-        if (!send(packets_.next())) ++failures;
+        if (!send(next_packet())) ++failures;
     }
     update_skipped(std::numeric_limits<double>::infinity());
     return false;
+}
+
+const AVPacket* VideoDecoder::next_packet() {
+    if (packets_left_ == 0) return nullptr;
+    if (packets_left_ > 0) --packets_left_;
+    return packets_.next();
 }
 
 /// Skipped pictures are identified by their time: only shown pictures with a time may be skipped.
@@ -157,7 +163,8 @@ void VideoDecoder::update_skipped(double until_s) {
     may_be_skipped_s_.erase(begin, may_be_skipped_s_.upper_bound(until_s));
 }
 
-bool VideoDecoder::jump(double time_s) {
+bool VideoDecoder::jump(double time_s, int most_packets) {
+    packets_left_ = most_packets;
     if (!packets_.jump(time_s)) return false;
     avcodec_flush_buffers(decoder_.get());
     drained_ = false;
@@ -173,6 +180,11 @@ void VideoDecoder::skip_non_reference_before(double time_s) noexcept {
 void VideoDecoder::keep() {
     av_frame_unref(kept_.get());
     if (av_frame_ref(kept_.get(), frame_.get()) < 0) throw std::bad_alloc();
+}
+
+void VideoDecoder::show_again(const AVFrame& picture) {
+    av_frame_unref(frame_.get());
+    if (av_frame_ref(frame_.get(), &picture) < 0) throw std::bad_alloc();
 }
 
 double VideoDecoder::time_s() const noexcept {

@@ -30,9 +30,11 @@ class VideoDecoder {
 
     /// The next picture; false at the end. Ignores packets that cannot be decoded.
     bool decode();
+    static constexpr int kAllPackets = -1;
     /// Jumps to the key frame at or before the time [s], which decode() then gives; false where the
-    /// file cannot jump.
-    bool jump(double time_s);
+    /// file cannot jump. `most_packets`: where the following pictures are not needed, decode() ends
+    /// after so many packets, until the next jump.
+    bool jump(double time_s, int most_packets = kAllPackets);
 
     /// Until the next jump the decoder skips non-reference pictures before that time [s], if the
     /// codec marks them (H.264): decoding up to the target takes less time.
@@ -47,6 +49,9 @@ class VideoDecoder {
     void keep();
     /// Exchanges the kept and the decoded picture.
     void swap_kept() noexcept { std::swap(frame_, kept_); }
+    [[nodiscard]] const AVFrame& decoded_picture() const noexcept { return *frame_; }
+    /// Makes a picture that was decoded before the decoded one again; decode() goes on as without.
+    void show_again(const AVFrame& picture);
 
     // Of the decoded picture, as in av_frame.hpp, but rotated.
 
@@ -65,6 +70,7 @@ class VideoDecoder {
     [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
     bool send(const AVPacket* packet);
     void update_skipped(double until_s);
+    const AVPacket* next_packet();
     [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;
@@ -72,6 +78,7 @@ class VideoDecoder {
     AvOwned<AVFrame> frame_{new_frame()}, kept_{new_frame()};
     FramePictures pictures_{};
     int quarter_turns_{0};  // clockwise
+    int packets_left_{kAllPackets};
     bool drained_{false};
     bool marks_non_reference_{false};  // whether the codec marks packets as non-reference
     double skip_before_s_{kNever_s};

@@ -29,10 +29,13 @@ namespace dibhr {
 namespace {
 
 constexpr double kNearAhead_s = 1.0;   ///< up to here decoding forward is as quick as a jump
+constexpr double kNearBehind_s = 2.0;  ///< a seek back by less is a step: more may follow
 constexpr double kFewFrames = 3.0;     ///< directly before the wanted frame none is skipped
+constexpr double kAllFrames = 1e9;
 constexpr double kMissing_s = 0.5;     ///< a shorter loss at the end may be rounding,
 constexpr double kMissingPart = 0.15;  ///< a smaller part may be a long last frame
 constexpr double kMostSampled = 1e8;   ///< pixels decoded for samples: a third of a second
+constexpr double kLarge = 1e6;         ///< pixels; of larger pictures the key frames are enough
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// The earliest end of a whole file.
@@ -84,6 +87,8 @@ void VideoFile::read_live_recording() {
 }
 
 void VideoFile::reopen() {
+    ring_.clear();
+    from_ring_ = 0;
     decoder_ = VideoDecoder(facts_.file, track_);
     index_ = -1;
     time_s_ = 0.0;
@@ -138,6 +143,10 @@ bool VideoFile::grab() {
         grabbed_ = false;
         return true;
     }
+    if (from_ring_ < ring_.size()) {
+        show(ring_.picture(from_ring_++));
+        return true;
+    }
     const auto begin = std::chrono::steady_clock::now();
     ended_ = !decoder_.decode();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
@@ -169,6 +178,9 @@ bool VideoFile::grab() {
         ++index_;
     jumped_ = false;
     store_time();
+    if (!decoder_.skipped_s().empty()) ring_.clear();
+    ring_.add(decoder_.decoded_picture(), time_s_, index_);
+    from_ring_ = ring_.size();
     return true;
 }
 
@@ -263,46 +275,75 @@ TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {
     return kept;
 }
 
-void VideoFile::rewind_before(double time_s, RunUp run_up) {
-    const auto jump = [&](double to_s) {
-        jumped_ = decoder_.jump(to_s);
-        if (run_up == RunUp::quick) skip_before(time_s);
-        return jumped_;
+bool VideoFile::jump(double time_s, int most_packets) {
+    ring_.clear();
+    from_ring_ = 0;
+    grabbed_ = false;
+    jumped_ = decoder_.jump(time_s, most_packets);
+    return jumped_;
+}
+
+/// Goes back to the frame shown then, where that and the frame after it are still kept.
+bool VideoFile::show_kept(double time_s) {
+    const std::optional<std::size_t> place = ring_.place_at(time_s);
+    if (!place) return false;
+    show(ring_.picture(*place));
+    from_ring_ = *place + 1;
+    grabbed_ = true;
+    ended_ = false;
+    return true;
+}
+
+void VideoFile::show(const DecodedPicture& kept) {
+    decoder_.show_again(*kept.frame);
+    time_s_ = kept.time_s;
+    index_ = kept.index;
+}
+
+void VideoFile::rewind_before(double time_s, double frames_before) {
+    const auto jump_to = [&](double to_s) {
+        const bool jumps = jump(to_s);
+        skip_before(time_s, frames_before);
+        return jumps;
     };
     for (double margin_s = 0.25; has_times_ && time_s - margin_s > 0.0; margin_s *= 4.0) {
-        if (!jump(time_s - margin_s)) break;
+        if (!jump_to(time_s - margin_s)) break;
         if (!grab()) continue;
         grabbed_ = time_s_ <= time_s;
         if (grabbed_) return;
     }
-    if (has_times_ && jump(0.0)) {
+    if (has_times_ && jump_to(0.0)) {
         grabbed_ = grab() && index_ == 0 && time_s_ >= 0.0;
         if (grabbed_) return;
     }
     reopen();
 }
 
-/// Except a few, as the frame shown at `time_s` may begin earlier.
-void VideoFile::skip_before(double time_s) {
+/// Except the last `frames_before`.
+void VideoFile::skip_before(double time_s, double frames_before) {
     const double interval_s = std::max(interval_s_, 1.0 / facts_.frames_per_s);
-    if (has_times_) decoder_.skip_non_reference_before(time_s - kFewFrames * interval_s);
+    if (has_times_) decoder_.skip_non_reference_before(time_s - frames_before * interval_s);
 }
 
 void VideoFile::seek(double time_s) {
     const double latest_s = facts_.frames_exact ? facts_.duration_s : kLongest_s;
     const double wanted_s = (time_s > 0.0 ? std::min(time_s, latest_s) : 0.0) + kTimeTolerance_s;
-    const bool near_ahead =
-        !ended_ && ahead_.empty() && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
     ahead_.clear();
+    if (show_kept(wanted_s)) return;
+    const bool near_ahead = !ended_ && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
+    const bool near_behind = time_s_ > wanted_s && wanted_s > time_s_ - kNearBehind_s;
+    // The frame shown then may begin some frames earlier; the next step back goes to one before.
+    const double frames_before =
+        near_behind ? std::max(kFewFrames, static_cast<double>(ring_.room())) : kFewFrames;
     if (near_ahead) {
         decoder_.keep();
-        skip_before(wanted_s);
+        skip_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, timed({}))) return;
     } else {
-        rewind_before(wanted_s, RunUp::quick);
+        rewind_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, {})) return;
     }
-    rewind_before(wanted_s, RunUp::whole);
+    rewind_before(wanted_s, kAllFrames);
     run_up_to(wanted_s, {});
 }
 
@@ -339,8 +380,7 @@ bool VideoFile::skipped_until(double time_s) const {
 void VideoFile::seek_near(double time_s) {
     ahead_.clear();
     grabbed_ = false;
-    if (!has_times_ || !decoder_.jump(std::max(time_s, 0.0))) return seek(time_s);
-    jumped_ = true;
+    if (!has_times_ || !jump(std::max(time_s, 0.0))) return seek(time_s);
     if (!grab()) return seek(time_s);
     ahead_.push_back(timed(retrieve()));
 }
@@ -362,6 +402,15 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
         sample_by_jumps(most, static_cast<int>(frames / most), pictures);
     seek(0.0);
     return pictures;
+}
+
+cv::Mat VideoFile::first_in_colour() {
+    if (ring_.size() == 0 || ring_.picture(0).index != 0) return {};
+    decoder_.keep();
+    decoder_.show_again(*ring_.picture(0).frame);
+    const cv::Mat picture = decoder_.colour();
+    decoder_.swap_kept();
+    return with_square_pixels(picture, pixel_aspect_, PictureRole::colour);
 }
 
 /// A file without any times has the times that grab() gives: one interval after the other.
@@ -387,19 +436,31 @@ void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {
 }
 
 void VideoFile::sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures) {
-    const double duration_s = facts_.duration_s;
-    for (int k = 1; k < most; ++k) {
-        const double wanted_s = duration_s * k / most;
-        // Where key frames are far apart, decode on instead of decoding the same key frame again.
-        const auto key_s = decoder_.packets().key_frame_s(wanted_s);
-        if (!key_s || *key_s > time_s_) {
-            if (!decoder_.jump(wanted_s)) break;
-            jumped_ = true;
-        }
-        for (int n = 0; n <= frames_each && grab(); ++n) {
-        }
+    std::vector<double> wanted_s;
+    for (int k = 1; k < most; ++k) wanted_s.push_back(facts_.duration_s * k / most);
+    for (std::size_t at = 0; at < wanted_s.size(); ++at) {
+        if (!grab_sample(wanted_s, at, frames_each)) break;
         if (!ended_) pictures.push_back(retrieve());
     }
+}
+
+/// False where the file cannot jump.
+bool VideoFile::grab_sample(const std::vector<double>& wanted_s, std::size_t at, int frames_each) {
+    // Where key frames are far apart, decode on instead of decoding the same key frame again.
+    const auto key_s = decoder_.packets().key_frame_s(wanted_s[at]);
+    const bool jumps = !key_s || *key_s > time_s_;
+    const bool is_large = static_cast<double>(facts_.columns) * facts_.rows > kLarge;
+    const bool goes_on =
+        at + 1 < wanted_s.size() && decoder_.packets().key_frame_s(wanted_s[at + 1]) == key_s;
+    if (jumps && is_large && !goes_on) {
+        if (!jump(wanted_s[at], 1)) return false;
+        if (grab()) return true;
+    }
+    if (jumps && !jump(wanted_s[at])) return false;
+    const int frames = jumps && is_large ? 0 : frames_each;
+    for (int n = 0; n <= frames && grab(); ++n) {
+    }
+    return true;
 }
 
 }  // namespace dibhr

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "core/video/depth/picture_levels.hpp"
+#include "core/video/formats/decoded_ring.hpp"
 #include "core/video/formats/picture_source.hpp"
 #include "core/video/formats/video_decoder.hpp"
 
 namespace dibhr {
 
 /// A container's frame count and rate are estimates and never used to find a frame: times are those
-/// of decoded frames, and a seek jumps before the wanted time and decodes forward.
+/// of decoded frames, and a seek jumps before the wanted time and decodes forward, but for frames
+/// that were decoded just before.
 class VideoFile : public PictureSource {
   public:
     /// Reads the first frame. Throws InputError when the file cannot be opened, holds none,
@@ -31,17 +33,19 @@ class VideoFile : public PictureSource {
 
     /// Decodes at most `most` more frames without converting them, so that the facts become exact.
     void count_frames(std::int64_t most) override;
-    /// Decodes a short file once; of a longer one some frames after a key frame near each sample.
+    /// Decodes a short file once; of a longer one some frames after a key frame near each sample,
+    /// and of large pictures the key frame alone.
     std::vector<cv::Mat> samples(int most) override;
+    /// While that picture is still kept as it was decoded.
+    cv::Mat first_in_colour() override;
     /// By the file's packets.
     [[nodiscard]] std::vector<double> picture_times_s() const override;
 
   private:
-    enum class RunUp { quick, whole };
-
     void reopen();
     void sample_evenly(int most, std::vector<cv::Mat>& pictures);
     void sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures);
+    bool grab_sample(const std::vector<double>& wanted_s, std::size_t at, int frames_each);
     void read_facts();
     void read_azure_kinect();
     void read_live_recording();
@@ -52,8 +56,12 @@ class VideoFile : public PictureSource {
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
     void store_time();  ///< appends that of the frame at index_ to times_
-    void rewind_before(double time_s, RunUp run_up);
-    void skip_before(double time_s);
+    /// To a key frame, where the file can.
+    bool jump(double time_s, int most_packets = VideoDecoder::kAllPackets);
+    bool show_kept(double time_s);
+    void show(const DecodedPicture& kept);
+    void rewind_before(double time_s, double frames_before);
+    void skip_before(double time_s, double frames_before);
     bool run_up_to(double wanted_s, std::optional<TimedPicture> shown_then);
     [[nodiscard]] bool skipped_until(double time_s) const;
     void place_at(double time_s);  ///< index of a frame reached by a jump
@@ -65,6 +73,8 @@ class VideoFile : public PictureSource {
     bool keeps_levels_{false};  ///< levels have fewer bits than the file; do not scale them
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};
+    DecodedRing ring_{};        ///< up to the frame that was decoded last
+    std::size_t from_ring_{0};  ///< place of the frame that grab() gives next; its end: none
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first up to a gap
     double header_duration_s_{0.0};     ///< duration by the container's header

@@ -102,6 +102,10 @@ void DecodedAhead::seek_near(double media_s) {
     jump({media_s, Jump::near}, Begins::when_read);
 }
 
+void DecodedAhead::seek_depth(double media_s) {
+    jump({media_s, Jump::depth}, Begins::when_read);
+}
+
 void DecodedAhead::jump(Target target, Begins begins) {
     {
         const std::lock_guard lock(mutex_);
@@ -151,6 +155,7 @@ DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, 
     try {
         if (target && target->jump == Jump::exact) media_->seek(target->media_s);
         if (target && target->jump == Jump::near) media_->seek_near(target->media_s);
+        if (target && target->jump == Jump::depth) media_->seek_depth(target->media_s);
         if (target) last_s_ = target->media_s;
         from_s = std::min(from_s, last_s_ + kMostSkipped_s);
         decoded.frame = from_s > last_s_ ? media_->next_from(from_s) : media_->next();

@@ -51,6 +51,7 @@ class DecodedAhead : public Media {
     [[nodiscard]] std::optional<double> conversion_s() const { return conversion_s_; }
     void seek(double media_s) override;
     void seek_near(double media_s) override;
+    void seek_depth(double media_s) override;
     /// As seek(), but decoding begins at once, since the following frames will be read soon.
     void decode_from(double media_s);
 
@@ -61,7 +62,7 @@ class DecodedAhead : public Media {
     void prepare_with(Preparation preparation);
 
   private:
-    enum class Jump { exact, near };
+    enum class Jump { exact, near, depth };
     enum class Begins { when_read, at_once };
     struct Target {
         double media_s;

@@ -31,6 +31,7 @@ constexpr int kKeepsUpAfter = 30;  ///< after so many frames in a row the machin
 constexpr std::int64_t kMostFramesBetween = 3;  // frames; no motion is computed over more
 constexpr double kQuickJump_s = 0.1;            ///< quicker jumps need no preview
 constexpr double kJump_s_a_pixel = 1e-7;        ///< a guess, until a jump was measured
+constexpr double kMeasuring_s_a_pixel = 1e-6;   ///< likewise, of the frames that show the noise
 
 double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
@@ -231,6 +232,7 @@ void FrameReader::measure() {
     NoiseMeter meter;
     ClipTrial trial;
     try {
+        media_.seek_depth(0.0);
         for (std::size_t k = 0; k < NoiseMeter::kEnoughFrames; ++k) {
             std::optional<RawFrame> raw = media_.next();
             if (!raw) break;
@@ -250,11 +252,15 @@ bool FrameReader::tries() const {
     return options_.preset == CleaningPreset::automatic && !tried_ && !description().noise;
 }
 
+bool FrameReader::needs_measuring() const {
+    return (needs_noise(options_) && !noise_ && !description().noise) || tries();
+}
+
 /// Measures the noise before the first frame is cleaned, where the options depend on it.
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
-    if ((needs_noise(options_) && !noise_) || tries()) {
+    if (needs_measuring()) {
         media_.prepare_with(nullptr);
         const auto begin = now_();
         jump_to(0.0);
@@ -472,12 +478,26 @@ std::optional<Frame> FrameReader::before(double media_s) {
     return cleaned(previous->frame.media_s);
 }
 
+std::optional<Frame> FrameReader::first_picture() {
+    const double measuring_s =
+        kMeasuring_s_a_pixel * static_cast<double>(description().depth_pixels());
+    const bool is_quick = description().still || measuring_s < kQuickJump_s;
+    if (is_quick || planned_ || !needs_measuring()) return std::nullopt;
+    jump_to(0.0);
+    return decoded_alone();
+}
+
 std::optional<Frame> FrameReader::preview(double media_s) {
     make_plan();
     if (jump_s_ < kQuickJump_s || find_shown(media_s) != nullptr) return std::nullopt;
     media_.seek_near(media_s);
     position_.reset();
     prefetch_.reset();
+    return decoded_alone();
+}
+
+/// The decoder's next frame, which is not kept.
+std::optional<Frame> FrameReader::decoded_alone() {
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;

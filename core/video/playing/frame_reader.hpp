@@ -54,6 +54,10 @@ class FrameReader {
     /// neighbours. Nothing where at() is as quick.
     std::optional<Frame> preview(double media_s);
 
+    /// The first frame, not cleaned, to be drawn while measuring how to clean takes long. Nothing
+    /// where at() is as quick.
+    std::optional<Frame> first_picture();
+
     /// How long the last frame, the one at exactly `media_s`, is shown: as long as the frame
     /// before, or, where that was skipped, the mean interval [s].
     [[nodiscard]] double last_interval_s(double media_s);
@@ -153,6 +157,8 @@ class FrameReader {
     void adapt_to_load(std::int64_t skipped_frames);
     void measure();
     [[nodiscard]] bool tries() const;
+    [[nodiscard]] bool needs_measuring() const;
+    std::optional<Frame> decoded_alone();
     Neighbours neighbours(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;

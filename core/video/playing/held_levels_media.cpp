@@ -20,6 +20,15 @@ std::optional<RawFrame> HeldLevelsMedia::next_from(double earliest_s) {
     return media_->next_from(earliest_s);
 }
 
+void HeldLevelsMedia::place(double media_s, Content content) {
+    wanted_s_ = media_s;
+    content_ = content;
+}
+
+void HeldLevelsMedia::seek_now(double media_s) {
+    content_ == Content::depth ? media_->seek_depth(media_s) : media_->seek(media_s);
+}
+
 void HeldLevelsMedia::seek_near(double media_s) {
     wanted_s_.reset();
     memory_.forget();
@@ -37,13 +46,13 @@ std::optional<RawFrame> HeldLevelsMedia::read() {
 
 std::optional<RawFrame> HeldLevelsMedia::read_at(double media_s) {
     memory_.forget();
-    media_->seek(media_s);
+    seek_now(media_s);
     std::optional<RawFrame> frame = read();
     if (!frame || frame->never_has_holes || frame->index == 0 || !has_holes(frame->depth))
         return frame;
     const double frame_s = frame->media_s;
     memory_.forget();
-    media_->seek(std::max(0.0, frame_s - kHold_s - 2.0 * kTimeTolerance_s));
+    seek_now(std::max(0.0, frame_s - kHold_s - 2.0 * kTimeTolerance_s));
     do frame = read();
     while (frame && frame->media_s < frame_s);
     return frame;

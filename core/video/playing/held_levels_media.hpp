@@ -23,11 +23,16 @@ class HeldLevelsMedia : public Media {
     /// Reads the frames before it, too, where frames may have holes.
     std::optional<RawFrame> next_from(double earliest_s) override;
     /// Reads nothing until the next frame is requested.
-    void seek(double media_s) override { wanted_s_ = media_s; }
+    void seek(double media_s) override { place(media_s, Content::all); }
+    void seek_depth(double media_s) override { place(media_s, Content::depth); }
     /// That frame has no held levels.
     void seek_near(double media_s) override;
 
   private:
+    enum class Content { all, depth };
+
+    void place(double media_s, Content content);
+    void seek_now(double media_s);
     std::optional<RawFrame> read();
     std::optional<RawFrame> read_at(double media_s);
 
@@ -35,6 +40,7 @@ class HeldLevelsMedia : public Media {
     DepthMemory memory_{};
     bool never_has_holes_{false};       ///< as of the last frame
     std::optional<double> wanted_s_{};  ///< target of a seek; nothing: the following frame
+    Content content_{Content::all};     ///< of the frames since that seek
 };
 
 }  // namespace dibhr

@@ -26,12 +26,15 @@ constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
 void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader->set_cleaning(cleaning_);
     reader->set_motion(motion_request_);
-    auto first = reader->at(0.0);
+    auto first = reader->first_picture();
+    const bool is_preview = first.has_value();
+    if (!first) first = reader->at(0.0);
     if (!first)
         throw InputError("'" + reader->description().depth_path.string() +
                          "' holds no frame: record it again");
     reader_ = std::move(reader);
     first_media_s_ = first->media_s;
+    seek_target_s_ = is_preview ? std::optional(first_media_s_) : std::nullopt;
     playing_ = true;
     jump_to(std::move(*first), now);
 }

@@ -37,8 +37,8 @@ cv::Mat seen_colours(const cv::Mat& picture) {
 }
 
 /// Samples of the depth with its colours; `halves`: it is a half of the place's pictures, null: it
-/// is all. The depth of a video that is not coded in red, green and blue is its luma: then the
-/// video is read again.
+/// is all. The depth of a video that is not coded in red, green and blue is its luma: then its
+/// first picture is converted again, and for more pictures the video is read again.
 std::vector<cv::Mat> depth_samples(const KnownPlace& place, Sources& sources, int most,
                                    const PackedForm* halves) {
     const bool is_video = place.is(PictureForm::video);
@@ -46,6 +46,8 @@ std::vector<cv::Mat> depth_samples(const KnownPlace& place, Sources& sources, in
         const std::vector<cv::Mat> first = sources.depth->samples(1);
         const bool is_luma = is_video && !first.empty() && first.front().channels() < 3;
         if (!is_luma) return most == 1 ? first : sources.depth->samples(most);
+        const cv::Mat in_colour = most == 1 ? sources.depth->first_in_colour() : cv::Mat();
+        if (!in_colour.empty()) return {in_colour};
     }
     std::vector<cv::Mat> pictures = colour_samples(place.path, most, sources.depth_track);
     for (cv::Mat& picture : pictures) {

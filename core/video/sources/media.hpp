@@ -146,6 +146,9 @@ class Media {
     virtual void seek(double media_s) = 0;
     /// The next frame returned is a frame near it that is quick to decode, or that frame itself.
     virtual void seek_near(double media_s) { seek(media_s); }
+    /// As seek(), for a reader that uses the depth alone: until the next seek frames may come
+    /// without colour, which then need not be decoded.
+    virtual void seek_depth(double media_s) { seek(media_s); }
     /// The feed of a live source: next() waits for its frames, and seek() does nothing. Null: read
     /// from files.
     [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }

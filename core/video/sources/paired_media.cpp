@@ -166,8 +166,9 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     frame.colour_of_view = colour_of_view_;
     frame.never_has_holes = scale_.is_always_data() && !shape_;
     cv::Mat colour;
-    const cv::Mat as_taken = colour_ ? colour_->shown_at(taken->time_s) : cv::Mat();
-    if (colour_) colour = colour_for(*taken, as_taken);
+    const bool has_colour = colour_.has_value() && !depth_alone_;
+    const cv::Mat as_taken = has_colour ? colour_->shown_at(taken->time_s) : cv::Mat();
+    if (has_colour) colour = colour_for(*taken, as_taken);
     if (taken->pair)
         frame.taken = std::make_shared<const SourcePictures>(
             SourcePictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
@@ -175,9 +176,9 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
         frame.skipping_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
     if (shape_)
         apply_true_shape(frame, colour);
-    else if (colour_)
+    else if (has_colour)
         frame.colour = colour_of(colour);
-    if (painted_) frame.colour = painted_depth(frame.depth);
+    if (painted_ && !depth_alone_) frame.colour = painted_depth(frame.depth);
     return frame;
 }
 
@@ -286,11 +287,18 @@ void PairedMedia::apply_true_shape(RawFrame& frame, const cv::Mat& colour) {
 }
 
 void PairedMedia::seek(double media_s) {
+    depth_alone_ = false;
     depth_->seek(media_s);
     if (colour_) colour_->forget();
 }
 
+void PairedMedia::seek_depth(double media_s) {
+    seek(media_s);
+    depth_alone_ = true;
+}
+
 void PairedMedia::seek_near(double media_s) {
+    depth_alone_ = false;
     // The colour first, as its pictures mostly take longest.
     depth_->seek_near(colour_ ? colour_->go_near(media_s) : media_s);
 }

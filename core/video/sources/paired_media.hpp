@@ -60,6 +60,7 @@ class PairedMedia : public Media {
     std::optional<RawFrame> next_from(double earliest_s) override;
     void seek(double media_s) override;
     void seek_near(double media_s) override;
+    void seek_depth(double media_s) override;
     [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
     /// Reads at most `most` more frames of depth, so that the description becomes exact.
@@ -100,6 +101,7 @@ class PairedMedia : public Media {
     bool is_own_camera_{false};     ///< the camera is the recording's, which knows its lens
     std::string camera_trouble_{};  ///< why the stated camera is left out; empty: it is not
     bool painted_;
+    bool depth_alone_{false};     ///< frames need no colour, until the next seek
     bool colour_of_view_{false};  ///< as far as known
     MediaDescription description_{};
     std::shared_ptr<LiveFeed> live_{};

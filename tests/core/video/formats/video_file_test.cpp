@@ -1,5 +1,10 @@
 // What a video file says of its pictures arrives: every level, which way up, the shape of a pixel,
 // when it begins.
+extern "C" {
+#include <libavutil/frame.h>
+#include <libavutil/pixfmt.h>
+}
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -11,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/av/objects.hpp"
+#include "core/video/formats/decoded_ring.hpp"
 #include "core/video/formats/video_decoder.hpp"
 #include "core/video/formats/video_file.hpp"
 #include "core/video/sources/media.hpp"
@@ -326,6 +333,140 @@ TEST_CASE("a seek far beyond a key frame decodes few of the pictures that are be
     file.seek(4.6);
     REQUIRE(file.next());
     CHECK(file.decoded() - before <= 40);  // of 116
+}
+
+namespace {
+
+/// Each of its pictures as it comes when all are read in order.
+std::vector<TimedPicture> all_pictures(const std::filesystem::path& file, PictureRole role) {
+    std::vector<TimedPicture> all;
+    VideoFile whole(file, role);
+    while (auto picture = whole.next()) all.push_back(std::move(*picture));
+    return all;
+}
+
+void check_same(const std::optional<TimedPicture>& taken, const TimedPicture& expected) {
+    REQUIRE(taken);
+    CHECK(taken->index == expected.index);
+    CHECK(taken->time_s == expected.time_s);
+    CHECK(cv::norm(taken->picture, expected.picture, cv::NORM_INF) == 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("whatever was decoded before, a seek gives the frame shown then, and its followers",
+          "[media]") {
+    const TemporaryFolder folder;
+    const auto role = GENERATE(PictureRole::depth, PictureRole::colour);
+    make_flat_clip(folder / "clip.mkv", 50, 25, GENERATE(kLossless, kH264, kRareKeys, kVp9));
+    const std::vector<TimedPicture> all = all_pictures(folder / "clip.mkv", role);
+    REQUIRE(all.size() == 50);
+    VideoFile file(folder / "clip.mkv", role);
+    std::size_t at = 0;
+    for (const std::size_t to :
+         {0U, 40U, 39U, 38U, 45U, 44U, 3U, 2U, 4U, 49U, 48U, 47U, 20U, 19U}) {
+        CAPTURE(at, to);
+        file.seek(all[to].time_s);
+        for (at = to; at < std::min<std::size_t>(to + 4, all.size()); ++at)
+            check_same(file.next(), all[at]);
+    }
+    file.seek(all[46].time_s);
+    for (at = 46; at < all.size(); ++at) check_same(file.next(), all[at]);
+    CHECK_FALSE(file.next());
+    file.seek(all[48].time_s);  // from the end
+    check_same(file.next_from(all[49].time_s), all[49]);
+}
+
+TEST_CASE("a step back in a group of 250 pictures decodes the group once, for many more steps",
+          "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "clip.mp4", 250, 25, kRareKeys);
+    const std::vector<TimedPicture> all = all_pictures(folder / "clip.mp4", PictureRole::depth);
+    REQUIRE(all.size() == 250);
+    VideoFile file(folder / "clip.mp4", PictureRole::depth);
+    file.seek(all[240].time_s);
+    check_same(file.next(), all[240]);
+    std::size_t groups = 0;
+    for (std::size_t k = 240; k-- > 0;) {
+        CAPTURE(k);
+        const std::int64_t before = file.decoded();
+        file.seek(all[k].time_s);
+        check_same(file.next(), all[k]);
+        const std::int64_t decoded = file.decoded() - before;
+        CHECK(decoded <= static_cast<std::int64_t>(k) + 2);  // from the key frame on
+        groups += decoded > 0 ? 1 : 0;
+    }
+    CHECK(groups <= 240 / (DecodedRing::kMostPictures - 4));
+    const std::int64_t then = file.decoded();
+    for (std::size_t k = 1; k < 20; ++k) {
+        file.seek(all[k].time_s);
+        check_same(file.next(), all[k]);
+    }
+    CHECK(file.decoded() == then);
+}
+
+TEST_CASE("decoded pictures are kept within bounds of number and bytes, the newest ones",
+          "[media]") {
+    const int side = GENERATE(16, 500, 4000, 9000);
+    const AvOwned<AVFrame> frame = new_frame();
+    allocate_buffer(*frame, AV_PIX_FMT_GRAY8, side, side);
+    DecodedRing ring;
+    constexpr int kAdded = 300;
+    for (int k = 0; k < kAdded; ++k) {
+        ring.add(*frame, k, k);
+        CHECK(ring.bytes() <= DecodedRing::kMostBytes);
+        CHECK(ring.size() <= DecodedRing::kMostPictures);
+    }
+    CHECK(ring.size() == ring.room());
+    CHECK((ring.size() == 0) == (side == 9000));
+    CHECK_FALSE(ring.place_at(kAdded - 1.0));  // how long it is shown is not known
+    if (ring.size() < 2) return;
+    const auto place = ring.place_at(kAdded - 1.5);
+    REQUIRE(place);
+    CHECK(ring.picture(*place).index == kAdded - 2);
+    CHECK_FALSE(ring.place_at(ring.picture(0).time_s - 0.5));
+    ring.clear();
+    CHECK(ring.bytes() == 0);
+}
+
+TEST_CASE("samples of a long film of large pictures are its key frames, decoded alone", "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "clip.mp4", 120, 25, kH264 + " -sc_threshold 0",
+                   "scale=1280:800:flags=neighbor");
+    VideoFile file(folder / "clip.mp4", PictureRole::depth);
+    const std::int64_t before = file.decoded();
+    const std::vector<cv::Mat> samples = file.samples(6);
+    CHECK(file.decoded() - before <= 8);  // with the first two again
+    const std::vector<TimedPicture> all = all_pictures(folder / "clip.mp4", PictureRole::depth);
+    REQUIRE(samples.size() == 6);
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        const std::size_t key = k * all.size() / samples.size() / 12 * 12;
+        CHECK(cv::norm(samples[k], all[key].picture, cv::NORM_INF) == 0.0);
+    }
+    check_same(file.next(), all[0]);
+}
+
+TEST_CASE("frames for a reader of depth alone come without colour, with the same depth",
+          "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "colour.mp4", 30, 30, kH264);
+    make_flat_clip(folder / "depth.mp4", 30, 30, kH264);
+    const auto media = open_media(folder / "colour.mp4", folder / "depth.mp4");
+    std::vector<RawFrame> all;
+    while (auto frame = media->next()) all.push_back(std::move(*frame));
+    media->seek_depth(0.0);
+    for (std::size_t k = 0; k < 10; ++k) {
+        const auto frame = media->next();
+        REQUIRE(frame);
+        CHECK(frame->colour.rgb.empty());
+        CHECK(frame->depth.levels == all[k].depth.levels);
+        CHECK(frame->media_s == all[k].media_s);
+    }
+    media->seek(all[5].media_s);
+    const auto whole = media->next();
+    REQUIRE(whole);
+    CHECK(whole->colour.rgb == all[5].colour.rgb);
+    CHECK(whole->depth.levels == all[5].depth.levels);
 }
 
 TEST_CASE("a film that was cut without coding it again begins at 0, and counts what is shown",
