@@ -94,7 +94,7 @@ void StudySurface::record_if_possible() {
 
 bool StudySurface::is_ready() const {
     return trial_file_.empty() && shown_.makes_surface() &&
-           shown_.nearest().media == session_.media_number();
+           shown_.nearest().media == session_.media_number() && !session_.player().status().preview;
 }
 
 void StudySurface::begin_interval(int number) {

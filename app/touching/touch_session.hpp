@@ -86,6 +86,7 @@ class TouchSession {
     void agree_to(std::size_t kind, std::uint64_t offer);
 
     [[nodiscard]] Player& player() noexcept { return player_; }
+    [[nodiscard]] const Player& player() const noexcept { return player_; }
     [[nodiscard]] TouchRecording& recording() noexcept { return recording_; }
 
   private:

@@ -329,7 +329,10 @@ void VideoFile::seek(double time_s) {
     const double latest_s = facts_.frames_exact ? facts_.duration_s : kLongest_s;
     const double wanted_s = (time_s > 0.0 ? std::min(time_s, latest_s) : 0.0) + kTimeTolerance_s;
     ahead_.clear();
-    if (show_kept(wanted_s)) return;
+    if (show_kept(wanted_s)) {
+        run_up_to(wanted_s, {});
+        return;
+    }
     const bool near_ahead = !ended_ && time_s_ <= wanted_s && wanted_s < time_s_ + kNearAhead_s;
     const bool near_behind = time_s_ > wanted_s && wanted_s > time_s_ - kNearBehind_s;
     // The frame shown then may begin some frames earlier; the next step back goes to one before.

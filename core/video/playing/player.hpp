@@ -24,6 +24,7 @@ struct PlaybackStatus {
     bool open{false};
     bool playing{false};
     bool looping{true};
+    bool preview{false};  ///< what is shown is not touched: the frame itself is being read
     std::optional<MediaPart> part{};
     double speed{1.0};
     double media_s{0.0};

@@ -407,7 +407,7 @@ TEST_CASE("a step back in a group of 250 pictures decodes the group once, for ma
 
 TEST_CASE("decoded pictures are kept within bounds of number and bytes, the newest ones",
           "[media]") {
-    const int side = GENERATE(16, 500, 4000, 9000);
+    const int side = GENERATE(16, 500, 4000, 11000);
     const AvOwned<AVFrame> frame = new_frame();
     allocate_buffer(*frame, AV_PIX_FMT_GRAY8, side, side);
     DecodedRing ring;
@@ -418,7 +418,7 @@ TEST_CASE("decoded pictures are kept within bounds of number and bytes, the newe
         CHECK(ring.size() <= DecodedRing::kMostPictures);
     }
     CHECK(ring.size() == ring.room());
-    CHECK((ring.size() == 0) == (side == 9000));
+    CHECK((ring.size() == 0) == (side == 11000));
     CHECK_FALSE(ring.place_at(kAdded - 1.0));  // how long it is shown is not known
     if (ring.size() < 2) return;
     const auto place = ring.place_at(kAdded - 1.5);
@@ -427,6 +427,21 @@ TEST_CASE("decoded pictures are kept within bounds of number and bytes, the newe
     CHECK_FALSE(ring.place_at(ring.picture(0).time_s - 0.5));
     ring.clear();
     CHECK(ring.bytes() == 0);
+}
+
+TEST_CASE("the first of all samples is the first frame, whatever was read before", "[media]") {
+    const TemporaryFolder folder;
+    make_flat_clip(folder / "clip.mp4", 20, 25, kH264);
+    const std::vector<TimedPicture> all = all_pictures(folder / "clip.mp4", PictureRole::depth);
+    VideoFile file(folder / "clip.mp4", PictureRole::depth);
+    for (const int most : {1, 30, 1, 5, 1}) {
+        const std::vector<cv::Mat> samples = file.samples(most);
+        REQUIRE(!samples.empty());
+        CHECK(samples.size() <= static_cast<std::size_t>(most));
+        CHECK(cv::norm(samples.front(), all.front().picture, cv::NORM_INF) == 0.0);
+        check_same(file.next(), all[0]);
+        file.seek(0.0);
+    }
 }
 
 TEST_CASE("samples of a long film of large pictures are its key frames, decoded alone", "[media]") {
