@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/realtime/time_slice.hpp"
+#include "core/video/playing/frame_plan.hpp"
 
 namespace dibhr {
 
@@ -78,7 +79,7 @@ DecodedAhead::Decoded DecodedAhead::take(double earliest_s) {
 }
 
 void DecodedAhead::apply_spacing(const RawFrame& frame) {
-    if (spacing_s_ > 0.0) from_s_ = std::max(from_s_, frame.media_s + spacing_s_);
+    if (spacing_s_ > 0.0) from_s_ = std::max(from_s_, next_shown_s(frame.media_s, spacing_s_));
 }
 
 void DecodedAhead::wait(std::unique_lock<std::mutex>& lock) {

@@ -43,8 +43,8 @@ class DecodedAhead : public Media {
     std::optional<RawFrame> next_from(double earliest_s) override {
         return next_from(earliest_s, 0.0);
     }
-    /// The decoder then also skips frames less than `spacing_s` after a frame given out. A reader
-    /// that wants every following frame has to seek first.
+    /// The decoder then also skips frames before next_shown_s() of the frame given out last. A
+    /// reader that wants every following frame has to seek first.
     std::optional<RawFrame> next_from(double earliest_s, double spacing_s);
     /// How long the frame read last took, less the decoding of it and of the frames skipped before
     /// it [s]; nothing: not known, as after a jump.
@@ -110,7 +110,7 @@ class DecodedAhead : public Media {
     std::size_t bytes_{0};              ///< of all in `decoded_`
     std::size_t consecutive_reads_{0};  ///< since the last jump; decode_from() sets it
     double from_s_{0.0};                ///< earlier frames are skipped
-    double spacing_s_{0.0};             ///< so are frames nearer than this to the last given out
+    double spacing_s_{0.0};             ///< one frame of so much media time is made; 0: all
     std::optional<Target> target_{};    ///< where to decode next; nothing: the following frame
     bool reader_waits_{false};
     bool ended_{false};  ///< at the end, or the next frame failed: decode only on request

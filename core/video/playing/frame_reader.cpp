@@ -27,7 +27,6 @@ constexpr double kReach_s = 0.55;
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
 /// After so many frames in a row, more than a window holds, the media counts as playing.
 constexpr int kPlaysAfter = static_cast<int>(FrameWindow::kFrames);
-constexpr int kKeepsUpAfter = 30;  ///< after so many frames in a row the machine keeps up
 constexpr std::int64_t kMostFramesBetween = 3;  // frames; no motion is computed over more
 constexpr double kQuickJump_s = 0.1;            ///< quicker jumps need no preview
 constexpr double kJump_s_a_pixel = 1e-7;        ///< a guess, until a jump was measured
@@ -56,8 +55,7 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
     : now_(std::move(now)),
       assembly_(now_, kLongestPause),
       media_(std::make_unique<HeldLevelsMedia>(std::move(media)), heartbeats, now_),
-      jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows),
-      frames_since_skip_(kKeepsUpAfter) {
+      jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows) {
     assembly_.set_number(number);
     assembly_.set_interval(interval_s(description()));
 }
@@ -266,7 +264,7 @@ void FrameReader::make_plan() {
         jump_to(0.0);
         measure();
         jump_to(0.0);
-        waited_s_ += seconds_since(begin);
+        extra_s_ += seconds_since(begin);
     }
     const CleaningPlan plan =
         plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
@@ -279,16 +277,7 @@ void FrameReader::make_plan() {
     std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
     assembly_.set_plan(plan);
     planned_ = true;
-    clean_ahead();
-}
-
-/// Waiting frames are cleaned by the decoding thread; on a slow machine by the reading one.
-void FrameReader::clean_ahead() {
-    if (frames_since_skip_ < kKeepsUpAfter && !plan().steps.steady)
-        media_.prepare_with(nullptr);
-    else
-        media_.prepare_with(
-            [this, plan = plan()](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
+    media_.prepare_with([this, plan](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
 }
 
 const std::shared_ptr<const SingleFrameDepth>& FrameReader::single_frame_of(Kept& kept) {
@@ -448,17 +437,11 @@ std::optional<Frame> FrameReader::after(double media_s, const Pace& pace) {
         if (!(wanted_s_ < pace.earliest_s)) break;
     }
     if (next == nullptr) return std::nullopt;
-    adapt_to_load(skipped_frames_ - skipped_frames);
+    // Motion is left out before frames are.
+    if (skipped_frames_ > skipped_frames || !pace.time_for_motion) assembly_.pause_motion();
     Frame frame = cleaned(next->frame.media_s);
     if (++consecutive_frames_ >= kPlaysAfter) prefetch_after_kept(frame.media_s);
     return frame;
-}
-
-void FrameReader::adapt_to_load(std::int64_t skipped_frames) {
-    if (skipped_frames > 0) assembly_.pause_motion();  // motion is left out before frames are
-    const bool was_in_time = frames_since_skip_ >= kKeepsUpAfter;
-    frames_since_skip_ = skipped_frames > 0 ? 0 : std::min(frames_since_skip_ + 1, kKeepsUpAfter);
-    if (was_in_time != (frames_since_skip_ >= kKeepsUpAfter)) clean_ahead();
 }
 
 void FrameReader::connect(Frame& from, const Frame& next) {
@@ -466,7 +449,7 @@ void FrameReader::connect(Frame& from, const Frame& next) {
         next.media_s > from.media_s && next.index - from.index <= kMostFramesBetween;
     const auto begin = now_();
     assembly_.connect(from, next, follows);
-    waited_s_ += seconds_since(begin);
+    extra_s_ += seconds_since(begin);
 }
 
 std::optional<Frame> FrameReader::before(double media_s) {

@@ -28,7 +28,8 @@ struct FrameCost {
 /// Which of the following frames are read while they play; media time [s].
 struct Pace {
     double earliest_s{0.0};  ///< frames before it are skipped, but not the last frame
-    double spacing_s{0.0};   ///< least time from a frame given out to the next
+    double spacing_s{0.0};   ///< one frame of so much media time is shown; 0: all
+    bool time_for_motion{true};
 };
 
 /// Decodes on its own thread, which also cleans waiting frames as far as they need no others. Used
@@ -87,9 +88,11 @@ class FrameReader {
     /// not known.
     [[nodiscard]] double conversion_s() const { return conversion_s_; }
 
-    /// The sum of all waits, and of the time that measuring noise and motion took [s]: noise is
-    /// measured once, motion is paused where there is no time for it.
+    /// The sum of all waits for the decoder [s].
     [[nodiscard]] double waited_s() const { return waited_s_; }
+    /// The time that measuring noise and motion took, in all [s]: noise is measured once, motion is
+    /// paused where there is no time for it.
+    [[nodiscard]] double extra_s() const { return extra_s_; }
 
     /// The cleaning in use, once a frame has been given out.
     [[nodiscard]] const CleaningPlan& plan() const { return assembly_.plan(); }
@@ -153,8 +156,6 @@ class FrameReader {
     void evict();
     [[nodiscard]] std::size_t reach() const;
     void make_plan();
-    void clean_ahead();
-    void adapt_to_load(std::int64_t skipped_frames);
     void measure();
     [[nodiscard]] bool tries() const;
     [[nodiscard]] bool needs_measuring() const;
@@ -186,9 +187,9 @@ class FrameReader {
     double decoding_s_{0.0};
     double conversion_s_{0.0};
     double waited_s_{0.0};
+    double extra_s_{0.0};
     double jump_s_;  ///< how long the last jump to a frame that was not kept took
     std::int64_t skipped_frames_{0};
-    int frames_since_skip_{0};  ///< frames since one was skipped
     FrameCost cost_{};
 };
 

@@ -14,12 +14,10 @@ namespace dibhr {
 namespace {
 
 constexpr double kJump_s = 0.001;      ///< between frames: no two have the same playback time
-constexpr double kMostDecoding = 0.8;  ///< of the interval; above it skipping frames does not help
 constexpr double kNewestWeight = 0.2;  ///< the weight of the newest frame in the means
 constexpr std::chrono::seconds kShownFor{3};  ///< so long the status says that the clock waited
-constexpr double kSlowConversion =
-    1.5;  ///< intervals; frames that take less are late only now and then
-constexpr double kMostBehind_s = 1.0;  ///< beyond this the clock waits
+constexpr double kMostBehind_s = 1.0;         ///< beyond this the clock waits
+constexpr double kLeastLoad = 0.8, kMostLoad = 2.0;
 
 }  // namespace
 
@@ -35,6 +33,9 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader_ = std::move(reader);
     first_media_s_ = first->media_s;
     seek_target_s_ = is_preview ? std::optional(first_media_s_) : std::nullopt;
+    cleaning_s_ = 0.0;
+    load_ = 1.0;
+    plan_ = {.speed = speed_};
     playing_ = true;
     jump_to(std::move(*first), now);
 }
@@ -47,7 +48,7 @@ void Playback::close() {
 }
 
 void Playback::anchor(double playback_s, Time now) {
-    clock_ = {now, playback_s, playing_ ? speed_ : 0.0};
+    clock_ = {now, playback_s, playing_ ? plan_.speed : 0.0};
 }
 
 double Playback::moment(Time now) const {
@@ -147,7 +148,7 @@ void Playback::set_part(const std::optional<MediaPart>& part) {
 
 void Playback::set_speed(double speed, Time now) {
     speed_ = speed > kSlowestSpeed ? std::min(speed, kFastestSpeed) : kSlowestSpeed;
-    anchor(moment(now), now);
+    update_plan(now);
 }
 
 void Playback::set_cleaning(const CleaningOptions& options) {
@@ -234,6 +235,7 @@ bool Playback::needs_frame() const {
 bool Playback::read_ahead(Time now) {
     reading_since_ = now;
     waited_before_s_ = reader_->waited_s();
+    extra_before_s_ = reader_->extra_s();
     return seek_target_s_ ? read_seek_target(now) : read_next(now);
 }
 
@@ -254,6 +256,7 @@ bool Playback::read_next(Time now) {
     if (!next) return false;
     const auto passed = static_cast<double>(reader_->skipped_frames() - skipped_frames);
     skipped_frames_ = moving_mean(skipped_frames_, passed, kNewestWeight);
+    read_frames_ = passed + 1.0;
     next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
     reader_->connect(frames_.back(), *next);
     frames_.push_back(std::move(*next));
@@ -280,65 +283,81 @@ double Playback::interval_s() const {
     return rate > 0.0 ? 1.0 / rate : 0.0;
 }
 
-/// The interval on the playback timeline that this machine sustains by skipping frames. It does not
-/// depend on how many were skipped lately: else one late frame would make the next one later.
-/// Nothing where the decoding takes too long: skipped frames have to be decoded, too.
-std::optional<double> Playback::sustainable_interval_s() const {
-    const double decoding_s = clock_.speed * reader_->decoding_s();
-    const double conversion_s = clock_.speed * reader_->conversion_s();
-    const double cleaning_s = clock_.speed * cleaning_s_;
-    const double part = interval_s() > 0.0 ? decoding_s / interval_s() : 1.0;
-    if (part > kMostDecoding) return std::nullopt;
-    if (conversion_s > 0.0) {  // side by side
-        const double made_s = conversion_s / (1.0 - part);
-        return std::max(cleaning_s, made_s > kSlowConversion * interval_s() ? made_s : 0.0);
-    }
-    return std::max(decoding_s + cleaning_s, cleaning_s / (1.0 - part));
+/// The measured times, and how much longer a frame takes in all than they explain.
+FrameCosts Playback::costs() const {
+    const double load = std::max(load_, 1.0);
+    const double conversion_s = reader_->conversion_s();
+    return {.decoding_s = load * reader_->decoding_s(),
+            .conversion_s = load * conversion_s,
+            .cleaning_s = load * cleaning_s_,
+            .side_by_side = conversion_s > 0.0};
 }
 
-/// The next frame; while frames are late, the first that is in time, and then frames at the
-/// interval that this machine sustains.
+/// Adds the times of the newest frame: `took_s` in all, `waited_s` of it for the decoder.
+void Playback::add_cost(double took_s, double waited_s) {
+    cleaning_s_ = steady_mean(cleaning_s_, std::max(took_s - waited_s, 0.0));
+    const double explained_s = frame_time_s(costs(), read_frames_) / std::max(load_, 1.0);
+    if (starts_ || !(explained_s > 0.0)) return;
+    load_ = std::clamp(steady_mean(load_, took_s / explained_s), kLeastLoad, kMostLoad);
+}
+
+/// Sets the speed of the clock, too, which goes on from where it is.
+void Playback::update_plan(Time now) {
+    plan_ =
+        plan_of(is_open() ? costs() : FrameCosts{}, is_open() ? interval_s() : 0.0, speed_, plan_);
+    const double moment_s = moment(now);
+    if (clock_.speed != (playing_ ? plan_.speed : 0.0)) anchor(moment_s, now);
+}
+
+/// The next frame of the plan; while frames are late, the first that is in time.
 Pace Playback::pace(Time now) const {
     if (!playing_ || starts_) return {};
-    const double next_s = frames_.back().media_s + kTimeTolerance_s;
-    const std::optional<double> takes_s = sustainable_interval_s();
-    if (!takes_s) return {.earliest_s = next_s};
-    const double spacing_s = *takes_s > interval_s() ? *takes_s : 0.0;
-    return {std::max(earliest_s(now, *takes_s) - offset_s_, next_s), spacing_s};
+    const double spacing_s = plan_.every > 1.0 ? plan_.every * interval_s() : 0.0;
+    const double next_s = next_shown_s(frames_.back().media_s, spacing_s);
+    return {.earliest_s = std::max(earliest_in_time_s(now) - offset_s_, next_s),
+            .spacing_s = spacing_s,
+            .time_for_motion = !plan_.overloaded};
 }
 
 /// Of the next frame to read, on the playback timeline. Late frames are skipped up to one that is
-/// ready an interval early, so that the surface can move to it; from then on frames have the
-/// sustained interval. Where two threads share the work, the frame at that distance is already
-/// being made.
-double Playback::earliest_s(Time now, double takes_s) const {
+/// ready early enough for the surface to move to it. A slowed clock waits for them instead.
+double Playback::earliest_in_time_s(Time now) const {
+    if (clock_is_slowed()) return 0.0;
+    const double takes_s = clock_.speed * frame_time_s(costs(), plan_.every);
     const double there_s = clock_.playback_s(now) + takes_s;
-    const double newest_s = frames_.back().time_s;
-    const bool under_way = reader_->conversion_s() > 0.0;
-    const double next_s = newest_s + (under_way ? std::max(takes_s, interval_s()) : interval_s());
-    if (next_s < there_s) return there_s + takes_s;
-    return frames_.size() < 3 && takes_s > interval_s() ? newest_s + takes_s : 0.0;
+    const double next_s = frames_.back().time_s + plan_.every * interval_s();
+    return next_s < there_s ? there_s + takes_s : 0.0;
 }
 
 void Playback::on_frame_read(Time now) {
     const double took_s = std::chrono::duration<double>(now - reading_since_).count() -
-                          (reader_->waited_s() - waited_before_s_);
-    cleaning_s_ = moving_mean_from_first(cleaning_s_, std::max(took_s, 0.0), kNewestWeight);
+                          (reader_->extra_s() - extra_before_s_);
+    add_cost(took_s, reader_->waited_s() - waited_before_s_);
     falls_behind_ = waited_ && now - *waited_ < kShownFor;
     if (frames_.size() < 2) return;
     const bool starts = std::exchange(starts_, false);
-    if (!playing_ || frames_.size() > 2) return;
+    if (playing_ && frames_.size() == 2) place_late_frame(starts, now);
+    update_plan(now);
+}
+
+/// The surface moves on from where it was held while frames had run out.
+void Playback::place_late_frame(bool starts, Time now) {
     const double moment_s = clock_.playback_s(now);
     Frame& held = frames_.front();
     Frame& next = frames_.back();
     const double late_s = moment_s - (next.media_s + offset_s_);
-    const bool falls_behind = late_s > kMostBehind_s;
+    const bool waits = late_s > (clock_is_slowed() ? 0.0 : kMostBehind_s);
     if (starts) offset_s_ += moment_s - held.time_s;
-    if (falls_behind && !starts) offset_s_ += late_s;
+    if (waits && !starts)
+        offset_s_ += late_s + (clock_is_slowed() ? plan_.every * interval_s() : 0.0);
     next.time_s = std::max(next.time_s, next.media_s + offset_s_);
-    if (falls_behind) waited_ = now;
+    if (waits) waited_ = now;
     held.time_s = std::max(held.time_s, moment_s);
     next.time_s = std::max(next.time_s, held.time_s + std::max(kJump_s, 0.5 * interval_s()));
+}
+
+std::string Playback::dropped_in_words() const {
+    return in_words(plan_, costs(), description().frames_per_s, speed_);
 }
 
 double Playback::shown_per_s() const {

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/playing/frame_plan.hpp"
 #include "core/video/playing/frame_reader.hpp"
 
 namespace dibhr {
@@ -67,8 +68,11 @@ class Playback {
     [[nodiscard]] double shown_per_s() const;
     /// The target of a seek while a preview is shown; media time [s].
     [[nodiscard]] std::optional<double> seek_target_s() const { return seek_target_s_; }
-    /// Even with skipped frames this machine is too slow: the clock waited for frames lately.
-    [[nodiscard]] bool falls_behind() const { return falls_behind_; }
+    /// Even with skipped frames this machine is too slow: the clock is slower than requested, or
+    /// waited for frames lately.
+    [[nodiscard]] bool falls_behind() const { return falls_behind_ || clock_is_slowed(); }
+    /// What is dropped on a machine that is too slow, and why; empty: nothing.
+    [[nodiscard]] std::string dropped_in_words() const;
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
     [[nodiscard]] bool looping() const { return looping_; }
@@ -87,8 +91,12 @@ class Playback {
     bool read_seek_target(Time now);
     bool read_next(Time now);
     [[nodiscard]] Pace pace(Time now) const;
-    [[nodiscard]] double earliest_s(Time now, double takes_s) const;
-    [[nodiscard]] std::optional<double> sustainable_interval_s() const;
+    [[nodiscard]] double earliest_in_time_s(Time now) const;
+    [[nodiscard]] FrameCosts costs() const;
+    void add_cost(double took_s, double waited_s);
+    void place_late_frame(bool starts, Time now);
+    void update_plan(Time now);
+    [[nodiscard]] bool clock_is_slowed() const { return plan_.speed < speed_; }
     [[nodiscard]] double interval_s() const;
     void clean_again(const CleaningOptions& options);
     bool update_in_betweens(bool wanted);
@@ -114,8 +122,12 @@ class Playback {
     bool falls_behind_{false};      ///< it did so lately
     Time reading_since_{};
     double waited_before_s_{0.0};  ///< sum of the reader's waits before this frame
+    double extra_before_s_{0.0};   ///< likewise of its extra time
     double cleaning_s_{0.0};       ///< mean time of a frame without decoding
     double skipped_frames_{0.0};   ///< mean number of frames skipped between two shown
+    double read_frames_{1.0};      ///< how many the newest is after the one before
+    double load_{1.0};             ///< of the time a frame takes, to the time that is explained
+    FramePlan plan_{};
     double speed_{1.0};
     bool playing_{false};
     bool looping_{true};

@@ -240,10 +240,11 @@ TEST_CASE("the loop goes round and raises the discontinuity once a lap", "[playe
     REQUIRE(eventually([&] { return player.haptics().front().count > 0; }));
     const auto before = player.haptics().front().discontinuity;
     const double lap_s = 1.6;
+    // On a busy machine the clock waits, so a lap may last longer than the media.
+    REQUIRE(eventually([&] { return player.haptics().front().discontinuity > before; }));
     REQUIRE(eventually([&] { return player.haptics().front().frames[0].time_s > 1.5 * lap_s; }));
     const FrameWindow& later = player.haptics().front();
     const auto laps = static_cast<std::uint64_t>(later.frames[0].time_s / lap_s + 0.05);
-    CHECK(later.discontinuity >= before + 1);
     CHECK(later.discontinuity <= before + laps + 1);
     CHECK(player.status().frames == 40);
 }
