@@ -101,25 +101,13 @@ void draw_files(const MediaDescription& media) {
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 
-bool skips_frames(const PlaybackStatus& playback) {
-    constexpr double kAll = 0.97;
-    return playback.playing && playback.shown_per_s < kAll * playback.frames_per_s;
-}
-
-/// The frame's number and, on a machine that is too slow, the shown rate. Not in a row of its own,
-/// which would appear at each short delay and move the rows below while a person clicks on them.
+/// The frame's number and, on a machine that is too slow, the shown rate.
 void draw_frame(const PlaybackStatus& playback) {
     std::string value = std::to_string(playback.frame + 1) + " of " +
                         std::to_string(std::max(playback.frames, playback.frame + 1));
-    const bool slow = skips_frames(playback);
-    if (slow) value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
+    if (playback.playing && !playback.dropped.empty())
+        value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
     fact_row("Frame", value);
-    if (!slow) return;
-    add_tooltip(
-        playback.falls_behind
-            ? "This machine is too slow for all frames: so many are shown per second, and too late"
-            : "This machine is too slow for all frames: so many are shown per second, at the right "
-              "time");
 }
 
 void draw_playback(const ViewerState& state, Transport& player) {
@@ -234,7 +222,11 @@ void draw_video_panel(ViewerState& state, Transport* player) {
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);
     ImGui::EndDisabled();
-    const std::string& failure = state.media.playback.failure;
+    // Last, so that the line moves no row while a person clicks on it.
+    const PlaybackStatus& playback = state.media.playback;
+    if (player != nullptr && playback.playing && !playback.dropped.empty())
+        draw_dimmed(playback.dropped);
+    const std::string& failure = playback.failure;
     if (player != nullptr && !failure.empty()) draw_dimmed(failure);
     ImGui::PopID();
 }

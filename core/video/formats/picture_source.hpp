@@ -27,7 +27,7 @@ struct TimedPicture {
     cv::Mat picture{};
     double time_s{0.0};  ///< presentation time, from the file's own beginning
     std::int64_t index{0};
-    double decoding_s{0.0};                  ///< mean time to decode a picture; 0: not known
+    double decoding_s{0.0};                  ///< mean time to pass over a picture; 0: not known
     std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,6 +37,7 @@ constexpr double kMissing_s = 0.5;     ///< a shorter loss at the end may be rou
 constexpr double kMissingPart = 0.15;  ///< a smaller part may be a long last frame
 constexpr double kMostSampled = 1e8;   ///< pixels decoded for samples: a third of a second
 constexpr double kLarge = 1e6;         ///< pixels; of larger pictures the key frames are enough
+constexpr double kHalf = 0.5;          ///< of the pictures of an H.264 video may be non-reference
 constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
 
 /// The earliest end of a whole file.
@@ -246,7 +248,7 @@ std::optional<TimedPicture> VideoFile::next() {
     return timed(retrieve());
 }
 
-/// Earlier frames are decoded and not converted.
+/// Earlier frames are not converted, and those that no other frame refers to are not decoded.
 std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     std::optional<TimedPicture> last;  // without a picture: the decoder keeps it
     for (; !ahead_.empty(); ahead_.pop_front()) {
@@ -255,17 +257,36 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
         ahead_.pop_front();
         return last;
     }
+    if (has_times_) decoder_.skip_non_reference_before(earliest_s);
+    const std::int64_t from = index_;
+    const auto begin = std::chrono::steady_clock::now();
     while (grab()) {
-        if (!(time_s_ < earliest_s)) return timed(retrieve());
+        if (!(time_s_ < earliest_s)) {
+            measure_passing(index_ - from - 1, std::chrono::steady_clock::now() - begin);
+            return timed(retrieve());
+        }
         decoder_.keep();
         last = timed({});
+    }
+    if (skipped_until(time_s_)) {  // the last frame of all
+        last.reset();
+        rewind_before(time_s_, RunUp::whole);
+        if (run_up_to(std::numeric_limits<double>::infinity(), {})) last = next();
     }
     if (last && last->picture.empty()) last = retrieve_kept(std::move(*last));
     return last;
 }
 
+/// `taken` includes the decoding of the frame after them.
+void VideoFile::measure_passing(std::int64_t frames, std::chrono::duration<double> taken) {
+    if (frames < 1 || !(decoding_s_ > 0.0)) return;
+    const double each_s = std::max(taken.count() - decoding_s_, 0.0) / static_cast<double>(frames);
+    passing_s_ = moving_mean_from_first(passing_s_, each_s);
+}
+
 TimedPicture VideoFile::timed(cv::Mat picture) const {
-    return {std::move(picture), time_s_, index_, decoding_s_};
+    const double guess_s = (decoder_.knows_non_reference() ? kHalf : 1.0) * decoding_s_;
+    return {std::move(picture), time_s_, index_, passing_s_ > 0.0 ? passing_s_ : guess_s};
 }
 
 TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {

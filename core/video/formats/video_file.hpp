@@ -1,6 +1,7 @@
 // Reads a video file as pictures in order of presentation time, with an exact seek.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <filesystem>
@@ -55,6 +56,7 @@ class VideoFile : public PictureSource {
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
+    void measure_passing(std::int64_t frames, std::chrono::duration<double> taken);
     void store_time();  ///< appends that of the frame at index_ to times_
     /// To a key frame, where the file can.
     bool jump(double time_s, int most_packets = VideoDecoder::kAllPackets);
@@ -79,6 +81,7 @@ class VideoFile : public PictureSource {
     std::vector<double> times_{};       ///< of all frames from the first up to a gap
     double header_duration_s_{0.0};     ///< duration by the container's header
     double decoding_s_{0.0};            ///< mean time to decode a frame
+    double passing_s_{0.0};             ///< mean time to pass over a frame; 0: not known
     double interval_s_{1.0 / 30.0};     ///< by the container; for frames without a time
     double time_s_{0.0};                ///< of the grabbed frame, or one skipped since
     std::int64_t index_{-1};            ///< of the grabbed frame

@@ -81,15 +81,16 @@ double steady_mean(double mean, double newest) noexcept {
 std::string in_words(const FramePlan& plan, const FrameCosts& costs, double frames_per_s,
                      double speed) {
     if (!plan.overloaded) return {};
-    const double decoding_s = costs.decoding_s + costs.conversion_s;
-    const bool cleans = costs.cleaning_s > decoding_s;
     std::string words = "All frames are shown";
     if (plan.every > 1.0)
         words = "Shown " + number_text(frames_per_s / plan.every, 0) + " of " +
                 number_text(frames_per_s, 0) + " frames a second";
     if (plan.speed < speed) words += ", at " + number_text(plan.speed, 2) + " of the video's speed";
-    return words + (cleans ? ": cleaning takes " : ": decoding takes ") +
-           number_text(1000.0 * std::max(costs.cleaning_s, decoding_s), 0) + " ms a frame";
+    const double decoding_s = costs.decoding_s + costs.conversion_s;
+    const char* const step = !costs.side_by_side             ? "decoding and cleaning take "
+                             : costs.cleaning_s > decoding_s ? "cleaning takes "
+                                                             : "decoding takes ";
+    return words + ": " + step + number_text(1000.0 * frame_time_s(costs, 1.0), 0) + " ms a frame.";
 }
 
 double next_shown_s(double media_s, double spacing_s) noexcept {

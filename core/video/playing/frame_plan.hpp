@@ -42,7 +42,7 @@ inline constexpr double kMostLost = 0.05;
 [[nodiscard]] double steady_mean(double mean, double newest) noexcept;
 
 /// What the plan drops and why, as a sentence: "Shown 15 of 30 frames a second: cleaning takes
-/// 40 ms a frame". Empty: nothing is dropped. `frames_per_s`: of the video; `speed`: as requested.
+/// 40 ms a frame." Empty: nothing is dropped. `frames_per_s`: of the video; `speed`: as requested.
 [[nodiscard]] std::string in_words(const FramePlan& plan, const FrameCosts& costs,
                                    double frames_per_s, double speed);
 

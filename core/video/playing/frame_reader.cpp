@@ -322,7 +322,8 @@ Frame FrameReader::cleaned(double media_s) {
         for (const auto& single_frame : neighbours.frames) frames.push_back(single_frame.get());
         Kept& kept = *find(media_s);
         kept.frame = assembly_.finish_frame(kept.frame, frames, neighbours.now);
-        cost_.clean_ms += 1000.0 * seconds_since(begin);
+        cost_.finish_ms = 1000.0 * seconds_since(begin);
+        cost_.clean_ms += cost_.finish_ms;
         cost_.cleaned = now_();
     }
     return find(media_s)->frame;

@@ -22,6 +22,7 @@ namespace dibhr {
 struct FrameCost {
     double decode_ms{0.0};                            ///< the wait for the decoder
     double clean_ms{0.0};                             ///< on either thread
+    double finish_ms{0.0};                            ///< the part of it with its neighbours
     std::chrono::steady_clock::time_point cleaned{};  ///< when it was ready
 };
 
@@ -69,6 +70,11 @@ class FrameReader {
     void connect(Frame& from, const Frame& next);
     /// What connect() computes from now on.
     void set_motion(const MotionRequest& wanted) { assembly_.set_motion(wanted); }
+    /// What is not paused for want of time.
+    [[nodiscard]] MotionRequest affordable_motion() const {
+        const bool motion = !assembly_.throttle().motion_paused();
+        return {motion, motion && !assembly_.throttle().in_betweens_paused()};
+    }
 
     /// Frames are cleaned so from now on; frames given out before have to be read again.
     void set_cleaning(const CleaningOptions& options);

@@ -33,7 +33,7 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader_ = std::move(reader);
     first_media_s_ = first->media_s;
     seek_target_s_ = is_preview ? std::optional(first_media_s_) : std::nullopt;
-    cleaning_s_ = 0.0;
+    cleaning_s_ = each_frame_s_ = 0.0;
     load_ = 1.0;
     plan_ = {.speed = speed_};
     playing_ = true;
@@ -283,8 +283,10 @@ double Playback::interval_s() const {
     return rate > 0.0 ? 1.0 / rate : 0.0;
 }
 
-/// The measured times, and how much longer a frame takes in all than they explain.
+/// The measured times, and how much longer a frame takes in all than they explain. The filter in
+/// time needs every frame decoded and cleaned.
 FrameCosts Playback::costs() const {
+    if (steps().steady) return {.decoding_s = each_frame_s_, .cleaning_s = cleaning_s_};
     const double load = std::max(load_, 1.0);
     const double conversion_s = reader_->conversion_s();
     return {.decoding_s = load * reader_->decoding_s(),
@@ -295,6 +297,12 @@ FrameCosts Playback::costs() const {
 
 /// Adds the times of the newest frame: `took_s` in all, `waited_s` of it for the decoder.
 void Playback::add_cost(double took_s, double waited_s) {
+    if (steps().steady) {
+        const double finish_s = std::min(1e-3 * cost().finish_ms, took_s);
+        cleaning_s_ = steady_mean(cleaning_s_, finish_s);
+        each_frame_s_ = steady_mean(each_frame_s_, (took_s - finish_s) / read_frames_);
+        return;
+    }
     cleaning_s_ = steady_mean(cleaning_s_, std::max(took_s - waited_s, 0.0));
     const double explained_s = frame_time_s(costs(), read_frames_) / std::max(load_, 1.0);
     if (starts_ || !(explained_s > 0.0)) return;
@@ -357,7 +365,17 @@ void Playback::place_late_frame(bool starts, Time now) {
 }
 
 std::string Playback::dropped_in_words() const {
-    return in_words(plan_, costs(), description().frames_per_s, speed_);
+    std::string words = in_words(plan_, costs(), description().frames_per_s, speed_);
+    const auto add = [&words](const char* sentence) {
+        words += words.empty() ? sentence : std::string(" ") + sentence;
+    };
+    if (falls_behind_ && words.empty()) add("The clock waited for frames.");
+    const MotionRequest done = reader_->affordable_motion();
+    if (motion_request_.motion && !done.motion)
+        add("Motion is off.");
+    else if (motion_request_.in_betweens && !done.in_betweens)
+        add("In-betweens are off.");
+    return words;
 }
 
 double Playback::shown_per_s() const {

@@ -71,7 +71,7 @@ class Playback {
     /// Even with skipped frames this machine is too slow: the clock is slower than requested, or
     /// waited for frames lately.
     [[nodiscard]] bool falls_behind() const { return falls_behind_ || clock_is_slowed(); }
-    /// What is dropped on a machine that is too slow, and why; empty: nothing.
+    /// What is dropped on a machine that is too slow, and why, as sentences; empty: nothing.
     [[nodiscard]] std::string dropped_in_words() const;
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
@@ -124,6 +124,7 @@ class Playback {
     double waited_before_s_{0.0};  ///< sum of the reader's waits before this frame
     double extra_before_s_{0.0};   ///< likewise of its extra time
     double cleaning_s_{0.0};       ///< mean time of a frame without decoding
+    double each_frame_s_{0.0};     ///< with the filter in time: of each frame, also of one left out
     double skipped_frames_{0.0};   ///< mean number of frames skipped between two shown
     double read_frames_{1.0};      ///< how many the newest is after the one before
     double load_{1.0};             ///< of the time a frame takes, to the time that is explained

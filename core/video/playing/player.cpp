@@ -207,7 +207,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     status.frames = playback.description().frames;
     status.frames_per_s = playback.description().frames_per_s;
     status.shown_per_s = playback.shown_per_s();
-    status.falls_behind = playback.falls_behind();
+    status.dropped = playback.dropped_in_words();
     status.cleaning = playback.cleaning_in_words();
     status.steps = playback.steps();
     const FrameCost& cost = playback.cost();
@@ -232,7 +232,7 @@ void Player::Implementation::publish_live() {
     status.frames_per_s =
         status.live->arrives_per_s > 0.0 ? status.live->arrives_per_s : media.frames_per_s;
     status.shown_per_s = status.frames_per_s;
-    status.falls_behind = false;
+    status.dropped.clear();
     status.cleaning = live.cleaning_in_words();
     status.steps = live.steps();
     status.decode_ms = status.clean_ms = live.clean_ms();

@@ -33,7 +33,7 @@ struct PlaybackStatus {
     std::int64_t frames{0};
     double frames_per_s{0.0};  ///< of the video
     double shown_per_s{0.0};   ///< frames shown; fewer: this machine is too slow
-    bool falls_behind{false};  ///< even so the machine is too slow: the clock waits
+    std::string dropped{};     ///< what this machine is too slow for, and why; empty: nothing
     double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it

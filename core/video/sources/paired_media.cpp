@@ -23,7 +23,7 @@ namespace {
 
 /// Rounding of the distances of two pictures from a third one, whose times are in milliseconds [s].
 constexpr double kSameDistance_s = 4.0 * kTimeTolerance_s;
-constexpr double kFarAhead = 2.5;  ///< intervals; farther ahead a seek skips the conversion
+constexpr double kFarAhead = 1.5;  ///< intervals; farther ahead pictures are not converted
 
 /// Near is light, far is dark, no data is grey.
 ColourImage painted_depth(const DepthImage& depth) {
@@ -106,7 +106,8 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
     const double time_s = depth_time_s - start_offset_s_;
     const bool is_near = std::exchange(is_near_, false);
     if (is_near && std::fabs(now_.time_s - time_s) <= half_s_) return now_.picture;
-    if (!placed_ || (later_ && later_->time_s + kFarAhead * interval_s_ < time_s)) {
+    const bool is_far = later_ && later_->time_s + kFarAhead * interval_s_ < time_s;
+    if (!placed_ || (is_far && !pass_to(time_s))) {
         source_->seek(time_s);
         now_ = source_->next().value_or(now_);
         later_ = source_->next();
@@ -118,6 +119,15 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
         later_ = source_->next();
     }
     return now_.picture;
+}
+
+/// Passed pictures are farther from `time_s` than the one that is taken.
+bool ColourTrack::pass_to(double time_s) {
+    auto next = source_->next_from(time_s - half_s_ - kSameDistance_s);
+    if (!next || std::fabs(next->time_s - time_s) > half_s_) return false;
+    now_ = std::move(*next);
+    later_ = source_->next();
+    return true;
 }
 
 PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,

@@ -34,10 +34,12 @@ class ColourTrack {
     /// that of the depth. If another picture is nearer to the next depth frame, that one is read.
     double go_near(double depth_time_s);
     const cv::Mat& shown_at(double depth_time_s);
-    /// Mean time to decode a picture; 0: not known.
+    /// Mean time to pass over a picture; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
 
   private:
+    bool pass_to(double time_s);  ///< false: no picture is so near
+
     std::unique_ptr<PictureSource> source_;
     double start_offset_s_;  ///< start of the colour after that of the depth
     double interval_s_;      ///< the lesser of both, as known at the opening; never updated

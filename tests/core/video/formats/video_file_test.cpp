@@ -484,6 +484,42 @@ TEST_CASE("frames for a reader of depth alone come without colour, with the same
     CHECK(whole->depth.levels == all[5].depth.levels);
 }
 
+TEST_CASE("pictures that are left out are not decoded where none refers to them", "[media]") {
+    const TemporaryFolder folder;
+    // Three of four pictures are non-reference ones; the last one is among them.
+    make_flat_clip(folder / "clip.mp4", 99, 25,
+                   "-c:v libx264 -crf 18 -bf 3 -b_strategy 0 -x264-params b-pyramid=none "
+                   "-sc_threshold 0 -g 250 -pix_fmt yuv420p");
+    std::vector<TimedPicture> all;
+    VideoFile whole(folder / "clip.mp4", PictureRole::depth);
+    while (auto picture = whole.next()) all.push_back(std::move(*picture));
+    REQUIRE(all.size() == 99);
+    const std::size_t every = GENERATE(2, 3, 5, 12);
+    CAPTURE(every);
+    VideoFile file(folder / "clip.mp4", PictureRole::depth);
+    const auto before = file.decoded();
+    std::int64_t decoded = 0;
+    for (std::size_t at = every; at < all.size(); at += every) {
+        const auto picture = file.next_from(all[at].time_s - kTimeTolerance_s);
+        REQUIRE(picture);
+        CHECK(picture->index == static_cast<std::int64_t>(at));
+        CHECK(cv::norm(picture->picture, all[at].picture, cv::NORM_INF) == 0.0);
+        decoded = file.decoded() - before;
+    }
+    CHECK(decoded <= 80);
+    file.seek(all[90].time_s);
+    const auto last = file.next_from(100.0);
+    REQUIRE(last);
+    CHECK(last->index == 98);
+    CHECK(cv::norm(last->picture, all.back().picture, cv::NORM_INF) == 0.0);
+    CHECK_FALSE(file.next());
+    CHECK(file.facts().frames == 99);
+    file.seek(all[25].time_s);
+    const auto picture = file.next();
+    REQUIRE(picture);
+    CHECK(picture->index == 25);
+}
+
 TEST_CASE("a film that was cut without coding it again begins at 0, and counts what is shown",
           "[media]") {
     const TemporaryFolder folder;

@@ -124,9 +124,10 @@ TEST_CASE("the plan says in words what it drops and which step takes the time", 
     const FrameCosts cleans{
         .decoding_s = 0.002, .conversion_s = 0.008, .cleaning_s = 0.065, .side_by_side = true};
     CHECK(in_words(plan_at(cleans, 1.0), cleans, 30.0, 1.0) ==
-          "Shown 15 of 30 frames a second: cleaning takes 65 ms a frame");
+          "Shown 15 of 30 frames a second: cleaning takes 65 ms a frame.");
     const FrameCosts decodes{.decoding_s = 0.05, .cleaning_s = 0.001};
     CHECK(in_words(plan_at(decodes, 1.0), decodes, 30.0, 1.0) ==
-          "All frames are shown, at 0.65 of the video's speed: decoding takes 50 ms a frame");
+          "All frames are shown, at 0.65 of the video's speed: decoding and cleaning take 51 ms a "
+          "frame.");
     CHECK(in_words({}, cleans, 30.0, 1.0).empty());
 }
