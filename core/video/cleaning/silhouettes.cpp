@@ -7,10 +7,14 @@
 #include <opencv2/core/matx.hpp>
 #include <optional>
 
+#include "core/video/cleaning/patches.hpp"
+#include "core/video/cleaning/silhouette_sides.hpp"
 #include "core/video/frames/colour_image.hpp"
 #include "core/video/frames/vector_clones.hpp"
 
 namespace dibhr {
+
+using namespace side_of_pixel;
 
 namespace {
 
@@ -34,8 +38,6 @@ constexpr std::uint32_t kPixelsPerVote =
 
 constexpr int kFace_px = 3;        ///< a face's slope is taken over twice this length
 constexpr int kSmooth_px = 2;      ///< faces are smoothed over this distance to all sides
-constexpr int kTogether_px = 4;    ///< over this distance pixels of a ramp go together
-constexpr float kAlike = 0.03F;    ///< of the highest level: largest difference on one face
 constexpr int kWide_px = 5;        ///< in a narrower ramp the colour's edge is no better
 constexpr float kColours = 48.0F;  ///< least difference of two faces' colours [of 255]
 constexpr float kOwnSide = 0.25F;  ///< of that: a pixel this near to a face's colour is on it
@@ -137,10 +139,12 @@ int extended_end(const Line& line, int end, int side, float least) {
     return end;
 }
 
-/// The largest rise between neighbours from pixel `low` to pixel `high`.
+/// The largest rise between neighbours from pixel `low` to pixel `high` of the line.
 float highest_step(const Line& line, int low, int high) {
     float highest = 0.0F;
-    for (int k = low; k < high; ++k) highest = std::max(highest, line(k + 1) - line(k));
+    const float* at = line.centre + line.stride * low;
+    for (int k = low; k < high; ++k, at += line.stride)
+        highest = std::max(highest, at[line.stride] - at[0]);
     return highest;
 }
 
@@ -210,8 +214,9 @@ std::optional<Ramp> find_ramp(const Line& line, const Uphill& up, const Limits& 
 /// Number of the first pixel of the high side, so that it has as many pixels as are nearer to it.
 int half_way_up(const Line& line, const Ramp& ramp) {
     int step = ramp.high.end;
-    for (int k = ramp.low.end + 1; k < ramp.high.end; ++k)
-        if (2.0F * line(k) > ramp.low.at(k) + ramp.high.at(k)) --step;
+    const float* at = line.centre + line.stride * (ramp.low.end + 1);
+    for (int k = ramp.low.end + 1; k < ramp.high.end; ++k, at += line.stride)
+        step -= 2.0F * *at > ramp.low.at(k) + ramp.high.at(k) ? 1 : 0;
     return step;
 }
 
@@ -284,18 +289,28 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
     if (colour != nullptr && colour->rgb.empty()) colour = nullptr;
     const double least = kSteep * image.highest_level / (kRelief_widths * image.columns);
     const Scene scene{image, colour, {static_cast<float>(least), noise_levels}};
-    votes_number_.assign(image.levels.size(), 0);
-    votes_.clear();
-    ramps_.clear();
-    steep_.clear();
+    forget(image.levels.size());
     if (!find_ramps(scene)) return;
     for (Votes& votes : votes_) decide(votes);
     decide_together(image);
-    for (const Votes& votes : votes_) {
-        if (votes.side == Side::neither) continue;
-        float& level = image.levels[votes.pixel];
-        level = within(image, level, smoothed(image, votes));
+    smooth_sides(image);
+}
+
+/// Clears the marks of the picture before: of its pixels, which are few.
+void SilhouetteSharpener::forget(std::size_t pixels) {
+    if (votes_number_.size() == pixels) {
+        for (const Votes& votes : votes_) {
+            votes_number_[votes.pixel] = 0;
+            sides_[votes.pixel] = 0;
+        }
+        for (const std::uint32_t pixel : steep_) sides_[pixel] = 0;
+    } else {
+        votes_number_.assign(pixels, 0);
+        sides_.assign(pixels + kReadBeyond, 0);
     }
+    votes_.clear();
+    ramps_.clear();
+    steep_.clear();
 }
 
 /// A continued face may leave the range of levels; recorded real numbers may be outside already.
@@ -330,54 +345,50 @@ void SilhouetteSharpener::decide(Votes& votes) {
     const unsigned count = votes.lows + votes.highs;
     if (kPixelsPerVote * count * count < votes.steps) return;
     const bool high = votes.highs > votes.lows;
-    votes.side = high ? Side::high : Side::low;
+    votes.side = high ? kHigh : kLow;
     votes.level = high ? votes.high / static_cast<float>(votes.highs)
                        : votes.low / static_cast<float>(votes.lows);
+}
+
+/// visit(row, begin, end) for each run of pixels that are steep or have a side.
+template <typename Visit>
+void SilhouetteSharpener::visit_runs_of(const DepthImage& image, const Visit& visit) {
+    for (int j = 0; j < image.rows; ++j)
+        visit_marked(sides_.data() + image.index(0, j), image.columns,
+                     [&](int begin, int end) { visit(j, begin, end); });
 }
 
 /// A pixel keeps its side only where at least a third of those around that may be on a ramp have
 /// one. (Of half the gaps between fingers would be lost.)
 void SilhouetteSharpener::decide_together(const DepthImage& image) {
-    decided_.assign(image.levels.size(), 0);
-    for (const std::uint32_t pixel : steep_) decided_[pixel] = -1;
+    for (const std::uint32_t pixel : steep_) sides_[pixel] = kUndecided;
     for (const Votes& votes : votes_)
-        if (votes.side != Side::neither) decided_[votes.pixel] = 2;
-    for (Votes& votes : votes_) {
-        if (votes.side == Side::neither) continue;
-        const int x = static_cast<int>(votes.pixel) % image.columns;
-        const int y = static_cast<int>(votes.pixel) / image.columns;
-        const int left = std::max(x - kTogether_px, 0);
-        const int right = std::min(x + kTogether_px, image.columns - 1);
-        const int bottom = std::min(y + kTogether_px, image.rows - 1);
-        int balance = 0;
-        for (int j = std::max(y - kTogether_px, 0); j <= bottom; ++j)
-            for (int i = left; i <= right; ++i) balance += decided_[image.index(i, j)];
-        if (balance < 0) votes.side = Side::neither;
-    }
+        if (votes.side != kNeither) sides_[votes.pixel] = votes.side;
+    visit_runs_of(image, [&](int row, int begin, int end) {
+        const std::size_t at = image.index(0, row);
+        const auto has_side = [](std::uint8_t side) { return side > kUndecided; };
+        const std::uint8_t* const sides = sides_.data() + at;
+        if (std::none_of(sides + begin, sides + end, has_side)) return;
+        balances_.find(sides_.data(), image, {row, begin, end});
+        for (int i = begin; i < end; ++i)
+            if (has_side(sides[i]) && balances_.at(i) < 0)
+                votes_[votes_number_[at + static_cast<std::size_t>(i)] - 1].side = kNeither;
+    });
 }
 
-/// Mean level of a pixel and its neighbours on the same side of the outline: each was continued
-/// along its own line, and without smoothing their noise would look like a comb.
-float SilhouetteSharpener::smoothed(const DepthImage& image, const Votes& own) const {
-    const int columns = image.columns;
-    const int x = static_cast<int>(own.pixel) % columns;
-    const int y = static_cast<int>(own.pixel) / columns;
-    const float alike = kAlike * static_cast<float>(image.highest_level);
-    float sum = 0.0F;
-    float count = 0.0F;
-    for (int j = std::max(y - kSmooth_px, 0); j <= std::min(y + kSmooth_px, image.rows - 1); ++j) {
-        for (int i = std::max(x - kSmooth_px, 0); i <= std::min(x + kSmooth_px, columns - 1); ++i) {
-            const std::size_t at = image.index(i, j);
-            const std::uint32_t number = votes_number_[at];
-            const Side side = number != 0 ? votes_[number - 1].side : Side::neither;
-            if (side != own.side && side != Side::neither) continue;
-            const float level = side == own.side ? votes_[number - 1].level : image.levels[at];
-            if (std::fabs(level - own.level) > alike) continue;
-            sum += level;
-            count += 1.0F;
-        }
+/// Each pixel becomes the mean level of itself and its neighbours on the same side of the outline:
+/// each was continued along its own line, and without smoothing their noise would look like a comb.
+void SilhouetteSharpener::smooth_sides(DepthImage& image) {
+    for (Votes& votes : votes_) {
+        sides_[votes.pixel] = votes.side;
+        if (votes.side != kNeither) std::swap(image.levels[votes.pixel], votes.level);
     }
-    return sum / count;
+    for (Votes& votes : votes_)
+        if (votes.side != kNeither)
+            votes.smoothed = mean_of_side(image, sides_.data(), votes.pixel);
+    for (const Votes& votes : votes_)
+        if (votes.side != kNeither)
+            image.levels[votes.pixel] = within(image, votes.level, votes.smoothed);
 }
 
 /// Checks pixels [begin, end) of a row, 2 * `reach` (0 or 1) pixels or more from its ends.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
+#include "core/video/cleaning/silhouette_sides.hpp"
 
 namespace dibhr {
 
@@ -30,7 +31,6 @@ class SilhouetteSharpener {
 
   private:
     struct Scene;
-    enum class Side : std::uint8_t { neither, low, high };
 
     // There are millions of both structures, so their members are small.
 
@@ -54,8 +54,9 @@ class SilhouetteSharpener {
         float low{0.0F}, high{0.0F};      ///< sums of the pixel's levels on either side
         std::uint16_t lows{0}, highs{0};  ///< votes for either side
         std::uint16_t steps{0};           ///< sum of the ramps' widths
-        Side side{Side::neither};
-        float level{0.0F};
+        std::uint8_t side{0};
+        float level{0.0F};     ///< on that side; later the recorded one
+        float smoothed{0.0F};  ///< with those around
     };
 
     /// Finds the ramps of the whole image. False: there are more than kMostRamps.
@@ -67,17 +68,21 @@ class SilhouetteSharpener {
     [[nodiscard]] bool are_too_many() const noexcept {
         return ramps_.size() > kMostRamps || votes_.size() > kMostRamps;
     }
+    void forget(std::size_t pixels);
     static void decide(Votes& votes);
     void decide_together(const DepthImage& image);
+    void smooth_sides(DepthImage& image);
+    template <typename Visit>
+    void visit_runs_of(const DepthImage& image, const Visit& visit);
     [[nodiscard]] static float within(const DepthImage& image, float recorded,
                                       float level) noexcept;
-    [[nodiscard]] float smoothed(const DepthImage& image, const Votes& own) const;
 
     std::vector<std::uint32_t> votes_number_{};  ///< place in votes_, from 1; 0: not on a ramp
+    std::vector<std::uint8_t> sides_{};          ///< SideOfPixel of each; kReadBeyond more
     std::vector<Votes> votes_{};
     std::vector<FoundRamp> ramps_{};
     std::vector<std::uint32_t> steep_{};  ///< pixels that may be on a ramp
-    std::vector<std::int8_t> decided_{};  ///< 2: has a side; -1: is steep, and has none; 0: neither
+    SideBalances balances_{};
 };
 
 }  // namespace dibhr
