@@ -76,8 +76,16 @@ inline float tooth(float up, float down, float left, float right, float step) {
            are_across(left, right) * is_one_alike(up, down);
 }
 
-/// Whether any pixel is beyond two opposite neighbours by more than `step`, as a tooth is. A
-/// neighbour without data (NaN) may count as beyond.
+/// 1: the pixel is beyond two opposite neighbours by more than `step`, as a tooth is; else 0. The
+/// differences are those to its four neighbours. One without data (NaN) may count as beyond.
+inline int may_be_tooth(float up, float down, float left, float right, float step) {
+    return static_cast<int>(std::min(up, down) > step) |
+           static_cast<int>(std::max(up, down) < -step) |
+           static_cast<int>(std::min(left, right) > step) |
+           static_cast<int>(std::max(left, right) < -step);
+}
+
+/// Whether any pixel may be a tooth.
 DIBHR_VECTOR_CLONES bool may_have_teeth(const Rows& rows, float step, int begin, int end) {
     const float* const above = rows.above;
     const float* const row = rows.row;
@@ -88,10 +96,7 @@ DIBHR_VECTOR_CLONES bool may_have_teeth(const Rows& rows, float step, int begin,
         const float down = row[i] - below[i];
         const float left = row[i] - row[i - 1];
         const float right = row[i] - row[i + 1];
-        found |= static_cast<int>(std::min(up, down) > step) |
-                 static_cast<int>(std::max(up, down) < -step) |
-                 static_cast<int>(std::min(left, right) > step) |
-                 static_cast<int>(std::max(left, right) < -step);
+        found |= may_be_tooth(up, down, left, right, step);
     }
     return found != 0;
 }
@@ -141,8 +146,12 @@ void each_marked(const DepthImage& image, Mark mark, float step, const Visit& vi
 /// Whether the pixel, which is not on the border, is a tooth.
 bool is_tooth_at(const DepthImage& image, std::uint32_t pixel, float step) {
     const float* const at = image.levels.data() + pixel;
-    return tooth(*at - at[-image.columns], *at - at[image.columns], *at - at[-1], *at - at[1],
-                 step) > 0.0F;
+    const float up = *at - at[-image.columns];
+    const float down = *at - at[image.columns];
+    const float left = *at - at[-1];
+    const float right = *at - at[1];
+    return may_be_tooth(up, down, left, right, step) != 0 &&
+           tooth(up, down, left, right, step) > 0.0F;
 }
 
 /// visit(right, down) for each of the pixels around one, and for the one itself.
