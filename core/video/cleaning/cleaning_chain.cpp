@@ -194,9 +194,9 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
     }
     spikes_.forget();
     const float noise = plan.noise.at(0.5F) * static_cast<float>(single_frame.depth.highest_level);
-    if (touchable && plan.steps.remove_spikes)
-        spikes_.remove(single_frame.depth, depend_on_noise(plan.steps) ? noise : 0.0F);
-    if (has_holes(single_frame.depth))
+    const bool removes = touchable && plan.steps.remove_spikes;
+    if (removes) spikes_.remove(single_frame.depth, depend_on_noise(plan.steps) ? noise : 0.0F);
+    if (removes ? spikes_.left_holes() : has_holes(single_frame.depth))
         close_holes(single_frame, touchable && plan.steps.fill_holes, held);
     if (!interpolated_.empty()) {
         single_frame.filled.resize(interpolated_.size());

@@ -193,7 +193,8 @@ void SpikeRemover::check_neighbours(const DepthImage& image, const Spike& spike,
 }
 
 void SpikeRemover::remove_islands(DepthImage& image) {
-    if (!has_holes(image)) return;
+    left_holes_ = has_holes(image);
+    if (!left_holes_) return;
     const auto side = static_cast<std::size_t>(image.columns / kIslandsInWidth);
     patches_.find_data(image);
     for (const Patches::Run& run : patches_.runs()) {

@@ -24,6 +24,8 @@ class SpikeRemover {
 
     /// The next image is not given to remove(): no pixel is refused.
     void forget() noexcept { rejected_.clear(); }
+    /// Whether the image that remove() was given last has pixels without data now.
+    [[nodiscard]] bool left_holes() const noexcept { return left_holes_; }
     /// The pixels that lost their data.
     [[nodiscard]] std::span<const std::size_t> rejected() const noexcept { return rejected_; }
 
@@ -51,6 +53,7 @@ class SpikeRemover {
 
     Threshold is_spike_{};
     std::vector<std::size_t> rejected_{};
+    bool left_holes_{false};
     Patches patches_{};
     std::vector<Spike> spikes_{}, removed_{};
     std::vector<std::uint8_t> checked_in_round_{};  ///< round in which each pixel was checked
