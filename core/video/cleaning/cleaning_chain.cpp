@@ -235,7 +235,13 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
                                   const CleaningPlan& plan, Frame frame) {
     const SingleFrameDepth& here = *frames[now];
     const bool steady = plan.steps.steady && frames.size() > 1;
-    DepthImage depth = steady ? filtered_in_time(frames, now, plan.noise) : here.depth;
+    const std::shared_ptr<DepthImage> made =
+        here.depth.levels.size() > kLarge ? std::make_shared<DepthImage>() : made_.take();
+    DepthImage& depth = *made;
+    if (steady)
+        depth = filtered_in_time(frames, now, plan.noise);
+    else
+        depth = here.depth;
     std::vector<std::uint8_t> unseen = here.unseen;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth))
@@ -250,11 +256,11 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     }
     if (!unseen.empty())
         frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen));
+    frame.depth = made;
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
-        frame.undilated = std::make_shared<const DepthImage>(std::move(depth));
-        depth = finger_.dilated(*frame.undilated, plan.finger);
+        frame.undilated = made;
+        frame.depth = std::make_shared<const DepthImage>(finger_.dilated(depth, plan.finger));
     }
-    frame.depth = std::make_shared<const DepthImage>(std::move(depth));
     frame.cleaning = {plan.steps, plan.finger};
     return frame;
 }

@@ -24,6 +24,7 @@
 #include "core/video/cleaning/temporal_filter.hpp"
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 
@@ -130,6 +131,7 @@ class CleaningChain {
     NoiseSmoother noise_{};
     OutlineSmoother outlines_{};
     FingertipDilation finger_{};
+    ObjectPool<DepthImage> made_{};  ///< of finished frames
 };
 
 }  // namespace dibhr
