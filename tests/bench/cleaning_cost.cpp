@@ -1,7 +1,9 @@
-// Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,gentle]
+// Prints what the cleaning of a frame costs, step by step: cleaning_cost [--cleaning sensor,auto]
 // [--size 640x480,1920x1080] [--frames N] [PLACE...]. A place is what `dibhr view` takes, in one
 // word; its frames are stretched to the size, with fresh noise. bad, bad16, clean, clean16,
 // sparse30 and sparse5 are synthetic; of the last two 30 and 5 % of the pixels are seen.
+#include <sys/resource.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -15,6 +17,7 @@
 #include <limits>
 #include <optional>
 #include <random>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -166,9 +169,13 @@ struct Cost {
     double least_ms{0.0}, median_ms{0.0};
 };
 
-Cost cost_of(std::vector<double> each_ms) {
-    std::sort(each_ms.begin(), each_ms.end());
-    return {each_ms.front(), each_ms[each_ms.size() / 2]};
+double median_of(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    return values[values.size() / 2];
+}
+
+Cost cost_of(const std::vector<double>& each_ms) {
+    return {*std::min_element(each_ms.begin(), each_ms.end()), median_of(each_ms)};
 }
 
 /// A checksum of the finished levels, which shows whether they changed.
@@ -178,34 +185,57 @@ std::uint64_t mixed(std::uint64_t sum, const DepthImage& image) {
     return sum;
 }
 
+/// Pages that the process was given, each of which the system had to clear.
+double pages() {
+    rusage used{};
+    ::getrusage(RUSAGE_SELF, &used);
+    return static_cast<double>(used.ru_minflt);
+}
+
 struct Cleaned {
     Cost clean_frame{}, finish_frame{};
+    double pages{0.0};  ///< median of both together
     std::uint64_t sum{0xCBF29CE484222325ULL};
 };
 
 /// All frames with these steps; those at the ends, which have fewer around them, are not counted.
+/// As in a player, a frame that is not cleaned with others is finished and freed at once.
 Cleaned clean(const Clip& clip, const CleaningPlan& plan) {
     CleaningChain chain;
-    std::vector<SingleFrameDepth> single_frames;
-    std::vector<double> clean_frame_ms, finish_frame_ms;
+    Cleaned cleaned;
+    std::vector<double> clean_frame_ms, finish_frame_ms, clean_pages, finish_pages;
+    const auto finish = [&](std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                            bool counts) {
+        const double begin_ms = cpu_ms();
+        const double begin_pages = pages();
+        const Frame done = chain.finish_frame(frames, now, plan);
+        if (counts) finish_frame_ms.push_back(cpu_ms() - begin_ms);
+        if (counts) finish_pages.push_back(pages() - begin_pages);
+        cleaned.sum = mixed(cleaned.sum, *done.depth);
+    };
+    std::vector<SingleFrameDepth> kept;
     for (std::size_t k = 0; k < clip.frames.size(); ++k) {
         DepthImage frame = clip.frames[k];
         const double begin_ms = cpu_ms();
-        single_frames.push_back(chain.clean_frame(std::move(frame), plan, clip.held[k],
-                                                  clip.colour ? &*clip.colour : nullptr));
+        const double begin_pages = pages();
+        SingleFrameDepth single_frame = chain.clean_frame(std::move(frame), plan, clip.held[k],
+                                                          clip.colour ? &*clip.colour : nullptr);
         if (k > 1) clean_frame_ms.push_back(cpu_ms() - begin_ms);
+        if (k > 1) clean_pages.push_back(pages() - begin_pages);
+        if (plan.steps.steady) {
+            kept.push_back(std::move(single_frame));
+        } else {
+            const SingleFrameDepth* const alone = &single_frame;
+            finish({&alone, 1}, 0, k > 1);
+        }
     }
     std::vector<const SingleFrameDepth*> all;
-    for (const SingleFrameDepth& one : single_frames) all.push_back(&one);
-    Cleaned cleaned;
+    for (const SingleFrameDepth& one : kept) all.push_back(&one);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        const double begin_ms = cpu_ms();
-        const Frame done = chain.finish_frame(all, k, plan);
         const bool inside = k >= kReachInTime && k + kReachInTime < all.size();
-        if (inside || all.size() <= 2 * kReachInTime)
-            finish_frame_ms.push_back(cpu_ms() - begin_ms);
-        cleaned.sum = mixed(cleaned.sum, *done.depth);
+        finish(all, k, inside || all.size() <= 2 * kReachInTime);
     }
+    cleaned.pages = median_of(clean_pages) + median_of(finish_pages);
     cleaned.clean_frame = cost_of(clean_frame_ms);
     cleaned.finish_frame = cost_of(finish_frame_ms);
     return cleaned;
@@ -226,17 +256,19 @@ void print_costs(const Clip& clip, const CleaningSteps& wanted) {
                                   now.finish_frame.least_ms - before.finish_frame.least_ms);
         before = now;
     }
-    std::printf(" | %7.2f %7.2f | %7.2f %7.2f | %016llx\n", before.clean_frame.least_ms,
+    std::printf(" | %7.2f %7.2f | %7.2f %7.2f | %6.0f | %016llx\n", before.clean_frame.least_ms,
                 before.clean_frame.median_ms, before.finish_frame.least_ms,
-                before.finish_frame.median_ms, static_cast<unsigned long long>(before.sum));
+                before.finish_frame.median_ms, before.pages,
+                static_cast<unsigned long long>(before.sum));
     std::fflush(stdout);
 }
 
 void print_head() {
     std::printf(
-        "%-36s %-9s %-7s %7s %7s %7s %7s %7s %7s %7s %7s %7s | %7s %7s | %7s %7s | [ms of CPU]\n",
+        "%-36s %-9s %-7s %7s %7s %7s %7s %7s %7s %7s %7s %7s | %7s %7s | %7s %7s | %6s | [ms of "
+        "CPU]\n",
         "recording", "size", "way", "none", "sparse", "spikes", "holes", "silhou.", "colours",
-        "time", "steps", "noise", "alone", "median", "finish", "median");
+        "time", "steps", "noise", "alone", "median", "finish", "median", "pages");
 }
 
 }  // namespace
@@ -248,9 +280,10 @@ int main(int count, char** words) {
     app.add_option("PLACE", places,
                    "Recordings; bad, bad16, clean, clean16, sparse30 and sparse5 are made up")
         ->capture_default_str();
-    app.add_option("--cleaning", ways, "Presets, one after the other")
+    app.add_option("--cleaning", ways,
+                   "Presets, one after the other; auto: what it takes for large pictures")
         ->delimiter(',')
-        ->check(CLI::IsMember({"gentle", "sensor"}))
+        ->check(CLI::IsMember({"gentle", "auto", "sensor"}))
         ->capture_default_str();
     app.add_option("--size", sizes, "Such as 640x480, one after the other")->delimiter(',');
     app.add_option("--frames", frames, "Of each")->check(CLI::Range(3, 1000));
@@ -267,7 +300,9 @@ int main(int count, char** words) {
                     const DepthImage& first = clip.frames.front();
                     std::printf("%-36s %4dx%-4d %-7s", name.c_str(), first.columns, first.rows,
                                 way.c_str());
-                    CleaningSteps steps = way == "gentle" ? kGentleSteps : kSensorSteps;
+                    CleaningSteps steps = way == "gentle" ? kGentleSteps
+                                          : way == "auto" ? ways_of_automatic(0).front()
+                                                          : kSensorSteps;
                     steps.densify = clip.colour.has_value();
                     print_costs(clip, steps);
                 }
