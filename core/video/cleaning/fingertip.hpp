@@ -24,8 +24,10 @@ inline constexpr double kWidestExactFinger_px = 64.0;
 /// and what is narrower than the ball cannot be entered.
 ///
 /// Exact but for the rounding of floats up to kWidestExactFinger_px; beyond, planes still are. The
-/// same image gives the same bits. Scratch memory is kept from image to image: that of two images
-/// with the radius more on all sides, 80 radius bytes a column, and 4 (2 radius)^2 bytes.
+/// same image gives the same bits, whatever came before. Of an image that differs from the last one
+/// in a part only that part is dilated; large parts take two threads. Scratch memory is kept from
+/// image to image: that of three images with the radius more on all sides, 160 radius bytes a
+/// column, and 8 (2 radius)^2 bytes.
 class FingertipDilation {
   public:
     FingertipDilation();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -85,13 +87,30 @@ class PaddedImage {
     std::vector<float> levels_{};
 };
 
-/// Writes the indices of the flags that are 1 into `numbers` (as long as `flags`) and returns how
-/// many there are. The `count` flags are 1 or 0.
-[[nodiscard]] inline std::size_t number_flagged(const int* flags, std::size_t count, int* numbers) {
+/// So many flags are looked at together. Lists of flags have a multiple of this size, with 0 last.
+inline constexpr std::size_t kFlagsAtOnce = 8;
+
+[[nodiscard]] inline std::size_t whole_flags(std::size_t count) {
+    return (count + kFlagsAtOnce - 1) / kFlagsAtOnce * kFlagsAtOnce;
+}
+
+[[nodiscard]] inline bool any_flag(const std::uint8_t* first) {
+    std::uint64_t all = 0;
+    std::memcpy(&all, first, sizeof all);
+    return all != 0;
+}
+
+/// Writes the indices of the flags that are 1 into `numbers`, with room for one index more, and
+/// returns how many there are. The flags are 1 or 0.
+[[nodiscard]] inline std::size_t number_flagged(const std::vector<std::uint8_t>& flags,
+                                                int* numbers) {
     std::size_t flagged = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        numbers[flagged] = static_cast<int>(i);
-        flagged += static_cast<std::size_t>(flags[i]);
+    for (std::size_t first = 0; first < flags.size(); first += kFlagsAtOnce) {
+        if (!any_flag(flags.data() + first)) continue;
+        for (std::size_t i = first; i < first + kFlagsAtOnce; ++i) {
+            numbers[flagged] = static_cast<int>(i);
+            flagged += static_cast<std::size_t>(flags[i]);
+        }
     }
     return flagged;
 }

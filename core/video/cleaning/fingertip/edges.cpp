@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/video/cleaning/fingertip/narrowing.hpp"
 #include "core/video/frames/vector_clones.hpp"
@@ -12,20 +13,24 @@ namespace {
 
 constexpr int kWide = 10;  ///< an EDGE over more lines than this is narrowed
 
-/// Flags EDGEs that the ball touches: convex ones, with a line between the ball's centres over the
-/// TRIANGLEs before and after, that reach up to `ground`.
+/// Flags EDGEs that the ball touches: convex ones in reach, with a line between the ball's centres
+/// over the TRIANGLEs before and after.
 DIBHR_VECTOR_CLONES void flag_touched(const float* __restrict before, const float* __restrict after,
-                                      const float* __restrict begins, const float* __restrict ends,
-                                      const float* __restrict ground, std::size_t count,
-                                      int* __restrict flags) {
+                                      const std::uint8_t* __restrict begin_in_reach,
+                                      const std::uint8_t* __restrict end_in_reach,
+                                      std::size_t count, std::uint8_t* __restrict flags) {
     for (std::size_t i = 0; i < count; ++i) {
         const int convex = after[i] > before[i] ? 1 : 0;
         const auto last = static_cast<float>(round_down(after[i] + kOverlap_px));
         const int any = last >= before[i] - kOverlap_px ? 1 : 0;
-        const float higher = begins[i] > ends[i] ? begins[i] : ends[i];
-        const int high = higher >= ground[i] ? 1 : 0;
-        flags[i] = convex & any & high;
+        flags[i] = static_cast<std::uint8_t>(convex & any & (begin_in_reach[i] | end_in_reach[i]));
     }
+}
+
+DIBHR_VECTOR_CLONES void flag_wide(const int* __restrict first, const int* __restrict last,
+                                   std::size_t count, std::uint8_t* __restrict flags) {
+    for (std::size_t k = 0; k < count; ++k)
+        flags[k] = static_cast<std::uint8_t>(last[k] - first[k] >= kWide ? 1 : 0);
 }
 
 struct Leaning {
@@ -179,18 +184,20 @@ void EdgePass::prepare(const Ball& ball, const EdgeFamily& family, int most) {
     family_ = family;
     lines_.lay(ball, family);
     const auto count = static_cast<std::size_t>(most);
-    flags_.resize(count);
-    edges_.make_room(count);
-    wide_.make_room(count);
-    wide_at_.resize(count);
+    edges_.make_room(whole_flags(count));
+    wide_.make_room(whole_flags(count));
+    wide_at_.resize(whole_flags(count));
     const std::size_t lines = 2 * static_cast<std::size_t>(lines_.last) + 1;
     levels_.resize(count * lines + kAtOnce);
     to_.resize(count * lines + kAtOnce);
 }
 
 void EdgePass::raise(const float* before, const float* after, const float* begins,
-                     const float* ground, std::size_t count, float* origin) {
-    find(before, after, begins, ground, count);
+                     const std::uint8_t* begin_in_reach, const std::uint8_t* end_in_reach,
+                     std::size_t count, float* origin) {
+    flags_.assign(whole_flags(count), 0);
+    flag_touched(before, after, begin_in_reach, end_in_reach, count, flags_.data());
+    find(before, after, begins);
     narrow_wide(begins);
     const auto middle = static_cast<std::size_t>(lines_.last);
     const LineTable table{lines_.shifts.data() + middle,        lines_.reach.data() + middle,
@@ -200,11 +207,9 @@ void EdgePass::raise(const float* before, const float* after, const float* begin
     raise_pixels(levels_.data(), to_.data(), lines, origin);
 }
 
-void EdgePass::find(const float* before, const float* after, const float* begins,
-                    const float* ground, std::size_t count) {
+void EdgePass::find(const float* before, const float* after, const float* begins) {
     const float* const ends = begins + family_.to_end;
-    flag_touched(before, after, begins, ends, ground, count, flags_.data());
-    edges_.count = number_flagged(flags_.data(), count, edges_.number.data());
+    edges_.count = number_flagged(flags_, edges_.number.data());
     const Leaning all{
         begins,     ends, before, after, ball_.px_per_level / static_cast<float>(family_.length_px),
         lines_.last};
@@ -215,11 +220,9 @@ void EdgePass::find(const float* before, const float* after, const float* begins
 /// EDGEs over many lines are narrowed by neighbours. Meanwhile the first line is counted away from
 /// the EDGE, as the last one is.
 void EdgePass::narrow_wide(const float* begins) {
-    wide_.count = 0;
-    for (std::size_t k = 0; k < edges_.count; ++k) {
-        wide_at_[wide_.count] = static_cast<int>(k);
-        wide_.count += edges_.last[k] - edges_.first[k] >= kWide ? 1U : 0U;
-    }
+    is_wide_.assign(whole_flags(edges_.count), 0);
+    flag_wide(edges_.first.data(), edges_.last.data(), edges_.count, is_wide_.data());
+    wide_.count = number_flagged(is_wide_, wide_at_.data());
     if (wide_.count == 0) return;
     for (std::size_t w = 0; w < wide_.count; ++w) {
         const auto k = static_cast<std::size_t>(wide_at_[w]);

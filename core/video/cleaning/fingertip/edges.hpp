@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/video/cleaning/fingertip/ball.hpp"
@@ -56,22 +57,24 @@ class EdgePass {
 
     /// By the EDGEs of a row. `before`, `after`: how far the ball's centre is from where it touches
     /// the TRIANGLEs on the two sides [lines]. `begins`: the first EDGE's begin in the padded
-    /// image; `origin`: the same pixel of the raised image.
-    void raise(const float* before, const float* after, const float* begins, const float* ground,
+    /// image; `origin`: the same pixel of the raised image. `begin_in_reach`, `end_in_reach`: 1
+    /// where the ball may touch that VERTEX.
+    void raise(const float* before, const float* after, const float* begins,
+               const std::uint8_t* begin_in_reach, const std::uint8_t* end_in_reach,
                std::size_t count, float* origin);
 
   private:
-    void find(const float* before, const float* after, const float* begins, const float* ground,
-              std::size_t count);
+    void find(const float* before, const float* after, const float* begins);
     void narrow_wide(const float* begins);
     void narrow(const float* begins, int distance);
 
     Ball ball_{};
     EdgeFamily family_{};
     Lines lines_{};
-    std::vector<int> flags_{};
+    std::vector<std::uint8_t> flags_{};
     TouchedEdges edges_{};
     TouchedEdges wide_{};
+    std::vector<std::uint8_t> is_wide_{};
     std::vector<int> wide_at_{};
     std::vector<float> levels_{};
     std::vector<int> to_{};

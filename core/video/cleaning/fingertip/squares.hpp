@@ -1,4 +1,4 @@
-// A bound of how deep a ball can get, by squares of pixels.
+// A bound of where a wide ball rests, by squares of pixels.
 #pragma once
 
 #include <cstddef>
@@ -8,27 +8,26 @@
 
 namespace dibhr::fingertip {
 
-/// From a lower bound of where the ball rests follows one of the levels that it touches.
+/// Each square's highest pixel bounds the level over all squares within the ball's reach.
 class Squares {
   public:
+    /// Does nothing for a narrow ball, whose bound would tell little.
     void find(const PaddedImage& image, int columns, int rows, const Ball& ball);
 
-    /// For every pixel of a row: the ball touches nothing below this level.
-    [[nodiscard]] const float* ground(int row);
+    /// Raises the levels of `count` pixels of a row to those below which the ball does not get.
+    void raise(int row, int left, std::size_t count, float* levels) const;
 
   private:
     void find_highest(const PaddedImage& image, int columns, int rows);
     void find_resting(const Ball& narrow);
-    void find_grounds(const Ball& narrow, float slack);
 
     [[nodiscard]] std::size_t at(int x, int y) const {
         return static_cast<std::size_t>(std::ptrdiff_t{y + margin_} * pitch_ + x + margin_);
     }
 
     bool wide_enough_{false};
-    int columns_{0}, rows_{0}, margin_{0}, pitch_{0};
-    std::vector<float> highest_{}, resting_{}, grounds_{};
-    std::vector<float> ground_{};
+    int squares_across_{0}, squares_down_{0}, margin_{0}, pitch_{0};
+    std::vector<float> highest_{}, resting_{};
 };
 
 }  // namespace dibhr::fingertip

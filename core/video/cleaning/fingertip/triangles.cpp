@@ -76,18 +76,46 @@ DIBHR_VECTOR_CLONES void move_both(const float* __restrict above, const float* _
 }
 
 /// Merges a cell's two candidates into the first list, as on a smooth surface they are over one
-/// pixel. `both` is 1 where they are over two different pixels.
+/// pixel. `both` is 1 where they are over two different pixels, `any` where one may be the highest.
 DIBHR_VECTOR_CLONES void merge(float* __restrict levels, int* __restrict to,
                                const float* __restrict other_levels, const int* __restrict other_to,
-                               std::size_t count, std::uint8_t* __restrict both) {
+                               const std::uint8_t* __restrict above_in_reach,
+                               const std::uint8_t* __restrict below_in_reach, std::size_t count,
+                               std::uint8_t* __restrict any, std::uint8_t* __restrict both) {
     for (std::size_t i = 0; i < count; ++i) {
         const int one = levels[i] > kNothing ? 1 : 0;
         const int other = other_levels[i] > kNothing ? 1 : 0;
+        const int reached =
+            above_in_reach[i] | above_in_reach[i + 1] | below_in_reach[i] | below_in_reach[i + 1];
         const int apart = to[i] == other_to[i] ? 0 : one & other;
         const float higher = other_levels[i] > levels[i] ? other_levels[i] : levels[i];
         levels[i] = apart != 0 ? levels[i] : higher;
         to[i] = one != 0 ? to[i] : other_to[i];
-        both[i] = static_cast<std::uint8_t>(apart);
+        any[i] = static_cast<std::uint8_t>((one | other) & reached);
+        both[i] = static_cast<std::uint8_t>(apart & reached);
+    }
+}
+
+/// Raises pixels, by kAtOnce of them where the surface is smooth.
+DIBHR_VECTOR_CLONES void raise_pixels(const float* __restrict levels, const int* __restrict to,
+                                      const std::uint8_t* __restrict any, std::size_t count,
+                                      float* __restrict origin) {
+    for (std::size_t first = 0; first < count; first += kAtOnce) {
+        if (!any_flag(any + first)) continue;
+        const float* const from = levels + first;
+        const int* const ways = to + first;
+        float* const pixels = origin + first;
+        int apart = 0;
+        for (int l = 0; l < kAtOnce; ++l) apart |= ways[l] ^ ways[0];
+        if (apart == 0) {
+            float* const moved = pixels + ways[0];
+            for (int l = 0; l < kAtOnce; ++l) moved[l] = from[l] > moved[l] ? from[l] : moved[l];
+        } else {
+            for (int l = 0; l < kAtOnce; ++l) {
+                float& level = pixels[l + ways[l]];
+                level = from[l] > level ? from[l] : level;
+            }
+        }
     }
 }
 
@@ -118,12 +146,13 @@ void Triangles::prepare(const Ball& ball, int columns, int pitch) {
     ball_ = ball;
     columns_ = columns;
     pitch_ = pitch;
-    const auto count = static_cast<std::size_t>(columns);
+    const std::size_t count = whole_flags(static_cast<std::size_t>(columns));
     for (Candidates* candidates : {&one_, &other_}) {
-        candidates->levels.resize(count);
-        candidates->to.resize(count);
+        candidates->levels.assign(count, kNothing);
+        candidates->to.assign(count, 0);
     }
-    both_.assign((count + 7) / 8 * 8, 0);
+    any_.assign(count, 0);
+    both_.assign(count, 0);
 }
 
 void Triangles::move(const float* above, const float* below, CellRow& cells) {
@@ -134,15 +163,14 @@ void Triangles::move(const float* above, const float* below, CellRow& cells) {
               cells.near.both.data(), cells.far.x.data() + 1, cells.far.y.data() + 1,
               cells.far.both.data() + 1, one_.levels.data(), one_.to.data(), other_.levels.data(),
               other_.to.data());
-    merge(one_.levels.data(), one_.to.data(), other_.levels.data(), other_.to.data(), count,
-          both_.data());
 }
 
-void Triangles::raise(float* origin) const {
-    for (std::size_t i = 0; i + 1 < one_.to.size(); ++i) {
-        float& level = origin[static_cast<std::ptrdiff_t>(i) + one_.to[i]];
-        level = std::max(level, one_.levels[i]);
-    }
+void Triangles::raise(const std::uint8_t* above_in_reach, const std::uint8_t* below_in_reach,
+                      float* origin) {
+    merge(one_.levels.data(), one_.to.data(), other_.levels.data(), other_.to.data(),
+          above_in_reach, below_in_reach, static_cast<std::size_t>(columns_ - 1), any_.data(),
+          both_.data());
+    raise_pixels(one_.levels.data(), one_.to.data(), any_.data(), any_.size(), origin);
     static_assert(std::endian::native == std::endian::little);
     for (std::size_t first = 0; first < both_.size(); first += 8) {
         std::uint64_t eight = 0;

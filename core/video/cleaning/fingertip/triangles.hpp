@@ -34,12 +34,14 @@ class Triangles {
     void prepare(const Ball& ball, int columns, int pitch);
     /// Moves the TRIANGLEs of the cells between two rows of the image.
     void move(const float* above, const float* below, CellRow& cells);
-    /// Raises pixels. `origin`: the pixel of the first cell's origin.
-    void raise(float* origin) const;
+    /// Raises pixels. `above_in_reach`, `below_in_reach`: 1 where the ball may touch a VERTEX of
+    /// the two rows; `origin`: the pixel of the first cell's origin.
+    void raise(const std::uint8_t* above_in_reach, const std::uint8_t* below_in_reach,
+               float* origin);
 
   private:
     /// At most one for every TRIANGLE: its level (kNothing: none), and the offset from the cell to
-    /// its pixel.
+    /// its pixel. As many as fill whole groups of kAtOnce.
     struct Candidates {
         std::vector<float> levels{};
         std::vector<int> to{};
@@ -49,7 +51,8 @@ class Triangles {
     int columns_{0};
     int pitch_{0};
     Candidates one_{}, other_{};
-    std::vector<std::uint8_t> both_{};  ///< 1 where `other_` counts, too; size: a multiple of 8
+    std::vector<std::uint8_t> any_{};   ///< 1 where `one_` counts
+    std::vector<std::uint8_t> both_{};  ///< 1 where `other_` counts, too
 };
 
 }  // namespace dibhr::fingertip

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/video/cleaning/fingertip/narrowing.hpp"
 #include "core/video/frames/vector_clones.hpp"
@@ -12,9 +13,11 @@ namespace {
 
 constexpr int kWide = 60;  ///< a VERTEX whose box has this area, without its sides, is narrowed
 
-/// Flags VERTICES that are convex in three directions. Those straight in one are left to the EDGEs.
-DIBHR_VECTOR_CLONES void flag_convex(const float* __restrict row, const float* __restrict ground,
-                                     int pitch, std::size_t count, int* __restrict flags) {
+/// Flags VERTICES in reach that are convex in three directions. Those straight in one are left to
+/// the EDGEs.
+DIBHR_VECTOR_CLONES void flag_convex(const float* __restrict row,
+                                     const std::uint8_t* __restrict in_reach, int pitch,
+                                     std::size_t count, std::uint8_t* __restrict flags) {
     const float* const above = row - pitch;
     const float* const below = row + pitch;
     const float* const before = row - 1;
@@ -24,8 +27,16 @@ DIBHR_VECTOR_CLONES void flag_convex(const float* __restrict row, const float* _
         const int in_row = z - before[i] > row[i + 1] - z ? 1 : 0;
         const int in_column = z - above[i] > below[i] - z ? 1 : 0;
         const int across = z - above[i + 1] > below_before[i] - z ? 1 : 0;
-        const int high = z >= ground[i] ? 1 : 0;
-        flags[i] = in_row & in_column & across & high;
+        flags[i] = static_cast<std::uint8_t>(in_row & in_column & across & in_reach[i]);
+    }
+}
+
+DIBHR_VECTOR_CLONES void flag_wide(const int* __restrict left, const int* __restrict right,
+                                   const int* __restrict top, const int* __restrict bottom,
+                                   std::size_t count, std::uint8_t* __restrict flags) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const int area = (right[k] - left[k]) * (bottom[k] - top[k]);
+        flags[k] = static_cast<std::uint8_t>(area >= kWide ? 1 : 0);
     }
 }
 
@@ -87,6 +98,17 @@ struct Opposite {
     float px_per_level;
     Neighbour neighbour;
 };
+
+/// Flags boxes with pixels.
+DIBHR_VECTOR_CLONES void flag_any(const int* __restrict left, const int* __restrict right,
+                                  const int* __restrict top, const int* __restrict bottom,
+                                  std::size_t count, std::uint8_t* __restrict flags) {
+    for (std::size_t k = 0; k < count; ++k) {
+        const int across = left[k] <= right[k] ? 1 : 0;
+        const int down = top[k] <= bottom[k] ? 1 : 0;
+        flags[k] = static_cast<std::uint8_t>(across & down);
+    }
+}
 
 /// Narrows the boxes to the left and right, or at the top and bottom, so that the ball does not
 /// enter the neighbours there. `low` and `high`, the other two sides, bound its reach.
@@ -207,17 +229,16 @@ void VertexPass::prepare(const Ball& ball, int columns, int pitch) {
     columns_ = static_cast<std::size_t>(columns);
     pitch_ = pitch;
     cap_.shape(ball, pitch);
-    flags_.resize(columns_);
-    vertices_.make_room(columns_);
-    wide_.make_room(columns_);
-    wide_at_.resize(columns_);
+    vertices_.make_room(whole_flags(columns_));
+    wide_.make_room(whole_flags(columns_));
+    wide_at_.resize(whole_flags(columns_));
     const std::size_t rows = columns_ * (2 * static_cast<std::size_t>(cap_.reach) + 1) + kAtOnce;
     levels_.resize(rows);
     for (std::vector<int>* of : {&falls_, &to_, &counts_}) of->resize(rows);
 }
 
-void VertexPass::raise(const float* row, const float* ground, float* origin) {
-    find(row, ground);
+void VertexPass::raise(const float* row, const std::uint8_t* in_reach, float* origin) {
+    find(row, in_reach);
     const CapTable table{cap_.widths.data() + cap_.reach, cap_.rows.data() + cap_.reach,
                          cap_.steps.data() + cap_.reach, cap_.reach};
     const std::size_t rows =
@@ -226,24 +247,44 @@ void VertexPass::raise(const float* row, const float* ground, float* origin) {
                  levels_.data(), falls_.data(), to_.data(), counts_.data(), rows, origin);
 }
 
-void VertexPass::find(const float* row, const float* ground) {
-    flag_convex(row, ground, pitch_, columns_, flags_.data());
-    vertices_.count = number_flagged(flags_.data(), columns_, vertices_.number.data());
+void VertexPass::find(const float* row, const std::uint8_t* in_reach) {
+    flags_.assign(whole_flags(columns_), 0);
+    flag_convex(row, in_reach, pitch_, columns_, flags_.data());
+    vertices_.count = number_flagged(flags_, vertices_.number.data());
     box_in(row, pitch_, ball_, vertices_.number.data(), vertices_.count, vertices_.level.data(),
            vertices_.left_sine.data(), vertices_.right_sine.data(), vertices_.left.data(),
            vertices_.right.data(), vertices_.top.data(), vertices_.bottom.data());
+    leave_out_empty();
     narrow_wide(row);
+}
+
+/// On a smooth surface most boxes lie between pixels.
+void VertexPass::leave_out_empty() {
+    TouchedVertices& all = vertices_;
+    flags_.assign(whole_flags(all.count), 0);
+    flag_any(all.left.data(), all.right.data(), all.top.data(), all.bottom.data(), all.count,
+             flags_.data());
+    all.count = number_flagged(flags_, wide_at_.data());
+    for (std::size_t n = 0; n < all.count; ++n) {
+        const auto k = static_cast<std::size_t>(wide_at_[n]);
+        all.number[n] = all.number[k];
+        all.level[n] = all.level[k];
+        all.left_sine[n] = all.left_sine[k];
+        all.right_sine[n] = all.right_sine[k];
+        all.left[n] = all.left[k];
+        all.right[n] = all.right[k];
+        all.top[n] = all.top[k];
+        all.bottom[n] = all.bottom[k];
+    }
 }
 
 /// VERTICES with a large box are narrowed by neighbours.
 void VertexPass::narrow_wide(const float* row) {
     TouchedVertices& all = vertices_;
-    wide_.count = 0;
-    for (std::size_t k = 0; k < all.count; ++k) {
-        wide_at_[wide_.count] = static_cast<int>(k);
-        const int area = (all.right[k] - all.left[k]) * (all.bottom[k] - all.top[k]);
-        wide_.count += area >= kWide ? 1U : 0U;
-    }
+    flags_.assign(whole_flags(all.count), 0);
+    flag_wide(all.left.data(), all.right.data(), all.top.data(), all.bottom.data(), all.count,
+              flags_.data());
+    wide_.count = number_flagged(flags_, wide_at_.data());
     if (wide_.count == 0) return;
     for (std::size_t w = 0; w < wide_.count; ++w) {
         const auto k = static_cast<std::size_t>(wide_at_[w]);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/video/cleaning/fingertip/ball.hpp"
@@ -38,12 +39,13 @@ class VertexPass {
   public:
     void prepare(const Ball& ball, int columns, int pitch);
 
-    /// By the VERTICES of a row. `row`: the first one in the padded image; `origin`: the same pixel
-    /// of the raised image.
-    void raise(const float* row, const float* ground, float* origin);
+    /// By the VERTICES of a row. `row`: the first one in the padded image; `in_reach`: 1 where the
+    /// ball may touch it; `origin`: the same pixel of the raised image.
+    void raise(const float* row, const std::uint8_t* in_reach, float* origin);
 
   private:
-    void find(const float* row, const float* ground);
+    void find(const float* row, const std::uint8_t* in_reach);
+    void leave_out_empty();
     void narrow_wide(const float* row);
     void narrow(const float* row, int distance, TouchedVertices& vertices) const;
 
@@ -51,7 +53,7 @@ class VertexPass {
     std::size_t columns_{0};
     int pitch_{0};
     Cap cap_{};
-    std::vector<int> flags_{};
+    std::vector<std::uint8_t> flags_{};
     TouchedVertices vertices_{};
     TouchedVertices wide_{};       ///< those with a large box, and
     std::vector<int> wide_at_{};   ///< their places in `vertices_`

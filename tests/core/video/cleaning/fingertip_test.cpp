@@ -5,11 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <glm/geometric.hpp>
+#include <initializer_list>
 #include <limits>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/surface.hpp"
+#include "core/video/cleaning/cleaning_chain.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"
 
@@ -297,6 +300,93 @@ TEST_CASE("the same image gives the same bits, whatever came before", "[fingerti
     CHECK(used.dilated(stepped(20, 70), {0.7, 255.0}).columns == 20);
     CHECK(used.dilated(image, {7.5, kRelief_px}).levels == felt.levels);
     CHECK(used.dilated(image, {7.5, kRelief_px}).levels == felt.levels);
+}
+
+namespace {
+
+/// Noise, cliffs, needles and holes, and slopes.
+DepthImage surface_of(unsigned kind, int columns, int rows, unsigned seed) {
+    if (kind == 0) return rough(columns, rows, 255.0, 2.0, 0.1, seed);
+    if (kind == 1) return rough(columns, rows, 65535.0, 40.0, 0.0, seed);
+    DepthImage image = stepped(columns, rows);
+    std::mt19937 random(seed);
+    if (kind == 2)
+        for (float& level : image.levels)
+            if (random() % 40 == 0) level = static_cast<float>(random() % 256);
+    if (kind == 3)
+        for (float& level : image.levels)
+            if (random() % 9 == 0) level = 0.0F;
+    return image;
+}
+
+/// The middle of an image, from as many pixels to each side.
+DepthImage without_rim(const DepthImage& image, int left, int top, int right, int bottom) {
+    return image_of(image.columns - left - right, image.rows - top - bottom, image.highest_level,
+                    [&](int i, int j) { return double{image.at(i + left, j + top)}; });
+}
+
+/// Other levels in a random part, of one pixel or more.
+void change_some(DepthImage& image, std::mt19937& random) {
+    const auto below = [&random](int most) {
+        return static_cast<int>(random() % static_cast<unsigned>(most));
+    };
+    const int left = below(image.columns);
+    const int top = below(image.rows);
+    const int right = left + 1 + below(image.columns - left);
+    const int bottom = top + 1 + below(image.rows - top);
+    const double most = image.highest_level / 255.0;
+    for (int j = top; j < bottom; ++j)
+        for (int i = left; i < right; ++i)
+            if (below(3) == 0) image.at(i, j) = static_cast<float>(most * below(256));
+}
+
+}  // namespace
+
+TEST_CASE("a part of an image feels as it does in the whole, to the bit", "[fingertip]") {
+    const unsigned kind = GENERATE(0U, 1U, 2U, 3U);
+    const double radius_px = GENERATE(some_of<double>({2.0, 7.7, 20.0, 33.3}, 1));
+    CAPTURE(kind, radius_px);
+    const DepthImage image = surface_of(kind, 720, 440, kind);
+    const DepthImage felt = dilated(image, radius_px);
+    const int rim = 2 * static_cast<int>(radius_px) + 3;
+    for (const int top : {0, 110, 220}) {
+        const DepthImage part = without_rim(image, 400, top, 60, 220 - top);
+        const int above = top == 0 ? 0 : rim;
+        CHECK(without_rim(dilated(part, radius_px), rim, above, rim, rim).levels ==
+              without_rim(felt, 400 + rim, top + above, 60 + rim, 220 - top + rim).levels);
+    }
+}
+
+TEST_CASE("frame after frame feels as it does alone, to the bit", "[fingertip]") {
+    const unsigned kind = GENERATE(0U, 1U, 2U, 3U);
+    const double radius_px = GENERATE(0.5, 5.0, 17.0);
+    CAPTURE(kind, radius_px);
+    std::mt19937 random(kind);
+    DepthImage image = surface_of(kind, 90, 70, kind);
+    FingertipDilation used;
+    for (int frame = 0; frame < 12; ++frame) {
+        CAPTURE(frame);
+        CHECK(used.dilated(image, {radius_px, kRelief_px}).levels ==
+              dilated(image, radius_px).levels);
+        if (frame % 4 != 3) change_some(image, random);
+    }
+}
+
+TEST_CASE("it is exact on surfaces of every kind and size", "[fingertip]") {
+    const unsigned kind = GENERATE(0U, 1U, 2U, 3U);
+    const double radius_px = GENERATE(some_of<double>({2.0, 3.5, 5.0, 8.0, 13.0, 23.0}, 2));
+    CAPTURE(kind, radius_px);
+    for (const auto& [columns, rows] :
+         std::initializer_list<std::pair<int, int>>{{2, 2}, {3, 2}, {2, 40}, {33, 3}, {29, 27}})
+        CHECK(worst_error(surface_of(kind, columns, rows, kind), {radius_px, kRelief_px}) <
+              kExact_px);
+}
+
+TEST_CASE("a picture without a surface is left as it is", "[fingertip]") {
+    const auto [columns, rows] = GENERATE(std::pair{1, 1}, std::pair{5, 1}, std::pair{1, 5});
+    CleaningPlan plan{kRawSteps, {5.0, kRelief_px}};
+    const DepthImage image = rough(columns, rows, 255.0, 20.0, 1.0);
+    CHECK(CleaningChain().clean_and_finish(image, plan).depth->levels == image.levels);
 }
 
 TEST_CASE("it is the definition, over the finely sampled surface", "[fingertip]") {
