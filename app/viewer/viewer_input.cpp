@@ -11,17 +11,20 @@ namespace dibhr {
 
 void Viewer::take_keys(const WindowInput& input) {
     // With the dialog open keys are text, even before its field has the keyboard; with a question
-    // on the depth they answer.
-    const bool typing =
-        gui_.wants_keyboard() || state_.ui.dialog.shown || state_.ui.depth_question.has_value();
+    // on the depth they answer; with a list open they are the list's.
+    const bool in_list = gui_.list_is_open();
+    const bool typing = gui_.wants_keyboard() || state_.ui.dialog.shown ||
+                        state_.ui.depth_question.has_value() || in_list;
     const std::vector<int> held = state_.keys.held_keys(Action::show_as_recorded);
     const bool as_recorded = !typing && std::any_of(held.begin(), held.end(),
                                                     [this](int key) { return window_.holds(key); });
     if (as_recorded && !state_.media.as_recorded && !state_.touch.replay)
         show_notice("Depth as recorded");
     state_.media.as_recorded = as_recorded;
-    const auto take = [this](Action action, EventTimes::Time at) {
-        if (action == Action::mark && !state_.touch.replay)
+    const auto take = [this, in_list](Action action, EventTimes::Time at) {
+        if (action == Action::close_topmost && in_list)
+            gui_.close_lists();
+        else if (action == Action::mark && !state_.touch.replay)
             state_.commands.push(MarkMoment{at});
         else
             perform(action);

@@ -7,6 +7,7 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <fontconfig/fontconfig.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <new>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace dibhr {
@@ -244,6 +246,9 @@ void Gui::begin(std::span<const KeyPress> pressed) {
     static_cast<void>(pressed);  // this ImGui has a queue of key events
 #endif
     ImGui::NewFrame();
+    constexpr bool kFocusReturns = true;
+    if (std::exchange(closes_lists_, false) && list_is_open())
+        ImGui::ClosePopupToLevel(0, kFocusReturns);
 }
 
 void Gui::end() {
@@ -298,6 +303,14 @@ bool Gui::wants_pointer() const {
 
 bool Gui::wants_keyboard() const {
     return ImGui::GetIO().WantTextInput;
+}
+
+bool Gui::list_is_open() const {
+    return ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+void Gui::close_lists() {
+    closes_lists_ = true;
 }
 
 }  // namespace dibhr

@@ -47,6 +47,8 @@ class Gui {
 
     [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel or drags in one
     [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into
+    [[nodiscard]] bool list_is_open() const;    ///< a list opened from a panel
+    void close_lists();                         ///< in the next picture
     /// To and from the desktop's clipboard; a clipboard without text reads as empty.
     void copy(const std::string& text);
     [[nodiscard]] std::string copied() const;
@@ -58,6 +60,7 @@ class Gui {
   private:
     GuiStyle style_;
     Fonts fonts_{};
+    bool closes_lists_{false};
 };
 
 }  // namespace dibhr
