@@ -270,7 +270,7 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     }
     if (skipped_until(time_s_)) {  // the last frame of all
         last.reset();
-        rewind_before(time_s_, RunUp::whole);
+        rewind_before(time_s_, kAllFrames);
         if (run_up_to(std::numeric_limits<double>::infinity(), {})) last = next();
     }
     if (last && last->picture.empty()) last = retrieve_kept(std::move(*last));
