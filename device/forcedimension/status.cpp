@@ -7,16 +7,19 @@ namespace dibhr::forcedimension {
 
 namespace {
 
+constexpr const char* kSwitchOn = "choose Switch the force on, on the Device panel";
+
 std::string force_off_sentence(const std::string& name, ForceOff cause) {
     switch (cause) {
         case ForceOff::button:
             return name +
                    " has its force off, because its force button was pressed: press it "
-                   "again, or switch the force on below";
+                   "again, or " +
+                   kSwitchOn;
         case ForceOff::velocity:
             return name +
-                   " switched its force off, because it moved too fast: hold the grip, then "
-                   "switch the force on below";
+                   " switched its force off, because it moved too fast: hold the grip, then " +
+                   kSwitchOn;
         case ForceOff::watchdog:
             return name +
                    " switched its force off, because dibhr sent nothing for too long: the "
@@ -25,11 +28,10 @@ std::string force_off_sentence(const std::string& name, ForceOff cause) {
             return name + " has its force off, because nobody holds its grip: hold the grip";
         case ForceOff::unplugged:
             return name +
-                   " switched its force off, because its USB connection was lost: switch "
-                   "the force on below";
+                   " switched its force off, because its USB connection was lost: " + kSwitchOn;
         case ForceOff::none:
         case ForceOff::software:
-            return name + " has its force off: switch the force on below";
+            return name + " has its force off: " + kSwitchOn;
     }
     return {};
 }
@@ -55,7 +57,7 @@ std::string sentence_for(Stage stage, const Status& status) {
         case Stage::not_initialised:
             return name +
                    " does not know its position: keep hands and objects away from the arm, "
-                   "then initialise it";
+                   "then initialise it on the Device panel, or with dibhr devices --initialise";
         case Stage::initialising:
             return name + " moves by itself to its stops: keep hands away until it stands still";
         case Stage::fault:
