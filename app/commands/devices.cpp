@@ -138,10 +138,10 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
     std::string simulated;
     std::filesystem::path recorded;
     add_firmware(app, firmware_file);
-    auto* const check_given =
-        app.add_flag("--check", checks,
-                     "Guides you through all measurements of a Falcon, or of an Inverse3 if no "
-                     "Falcon is attached; a step with force says so before it begins");
+    auto* const check_given = app.add_flag(
+        "--check", checks,
+        "Guides you through all measurements of a Falcon, or of an Inverse3 or a "
+        "Force Dimension arm if no Falcon is attached; a step with force says so before it begins");
     add_file(app, "--out", record, "With --check: the record of what was measured")
         ->default_str("DEVICE-check-SERIAL-DATE.json")
         ->needs(check_given);

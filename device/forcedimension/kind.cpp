@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "device/force_device.hpp"
+#include "device/forcedimension/check/check.hpp"
 #include "device/forcedimension/forcedimension_device.hpp"
 #include "device/forcedimension/guided.hpp"
 #include "device/forcedimension/record.hpp"
@@ -66,6 +67,14 @@ bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
     return usable;
 }
 
+CheckResult check(const DeviceSettings& settings, const CheckRecordOptions& record_options,
+                  const PrintLine& /*line*/, CheckConsole& console) {
+    return run_check({.connection = connection_in(settings),
+                      .record = record_options.record,
+                      .facts = record_options.facts},
+                     console);
+}
+
 }  // namespace
 
 extern const ForceDeviceKind device_kind{
@@ -85,6 +94,7 @@ extern const ForceDeviceKind device_kind{
         },
     .survey = survey,
     .print_attached = print_attached,
+    .check = check,
     .initialise =
         [](const DeviceSettings& settings, const PrintLine& print, CheckConsole& console) {
             initialise_arm(connection_in(settings), print, console);
