@@ -13,6 +13,7 @@
 #include "device/forcedimension/forcedimension_device.hpp"
 #include "device/hand_device.hpp"
 #include "device/inverse3/inverse3_device.hpp"
+#include "device/openhaptics/openhaptics_device.hpp"
 #include "tests/support/catch.hpp"
 
 namespace {
@@ -199,15 +200,17 @@ TEST_CASE("one button takes the force off and one holds the point, and agreeing 
 
 TEST_CASE("sessions number the devices as they always have", "[force_device]") {
     const auto kinds = force_device_kinds();
-    REQUIRE(kinds.size() >= 3);
+    REQUIRE(kinds.size() >= 4);
     CHECK(std::string(kinds[0]->name) == "falcon");
     CHECK(std::string(kinds[1]->name) == "inverse3");
     CHECK(std::string(kinds[2]->name) == "forcedimension");
+    CHECK(std::string(kinds[3]->name) == "openhaptics");
 }
 
 TEST_CASE("a device is named by its kind, or as one of it", "[force_device]") {
-    for (const char* const name : {"auto", "mouse", "falcon", "falcon:A1", "inverse3",
-                                   "inverse3:left", "forcedimension:1234", "goals:a.csv"}) {
+    for (const char* const name :
+         {"auto", "mouse", "falcon", "falcon:A1", "inverse3", "inverse3:left",
+          "forcedimension:1234", "openhaptics:Left one", "goals:a.csv"}) {
         CAPTURE(name);
         CHECK(names_device(name));
     }
@@ -280,5 +283,20 @@ TEST_CASE("a device is absent, needs its person, or is ready, at each of its sta
         CHECK(state_of(status).stage == k);
         CHECK(state_of(status).full_name == "Force Dimension omega.3");
         CHECK(state_of(status).facts[2] == DeviceFacts::value_type{"serial", "1234"});
+    }
+    for (int k = 0; k <= static_cast<int>(openhaptics::Stage::ready); ++k) {
+        openhaptics::Status status;
+        status.stage = static_cast<openhaptics::Stage>(k);
+        status.sentence = "a sentence";
+        status.trouble = true;
+        status.presses[2] = 7U;
+        status.model = "Touch";
+        status.serial = "12-3456";
+        check(state_of(status));
+        CHECK(state_of(status).stage == k);
+        CHECK(state_of(status).full_name == "3D Systems Touch");
+        CHECK(state_of(status).facts[3] == DeviceFacts::value_type{"serial", "12-3456"});
+        // Where the library owns the device, no guardian can: that is said.
+        CHECK(state_of(status).unguarded.empty() == state_of(status).absent);
     }
 }

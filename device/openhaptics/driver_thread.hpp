@@ -1,0 +1,72 @@
+// What the thread of the driver does.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "device/arm_buffers.hpp"
+#include "device/openhaptics/arm_watch.hpp"
+#include "device/openhaptics/library.hpp"
+#include "device/openhaptics/servo.hpp"
+#include "device/openhaptics/status.hpp"
+
+namespace dibhr::openhaptics {
+
+class DriverThread {
+  public:
+    DriverThread(const ConnectionOptions& options, std::shared_ptr<ArmBuffers> buffers);
+
+    void run();
+    void request_stop() { stop_.request_stop(); }
+    /// False: run() has not returned within that time.
+    [[nodiscard]] bool ends_within(std::chrono::milliseconds time);
+
+    [[nodiscard]] Status status() const { return board_.read(); }
+
+  private:
+    using Time = std::chrono::steady_clock::time_point;
+
+    void search();
+    [[nodiscard]] HdHandle open(Fault& fault);
+    [[nodiscard]] Servo::Arm read_facts(HdHandle handle);
+    void follow(HdHandle handle);
+    [[nodiscard]] bool reset_encoders(HdHandle handle);
+    [[nodiscard]] Fault start(Servo& servo, HdSchedule& schedule);
+    [[nodiscard]] std::string watch_servo(Servo& servo);
+    void calibrate(const ServoReport& report, Time now);
+    void switch_force(Servo& servo, bool on);
+    void stop_servo(Servo& servo, HdSchedule schedule);
+    void report(const ServoReport& servo, bool silent, Time now);
+    void enter(Stage stage, const std::string& sentence, bool trouble = false);
+    void wait(std::chrono::milliseconds time);
+
+    const ConnectionOptions options_;
+    const std::shared_ptr<ArmBuffers> buffers_;
+    Board board_{};
+    std::stop_source stop_{};
+    std::mutex mutex_{};
+    std::condition_variable_any waits_{};
+    bool ended_{false};  // guarded by mutex_
+
+    // Used by the thread only, but for the watch and the buttons, which the servo thread uses.
+    LoadedLibrary library_{};
+    ArmWatch watch_{};
+    ButtonDebounce buttons_{};
+    std::vector<std::unique_ptr<Servo>> servos_{};  // the running one, and those that did not end
+    bool force_on_{false};
+    std::string trouble_{};  // why the last link ended, until a device is open again
+    Time calibrated_at_{};   // when a calibration was last requested
+    std::uint64_t seen_{0};  // ticks of the servo, and when they last changed
+    Time seen_at_{};
+    std::uint64_t counted_{0};  // ticks of the servo, for the rate
+    Time counted_at_{};
+    unsigned int last_code_{kHdSuccess};
+};
+
+}  // namespace dibhr::openhaptics

@@ -1,0 +1,79 @@
+// The Touch among the force devices: how it is named, made and surveyed.
+#include <memory>
+#include <string>
+
+#include "device/force_device.hpp"
+#include "device/openhaptics/openhaptics_device.hpp"
+#include "device/openhaptics/settings.hpp"
+#include "device/openhaptics/survey.hpp"
+
+namespace dibhr::openhaptics {
+
+namespace {
+
+ConnectionOptions connection_in(const DeviceSettings& settings, const DeviceArguments& given = {}) {
+    ConnectionOptions connection = connection_of(static_cast<const OpenhapticsSettings&>(settings));
+    if (!given.which.empty()) connection.name = given.which;
+    return connection;
+}
+
+std::unique_ptr<ForceDevice> make(const DeviceSettings& settings, const DeviceArguments& given) {
+    return std::make_unique<OpenhapticsDevice>(connection_in(settings, given));
+}
+
+/// Calibration is not checked here: the window guides the user through it.
+std::string why_none_answers(const DeviceSettings& settings, const DeviceArguments& given) {
+    const Status status = survey_device(connection_in(settings, given));
+    return answers(status) ? std::string{} : status.sentence;
+}
+
+bool is_usable(const Status& status) noexcept {
+    return status.stage == Stage::ready;
+}
+
+/// Without OpenHaptics nothing is printed.
+DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
+    const Status status = survey_device(connection_in(settings));
+    if (status.stage == Stage::no_library) return {};
+    if (!answers(status)) {
+        print("3D Systems Touch: none usable, " + status.sentence);
+        if (!status.printed.empty()) print("  the library printed: " + status.printed);
+        return {};
+    }
+    const std::string name = "3D Systems " + status.model + " " + status.serial;
+    print(name + ": " + (is_usable(status) ? "usable, " : "not usable yet, ") + status.sentence);
+    print("  driver " + status.driver + ", library " + status.version + ", " + status.library);
+    if (!status.printed.empty()) print("  the library printed: " + status.printed);
+    return {.usable = is_usable(status),
+            .refusal = is_usable(status) ? "" : name + " is not usable yet, " + status.sentence};
+}
+
+bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
+    const Status status = survey_device(connection_in(settings));
+    if (answers(status))
+        print("a 3D Systems Touch (" + status.serial + ") is there: " + status.sentence);
+    return is_usable(status);
+}
+
+}  // namespace
+
+extern const ForceDeviceKind device_kind{
+    .name = "openhaptics",
+    .title = "3D Systems Touch",
+    .short_name = "Touch",
+    .article = "a Touch",
+    .which = "NAME",
+    .known = "; its mass and step are nominal, not measured",
+    .no_pose_advice = "no fresh pose: no force",
+    .make_settings = make_settings<OpenhapticsSettings>,
+    .make = make,
+    .why_none = why_none_answers,
+    .attached =
+        [](const DeviceSettings& settings) {
+            return answers(survey_device(connection_in(settings)));
+        },
+    .survey = survey,
+    .print_attached = print_attached,
+};
+
+}  // namespace dibhr::openhaptics

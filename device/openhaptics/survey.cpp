@@ -1,0 +1,42 @@
+// The Touch that answers.
+#include "device/openhaptics/survey.hpp"
+
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "device/openhaptics/driver.hpp"
+
+namespace dibhr::openhaptics {
+
+namespace {
+
+constexpr std::chrono::seconds kPatience{8};
+constexpr std::chrono::milliseconds kLookEvery{10};
+
+bool is_known(Stage stage) noexcept {
+    return stage != Stage::opening && stage != Stage::starting;
+}
+
+}  // namespace
+
+Status survey_device(const ConnectionOptions& options) {
+    ConnectionOptions without_force = options;
+    without_force.forces = false;
+    const Driver driver(without_force, std::make_shared<ArmBuffers>());
+    const auto end = std::chrono::steady_clock::now() + kPatience;
+    while (!is_known(driver.status().stage) && std::chrono::steady_clock::now() < end)
+        std::this_thread::sleep_for(kLookEvery);
+    Status status = driver.status();
+    if (status.stage == Stage::opening)
+        status.sentence =
+            "3D Systems' library did not answer within 8 s: unplug the Touch, plug it "
+            "in again, and try 3D Systems' setup program";
+    return status;
+}
+
+bool answers(const Status& status) noexcept {
+    return status.stage > Stage::looking;
+}
+
+}  // namespace dibhr::openhaptics

@@ -1,0 +1,15 @@
+// The Touch that answers, for `dibhr devices` and `--device openhaptics`: no force is sent.
+#pragma once
+
+#include "device/openhaptics/status.hpp"
+
+namespace dibhr::openhaptics {
+
+/// Opens the device, waits until its stage is known, and closes it. Takes at most some seconds;
+/// `opening`: the library did not answer in that time.
+[[nodiscard]] Status survey_device(const ConnectionOptions& options);
+
+/// A device answers, whether or not it can be used.
+[[nodiscard]] bool answers(const Status& status) noexcept;
+
+}  // namespace dibhr::openhaptics

@@ -1,0 +1,126 @@
+// How 3D Systems' library is loaded, and what it may not do to the program.
+#include "device/openhaptics/library.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <clocale>
+#include <cstdio>
+#include <fstream>
+
+#include "tests/device/openhaptics/touch_desk.hpp"
+#include "tests/device/time/simulated_time.hpp"
+#include "tests/support/catch.hpp"
+#include "tests/support/comma_locale.hpp"
+#include "tests/support/text.hpp"
+
+namespace {
+
+using namespace dibhr;
+using namespace dibhr::test::openhaptics;
+
+bool says(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+/// Standard output leads into a file while this exists.
+class OutputInFile {
+  public:
+    explicit OutputInFile(const std::filesystem::path& file) {
+        std::fflush(stdout);
+        const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+        ::dup2(descriptor, STDOUT_FILENO);
+        ::close(descriptor);
+    }
+    ~OutputInFile() {
+        std::fflush(stdout);
+        ::dup2(before_, STDOUT_FILENO);
+        ::close(before_);
+    }
+    OutputInFile(const OutputInFile&) = delete;
+    OutputInFile& operator=(const OutputInFile&) = delete;
+
+  private:
+    int before_{::dup(STDOUT_FILENO)};
+};
+
+}  // namespace
+
+TEST_CASE("a library that cannot be used is named with the next step", "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    SECTION("one of another maker") {
+        const LoadedLibrary library = load_hd_library(FOREIGN_LIBRARY);
+        CHECK_FALSE(library.loaded);
+        CHECK(says(library.trouble, "has no function hdDisableDevice"));
+        CHECK(says(library.trouble, "install OpenHaptics"));
+    }
+    SECTION("one that needs the old ncurses") {
+        const LoadedLibrary library = load_hd_library(NEEDING_LIBRARY);
+        CAPTURE(library.trouble);
+        CHECK_FALSE(library.loaded);
+        CHECK(says(library.trouble, "needs libncurses.so.5, which is not installed"));
+        CHECK(says(library.trouble, "install libncurses5 and libtinfo5"));
+    }
+    SECTION("a file that is no library") {
+        const auto file = folder / "libHD.so.3.4";
+        std::ofstream(file) << "no library";
+        const LoadedLibrary library = load_hd_library(file);
+        CHECK_FALSE(library.loaded);
+        CHECK(says(library.trouble, file.string()));
+    }
+}
+
+TEST_CASE("the device says why the library cannot be used, and the mouse may touch",
+          "[openhaptics]") {
+    test::TickingDevice<OpenhapticsDevice> loop(ConnectionOptions{.library = FOREIGN_LIBRARY});
+    CHECK(loop.tick_until([&] { return loop.device.state().trouble; }));
+    CHECK(says(loop.device.state().sentence, "has no function"));
+    CHECK(loop.device.state().absent);
+    CHECK_FALSE(loop.device.can_touch());
+}
+
+TEST_CASE("what the library prints stays out of standard output, and is kept", "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    Status status;
+    {
+        const OutputInFile output(folder / "out");
+        std::printf("before\n");
+        TouchDesk desk("", [](ArmPage& page) { page.prints = true; });
+        CHECK(desk.loop.tick_until_ready());
+        status = desk.loop.device.status();
+        std::printf("after\n");
+    }
+    CHECK(test::read_text(folder / "out") == "before\nafter\n");
+    CHECK(status.printed == "A stand-in for development");
+}
+
+TEST_CASE("standard output is back after a second, though the library has not returned",
+          "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    {
+        const OutputInFile output(folder / "out");
+        OpeningCall call;
+        std::printf("aside\n");
+        test::let_pass(std::chrono::milliseconds(1100));
+        std::printf("back\n");
+        std::fflush(stdout);
+        CHECK(call.end() == "aside");
+    }
+    CHECK(test::read_text(folder / "out") == "back\n");
+}
+
+TEST_CASE("the library reads numbers with a point, and the program's locale stays",
+          "[openhaptics]") {
+    SECTION("in a program with a decimal comma") {
+        const test::CommaLocale locale;
+        TouchDesk desk;
+        CHECK(desk.loop.tick_until_ready());
+        CHECK(desk.bench.page().number_read == 1.5);
+        CHECK(std::string(std::localeconv()->decimal_point) == ",");
+    }
+    SECTION("with a library that sets the locale") {
+        TouchDesk desk("", [](ArmPage& page) { page.sets_locale = true; });
+        CHECK(desk.loop.tick_until_ready());
+        CHECK(std::string(std::setlocale(LC_NUMERIC, nullptr)) == "C");
+    }
+}
