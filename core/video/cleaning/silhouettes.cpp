@@ -37,7 +37,6 @@ constexpr std::uint32_t kPixelsPerVote =
     3;  ///< a ramp counts if one in 3 pixels across it found it
 
 constexpr int kFace_px = 3;        ///< a face's slope is taken over twice this length
-constexpr int kSmooth_px = 2;      ///< faces are smoothed over this distance to all sides
 constexpr int kWide_px = 5;        ///< in a narrower ramp the colour's edge is no better
 constexpr float kColours = 48.0F;  ///< least difference of two faces' colours [of 255]
 constexpr float kOwnSide = 0.25F;  ///< of that: a pixel this near to a face's colour is on it
