@@ -118,7 +118,7 @@ class Explainer {
         update_.goal = goal_in_frame;
         update_.result = after(Dibhr::kMostMoves);
         update_.start = proxy.contact ? after(0) : proxy;
-        update_.start.moves = 0;
+        update_.start.moves = update_.start.reads = 0;
     }
 
     ExplainedUpdate run() {

@@ -59,7 +59,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
     } else {
         start_above(surface, goal_in_frame);
     }
-    proxy_.moves = 0;
+    proxy_.moves = proxy_.reads = 0;
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border

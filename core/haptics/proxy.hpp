@@ -13,6 +13,7 @@ struct Proxy {
     Vec3 position{0.0};
     Primitive active{};  ///< kind none in free space
     int moves{0};        ///< primitives visited in this update
+    int reads{0};        ///< looked at in it, where the algorithm has a bound of them; else 0
     bool contact{false};
     bool slipping{false};  ///< the dynamic coefficient holds
     /// The walk came to its last move, or a flight to its last cell, before its end: it goes on

@@ -71,10 +71,10 @@ class ProxyWalk {
     /// The number of moves after which no further one is made.
     [[nodiscard]] int last_move() const noexcept { return std::min(most_moves_, last_move_); }
 
-    /// Counts what a visit reads: once `reads_left_` is used up there is no further visit.
+    /// Counts what a visit reads: after `most_reads_` there is no further visit.
     void count_reads(int reads) noexcept {
-        reads_left_ -= reads;
-        if (reads_left_ <= 0) most_moves_ = std::min(most_moves_, proxy_.moves);
+        proxy_.reads += reads;
+        if (proxy_.reads >= most_reads_) most_moves_ = std::min(most_moves_, proxy_.moves);
     }
 
     /// Free flight to the goal, or to where it meets the surface: then there is a TRIANGLE to
@@ -193,7 +193,7 @@ class ProxyWalk {
     const int all_moves_;
     const int last_move_;
     int most_moves_{all_moves_};  ///< less those that flights and reads have used up
-    int reads_left_{std::numeric_limits<int>::max()};
+    int most_reads_{std::numeric_limits<int>::max()};
     Proxy& proxy_;
     bool moved_{false};
     bool touched_{proxy_.contact};  ///< in contact at the begin of this update or since

@@ -11,6 +11,7 @@
 #include "core/haptics/touch.hpp"
 #include "tests/core/haptics/bounds.hpp"
 #include "tests/core/haptics/surfaces.hpp"
+#include "tests/core/haptics/worst_update.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -149,4 +150,29 @@ TEST_CASE("a hand that presses goes on pressing while its proxy catches up over 
     }
     CHECK(behind < 1000);
     CHECK(behind > 1);
+}
+
+TEST_CASE("the update that reads most, of any on any surface, stays within the bound of reads",
+          "[bounded]") {
+    constexpr int kSurfaces = 20;
+    constexpr int kTries = 60;
+    const Algorithm algorithm = each_algorithm();
+    const auto proxy = make_algorithm(algorithm);
+    test::Dice dice(31 + static_cast<std::uint64_t>(algorithm));
+    int ended_by_reads = 0;
+    for (int number = 0; number < kSurfaces; ++number) {
+        const DepthImage image = test::generated_surface(number, 700, 120);
+        const DepthSurface surface(image, image, 0.0, {});
+        const Proxy worst = test::worst_jump(*proxy, surface, dice, kTries).made(*proxy, surface);
+        const int most_reads = test::most_reads_of(algorithm, surface);
+        CAPTURE(name_of(algorithm), number, worst.reads, worst.moves);
+        CHECK(worst.reads <= (most_reads > 0 ? most_reads + test::kReadsOfOneMove : 0));
+        CHECK(worst.moves <= test::most_moves_of(algorithm, surface) + 3);
+        const bool by_reads =
+            worst.bound_met && worst.moves < test::most_moves_of(algorithm, surface);
+        if (by_reads && most_reads > 0 && worst.reads >= most_reads) ++ended_by_reads;
+    }
+    // Else the search would find nothing that the bound ends.
+    const bool has_bound = algorithm == Algorithm::pga || algorithm == Algorithm::neighborhood;
+    CHECK((ended_by_reads > 0) == has_bound);
 }

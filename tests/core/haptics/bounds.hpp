@@ -26,6 +26,16 @@ inline int most_moves_of(Algorithm algorithm, const DepthSurface& surface) {
     return GodObject::kMostMoves / half;
 }
 
+/// What an update looks at: VERTICES of the proxy graph, TRIANGLEs of the neighbourhood search. The
+/// last move goes on to its end, past all neighbours. Zero: bounded by its moves alone.
+inline int most_reads_of(Algorithm algorithm, const DepthSurface& surface) {
+    if (algorithm == Algorithm::pga) return Pga::kMostReads;
+    if (algorithm == Algorithm::neighborhood)
+        return Neighborhood::kMostLooks / (surface.has_bump() ? 2 : 1);
+    return 0;
+}
+inline constexpr int kReadsOfOneMove = 36;
+
 /// Follows one proxy from update to update.
 class BoundsWatch {
   public:
@@ -42,6 +52,9 @@ class BoundsWatch {
         if (height_px < -1e-8) return "the proxy is below the surface";
         if (proxy.contact && height_px > 1e-7) return "a proxy in contact is above the surface";
         if (proxy.moves > most_moves_of(algorithm, surface) + kRestOfPiece) return "too many moves";
+        const int most_reads = most_reads_of(algorithm, surface);
+        if (proxy.reads > (most_reads > 0 ? most_reads + kReadsOfOneMove : 0))
+            return "too many reads";
         goal = surface.clamped_to_frame(surface.clamped_to_reach(goal));
         // A hand that comes from the air may be on its way through it for some updates more.
         const bool may_fly = proxy.bound_met && !pressed;
