@@ -1,14 +1,9 @@
-// Which vertices of the depth image are drawn, in what order, and where the relief is torn at
-// silhouettes: there each triangle becomes a near and a far layer, and the fragment shader cuts
-// them along the outline in the whole depth image. Numbers only, no OpenGL.
+// Which vertices of the depth image are drawn, and in what order. Numbers only, no OpenGL.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include "core/haptics/depth_image.hpp"
-#include "core/haptics/parameters.hpp"
 
 namespace dibhr {
 
@@ -51,37 +46,5 @@ struct GridMesh {
 /// The border of the grid, once around, each vertex twice, the first again at the end: a triangle
 /// strip for the walls at the relief's sides.
 [[nodiscard]] std::vector<GridVertex> border_strip(const ReliefGrid& grid);
-
-/// One corner of a layer: it lies at `corner`, with the height and colour of the drawn vertex
-/// `source` of the same face. Only the part within `tolerance_px` of the depth image is shown.
-struct RimVertex {
-    GridVertex corner{};
-    GridVertex source{};
-    float tolerance_px{0.0F};
-};
-
-/// The surface between two depth images of one size, without the bump map.
-struct BlendedDepth {
-    const DepthImage& from;
-    const DepthImage& to;
-    double blend{0.0};  ///< 0: from, 1: to
-    double px_per_level{1.0};
-};
-
-/// The elevation [px] of every drawn vertex, row-major. The images have the grid's size.
-void drawn_elevations(const BlendedDepth& depth, const ReliefGrid& grid,
-                      std::vector<float>& elevations);
-
-struct Rims {
-    std::vector<RimVertex> layers{};  ///< three vertices a triangle; 120'000 at most
-    std::vector<float> torn{};  ///< of each drawn vertex; 1: the cell to its lower right is torn
-};
-
-/// Tears the cells of the drawn grid in which the image is steeper than `slope_limit` [px/px] from
-/// pixel to pixel, and cells that share a blurred vertex with one. So the silhouettes do not depend
-/// on how coarse the drawn grid is. A part too thin to reach a drawn vertex is neither drawn nor
-/// torn. `elevations`: those of drawn_elevations().
-void tear_rims(const BlendedDepth& depth, const ReliefGrid& grid,
-               const std::vector<float>& elevations, double slope_limit, Rims& rims);
 
 }  // namespace dibhr

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 #include <string>
 #include <vector>
 
@@ -26,7 +28,7 @@ enum Unit : GLint {
     kDepthToUnit,
     kDetailFromUnit,
     kDetailToUnit,
-    kTornUnit,
+    kCutUnit,
     kUnseenUnit,
     kBumpUnit,
     kHeightsUnit,
@@ -48,6 +50,43 @@ void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
     glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, sizeof(GridVertex), nullptr);
 }
 
+void upload(const LayerMesh& mesh, const SilhouetteLayer& layer) {
+    const std::vector<LayerVertex>& vertices = layer.vertices;
+    glBindVertexArray(mesh.array.get());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.get());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(layer.indices.size() * sizeof(std::uint32_t)),
+                 layer.indices.data(), GL_STREAM_DRAW);
+    glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.get());
+    constexpr GLsizei kBytes = sizeof(LayerVertex);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(LayerVertex)),
+                 vertices.data(), GL_STREAM_DRAW);
+    for (GLuint attribute = 0; attribute < 4; ++attribute) glEnableVertexAttribArray(attribute);
+    glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, kBytes,
+                           attribute_offset(offsetof(LayerVertex, corner)));
+    glVertexAttribIPointer(1, 2, GL_UNSIGNED_SHORT, kBytes,
+                           attribute_offset(offsetof(LayerVertex, source)));
+    glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, kBytes,
+                          attribute_offset(offsetof(LayerVertex, elevation_px)));
+    glVertexAttribPointer(3, 4, GL_UNSIGNED_BYTE, GL_TRUE, kBytes,
+                          attribute_offset(offsetof(LayerVertex, fill)));
+}
+
+void draw_layer(const LayerMesh& mesh, const SilhouetteLayer& layer) {
+    glBindVertexArray(mesh.array.get());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(layer.indices.size()), GL_UNSIGNED_INT,
+                   nullptr);
+}
+
+/// Where the picture is seen from, homogeneous: w is 0 for parallel rays.
+glm::vec4 eye_in_grid(const glm::mat4& clip_from_world, const ReliefGrid& grid) {
+    const glm::vec4 eye = glm::inverse(clip_from_world) * glm::vec4(0.0F, 0.0F, -1.0F, 0.0F);
+    const float sign = eye.w < 0.0F || (eye.w == 0.0F && eye.z < 0.0F) ? -1.0F : 1.0F;
+    const float half_columns = 0.5F * static_cast<float>(grid.image_columns - 1);
+    const float half_rows = 0.5F * static_cast<float>(grid.image_rows - 1);
+    return sign * glm::vec4(eye.x + eye.w * half_columns, eye.w * half_rows - eye.y, eye.z, eye.w);
+}
+
 }  // namespace
 
 void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_world) {
@@ -59,29 +98,19 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     if (content.relief_style.coarse) grid.step *= 2;
     if (grid != grid_) build(grid);
 
-    Variant variant;
-    variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
-    variant.painted = content.maps && content.maps->at_vertices.columns == image.columns &&
-                      content.maps->at_vertices.rows == image.rows;
-    variant.textured = content.relief_style.paint == ReliefPaint::video && content.colour &&
-                       content.colour->colour && !content.colour->colour->rgb.empty();
-    variant.by_depth = depth_colours(content.relief_style.paint) != nullptr;
-    variant.silhouettes = content.relief_style.discard_silhouettes;
-    variant.unseen = content.depth.nearest().unseen != nullptr;
-    if (variant.silhouettes) tear(content);
+    const Variant variant = variant_for(content);
+    if (variant.silhouettes) cut(content, clip_from_world);
     bind_textures(content, variant);
 
     use_program(variant, content, clip_from_world);
     glBindVertexArray(surface_.get());
     glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
 
-    if (variant.silhouettes) {
-        Variant rim = variant;
-        rim.rim = true;
-        rim.silhouettes = false;
-        use_program(rim, content, clip_from_world);
-        glBindVertexArray(rim_.get());
-        glDrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(rims_.layers.size()));
+    if (variant.silhouettes && !layers_.behind.indices.empty()) {
+        Variant behind = variant;
+        behind.behind = true;
+        use_program(behind, content, clip_from_world);
+        draw_layer(behind_, layers_.behind);
     }
 
     Variant wall;
@@ -92,6 +121,30 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     glBindVertexArray(wall_.get());
     glDrawArrays(GL_TRIANGLE_STRIP, 0, wall_count_);
     glActiveTexture(GL_TEXTURE0);
+}
+
+void ReliefPass::draw_outlines(const SceneContent& content, const glm::mat4& clip_from_world) {
+    Variant front = variant_for(content);
+    if (!front.silhouettes || layers_.front.indices.empty()) return;
+    front.front = true;
+    use_program(front, content, clip_from_world);
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    draw_layer(front_, layers_.front);
+    glDisable(GL_BLEND);
+}
+
+ReliefPass::Variant ReliefPass::variant_for(const SceneContent& content) const {
+    Variant variant;
+    variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
+    variant.painted = content.maps && content.maps->at_vertices.columns == grid_.image_columns &&
+                      content.maps->at_vertices.rows == grid_.image_rows;
+    variant.textured = content.relief_style.paint == ReliefPaint::video && content.colour &&
+                       content.colour->colour && !content.colour->colour->rgb.empty();
+    variant.by_depth = depth_colours(content.relief_style.paint) != nullptr;
+    variant.silhouettes = content.relief_style.discard_silhouettes;
+    variant.unseen = content.depth.nearest().unseen != nullptr;
+    return variant;
 }
 
 void ReliefPass::build(const ReliefGrid& grid) {
@@ -112,25 +165,21 @@ void ReliefPass::build(const ReliefGrid& grid) {
     if (detail_grid_.step >= grid.step) detail_grid_ = grid;
 }
 
-void ReliefPass::tear(const SceneContent& content) {
+void ReliefPass::cut(const SceneContent& content, const glm::mat4& clip_from_world) {
     const DepthImage& from = *content.depth.from->drawn();
     const BlendedDepth depth{from, *content.depth.to->drawn(),
                              std::clamp(content.depth.blend, 0.0, 1.0),
                              content.shape.relief_px / from.highest_level};
     drawn_elevations(depth, grid_, elevations_);
-    tear_rims(depth, grid_, elevations_, content.relief_style.silhouette_slope, rims_);
-    torn_.upload(grid_.columns(), grid_.rows(), rims_.torn.data());
-    glBindVertexArray(rim_.get());
-    glBindBuffer(GL_ARRAY_BUFFER, rim_vertices_.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(rims_.layers.size() * sizeof(RimVertex)),
-                 rims_.layers.data(), GL_STREAM_DRAW);
-    for (GLuint attribute = 0; attribute < 3; ++attribute) glEnableVertexAttribArray(attribute);
-    glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, sizeof(RimVertex),
-                           attribute_offset(offsetof(RimVertex, corner)));
-    glVertexAttribIPointer(1, 2, GL_UNSIGNED_SHORT, sizeof(RimVertex),
-                           attribute_offset(offsetof(RimVertex, source)));
-    glVertexAttribPointer(2, 1, GL_FLOAT, GL_FALSE, sizeof(RimVertex),
-                          attribute_offset(offsetof(RimVertex, tolerance_px)));
+    find_cuts(depth, grid_, elevations_, content.relief_style.silhouette_slope, cuts_);
+    cut_.upload(grid_.columns(), grid_.rows(), cuts_.around.data());
+    const bool textured = variant_for(content).textured;
+    build_layers(
+        {depth, grid_, elevations_, cuts_, textured ? content.colour->colour.get() : nullptr,
+         eye_in_grid(clip_from_world, grid_)},
+        layers_);
+    upload(behind_, layers_.behind);
+    upload(front_, layers_.front);
 }
 
 void ReliefPass::bind_textures(const SceneContent& content, const Variant& variant) {
@@ -157,7 +206,7 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     bind(kDetailToUnit, detail.to);
     bind(kDepthFromUnit, depth.from);
     bind(kDepthToUnit, depth.to);
-    bind(kTornUnit, torn_.name());
+    bind(kCutUnit, cut_.name());
     bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
     bind(kHeightsUnit, heights);
@@ -170,7 +219,8 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
     if (!program) {
         std::string defines;
         if (variant.wall) defines += "#define WALL\n";
-        if (variant.rim) defines += "#define RIM\n";
+        if (variant.behind) defines += "#define LAYER\n#define BEHIND\n";
+        if (variant.front) defines += "#define LAYER\n#define FRONT\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.painted) defines += "#define PAINTED\n";
         if (variant.textured) defines += "#define TEXTURED\n";
@@ -181,13 +231,12 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
             std::make_unique<ShaderProgram>(shaders::kReliefVert, shaders::kReliefFrag, defines);
     }
     const DepthImage& image = *content.depth.from->drawn();
-    const double limit = content.relief_style.silhouette_slope;
     program->use();
     program->set("depth_from", kDepthFromUnit);
     program->set("depth_to", kDepthToUnit);
     program->set("detail_from", kDetailFromUnit);
     program->set("detail_to", kDetailToUnit);
-    program->set("torn", kTornUnit);
+    program->set("cut_around", kCutUnit);
     program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
     program->set("heights", kHeightsUnit);
@@ -197,7 +246,6 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
     program->set("px_per_level", static_cast<float>(content.shape.relief_px / image.highest_level));
     program->set("relief_px", static_cast<float>(content.shape.relief_px));
     program->set("roughness_px", static_cast<float>(content.shape.roughness_px));
-    program->set("slope_limit", static_cast<float>(limit));
     program->set("ground_px", static_cast<float>(-kGroundDepth * image.columns));
     const Dent& dent = content.dent;
     program->set("dent", glm::vec4(dent.at.x, dent.at.y, std::max(dent.radius_px, 1.0),

@@ -10,8 +10,17 @@
 #include "render/gl_objects.hpp"
 #include "render/relief_grid.hpp"
 #include "render/scene_view.hpp"
+#include "render/silhouette_cuts.hpp"
+#include "render/silhouette_layers.hpp"
 
 namespace dibhr {
+
+/// The OpenGL objects of a layer at silhouettes.
+struct LayerMesh {
+    GlVertexArray array{};
+    GlBuffer vertices{};
+    GlBuffer indices{};
+};
 
 class ReliefPass {
   public:
@@ -20,11 +29,16 @@ class ReliefPass {
     /// `content.depth` has two frames with depth images of the same size.
     void draw(const SceneContent& content, const glm::mat4& clip_from_world);
 
+    /// The near faces up to their smooth outlines, over what draw() has drawn and all that is
+    /// behind the relief. For the same content.
+    void draw_outlines(const SceneContent& content, const glm::mat4& clip_from_world);
+
   private:
     /// The options of a shader program; one program for each combination in use.
     struct Variant {
         bool wall{false};
-        bool rim{false};
+        bool behind{false};
+        bool front{false};
         bool rough{false};
         bool painted{false};
         bool textured{false};
@@ -35,7 +49,8 @@ class ReliefPass {
     };
 
     void build(const ReliefGrid& grid);
-    void tear(const SceneContent& content);
+    void cut(const SceneContent& content, const glm::mat4& clip_from_world);
+    [[nodiscard]] Variant variant_for(const SceneContent& content) const;
     void bind_textures(const SceneContent& content, const Variant& variant);
     const ShaderProgram& use_program(const Variant& variant, const SceneContent& content,
                                      const glm::mat4& clip_from_world);
@@ -56,11 +71,12 @@ class ReliefPass {
     GlBuffer surface_indices_{};
     GlVertexArray wall_{};
     GlBuffer wall_vertices_{};
-    GlVertexArray rim_{};
-    GlBuffer rim_vertices_{};
+    LayerMesh behind_{};
+    LayerMesh front_{};
     std::vector<float> elevations_{};
-    Rims rims_{};
-    GridTexture torn_{};
+    SilhouetteCuts cuts_{};
+    SilhouetteLayers layers_{};
+    GridTexture cut_{};
     GLsizei index_count_{0};
     GLsizei wall_count_{0};
 };

@@ -46,11 +46,9 @@ void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ive
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
 
-    if (content.depth.makes_surface()) {
-        const double aspect = static_cast<double>(size.x) / size.y;
-        objects_->relief.draw(content,
-                              glm::mat4(camera.clip_from_view(aspect) * camera.view_from_world()));
-    }
+    const double aspect = static_cast<double>(size.x) / size.y;
+    const glm::mat4 clip_from_world(camera.clip_from_view(aspect) * camera.view_from_world());
+    if (content.depth.makes_surface()) objects_->relief.draw(content, clip_from_world);
     // After the relief, so that it fills only pixels without relief.
     objects_->backdrop.use();
     objects_->backdrop.set("height_px", static_cast<float>(size.y));
@@ -59,6 +57,7 @@ void SceneView::draw(const SceneContent& content, const Camera& camera, glm::ive
     objects_->backdrop.set("bottom", wall.bottom);
     glBindVertexArray(objects_->no_vertices.get());
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    if (content.depth.makes_surface()) objects_->relief.draw_outlines(content, clip_from_world);
     objects_->markers.draw(content.markers, camera, size);
 
     glBindVertexArray(0);

@@ -17,8 +17,8 @@ namespace dibhr {
 
 /// How the relief is drawn.
 struct ReliefStyle {
-    bool discard_silhouettes{true};  ///< tear the relief where it is steeper than this:
-    double silhouette_slope{12.0};   ///< elevation change from pixel to pixel [px/px]
+    bool discard_silhouettes{true};  ///< cut the relief where find_cuts() finds a step:
+    double silhouette_slope{12.0};   ///< its least elevation change from pixel to pixel [px/px]
     ReliefPaint paint{ReliefPaint::video};
     double light{0.6};   ///< 0: flat colour, 1: strong shading
     bool coarse{false};  ///< half as many columns and rows as this machine would draw otherwise

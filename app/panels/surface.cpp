@@ -106,10 +106,10 @@ void draw_surface_panel(ViewerState& state) {
                  .c_str());
     flag_row("Cut silhouettes", settings.relief_style.discard_silhouettes,
              standard.discard_silhouettes,
-             "Does not draw the stretched walls between near and far; they can still be touched");
+             "Draws what is behind instead of stretched walls; the walls can still be touched");
     ImGui::BeginDisabled(!settings.relief_style.discard_silhouettes);
     number_row({"Cut steeper than", "%.0f px/px", 1.0, 40.0, standard.silhouette_slope,
-                "Elevation change per pixel"},
+                "Elevation change per pixel, and a step of twice that height"},
                settings.relief_style.silhouette_slope);
     ImGui::EndDisabled();
     flag_row("Coarse drawing", settings.relief_style.coarse, standard.coarse,

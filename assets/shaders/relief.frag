@@ -1,15 +1,16 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), SILHOUETTES (leave out the torn cells), WALL,
-// RIM (a layer that goes on beyond a silhouette: only what agrees with the depth image is shown),
+// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), SILHOUETTES (leave out the cut cells), WALL,
+// LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
 in float shade;
 #ifdef SILHOUETTES
-flat in float cell_torn;
+flat in float cell_cut;
 #endif
-#ifdef RIM
-in vec2 layer;
+#ifdef LAYER
+in vec2 faces_px;
+in vec3 continued;
 uniform sampler2D detail_from;  // levels, as fine as can be
 uniform sampler2D detail_to;
 uniform float blend;
@@ -28,12 +29,45 @@ uniform vec3 side;  // WALL: its colour in full light
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
+const float kNowhere_px = -1e5;  // where no face is
 const float kBackside = 0.35;  // seen from behind, as through a gap
 
 // Where this place is in a texture of every `detail_step`-th vertex.
 vec2 in_detail(ivec2 size) {
     return ((lifted.xy * vec2(image) - 0.5) / float(detail_step) + 0.5) / vec2(size);
 }
+
+#ifdef LAYER
+// The depth image [px], smoothed by a cubic B-spline, so that outlines have no corners at pixels: of 4 x 4
+// values, with four samples between two of them each.
+float smooth_depth() {
+    vec2 size = vec2(textureSize(detail_from, 0));
+    vec2 place = in_detail(ivec2(size)) * size - 0.5;
+    vec2 first = floor(place);
+    vec2 f = place - first;
+    vec2 g = 1.0 - f;
+    vec2 w0 = g * g * g / 6.0;
+    vec2 w1 = (4.0 - 6.0 * f * f + 3.0 * f * f * f) / 6.0;
+    vec2 w3 = f * f * f / 6.0;
+    vec2 low_part = w0 + w1;
+    vec2 low = (first - 0.5 + w1 / low_part) / size;
+    vec2 high = (first + 1.5 + w3 / (1.0 - low_part)) / size;
+    vec4 at[2] = vec4[2](vec4(low, high.x, low.y), vec4(low.x, high.y, high));
+    float sum = 0.0;
+    for (int k = 0; k < 2; ++k) {
+        float left = mix(texture(detail_from, at[k].xy).r, texture(detail_to, at[k].xy).r, blend);
+        float right = mix(texture(detail_from, at[k].zw).r, texture(detail_to, at[k].zw).r, blend);
+        sum += mix(right, left, low_part.x) * (k == 0 ? low_part.y : 1.0 - low_part.y);
+    }
+    return px_per_level * sum;
+}
+
+// 0: on the far face, 1: on the near face.
+float near_share() {
+    if (faces_px.y < kNowhere_px) return 1.0;
+    return clamp((smooth_depth() - faces_px.x) / max(faces_px.y - faces_px.x, 1e-3), 0.0, 1.0);
+}
+#endif
 
 #ifdef UNSEEN
 const float kHatches = 110.0;  // across the picture
@@ -61,16 +95,23 @@ void main() {
 #ifdef WALL
     pixel = vec4(side * (0.45 + 0.55 * shade), 1.0);
 #else
-#ifdef RIM
-    vec2 at = in_detail(textureSize(detail_from, 0));
-    float there = px_per_level * mix(texture(detail_from, at).r, texture(detail_to, at).r, blend);
-    if (abs(there - layer.x) > layer.y) discard;
+    float alpha = 1.0;
+#ifdef LAYER
+    float share = near_share();
 #endif
-#ifdef SILHOUETTES
-    if (cell_torn > 0.5) discard;
+#ifdef FRONT
+    float soft = clamp(fwidth(share), 1e-3, 0.5);
+    alpha = smoothstep(0.5 - soft, 0.5 + soft, share);
+    if (alpha < 0.02) discard;
+#endif
+#if defined(SILHOUETTES) && !defined(LAYER)
+    if (cell_cut > 0.5) discard;
 #endif
 #if defined(TEXTURED)
     vec3 body = texture(colour, lifted.xy).rgb;
+#ifdef BEHIND
+    body = mix(body, continued, smoothstep(0.01, 0.12, share));
+#endif
 #elif defined(BY_DEPTH)
     vec3 body = texture(colour, vec2(clamp(lifted.z / max(relief_px, 1e-6), 0.002, 0.998), 0.5)).rgb;
 #else
@@ -80,6 +121,6 @@ void main() {
     float none = texture(unseen, in_detail(textureSize(unseen, 0))).r;
     body = mix(body, not_seen(body), smoothstep(0.3, 0.7, none));
 #endif
-    pixel = vec4(body * (gl_FrontFacing ? shade : shade * kBackside), 1.0);
+    pixel = vec4(body * (gl_FrontFacing ? shade : shade * kBackside), alpha);
 #endif
 }

@@ -1,14 +1,16 @@
 #version 330 core
 // The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
 // Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
-// the relief; every second vertex is on the ground), RIM (a layer at a silhouette: a corner as high and
-// bright as another vertex), SILHOUETTES (the torn cells are left out).
+// the relief; every second vertex is on the ground), LAYER (at a silhouette: a corner with its own elevation, in
+// the light of another vertex), SILHOUETTES (the cut cells are left out).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
-#ifdef RIM
+#ifdef LAYER
 layout(location = 1) in uvec2 source;
-layout(location = 2) in float tolerance_px;
-out vec2 layer;  // elevation without bumps, tolerance
+layout(location = 2) in vec3 layer_px;  // elevation without bumps; far face, near face
+layout(location = 3) in vec4 fill;
+out vec2 faces_px;  // far, near
+out vec3 continued;  // colour of the far face under the near one
 #endif
 
 uniform sampler2D depth_from;  // levels
@@ -18,7 +20,6 @@ uniform sampler2D heights;  // px
 uniform float blend;
 uniform float px_per_level;
 uniform float roughness_px;
-uniform float slope_limit;  // steeper from pixel to pixel is a silhouette, and no guide to the light
 uniform float ground_px;
 uniform vec4 dent;  // column, row, radius, depth [px]
 uniform float shadow;  // of the proxy, where it is on the surface; 0: none
@@ -29,8 +30,9 @@ uniform float light;
 uniform mat4 clip_from_world;
 
 #ifdef SILHOUETTES
-uniform sampler2D torn;  // of each drawn vertex; 1: the cell to its lower right
-flat out float cell_torn;  // told by a cell's upper right vertex, with which both of its triangles end
+uniform sampler2D cut_around;  // of each drawn vertex, which cells around it are cut: 1: upper left, 2: upper right,
+                               // 4: lower left, 8: lower right
+flat out float cell_cut;  // not 0: told by a cell's upper right vertex, with which both of its triangles end
 #endif
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
@@ -71,15 +73,12 @@ float elevation(ivec2 at) {
     return z;
 }
 
-// The slope of the gentler side where the other is a silhouette: its rim keeps the light of its face.
-float slope(float before, float here, float after, vec2 reach) {
-    float left = (here - before) / max(reach.x, 1.0);
-    float right = (after - here) / max(reach.y, 1.0);
-    float both = (after - before) / (reach.x + reach.y);
-    float limit = slope_limit / float(grid_step);
-    if (abs(left) > limit && reach.y > 0.0) return right;
-    if (abs(right) > limit && reach.x > 0.0) return left;
-    return both;
+// Of the sides that the relief is not cut on: its rim keeps the light of its face.
+float slope(float before, float here, float after, vec2 reach, bvec2 is_cut) {
+    if (is_cut.x && is_cut.y) return 0.0;
+    if (is_cut.x) return (after - here) / max(reach.y, 1.0);
+    if (is_cut.y) return (here - before) / max(reach.x, 1.0);
+    return (after - before) / (reach.x + reach.y);
 }
 
 // The factor on the picture's own colour; a flat relief facing the viewer keeps it unchanged.
@@ -90,9 +89,8 @@ float lit(vec3 normal) {
 float brightness(vec3 normal) { return mix(1.0, lit(normal) / lit(vec3(0.0, 0.0, 1.0)), light); }
 
 void main() {
-#ifdef RIM
+#ifdef LAYER
     ivec2 at = ivec2(source);
-    layer = vec2(px_per_level * level(at), tolerance_px);
 #else
     ivec2 at = ivec2(corner);
 #endif
@@ -107,19 +105,30 @@ void main() {
     ivec2 high = min(at + 1, drawn - 1);
     vec2 to_low = here - in_image(low);
     vec2 to_high = in_image(high) - here;
+    bvec2 across = bvec2(false);  // to the left and to the right
+    bvec2 along = bvec2(false);   // upwards and downwards
+#ifdef SILHOUETTES
+    // An edge of the grid is cut where the cells on both of its sides are.
+    int cut = int(texelFetch(cut_around, at, 0).r);
+    across = equal(ivec2(cut & 5, cut & 10), ivec2(5, 10));
+    along = equal(ivec2(cut & 3, cut & 12), ivec2(3, 12));
+    cell_cut = float(cut & 4);
+#endif
     float dx = slope(elevation(ivec2(low.x, at.y)), z, elevation(ivec2(high.x, at.y)),
-                     vec2(to_low.x, to_high.x));
+                     vec2(to_low.x, to_high.x), across);
     float dy = slope(elevation(ivec2(at.x, low.y)), z, elevation(ivec2(at.x, high.y)),
-                     vec2(to_low.y, to_high.y));
+                     vec2(to_low.y, to_high.y), along);
     shade = brightness(normalize(vec3(-dx, dy, 1.0)));
+#endif
+#ifdef LAYER
+    z += layer_px.x - px_per_level * level(at);
+    faces_px = layer_px.yz;
+    continued = fill.rgb;
 #endif
     ivec2 vertex = ivec2(corner);
     here = in_image(vertex);
 #ifndef WALL
     shade *= unshadowed(here);
-#endif
-#ifdef SILHOUETTES
-    cell_torn = texelFetch(torn, max(vertex - ivec2(1, 0), ivec2(0)), 0).r;
 #endif
     lifted = vec3((here + 0.5) / vec2(image), z);
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
