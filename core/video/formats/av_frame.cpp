@@ -11,6 +11,7 @@ extern "C" {
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -44,6 +45,25 @@ bool is_grey_kind(const AVPixFmtDescriptor& kind) {
     return has_luma(kind) && kind.nb_components <= 2;
 }
 
+/// Whether a component lies in whole 16-bit words of this machine, beside no other component.
+bool is_in_own_words(const AVPixFmtDescriptor& kind, const AVComponentDescriptor& component) {
+    const bool is_big = std::endian::native == std::endian::big;
+    return component.step == 2 && component.offset == 0 &&
+           component.depth + component.shift <= 16 && component.depth + component.shift > 8 &&
+           has(kind, AV_PIX_FMT_FLAG_BE) == is_big;
+}
+
+void copy_words(const AVFrame& frame, const AVComponentDescriptor& component, cv::Mat& levels) {
+    const unsigned highest = (1U << static_cast<unsigned>(component.depth)) - 1U;
+    for (int j = 0; j < frame.height; ++j) {
+        const auto* const from = reinterpret_cast<const std::uint16_t*>(
+            frame.data[component.plane] + std::ptrdiff_t{frame.linesize[component.plane]} * j);
+        auto* const to = levels.ptr<std::uint16_t>(j);
+        for (int i = 0; i < frame.width; ++i)
+            to[i] = static_cast<std::uint16_t>((from[i] >> component.shift) & highest);
+    }
+}
+
 /// The first component as it was coded.
 cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
     const AVComponentDescriptor& luma = kind.comp[0];
@@ -53,6 +73,10 @@ cv::Mat luma_of(const AVFrame& frame, const AVPixFmtDescriptor& kind) {
         return plane.clone();
     }
     cv::Mat levels(frame.height, frame.width, CV_16UC1);
+    if (is_in_own_words(kind, luma)) {
+        copy_words(frame, luma, levels);
+        return levels;
+    }
     std::array<const std::uint8_t*, 4> planes{frame.data[0], frame.data[1], frame.data[2],
                                               frame.data[3]};
     for (int j = 0; j < frame.height; ++j) {
