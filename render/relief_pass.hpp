@@ -38,6 +38,7 @@ class ReliefPass {
     struct Variant {
         bool wall{false};
         bool behind{false};
+        bool under{false};
         bool front{false};
         bool rough{false};
         bool painted{false};
@@ -72,6 +73,7 @@ class ReliefPass {
     GlVertexArray wall_{};
     GlBuffer wall_vertices_{};
     LayerMesh behind_{};
+    LayerMesh under_{};
     LayerMesh front_{};
     std::vector<float> elevations_{};
     SilhouetteCuts cuts_{};

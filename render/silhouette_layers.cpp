@@ -20,7 +20,6 @@ constexpr int kEndSmoothings = 2;
 constexpr float kSameEnd_px = 30.0F;
 constexpr int kMostRings = 100;  // of vertices under the near face: bounds the work
 constexpr int kMostPasses = 3;   // of vertices along an outline, that take a face from the next
-constexpr float kNowhere_px = -1e6F;  // below all elevations
 constexpr float kLeastGap_px = 2.0F;  // between the near face and what is behind
 
 struct Place {
@@ -65,6 +64,7 @@ struct Rim {
     /// Its number, from 1, as a vertex of the layer behind or in front, on its own face or on the
     /// other one; 0: none yet.
     std::uint32_t behind_on_own{0}, behind_on_other{0}, front_on_own{0}, front_on_other{0};
+    std::uint32_t under{0};  ///< its number, from 1, in the layer under the near face
 };
 
 /// The colour of a face around a vertex, from pixels that are well inside of the face.
@@ -133,7 +133,7 @@ class LayerBuilder {
           layers_(layers) {}
 
     void run() {
-        for (SilhouetteLayer* layer : {&layers_.behind, &layers_.front}) {
+        for (SilhouetteLayer* layer : {&layers_.behind, &layers_.under, &layers_.front}) {
             layer->vertices.clear();
             layer->indices.clear();
         }
@@ -440,17 +440,15 @@ class LayerBuilder {
         return {vertex(rim.at), vertex(source), elevation_px, faces.x, faces.y, bytes(rim.colour)};
     }
 
-    /// Under the near face, where no fragment is on the far one.
-    [[nodiscard]] LayerVertex under(const Rim& rim) const {
-        const float far_px = rim.far.value();
-        return {vertex(rim.at), vertex(rim.far_source), far_px,
-                kNowhere_px,    kNowhere_px + 1.0F,     bytes(rim.colour)};
+    static LayerVertex under(const Rim& rim) {
+        return at_outline(rim, rim.far.value(), rim.far_source);
     }
 
     /// Where the fill ends at the near face, so that there is no gap.
     [[nodiscard]] LayerVertex end_of_fill(Place end, const Rim& from) const {
-        return {vertex(end), vertex(end),        at(end),
-                kNowhere_px, kNowhere_px + 1.0F, bytes(from.colour)};
+        LayerVertex made = at_outline(from, at(end), end);
+        made.corner = vertex(end);
+        return made;
     }
 
     static void add(SilhouetteLayer& layer, std::uint32_t& number, const LayerVertex& vertex) {
@@ -513,13 +511,10 @@ class LayerBuilder {
 
     void add_under(Place corner, Place from) {
         std::uint32_t unshared = 0;
-        if (!is_under(corner)) {
-            add(layers_.behind, unshared, end_of_fill(corner, rim(from)));
-        } else if (rim(corner).ring == 0) {
-            add(layers_.behind, unshared, under(rim(corner)));
-        } else {
-            add(layers_.behind, rim(corner).behind_on_other, under(rim(corner)));
-        }
+        if (is_under(corner))
+            add(layers_.under, rim(corner).under, under(rim(corner)));
+        else
+            add(layers_.under, unshared, end_of_fill(corner, rim(from)));
     }
 
     /// Whether a cut cell has another face behind its far one.

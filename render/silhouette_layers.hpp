@@ -32,8 +32,9 @@ struct SilhouetteLayer {
 };
 
 struct SilhouetteLayers {
-    SilhouetteLayer behind{};
-    SilhouetteLayer front{};
+    SilhouetteLayer behind{};  ///< the far face in the cut cells
+    SilhouetteLayer under{};   ///< its continuation where the near face covers it straight on
+    SilhouetteLayer front{};   ///< the near face in the cut cells
 };
 
 /// What the layers are made from.

@@ -1,6 +1,7 @@
 #version 330 core
 // The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), SILHOUETTES (leave out the cut cells), WALL,
-// LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it),
+// LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it; with UNDER:
+// where all is continued),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
@@ -29,7 +30,6 @@ uniform vec3 side;  // WALL: its colour in full light
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
-const float kNowhere_px = -1e5;  // where no face is
 const float kBackside = 0.35;  // seen from behind, as through a gap
 
 // Where this place is in a texture of every `detail_step`-th vertex.
@@ -64,7 +64,6 @@ float smooth_depth() {
 
 // 0: on the far face, 1: on the near face.
 float near_share() {
-    if (faces_px.y < kNowhere_px) return 1.0;
     return clamp((smooth_depth() - faces_px.x) / max(faces_px.y - faces_px.x, 1e-3), 0.0, 1.0);
 }
 #endif
@@ -96,7 +95,9 @@ void main() {
     pixel = vec4(side * (0.45 + 0.55 * shade), 1.0);
 #else
     float alpha = 1.0;
-#ifdef LAYER
+#if defined(UNDER)
+    float share = 1.0;  // without the samples: software would take them even in a branch
+#elif defined(LAYER)
     float share = near_share();
 #endif
 #ifdef FRONT

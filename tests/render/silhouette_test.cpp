@@ -74,6 +74,7 @@ TEST_CASE("a slope without a step behind it is whole, however steep, at any grid
         CHECK(whole.cuts.cells.empty());
         CHECK(whole.layers.front.indices.empty());
         CHECK(whole.layers.behind.indices.empty());
+        CHECK(whole.layers.under.indices.empty());
     }
 }
 
@@ -110,6 +111,9 @@ TEST_CASE("at a step the front is at the near face and what is behind at the far
         CHECK_THAT(static_cast<double>(vertex.elevation_px), WithinAbs(220.0, 1e-3));
     int farthest = 0;
     for (const LayerVertex& vertex : cut.layers.behind.vertices) {
+        CHECK_THAT(static_cast<double>(vertex.elevation_px), WithinAbs(20.0, 1e-3));
+    }
+    for (const LayerVertex& vertex : cut.layers.under.vertices) {
         if (vertex.elevation_px > 20.5F) continue;  // the end of the fill, at the near face
         CHECK_THAT(static_cast<double>(vertex.elevation_px), WithinAbs(20.0, 1e-3));
         farthest = std::max(farthest, cut.grid.image_i(vertex.corner.i));
