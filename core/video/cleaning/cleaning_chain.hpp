@@ -24,7 +24,7 @@
 #include "core/video/cleaning/temporal_filter.hpp"
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/frames/frame_window.hpp"
-#include "core/video/motion/object_pool.hpp"
+#include "core/video/frames/object_pool.hpp"
 
 namespace dibhr {
 

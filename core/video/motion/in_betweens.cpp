@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/video/cleaning/fingertip.hpp"
+#include "core/video/frames/object_pool.hpp"
 #include "core/video/frames/vector_clones.hpp"
 #include "core/video/motion/motion_warp.hpp"
-#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/frames/object_pool.hpp"
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_pictures.hpp"
 #include "core/video/motion/motion_plain.hpp"
 #include "core/video/motion/motion_search.hpp"
 #include "core/video/motion/motion_sums.hpp"
-#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 

@@ -5,8 +5,8 @@
 
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/surface_motion.hpp"
+#include "core/video/frames/object_pool.hpp"
 #include "core/video/motion/motion_cells.hpp"
-#include "core/video/motion/object_pool.hpp"
 
 namespace dibhr {
 

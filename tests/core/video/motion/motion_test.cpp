@@ -4,11 +4,11 @@
 #include <memory>
 #include <vector>
 
+#include "core/video/frames/object_pool.hpp"
 #include "core/video/motion/motion_cells.hpp"
 #include "core/video/motion/motion_estimator.hpp"
 #include "core/video/motion/motion_plain.hpp"
 #include "core/video/motion/motion_spread.hpp"
-#include "core/video/motion/object_pool.hpp"
 #include "tests/core/haptics/surfaces.hpp"
 #include "tests/core/video/moving_scene.hpp"
 #include "tests/support/catch.hpp"
