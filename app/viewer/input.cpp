@@ -64,6 +64,15 @@ void close_topmost(ViewerState& state) {
     }
 }
 
+/// An arm that moves by itself offers to be stopped, without a warning.
+void stop_moving_arms(ViewerState& state) {
+    for (const DeviceInfo& info : state.touch.devices) {
+        const auto& offer = info.state.offer;
+        if (offer && offer->warning.empty())
+            state.commands.push(AgreeToDevice{info.kind, offer->number});
+    }
+}
+
 /// How far an action seeks, forward or back [s]; 0: it does not seek.
 double seek_step_s(Action action) {
     switch (action) {
@@ -202,9 +211,11 @@ Answer perform(Action action, ViewerState& state, Transport& transport) {
     switch (action) {
         case Action::toggle_force:
             state.touch.force_enabled = !state.touch.force_enabled;
+            if (!state.touch.force_enabled) stop_moving_arms(state);
             return {state.touch.force_enabled ? "Force on" : "Force off"};
         case Action::force_off:
             state.touch.force_enabled = false;
+            stop_moving_arms(state);
             return {"Force off"};
         case Action::centre_workspace:
             ++state.touch.centre_count;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/forcedimension/models.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr::forcedimension {
 
@@ -40,6 +41,9 @@ constexpr const char* kInitialiseWarning =
 constexpr const char* kResetWarning =
     "Hold the end-effector still at its rest position, then go on: the arm takes this position as "
     "its origin. With another position the image is in the wrong place.";
+constexpr const char* kByHand =
+    "the Force Dimension arm does not know its position: hold its end-effector at its rest "
+    "position, then choose Take this position as the rest on the Device panel";
 constexpr const char* kForceWarning =
     "Hold the grip: the force comes back, and rises from zero in half a second.";
 
@@ -96,8 +100,14 @@ void ExchangeLoop::follow_status(Time now, const std::stop_token& stop) {
     Stage stage = stage_of(*status, now);
     const bool usable = stage == Stage::ready || stage == Stage::slow || stage == Stage::force_off;
     if (usable && !prepared_) {
-        begin_exchanges(now);
-        stage = Stage::ready;
+        arm_.prepare(board_.draft());
+        // The user switches a force on again that a button or the speed has switched off.
+        const bool was_cut = !status->force && (status->cause == ForceOff::button ||
+                                                status->cause == ForceOff::velocity);
+        if (!was_cut) {
+            switch_force_on(now);
+            stage = Stage::ready;
+        }
     }
     if (prepared_ && !usable) leave_exchanges();
     prepared_ = usable;
@@ -136,12 +146,10 @@ void ExchangeLoop::enter(Stage stage, ForceOff cause) {
     }
     const bool trouble = stage == Stage::fault || stage == Stage::slow || stage == Stage::force_off;
     const bool refused = stage == Stage::not_initialised && !refusal_.empty();
-    board_.enter(stage, refused ? refusal_ : sentence_for(stage, status), trouble || refused);
-}
-
-void ExchangeLoop::begin_exchanges(Time now) {
-    arm_.prepare(board_.draft());
-    switch_force_on(now);
+    const bool by_hand = stage == Stage::not_initialised && !library_.can_initialise(arm_.id());
+    std::string sentence = by_hand ? kByHand : sentence_for(stage, status);
+    if (refused) sentence = refusal_;
+    board_.enter(stage, sentence, trouble || refused);
 }
 
 /// The arm cannot be used any more, though it still answers.
@@ -194,16 +202,22 @@ void ExchangeLoop::initialise(const std::stop_token& stop) {
     std::optional<Time> stopped_at;
     while (*call == Call::moves) {
         const Time now = Clock::now();
-        if (!stopped_at && (stop.stop_requested() || offers_.taken(status.offer))) stopped_at = now;
+        const bool ends = stop.stop_requested() || Guardian::alarmed();
+        if (!stopped_at && (ends || offers_.taken(status.offer))) stopped_at = now;
         if (stopped_at) {  // again and again: the arm may not have begun to move before
             library_.stop_initialising(arm_.id());
             library_.stop(arm_.id());
         }
         if (stopped_at && now >= *stopped_at + kStopLimit) {
-            moving.detach();
-            throw ArmLost(name_of(status) +
-                          " does not answer while it initialises itself: switch "
-                          "it off and on");
+            const std::string silent = name_of(status) +
+                                       " does not answer while it initialises itself: switch it "
+                                       "off and on";
+            if (stop.stop_requested()) {
+                moving.detach();
+                throw ArmLost(silent);
+            }
+            // The arm is not closed, nor opened again, while a call may still move it.
+            board_.enter(Stage::initialising, silent, true);
         }
         std::this_thread::sleep_for(kInitialisingPoll);
     }
@@ -220,8 +234,9 @@ void ExchangeLoop::exchange_once() {
     const Time answered = Clock::now();
     exchanged_at_ = asked;
     driver_state_.delay.add(asked, answered);
-    // An arm whose force is off may refuse every force.
-    const bool refused = !sent && board_.draft().stage != Stage::force_off;
+    // An arm whose force is off may refuse every force: the status tells whether it is.
+    if (!sent) status_due_ = asked;
+    const bool refused = !sent && board_.draft().stage != Stage::force_off && asked >= settled_at_;
     if (refused || !position) {
         publish_pose(std::nullopt, answered);
         fail(failed_exchanges_, kMostFailedExchanges);
@@ -237,8 +252,9 @@ void ExchangeLoop::exchange_once() {
 Vec3 ExchangeLoop::current_force(Time now) {
     if (buffers_.forces.fresh()) last_loop_update_ = now;
     const TimedForce& requested = buffers_.forces.front();
-    const bool may =
-        epoch() != kNoEpoch && requested.epoch == epoch() && now < requested.at + kOldestForce;
+    const bool may = epoch() != kNoEpoch && requested.epoch == epoch() &&
+                     now < requested.at + kOldestForce && !Guardian::alarmed() &&
+                     is_finite(requested.newton);
     return may ? requested.newton : Vec3{0.0};
 }
 

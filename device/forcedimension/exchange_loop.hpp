@@ -52,7 +52,6 @@ class ExchangeLoop {
     void follow_status(Time now, const std::stop_token& stop);
     [[nodiscard]] Stage stage_of(const ArmStatus& status, Time now) const noexcept;
     void enter(Stage stage, ForceOff cause);
-    void begin_exchanges(Time now);
     void switch_force_on(Time now);
     void follow_offers(Time now, const std::stop_token& stop);
     void initialise(const std::stop_token& stop);

@@ -100,7 +100,8 @@ void initialise_arm(const ConnectionOptions& options, const PrintLine& print,
     const std::uint64_t agreed = status.offer->number;
     bool stopped = false;
     status = wait_for(device, std::chrono::minutes(2), [&](const Status& now) {
-        if (!stopped && console.interrupted() && now.offer) {
+        const bool can_stop = now.stage == Stage::initialising && now.offer;
+        if (!stopped && can_stop && console.interrupted()) {
             device.agree_to(now.offer->number);  // the offer to stop
             stopped = true;
         }

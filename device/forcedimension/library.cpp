@@ -62,7 +62,7 @@ std::optional<ArmStatus> Library::status(int id) {
 }
 
 bool Library::is_initialised(int id, bool reset_light) {
-    return calls_->by_hand_only() ? reset_light : ask(Function::is_initialised, id) > 0;
+    return can_initialise(id) ? ask(Function::is_initialised, id) > 0 : reset_light;
 }
 
 std::optional<Vec3> Library::position_m(int id) {

@@ -1,6 +1,7 @@
 // Force Dimension's library as the driver uses it: typed functions over Calls.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -63,7 +64,7 @@ class Library {
     [[nodiscard]] std::optional<Vec3> position_m(int id);
     /// Bits of the pressed buttons, four at most.
     [[nodiscard]] std::uint8_t buttons(int id) {
-        return static_cast<std::uint8_t>(ask(Function::button_mask, id) & 0xF);
+        return static_cast<std::uint8_t>(std::max(ask(Function::button_mask, id), 0) & 0xF);
     }
     /// Also holds the arm up against its weight.
     bool set_force(int id, Vec3 newton);

@@ -33,7 +33,7 @@ Survey survey_arms(const ConnectionOptions& options) {
     Survey survey;
     if (found.calls == nullptr) {
         survey.sentence = found.trouble.empty() ? why_no_library(bus) : found.trouble;
-        survey.trouble = !survey.sentence.empty();
+        survey.trouble = bus.has_arm && !survey.sentence.empty();
         return survey;
     }
     const auto library = std::make_shared<Library>(std::move(found.calls));

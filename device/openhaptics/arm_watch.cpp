@@ -22,11 +22,9 @@ bool is_pose(const ArmSample& sample) noexcept {
 
 bool StillEncoders::add(const std::array<long, 6>& encoders, Vec3 gimbal_rad) noexcept {
     const std::array<long, 3> arm{encoders[0], encoders[1], encoders[2]};
-    if (arm != last_) turned_rad_ = 0.0;
-    if (last_gimbal_rad_) turned_rad_ += glm::distance(gimbal_rad, *last_gimbal_rad_);
+    if (!start_rad_ || arm != last_) start_rad_ = gimbal_rad;
     last_ = arm;
-    last_gimbal_rad_ = gimbal_rad;
-    return turned_rad_ > kTurn_rad;
+    return glm::distance(gimbal_rad, *start_rad_) > kTurn_rad;
 }
 
 void ArmWatch::begin() noexcept {

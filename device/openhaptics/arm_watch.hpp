@@ -40,8 +40,7 @@ class StillEncoders {
 
   private:
     std::array<long, 3> last_{};
-    std::optional<Vec3> last_gimbal_rad_{};
-    double turned_rad_{0.0};
+    std::optional<Vec3> start_rad_{};  ///< of the gimbal, since the arm moved last
 };
 
 class ArmWatch {

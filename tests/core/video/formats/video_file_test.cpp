@@ -494,7 +494,7 @@ TEST_CASE("pictures that are left out are not decoded where none refers to them"
     VideoFile whole(folder / "clip.mp4", PictureRole::depth);
     while (auto picture = whole.next()) all.push_back(std::move(*picture));
     REQUIRE(all.size() == 99);
-    const std::size_t every = GENERATE(2, 3, 5, 12);
+    const std::size_t every = GENERATE(2U, 3U, 5U, 12U);
     CAPTURE(every);
     VideoFile file(folder / "clip.mp4", PictureRole::depth);
     const auto before = file.decoded();
