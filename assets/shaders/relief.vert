@@ -32,7 +32,7 @@ uniform mat4 clip_from_world;
 #ifdef SILHOUETTES
 uniform sampler2D cut_around;  // of each drawn vertex, which cells around it are cut: 1: upper left, 2: upper right,
                                // 4: lower left, 8: lower right
-flat out float cell_cut;  // not 0: told by a cell's upper right vertex, with which both of its triangles end
+flat out float cell_cut;  // not 0: of a cell's upper right vertex, the last one of both its triangles
 #endif
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]

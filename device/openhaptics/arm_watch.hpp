@@ -50,7 +50,7 @@ class ArmWatch {
     static constexpr std::chrono::milliseconds kLongestGap{20};
     static constexpr std::chrono::milliseconds kFaultRests{500};  ///< no force after a fault
     static constexpr double kWarm = 0.7;                          ///< warmer motors get less force
-    static constexpr double kCool = 0.5;  ///< cooler ones are told as warm no longer
+    static constexpr double kCool = 0.5;  ///< below it they no longer count as warm
 
     /// Resets for a new link. The epochs continue.
     void begin() noexcept;

@@ -11,8 +11,8 @@ namespace dibhr::fingertip {
 
 namespace {
 
-constexpr int kAround = 4;          ///< farther VERTICES seldom tell more
-constexpr int kNear = 4;            ///< beyond, distances are told apart less
+constexpr int kAround = 4;          ///< farther VERTICES seldom change the result
+constexpr int kNear = 4;            ///< beyond, distances are computed less exactly
 constexpr float kRounding = 2e-6F;  ///< of levels, in all sums here and where pieces are raised
 
 /// Two rows, equally far away, and how much lower or higher their levels count.

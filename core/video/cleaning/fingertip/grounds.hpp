@@ -59,7 +59,7 @@ class Grounds {
     std::size_t columns_{0};
     int first_{0}, last_{0};
     int around_{0};   ///< VERTICES to each side of a ball that tell where it rests; 0: no bound
-    int near_{0};     ///< pixels to each side of a VERTEX whose distances are told apart, and
+    int near_{0};     ///< pixels to each side of a VERTEX whose distances are exact, and
     int strides_{0};  ///< how many times as many and one more are looked at beyond
     int next_resting_{0}, next_near_{0};
     float fall_at_least_{0.0F}, fall_at_most_{0.0F};  ///< of the ball, one pixel away [levels]
