@@ -64,7 +64,7 @@ int quarter_turns(const AVStream& stream) {
 
 /// Other codecs have packets without a picture, pictures of two fields in two packets, or (HEVC)
 /// mark as non-reference what a higher temporal layer refers to.
-bool marks_non_reference(const AVCodecParameters& coded) {
+bool codec_marks_non_reference(const AVCodecParameters& coded) {
     const bool is_whole =
         coded.field_order == AV_FIELD_PROGRESSIVE || coded.field_order == AV_FIELD_UNKNOWN;
     return coded.codec_id == AV_CODEC_ID_H264 && is_whole;
@@ -106,7 +106,7 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packe
                               : "it is of a kind that is not known here; convert it to pictures "
                                 "(PNG of 16 bits) or to an array (.npy)"));
     quarter_turns_ = quarter_turns(*packets_.stream());
-    marks_non_reference_ = marks_non_reference(*packets_.stream()->codecpar);
+    marks_non_reference_ = codec_marks_non_reference(*packets_.stream()->codecpar);
 }
 
 std::string VideoDecoder::codec() const {

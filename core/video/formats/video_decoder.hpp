@@ -39,7 +39,7 @@ class VideoDecoder {
     /// Until the next jump the decoder skips non-reference pictures before that time [s], if the
     /// codec marks them (H.264): decoding up to the target takes less time.
     void skip_non_reference_before(double time_s) noexcept;
-    [[nodiscard]] bool knows_non_reference() const noexcept { return marks_non_reference_; }
+    [[nodiscard]] bool marks_non_reference() const noexcept { return marks_non_reference_; }
     /// The times [s] of pictures skipped between the last two decoded ones, or after the last, in
     /// order.
     [[nodiscard]] const std::vector<double>& skipped_s() const noexcept { return skipped_s_; }

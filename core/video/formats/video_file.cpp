@@ -259,10 +259,12 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     }
     if (has_times_) decoder_.skip_non_reference_before(earliest_s);
     const std::int64_t from = index_;
+    const bool decodes = from_ring_ == ring_.size();
     const auto begin = std::chrono::steady_clock::now();
     while (grab()) {
         if (!(time_s_ < earliest_s)) {
-            measure_passing(index_ - from - 1, std::chrono::steady_clock::now() - begin);
+            if (decodes)
+                measure_passing(index_ - from - 1, std::chrono::steady_clock::now() - begin);
             return timed(retrieve());
         }
         decoder_.keep();
@@ -285,7 +287,7 @@ void VideoFile::measure_passing(std::int64_t frames, std::chrono::duration<doubl
 }
 
 TimedPicture VideoFile::timed(cv::Mat picture) const {
-    const double guess_s = (decoder_.knows_non_reference() ? kHalf : 1.0) * decoding_s_;
+    const double guess_s = (decoder_.marks_non_reference() ? kHalf : 1.0) * decoding_s_;
     return {std::move(picture), time_s_, index_, passing_s_ > 0.0 ? passing_s_ : guess_s};
 }
 
