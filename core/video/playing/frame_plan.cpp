@@ -29,7 +29,8 @@ double least_every(double fixed_s, double each_s, double interval_s) noexcept {
 /// The smallest `every` for which frames are ready in time; `interval_s` between frames.
 double every_in_time(const FrameCosts& costs, double interval_s) noexcept {
     const double free_s = interval_s / kReserve;
-    if (!costs.side_by_side) return least_every(costs.cleaning_s, costs.decoding_s, free_s);
+    if (!costs.side_by_side)
+        return least_every(costs.conversion_s + costs.cleaning_s, costs.decoding_s, free_s);
     return std::max(least_every(costs.conversion_s, costs.decoding_s, free_s),
                     least_every(costs.cleaning_s, 0.0, free_s));
 }
@@ -37,7 +38,7 @@ double every_in_time(const FrameCosts& costs, double interval_s) noexcept {
 /// The largest `every` that costs at most kMostLost of the frames shown per second.
 double every_without_loss(const FrameCosts& costs) noexcept {
     const double most_s = frame_time_s(costs, 1.0) / (kReserve * (1.0 - kMostLost));
-    const double fixed_s = costs.side_by_side ? costs.conversion_s : costs.cleaning_s;
+    const double fixed_s = costs.conversion_s + (costs.side_by_side ? 0.0 : costs.cleaning_s);
     return costs.decoding_s > 0.0 ? (most_s - fixed_s) / costs.decoding_s : kEndless;
 }
 
@@ -57,9 +58,9 @@ FramePlan newest_plan(const FrameCosts& costs, double interval_s, double speed) 
 }  // namespace
 
 double frame_time_s(const FrameCosts& costs, double every) noexcept {
-    const double decoding_s = every * costs.decoding_s;
-    return costs.side_by_side ? std::max(costs.conversion_s + decoding_s, costs.cleaning_s)
-                              : costs.cleaning_s + decoding_s;
+    const double decoding_s = every * costs.decoding_s + costs.conversion_s;
+    return costs.side_by_side ? std::max(decoding_s, costs.cleaning_s)
+                              : decoding_s + costs.cleaning_s;
 }
 
 FramePlan plan_of(const FrameCosts& costs, double interval_s, double speed,

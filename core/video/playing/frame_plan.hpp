@@ -7,12 +7,13 @@
 namespace dibhr {
 
 /// Measured times of the steps [s], while all threads run. The decoding thread decodes and
-/// converts, the reading thread cleans.
+/// converts, the reading thread cleans. Where there are no processors to spare, as beside drawing
+/// in software on two, a thread that runs takes its time from the other.
 struct FrameCosts {
     double decoding_s{0.0};    ///< of each frame, also of one that is left out
     double conversion_s{0.0};  ///< in addition of a shown frame
     double cleaning_s{0.0};    ///< of a shown frame
-    bool side_by_side{false};  ///< false: cleaning waits for the decoding
+    bool side_by_side{false};  ///< the threads do not slow each other down
 };
 
 struct FramePlan {

@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "core/realtime/moving_mean.hpp"
+#include "core/video/playing/cleaning_degradation.hpp"
 #include "core/video/playing/clip_trial.hpp"
 #include "core/video/playing/held_levels_media.hpp"
 
@@ -266,9 +267,10 @@ void FrameReader::make_plan() {
         jump_to(0.0);
         extra_s_ += seconds_since(begin);
     }
-    const CleaningPlan plan =
-        plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
-                description().sparse_share.has_value(), felt_);
+    whole_plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
+                          description().sparse_share.has_value(), felt_);
+    CleaningPlan plan = whole_plan_;
+    plan.steps = degraded(plan.steps, degradation_);
     if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
@@ -497,6 +499,12 @@ double FrameReader::last_interval_s(double media_s) {
 void FrameReader::set_cleaning(const CleaningOptions& options) {
     if (options == options_) return;
     options_ = options;
+    planned_ = false;
+}
+
+void FrameReader::set_degradation(std::size_t level) {
+    if (level == degradation_) return;
+    degradation_ = level;
     planned_ = false;
 }
 

@@ -79,6 +79,10 @@ class FrameReader {
     /// Frames are cleaned so from now on; frames given out before have to be read again.
     void set_cleaning(const CleaningOptions& options);
 
+    /// Cleaning leaves out so much from now on: see degraded(). Likewise.
+    void set_degradation(std::size_t level);
+    [[nodiscard]] std::size_t degradation() const { return degradation_; }
+
     /// Frames carry these maps from now on; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
@@ -102,6 +106,8 @@ class FrameReader {
 
     /// The cleaning in use, once a frame has been given out.
     [[nodiscard]] const CleaningPlan& plan() const { return assembly_.plan(); }
+    /// The same with nothing left out.
+    [[nodiscard]] const CleaningPlan& whole_plan() const { return whole_plan_; }
 
   private:
     static constexpr int kLongestPause = 20'000;  ///< frames without motion
@@ -174,6 +180,8 @@ class FrameReader {
     FrameAssembly assembly_;
     DecodedAhead media_;  // declared after all that its thread uses
     CleaningOptions options_{};
+    CleaningPlan whole_plan_{};
+    std::size_t degradation_{0};
     std::optional<DepthNoise> noise_{};   ///< of the clip, measured when first needed
     std::optional<FeltCleaning> felt_{};  ///< what felt best on its first frames
     bool tried_{false};                   ///< felt_ is known, or that nothing tells

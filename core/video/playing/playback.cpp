@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 
 #include "core/error.hpp"
@@ -17,9 +18,12 @@ constexpr double kJump_s = 0.001;      ///< between frames: no two have the same
 constexpr double kNewestWeight = 0.2;  ///< the weight of the newest frame in the means
 constexpr std::chrono::seconds kShownFor{3};  ///< so long the status says that the clock waited
 constexpr double kMostBehind_s = 1.0;         ///< beyond this the clock waits
-constexpr double kLeastLoad = 0.8, kMostLoad = 2.0;
+constexpr double kLeastLoad = 0.4, kMostLoad = 2.0;
+constexpr unsigned kFewProcessors = 2;  ///< none is free beside drawing in software
 
 }  // namespace
+
+Playback::Playback(unsigned processors) : processors_(processors) {}
 
 void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader->set_cleaning(cleaning_);
@@ -33,17 +37,18 @@ void Playback::open(std::unique_ptr<FrameReader> reader, Time now) {
     reader_ = std::move(reader);
     first_media_s_ = first->media_s;
     seek_target_s_ = is_preview ? std::optional(first_media_s_) : std::nullopt;
-    cleaning_s_ = each_frame_s_ = 0.0;
-    load_ = 1.0;
+    degradation_ = {};
+    forget_costs();
     plan_ = {.speed = speed_};
     playing_ = true;
-    jump_to(std::move(*first), now);
+    jump_to(std::move(*first), now, is_preview);
 }
 
 /// Keeps the frames, so that the timeline continues.
 void Playback::close() {
     reader_.reset();
     seek_target_s_.reset();
+    is_preview_ = false;
     playing_ = false;
 }
 
@@ -57,7 +62,7 @@ double Playback::moment(Time now) const {
 }
 
 /// The frame begins after all earlier frames, which were shown while it was read.
-void Playback::jump_to(Frame frame, Time now) {
+void Playback::jump_to(Frame frame, Time now, bool is_preview) {
     frame.time_s =
         frames_.empty() ? 0.0 : std::max(clock_.playback_s(now), frames_.back().time_s) + kJump_s;
     offset_s_ = frame.time_s - frame.media_s;
@@ -66,6 +71,7 @@ void Playback::jump_to(Frame frame, Time now) {
     frames_.push_back(std::move(frame));
     complete_ = false;
     starts_ = true;
+    is_preview_ = is_preview;
     ++discontinuity_;
     anchor(frames_.front().time_s, now);
 }
@@ -82,6 +88,7 @@ void Playback::play(Time now) {
         seek(lap_begins_s(), now);
     else
         anchor(moment(now), now);
+    apply_degradation();
 }
 
 void Playback::pause(Time now) {
@@ -89,6 +96,7 @@ void Playback::pause(Time now) {
     const double playback_s = moment(now);
     playing_ = false;
     anchor(playback_s, now);
+    apply_degradation();
 }
 
 void Playback::seek(double media_s, Time now) {
@@ -96,7 +104,7 @@ void Playback::seek(double media_s, Time now) {
     steps_back_ = false;
     seek_target_s_ = std::max(media_s, first_media_s_);
     if (auto preview = reader_->preview(*seek_target_s_))
-        jump_to(std::move(*preview), now);
+        jump_to(std::move(*preview), now, true);
     else
         read_seek_target(now);
 }
@@ -140,10 +148,7 @@ void Playback::set_part(const std::optional<MediaPart>& part) {
     part_ = part;
     beyond_part_ = false;  // also where its end was passed while it was being set
     complete_ = false;     // the next read decides it again
-    // Drops the frames read ahead, but for the one that the surface moves towards.
-    if (frames_.size() <= 2) return;
-    frames_.resize(2);
-    offset_s_ = frames_.back().time_s - frames_.back().media_s;
+    drop_frames_ahead();
 }
 
 void Playback::set_speed(double speed, Time now) {
@@ -153,7 +158,18 @@ void Playback::set_speed(double speed, Time now) {
 
 void Playback::set_cleaning(const CleaningOptions& options) {
     if (options == cleaning_) return;
-    if (is_open()) clean_again(options);
+    if (is_open()) {
+        reader_->set_cleaning(options);
+        try {
+            clean_again();
+        } catch (...) {
+            reader_->set_cleaning(cleaning_);
+            throw;
+        }
+        degradation_ = {};
+        apply_degradation();
+        forget_costs();
+    }
     cleaning_ = options;
 }
 
@@ -185,29 +201,46 @@ void Playback::set_maps(const std::shared_ptr<const TouchMaps>& maps) {
     for (Frame& frame : frames_) frame.maps = maps;
 }
 
-/// Cleans all present frames again, or none: no surface blends two cleanings.
-void Playback::clean_again(const CleaningOptions& options) {
-    reader_->set_cleaning(options);
+/// Cleans all present frames again, or none.
+void Playback::clean_again() {
     prepared_before_s_.reset();
     if (seek_target_s_) return;  // the target of the seek will be cleaned so
     std::deque<Frame> cleaned;
-    try {
-        for (const Frame& frame : frames_) {
-            auto again = reader_->at(frame.media_s);
-            if (!again) {
-                throw InputError("the video cannot be read again at " + short_text(frame.media_s) +
-                                 " s: open it again");
-            }
-            again->time_s = frame.time_s;
-            if (!cleaned.empty()) reader_->connect(cleaned.back(), *again);
-            cleaned.push_back(std::move(*again));
+    for (const Frame& frame : frames_) {
+        auto again = reader_->at(frame.media_s);
+        if (!again) {
+            throw InputError("the video cannot be read again at " + short_text(frame.media_s) +
+                             " s: open it again");
         }
-    } catch (...) {
-        reader_->set_cleaning(cleaning_);
-        throw;
+        again->time_s = frame.time_s;
+        if (!cleaned.empty()) reader_->connect(cleaned.back(), *again);
+        cleaned.push_back(std::move(*again));
     }
     frames_ = std::move(cleaned);
     ++discontinuity_;  // the surface changes at once
+}
+
+/// While playing, from the next frame on. At rest there is time for all steps, also of the present
+/// frames.
+void Playback::apply_degradation() {
+    const std::size_t level = playing_ ? degradation_.level() : 0;
+    if (level == reader_->degradation()) return;
+    reader_->set_degradation(level);
+    forget_costs();
+    if (playing_) return;
+    drop_frames_ahead();
+    try {
+        clean_again();
+    } catch (const InputError&) {  // the frames stay as they are
+    }
+}
+
+/// But for the one that the surface moves towards.
+void Playback::drop_frames_ahead() {
+    if (frames_.size() <= 2) return;
+    frames_.resize(2);
+    offset_s_ = frames_.back().time_s - frames_.back().media_s;
+    complete_ = false;  // the next read decides it again
 }
 
 bool Playback::advance(Time now) {
@@ -215,6 +248,7 @@ bool Playback::advance(Time now) {
     const double playback_s = clock_.playback_s(now);
     bool changed = false;
     while (frames_.size() > 1 && frames_[1].time_s <= playback_s) {
+        if (!(frames_[0].cleaning == frames_[1].cleaning)) ++discontinuity_;
         frames_.pop_front();
         changed = true;
         if (at_seam()) ++discontinuity_;
@@ -222,6 +256,7 @@ bool Playback::advance(Time now) {
     if (complete_ && frames_.size() == 1) {
         playing_ = false;
         anchor(frames_.front().time_s, now);
+        apply_degradation();
         changed = true;
     }
     return changed;
@@ -258,7 +293,7 @@ bool Playback::read_next(Time now) {
     skipped_frames_ = moving_mean(skipped_frames_, passed, kNewestWeight);
     read_frames_ = passed + 1.0;
     next->time_s = std::max(next->media_s + offset_s_, newest.time_s + kJump_s);
-    reader_->connect(frames_.back(), *next);
+    if (next->cleaning == frames_.back().cleaning) reader_->connect(frames_.back(), *next);
     frames_.push_back(std::move(*next));
     if (frames_.size() == 2 && at_seam()) ++discontinuity_;
     return true;
@@ -283,20 +318,35 @@ double Playback::interval_s() const {
     return rate > 0.0 ? 1.0 / rate : 0.0;
 }
 
-/// The measured times, and how much longer a frame takes in all than they explain. The filter in
-/// time needs every frame decoded and cleaned.
-FrameCosts Playback::costs() const {
+/// The filter in time needs every frame decoded and cleaned.
+FrameCosts Playback::measured_costs() const {
     if (steps().steady) return {.decoding_s = each_frame_s_, .cleaning_s = cleaning_s_};
-    const double load = std::max(load_, 1.0);
     const double conversion_s = reader_->conversion_s();
-    return {.decoding_s = load * reader_->decoding_s(),
-            .conversion_s = load * conversion_s,
-            .cleaning_s = load * cleaning_s_,
-            .side_by_side = conversion_s > 0.0};
+    return {.decoding_s = reader_->decoding_s(),
+            .conversion_s = conversion_s,
+            .cleaning_s = cleaning_s_,
+            .side_by_side = conversion_s > 0.0 && processors_ > kFewProcessors};
 }
 
-/// Adds the times of the newest frame: `took_s` in all, `waited_s` of it for the decoder.
+/// The measured times, each as much longer as they do not explain how long a frame takes in all.
+FrameCosts Playback::costs() const {
+    FrameCosts costs = measured_costs();
+    const double load = costs.side_by_side ? std::max(load_, 1.0) : load_;
+    costs.decoding_s *= load;
+    costs.conversion_s *= load;
+    costs.cleaning_s *= load;
+    return costs;
+}
+
+void Playback::forget_costs() {
+    cleaning_s_ = each_frame_s_ = 0.0;
+    load_ = 1.0;
+}
+
+/// Adds the times of the newest frame: `took_s` in all, `waited_s` of it for the decoder. The first
+/// one after a jump takes longer.
 void Playback::add_cost(double took_s, double waited_s) {
+    if (starts_) return;
     if (steps().steady) {
         const double finish_s = std::min(1e-3 * cost().finish_ms, took_s);
         cleaning_s_ = steady_mean(cleaning_s_, finish_s);
@@ -304,8 +354,8 @@ void Playback::add_cost(double took_s, double waited_s) {
         return;
     }
     cleaning_s_ = steady_mean(cleaning_s_, std::max(took_s - waited_s, 0.0));
-    const double explained_s = frame_time_s(costs(), read_frames_) / std::max(load_, 1.0);
-    if (starts_ || !(explained_s > 0.0)) return;
+    const double explained_s = frame_time_s(measured_costs(), read_frames_);
+    if (!(explained_s > 0.0)) return;
     load_ = std::clamp(steady_mean(load_, took_s / explained_s), kLeastLoad, kMostLoad);
 }
 
@@ -346,6 +396,9 @@ void Playback::on_frame_read(Time now) {
     const bool starts = std::exchange(starts_, false);
     if (playing_ && frames_.size() == 2) place_late_frame(starts, now);
     update_plan(now);
+    if (playing_ && cleaning_.preset == CleaningPreset::automatic &&
+        degradation_.update(reader_->whole_plan().steps, costs(), interval_s(), speed_))
+        apply_degradation();
 }
 
 /// The surface moves on from where it was held while frames had run out.
@@ -370,6 +423,9 @@ std::string Playback::dropped_in_words() const {
         words += words.empty() ? sentence : std::string(" ") + sentence;
     };
     if (falls_behind_ && words.empty()) add("The clock waited for frames.");
+    const std::string left_out =
+        left_out_in_words(reader_->whole_plan().steps, reader_->degradation());
+    if (!left_out.empty()) add(left_out.c_str());
     const MotionRequest done = reader_->affordable_motion();
     if (motion_request_.motion && !done.motion)
         add("Motion is off.");
@@ -413,15 +469,20 @@ Playback::Time Playback::next_due() const {
 
 FrameWindow Playback::touchable() const {
     FrameWindow window = this->window();
-    if (!seek_target_s_) return window;
+    if (!is_preview_) return window;
     window.frames = {};
     window.count = 0;
     return window;
 }
 
+/// Up to the first frame that is cleaned otherwise: no surface blends two cleanings.
 FrameWindow Playback::window() const {
     FrameWindow window;
-    window.count = std::min(frames_.size(), FrameWindow::kFrames);
+    const auto other = std::find_if(frames_.begin(), frames_.end(), [this](const Frame& frame) {
+        return !(frame.cleaning == frames_.front().cleaning);
+    });
+    const auto alike = static_cast<std::size_t>(std::distance(frames_.begin(), other));
+    window.count = std::min(alike, FrameWindow::kFrames);
     std::copy_n(frames_.begin(), window.count, window.frames.begin());
     window.clock = clock_;
     window.discontinuity = discontinuity_;

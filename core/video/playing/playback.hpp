@@ -7,8 +7,10 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/playing/cleaning_degradation.hpp"
 #include "core/video/playing/frame_plan.hpp"
 #include "core/video/playing/frame_reader.hpp"
 
@@ -20,6 +22,9 @@ namespace dibhr {
 class Playback {
   public:
     using Time = std::chrono::steady_clock::time_point;
+
+    /// `processors`: on two or fewer decoding takes its time from cleaning.
+    explicit Playback(unsigned processors = std::thread::hardware_concurrency());
 
     /// Plays a media from its first frame. Throws InputError, and then keeps the media it had.
     void open(std::unique_ptr<FrameReader> reader, Time now);
@@ -62,11 +67,13 @@ class Playback {
 
     /// To be drawn.
     [[nodiscard]] FrameWindow window() const;
-    /// To be touched: empty while a seek shows only a preview.
+    /// To be touched: empty while only a preview is shown.
     [[nodiscard]] FrameWindow touchable() const;
     /// Mean number of frames shown of each second of the video [1/s].
     [[nodiscard]] double shown_per_s() const;
-    /// The target of a seek while a preview is shown; media time [s].
+    /// Drawn, not touched: the frame itself is being read, or cannot be.
+    [[nodiscard]] bool shows_preview() const { return is_preview_; }
+    /// The frame that is being read, by its media time [s].
     [[nodiscard]] std::optional<double> seek_target_s() const { return seek_target_s_; }
     /// Even with skipped frames this machine is too slow: the clock is slower than requested, or
     /// waited for frames lately.
@@ -82,23 +89,27 @@ class Playback {
     [[nodiscard]] const FrameCost& cost() const { return reader_->cost(); }
     /// The cleaning of the depth, as a sentence and as steps.
     [[nodiscard]] std::string cleaning_in_words() const {
-        return in_words(cleaning_, reader_->plan());
+        return in_words(cleaning_, reader_->whole_plan());
     }
     [[nodiscard]] const CleaningSteps& steps() const { return reader_->plan().steps; }
 
   private:
-    void jump_to(Frame frame, Time now);
+    void jump_to(Frame frame, Time now, bool is_preview = false);
     bool read_seek_target(Time now);
     bool read_next(Time now);
     [[nodiscard]] Pace pace(Time now) const;
     [[nodiscard]] double earliest_in_time_s(Time now) const;
+    [[nodiscard]] FrameCosts measured_costs() const;
     [[nodiscard]] FrameCosts costs() const;
     void add_cost(double took_s, double waited_s);
     void place_late_frame(bool starts, Time now);
     void update_plan(Time now);
     [[nodiscard]] bool clock_is_slowed() const { return plan_.speed < speed_; }
     [[nodiscard]] double interval_s() const;
-    void clean_again(const CleaningOptions& options);
+    void clean_again();
+    void apply_degradation();
+    void drop_frames_ahead();
+    void forget_costs();
     bool update_in_betweens(bool wanted);
     void anchor(double playback_s, Time now);
     [[nodiscard]] double moment(Time now) const;  ///< playback time, at most the newest frame's
@@ -108,15 +119,18 @@ class Playback {
     [[nodiscard]] bool at_seam() const;  ///< between the last frame and the first of the next loop
     [[nodiscard]] bool single() const;   ///< the media has one frame
 
+    unsigned processors_;
     std::unique_ptr<FrameReader> reader_{};
     std::deque<Frame> frames_{};  ///< from the shown one on
     PlaybackClock clock_{};
     CleaningOptions cleaning_{};
+    CleaningDegradation degradation_{};  ///< while playing; at rest nothing is left out
     MotionRequest motion_request_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};
     double offset_s_{0.0};                   ///< from media time to playback time, in this loop
-    std::optional<double> seek_target_s_{};  ///< media time; meanwhile a preview is shown
+    std::optional<double> seek_target_s_{};  ///< media time
+    bool is_preview_{false};
     bool starts_{false};            ///< the clock stands until the second frame after a jump
     std::optional<Time> waited_{};  ///< when the clock last waited for a late frame
     bool falls_behind_{false};      ///< it did so lately

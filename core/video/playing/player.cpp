@@ -192,7 +192,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     if (commands.empty()) requested = {};
     shown = window;
     seek_target_s = live.is_open() ? std::nullopt : playback.seek_target_s();
-    status.preview = seek_target_s.has_value();
+    status.preview = !live.is_open() && playback.shows_preview();
     status.failure = failure;
     status.live.reset();
     if (live.is_open()) return publish_live();

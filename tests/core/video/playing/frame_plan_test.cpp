@@ -71,6 +71,16 @@ TEST_CASE("the clock keeps its time where frames left out cost little", "[plan]"
     CHECK_THAT(decodes.speed, WithinRel(kInterval_s / 0.051, 1e-9));
 }
 
+TEST_CASE("where threads share the processors, frames that are left out cost shown ones",
+          "[plan]") {
+    FrameCosts costs{.decoding_s = 0.03, .conversion_s = 0.03, .cleaning_s = 0.07};
+    const FramePlan shared = plan_at(costs, 1.0);
+    CHECK_THAT(shared.every, WithinAbs(1.0, 0.0));
+    CHECK_THAT(shared.speed, WithinRel(kInterval_s / 0.13, 1e-9));
+    costs.side_by_side = true;
+    CHECK(plan_at(costs, 1.0).every > 1.2);
+}
+
 TEST_CASE("a plan stays while the costs of frames scatter, and follows what lasts", "[plan]") {
     double cleaning_s = 0.0;
     FramePlan plan;

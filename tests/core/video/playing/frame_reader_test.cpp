@@ -355,6 +355,25 @@ TEST_CASE("a preview is seen and not touched, and the frame that was sought take
     CHECK(playback.playing() == !paused);
 }
 
+TEST_CASE("a preview of a frame that cannot be read stays untouched", "[playback]") {
+    const Playback::Time now{std::chrono::hours(1)};
+    Playback playback;
+    const auto disk = std::make_shared<Disk>();
+    disk->jump = kSlowJump;
+    playback.open(timed_reader(disk), now);
+    playback.seek(frame_s(25), now);
+    playback.seek(frame_s(48), now);
+    REQUIRE(playback.shows_preview());
+    playback.end_here();
+    CHECK(playback.shows_preview());
+    CHECK(playback.touchable().count == 0);
+    CHECK(playback.window().count == 1);
+    playback.seek(frame_s(25), now);
+    if (playback.needs_frame() && playback.read_ahead(now)) playback.on_frame_read(now);
+    CHECK_FALSE(playback.shows_preview());
+    CHECK(playback.touchable().count > 0);
+}
+
 TEST_CASE("the first frame is seen as recorded, not touched, until it is known how to clean it",
           "[playback]") {
     const Playback::Time now{std::chrono::hours(1)};

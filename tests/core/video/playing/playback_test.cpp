@@ -19,6 +19,7 @@
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
+using Catch::Matchers::Contains;
 using Catch::Matchers::WithinAbs;
 using Time = Playback::Time;
 
@@ -468,6 +469,8 @@ struct Arrivals {
     [[nodiscard]] double per_s() const { return frames / while_s; }
 };
 
+constexpr unsigned kManyProcessors = 8;
+
 /// Plays on such a machine, whose time goes on with its work.
 class WorkingScene {
   public:
@@ -515,8 +518,8 @@ class WorkingScene {
     static constexpr Time kBegin{std::chrono::hours(1)};
     WorkingMedia::Done done{};
     Time now{kBegin};
-    int shown{0};  ///< or ready to be
-    Playback playback{};
+    int shown{0};                        ///< or ready to be
+    Playback playback{kManyProcessors};  // decoding takes no time from cleaning
 
   private:
     [[nodiscard]] static Time::duration of(double seconds) {
@@ -590,6 +593,39 @@ TEST_CASE("where frames are slow to make and not to decode the time is kept", "[
     CHECK(scene.shown > 6 * 40);                  // each takes 22 ms
     CHECK(scene.shown > 0.65 * scene.done.made);  // few of them come too late
     CHECK_FALSE(scene.playback.dropped_in_words().empty());
+}
+
+TEST_CASE("steps that a slow machine leaves out come back at rest; no surface blends two cleanings",
+          "[playback]") {
+    WorkingScene scene({.decoding_s = 0.0002, .conversion_s = 0.004, .cleaning_s = 0.030});
+    const CleaningSteps whole = scene.playback.window().frames[0].cleaning.steps;
+    REQUIRE(whole.sharpen_silhouettes);
+    const auto steps_shown = [&scene] {
+        const FrameWindow window = scene.playback.window();
+        for (std::size_t k = 1; k < window.count; ++k)
+            REQUIRE(window.frames[k].cleaning == window.frames[0].cleaning);
+        return window.frames[0].cleaning.steps;
+    };
+    const std::uint64_t before = scene.playback.window().discontinuity;
+    while (scene.played_s() < 4.0) {
+        scene.go_on();
+        (void)steps_shown();
+    }
+    CHECK(steps_shown() == degraded(whole, kDegradationLevels - 1));
+    CHECK(scene.playback.window().discontinuity == before + 1);
+    CHECK_THAT(scene.media_s(), WithinAbs(scene.played_s(), 0.1));  // the clock has not waited
+    CHECK_THAT(scene.playback.dropped_in_words(), Contains("leaves out sharp silhouettes."));
+    const double media_s = scene.media_s();
+    scene.playback.pause(scene.now);
+    CHECK(steps_shown() == whole);
+    CHECK_THAT(scene.media_s(), WithinAbs(media_s, 0.02));
+    CHECK_THAT(scene.playback.dropped_in_words(), !Contains("leaves out"));
+    scene.playback.play(scene.now);
+    while (steps_shown() == whole) scene.go_on();
+    CHECK(scene.media_s() < media_s + 0.2);
+    scene.playback.set_cleaning({.preset = CleaningPreset::gentle});
+    scene.go_on_until(scene.played_s() + 4.0);
+    CHECK(steps_shown() == kGentleSteps);
 }
 
 TEST_CASE("a change of cleaning shows at once, also when paused", "[playback]") {
