@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <new>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -128,6 +129,14 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
+std::vector<std::string> lines_with(const std::string& text, const std::string& part) {
+    std::vector<std::string> found;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        if (says(line, part)) found.push_back(line);
+    return found;
+}
+
 }  // namespace
 
 TEST_CASE(
@@ -216,12 +225,20 @@ TEST_CASE("a library that cannot be used is one sentence, and the mouse touches"
         stream.seekp(4);
         stream.put(1);
     }
-    const ProgramResult result = run_dibhr(folder, {"devices"});
-    INFO(result.output << result.errors);
-    CHECK(result.exit_code == 1);
-    CHECK(result.errors.starts_with("dibhr: " + library));
-    CHECK(says(result.errors, fault));
-    CHECK(result.errors.find('\n') == result.errors.size() - 1);
+    // No arm is attached, and the mouse can be used.
+    const ProgramResult listed = run_dibhr(folder, {"devices"});
+    INFO(listed.output << listed.errors);
+    CHECK(listed.exit_code == 0);
+    CHECK(listed.errors.empty());
+    const std::vector<std::string> told = lines_with(listed.output, library);
+    REQUIRE(told.size() == 1);
+    CHECK(told.front().starts_with("Force Dimension: none usable, "));
+    CHECK(says(told.front(), fault));
+    const ProgramResult asked = run_dibhr(folder, {"view", "--device", "forcedimension"});
+    CHECK(asked.exit_code == 1);
+    CHECK(asked.errors.starts_with("dibhr: " + library));
+    CHECK(says(asked.errors, fault));
+    CHECK(asked.errors.find('\n') == asked.errors.size() - 1);
 }
 
 TEST_CASE("what a record has is played as a device", "[forcedimension][devices][long]") {

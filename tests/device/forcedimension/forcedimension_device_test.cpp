@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -20,6 +22,13 @@ using namespace dibhr;
 using namespace dibhr::test::forcedimension;
 using Catch::Matchers::WithinAbs;
 using test::let_pass;
+
+/// In a folder as the system's list of USB devices.
+void add_usb_device(const std::filesystem::path& folder, const char* maker, const char* product) {
+    std::filesystem::create_directories(folder);
+    std::ofstream(folder / "idVendor") << maker << '\n';
+    std::ofstream(folder / "idProduct") << product << '\n';
+}
 
 }  // namespace
 
@@ -168,12 +177,7 @@ TEST_CASE("a tick allocates nothing with an arm", "[forcedimension]") {
 TEST_CASE("a Falcon belongs to dibhr's own driver, and is never opened through the library",
           "[forcedimension]") {
     const test::TemporaryFolder folder;
-    const auto add_device = [&](const char* name, const char* maker, const char* product) {
-        std::filesystem::create_directories(folder / name);
-        std::ofstream(folder / name / "idVendor") << maker << '\n';
-        std::ofstream(folder / name / "idProduct") << product << '\n';
-    };
-    add_device("1-1", "0403", "cb48");
+    add_usb_device(folder / "1-1", "0403", "cb48");
     Page& page = fresh_page();
     page.units[0].plugged = true;
     page.units[0].type = kFalcon;
@@ -188,6 +192,20 @@ TEST_CASE("a Falcon belongs to dibhr's own driver, and is never opened through t
     ArmBench bench(page, options);
     CHECK(bench.tick_until([&] { return bench.newton(1) > 1.9; }, milliseconds(5000)) == has_arm);
     CHECK_FALSE(page.units[0].was_opened);
+}
+
+TEST_CASE("a library that cannot be used is trouble only where an arm is attached",
+          "[forcedimension]") {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "libdrd.so.3") << "no library";
+    ConnectionOptions options = options_for((folder / "libdrd.so.3").string());
+    options.usb_devices = folder.path();
+    const bool has_arm = GENERATE(true, false);
+    if (has_arm) add_usb_device(folder / "1-1", "1451", "0402");
+    const Survey survey = survey_arms(options);
+    CHECK(survey.trouble == has_arm);
+    CHECK(survey.arms.empty());
+    CHECK(survey.sentence.starts_with(options.library + " is not a library"));
 }
 
 TEST_CASE("a Falcon that the system does not list is closed again at once", "[forcedimension]") {
