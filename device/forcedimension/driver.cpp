@@ -15,10 +15,22 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLookAgainAfter{1000};
-constexpr milliseconds kRetryOthersAfter{5000};  // where arms are attached and none can be used
+constexpr milliseconds kRetryOthersAfter{5000};  // where an arm is attached and cannot be used
 constexpr milliseconds kLastStopLimit{200};
 
 constexpr int kNoArmOpen = -1;
+
+/// Where another thread finds the ID of the open arm.
+class OpenMark {
+  public:
+    OpenMark(std::atomic<int>& place, int id) : place_(place) { place_ = id; }
+    ~OpenMark() { place_ = kNoArmOpen; }
+    OpenMark(const OpenMark&) = delete;
+    OpenMark& operator=(const OpenMark&) = delete;
+
+  private:
+    std::atomic<int>& place_;
+};
 
 }  // namespace
 
@@ -60,7 +72,7 @@ class Driver::Search {
 
   private:
     void find_arm(const std::stop_token& stop);
-    void use(std::unique_ptr<Arm> arm, const std::stop_token& stop);
+    void use(std::unique_ptr<Arm> opened, const std::stop_token& stop);
     void forget_arm();
     void publish_no_arm(const NoArm& why);
 
@@ -87,6 +99,7 @@ void Driver::Search::run(const std::stop_token& stop) {
         try {
             find_arm(stop);
         } catch (const std::exception& failure) {
+            forget_arm();
             board_.enter(Stage::looking,
                          std::string("the thread of the Force Dimension arm failed (") +
                              failure.what() +
@@ -110,25 +123,23 @@ void Driver::Search::find_arm(const std::stop_token& stop) {
             return use(std::move(arm), stop);
     }
     forget_arm();
-    if (search.count() > 0) pause_ = kRetryOthersAfter;
-    publish_no_arm(why_no_arm(search, bus, options_.serial));
+    const NoArm why = why_no_arm(search, bus, options_.serial);
+    if (why.stage != Stage::looking || !options_.serial.empty()) pause_ = kRetryOthersAfter;
+    publish_no_arm(why);
 }
 
-void Driver::Search::use(std::unique_ptr<Arm> arm, const std::stop_token& stop) {
-    open_id_ = arm->id();
+void Driver::Search::use(std::unique_ptr<Arm> opened, const std::stop_token& stop) {
+    const OpenMark mark(open_id_, opened->id());
+    const std::unique_ptr<Arm> arm = std::move(opened);  // stopped and closed before the mark ends
     lost_ = false;
     try {
         ExchangeLoop exchange_loop(*arm, *buffers_, board_, driver_state_, offers_);
         exchange_loop.run(stop);
     } catch (const ArmLost& loss) {
         lost_ = true;
-        board_.draft().exchanges_per_s = 0.0;
-        board_.draft().offer.reset();
+        forget_arm();
         board_.enter(Stage::looking, loss.what(), true);
     }
-    arm.reset();  // stops it
-    open_id_ = kNoArmOpen;
-    forget_arm();
 }
 
 void Driver::Search::forget_arm() {
@@ -138,6 +149,7 @@ void Driver::Search::forget_arm() {
     status.controller_version.reset();
     status.watchdog_ms = 0.0;
     status.unguarded.clear();
+    status.exchanges_per_s = 0.0;
 }
 
 /// The sentence about a loss stays until something else is attached.

@@ -222,7 +222,7 @@ void ExchangeLoop::initialise(const std::stop_token& stop) {
         std::this_thread::sleep_for(kInitialisingPoll);
     }
     moving.join();
-    refusal_ = *call == Call::succeeded ? std::string{} : refusal;
+    refusal_ = *call == Call::succeeded || stopped_at ? std::string{} : refusal;
     // Brakes: the motors are switched on for forces only after this.
     library_.stop_initialising(arm_.id());
 }

@@ -107,6 +107,7 @@ void initialise_arm(const ConnectionOptions& options, const PrintLine& print,
         }
         return now.stage != Stage::initialising && (!now.offer || now.offer->number != agreed);
     });
+    if (stopped) return print("You have stopped the arm. It does not know its position yet.");
     if (status.stage != Stage::ready) throw DeviceError(status.sentence);
     print(name_of(status) + " is initialised");
 }

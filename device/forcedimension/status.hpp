@@ -11,6 +11,7 @@
 #include "device/force_device.hpp"
 #include "device/forcedimension/library.hpp"
 #include "device/hand/state_board.hpp"
+#include "device/hand/usb_list.hpp"
 #include "device/hand/workspace.hpp"
 
 namespace dibhr::forcedimension {
@@ -19,7 +20,7 @@ namespace dibhr::forcedimension {
 struct ConnectionOptions {
     std::string serial{};   ///< empty: the first arm that can be opened
     std::string library{};  ///< a file, a folder or a record; empty: wherever it is installed
-    std::filesystem::path usb_devices{"/sys/bus/usb/devices"};
+    std::filesystem::path usb_devices{kUsbDevices};
 };
 
 /// May change while touching; the next tick takes it as a whole.

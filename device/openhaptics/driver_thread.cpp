@@ -34,6 +34,11 @@ constexpr double kMostForce_newton = 8.5;  // of any device
 /// README.md, Where sources disagree.
 constexpr std::array<const char*, 3> kDefaultNames{nullptr, "Default Device", "Default PHANToM"};
 
+/// Another name would be refused, too.
+bool is_refused(const Fault& fault) noexcept {
+    return fault.code == kHdInUse || fault.code == kHdInvalidLicense;
+}
+
 double within(double value, double lowest, double highest, double usual) noexcept {
     return std::isfinite(value) && value >= lowest && value <= highest ? value : usual;
 }
@@ -62,7 +67,8 @@ void DriverThread::run() {
     if (!library_.loaded) {
         const bool broken = !library_.trouble.empty();
         enter(broken ? Stage::broken_library : Stage::no_library,
-              broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()), broken);
+              broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()),
+              broken || is_on_usb(options_.usb_devices));
     } else {
         (void)become_realtime("dibhr touch");
         while (!stop_.stop_requested()) {
@@ -78,17 +84,21 @@ void DriverThread::run() {
 void DriverThread::search() {
     try {
         Fault fault;
+        // Two servos would use the same buffers.
+        if (!servos_.empty() && servos_.back()->runs())
+            return enter(Stage::looking, sentence_for(Stage::silent, board_.draft()), true);
         const HdHandle handle = open(fault);
         if (handle != kHdInvalidHandle) {
             trouble_.clear();
             follow(handle);
             return;
         }
+        if (is_refused(fault))
+            return enter(Stage::cannot_open, why_not_opened(fault, options_.name), true);
         // A device that was lost is named as long as it does not come back.
-        const bool lost = !trouble_.empty() && fault.code != kHdInUse;
-        const bool told = fault.code == kHdInUse || fault.code == kHdInvalidLicense;
+        const bool lost = !trouble_.empty();
         enter(Stage::looking, lost ? trouble_ : why_not_opened(fault, options_.name),
-              lost || told || !options_.name.empty());
+              lost || !options_.name.empty());
     } catch (const std::exception& failure) {
         enter(Stage::looking,
               std::string("the Touch's thread failed (") + failure.what() +
@@ -103,17 +113,19 @@ HdHandle DriverThread::open(Fault& fault) {
     const auto names = options_.name.empty() ? std::span<const char* const>(kDefaultNames)
                                              : std::span<const char* const>(given);
     for (const char* const name : names) {
-        OpeningCall call;
-        const HdHandle handle = library_.functions.init_device(name);
+        const HdHandle handle = init_device(name);
         fault = take_faults(library_.functions);
-        if (std::string printed = call.end(); !printed.empty())
-            board_.draft().printed = std::move(printed);
         if (handle != kHdInvalidHandle && fault.kind != FaultClass::link) return handle;
         if (handle != kHdInvalidHandle) library_.functions.disable_device(handle);
-        if (fault.code == kHdInUse || fault.code == kHdInvalidLicense) break;
+        if (is_refused(fault)) break;
     }
     (void)take_faults(library_.functions);
     return kHdInvalidHandle;
+}
+
+HdHandle DriverThread::init_device(const char* name) {
+    const OpeningCall call(printed_);
+    return library_.functions.init_device(name);
 }
 
 /// Numbers that no device can have are replaced by those of the Touch.
@@ -165,9 +177,8 @@ void DriverThread::follow(HdHandle handle) {
         HdSchedule schedule = 0;
         const Fault refused = start(servo, schedule);
         why_ended = refused.kind == FaultClass::link ? why_lost(refused) : watch_servo(servo);
-        stop_servo(servo, schedule);
-        // The library may still call one that did not end.
-        if (servo.ended()) servos_.pop_back();
+        // The library may still call one that did not end by itself.
+        if (stop_servo(servo, schedule)) servos_.pop_back();
     }
     buttons_.release();
     library_.functions.disable_device(handle);
@@ -253,16 +264,20 @@ void DriverThread::switch_force(Servo& servo, bool on) {
     if (!on) library_.functions.disable(kHdForceOutput);
 }
 
-/// Zero force, force output off, scheduler stopped, in this order.
-void DriverThread::stop_servo(Servo& servo, HdSchedule schedule) {
+/// Zero force, force output off, scheduler stopped, in this order. False: the servo was cut off.
+bool DriverThread::stop_servo(Servo& servo, HdSchedule schedule) {
     servo.end();
     for (const Time until = Clock::now() + kLongestEnd; !servo.ended() && Clock::now() < until;)
         std::this_thread::sleep_for(milliseconds(1));
+    const bool ended = servo.ended();
     library_.functions.disable(kHdForceOutput);
     library_.functions.stop_scheduler();
     library_.functions.unschedule(schedule);
     (void)take_faults(library_.functions);
+    servo.cut_off();
+    if (servo.runs()) return false;
     buffers_->poses.publish(TimedPose{});  // so that no tick uses an old pose
+    return ended;
 }
 
 void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
@@ -271,6 +286,7 @@ void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
     status.pressed_at = servo.pressed_at;
     status.limit_newton = servo.limit_newton;
     status.warmest = servo.warmest;
+    status.reports_heat = servo.reports_heat;
     status.errors = servo.errors;
     status.forces_cut = servo.forces_cut;
     if (now - counted_at_ >= kRatePeriod) {

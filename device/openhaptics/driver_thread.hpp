@@ -34,6 +34,7 @@ class DriverThread {
 
     void search();
     [[nodiscard]] HdHandle open(Fault& fault);
+    [[nodiscard]] HdHandle init_device(const char* name);
     [[nodiscard]] Servo::Arm read_facts(HdHandle handle);
     void follow(HdHandle handle);
     [[nodiscard]] bool reset_encoders(HdHandle handle);
@@ -41,7 +42,7 @@ class DriverThread {
     [[nodiscard]] std::string watch_servo(Servo& servo);
     void calibrate(const ServoReport& report, Time now);
     void switch_force(Servo& servo, bool on);
-    void stop_servo(Servo& servo, HdSchedule schedule);
+    bool stop_servo(Servo& servo, HdSchedule schedule);
     void report(const ServoReport& servo, bool silent, Time now);
     void enter(Stage stage, const std::string& sentence, bool trouble = false);
     void wait(std::chrono::milliseconds time);
@@ -58,8 +59,9 @@ class DriverThread {
     LoadedLibrary library_{};
     ArmWatch watch_{};
     ButtonDebounce buttons_{};
-    std::vector<std::unique_ptr<Servo>> servos_{};  // the running one, and those that did not end
+    std::vector<std::unique_ptr<Servo>> servos_{};  // the running one, and those that were cut off
     bool force_on_{false};
+    std::string printed_{};  // by the library, when it opened a device last
     std::string trouble_{};  // why the last link ended, until a device is open again
     Time calibrated_at_{};   // when a calibration was last requested
     std::uint64_t seen_{0};  // ticks of the servo, and when they last changed

@@ -31,19 +31,19 @@ bool is_usable(const Status& status) noexcept {
     return status.stage == Stage::ready;
 }
 
-/// Without OpenHaptics nothing is printed.
+/// Nothing is printed where neither OpenHaptics nor a Touch is there.
 DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
-    const Status status = survey_device(connection_in(settings));
-    if (status.stage == Stage::no_library) return {};
+    const ConnectionOptions connection = connection_in(settings);
+    const Status status = survey_device(connection);
+    const bool attached = is_attached(status, connection);
+    if (status.stage == Stage::no_library && !attached) return {};
     if (!answers(status)) {
         print("3D Systems Touch: none usable, " + status.sentence);
-        if (!status.printed.empty()) print("  the library printed: " + status.printed);
-        return {};
+        return {.refusal = attached ? status.sentence : ""};
     }
     const std::string name = "3D Systems " + status.model + " " + status.serial;
     print(name + ": " + (is_usable(status) ? "usable, " : "not usable yet, ") + status.sentence);
     print("  driver " + status.driver + ", library " + status.version + ", " + status.library);
-    if (!status.printed.empty()) print("  the library printed: " + status.printed);
     return {.usable = is_usable(status),
             .refusal = is_usable(status) ? "" : name + " is not usable yet, " + status.sentence};
 }

@@ -28,7 +28,14 @@ Vec3 vector_of(const std::array<double, 3>& values) noexcept {
 }  // namespace
 
 unsigned int Servo::tick() noexcept {
-    if (ended_) return kHdCallbackDone;
+    runs_ = true;
+    if (!ended_) one_frame();
+    const bool ended = ended_;
+    runs_ = false;
+    return ended ? kHdCallbackDone : kHdCallbackContinue;
+}
+
+void Servo::one_frame() noexcept {
     const Time now = Clock::now();
     if (now_.ticks > 0) ticks_.add(last_tick_, now);
     last_tick_ = now;
@@ -60,11 +67,19 @@ unsigned int Servo::tick() noexcept {
     now_.calibration = sample.calibration;
     now_.warm = watch_.warm();
     now_.warmest = sample.warmest;
+    now_.reports_heat = heat_.known;
     now_.presses = buttons_.presses();
     now_.pressed_at = buttons_.pressed_at();
     reports_.publish(now_);
     if (ending && ++last_frames_ >= kLastFrames) ended_ = true;
-    return ended_ ? kHdCallbackDone : kHdCallbackContinue;
+}
+
+/// An error of another kind comes again in the next frame.
+template <typename T>
+void Servo::read(OptionalValue& value, void (*get)(HdEnum, T*), T* into) noexcept {
+    if (!value.known) return;
+    get(value.what, into);
+    if (now_.ticks == 0) value.known = take_faults(library_).kind != FaultClass::call;
 }
 
 /// Without an answer of the library, the values stay zero, and no number for the temperature.
@@ -76,15 +91,16 @@ void Servo::read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwel
     int pressed = 0;
     std::uint8_t inkwell = 0;
     library_.get_doubles(kHdPosition, position.data());
-    library_.get_doubles(kHdVelocity, velocity.data());
-    library_.get_doubles(kHdGimbalAngles, gimbal.data());
-    library_.get_longs(kHdEncoders, sample.encoders.data());
-    library_.get_doubles(kHdMotorTemperature, heat.data());
     library_.get_integers(kHdButtons, &pressed);
-    library_.get_booleans(kHdInkwellSwitch, &inkwell);
+    read(velocity_, library_.get_doubles, velocity.data());
+    read(gimbal_, library_.get_doubles, gimbal.data());
+    read(encoders_, library_.get_longs, sample.encoders.data());
+    read(heat_, library_.get_doubles, heat.data());
+    read(inkwell_, library_.get_booleans, &inkwell);
     sample.position_m = vector_of(position) / kMetre_mm;
     sample.velocity_m_per_s = vector_of(velocity) / kMetre_mm;
-    sample.gimbal_rad = vector_of(gimbal);
+    // Without encoders, a stylus that turns tells nothing of the arm.
+    if (encoders_.known) sample.gimbal_rad = vector_of(gimbal);
     for (const double motor : heat)
         if (std::isfinite(sample.warmest) && !(motor <= sample.warmest)) sample.warmest = motor;
     sample.calibration = library_.check_calibration();

@@ -39,4 +39,8 @@ bool answers(const Status& status) noexcept {
     return status.stage > Stage::looking;
 }
 
+bool is_attached(const Status& status, const ConnectionOptions& options) {
+    return answers(status) || status.stage == Stage::cannot_open || is_on_usb(options.usb_devices);
+}
+
 }  // namespace dibhr::openhaptics

@@ -12,6 +12,7 @@
 #include "device/forcedimension/survey.hpp"
 #include "tests/device/forcedimension/arm_bench.hpp"
 #include "tests/device/time/simulated_time.hpp"
+#include "tests/device/usb_folder.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,14 +22,8 @@ namespace {
 using namespace dibhr;
 using namespace dibhr::test::forcedimension;
 using Catch::Matchers::WithinAbs;
+using test::add_usb_device;
 using test::let_pass;
-
-/// In a folder as the system's list of USB devices.
-void add_usb_device(const std::filesystem::path& folder, const char* maker, const char* product) {
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "idVendor") << maker << '\n';
-    std::ofstream(folder / "idProduct") << product << '\n';
-}
 
 }  // namespace
 
@@ -206,6 +201,31 @@ TEST_CASE("a library that cannot be used is trouble only where an arm is attache
     CHECK(survey.trouble == has_arm);
     CHECK(survey.arms.empty());
     CHECK(survey.sentence.starts_with(options.library + " is not a library"));
+}
+
+TEST_CASE("beside a Falcon, why an arm cannot be opened is told as without one",
+          "[forcedimension]") {
+    const test::TemporaryFolder folder;
+    add_usb_device(folder / "1-1", "0403", "cb48");
+    Page& page = fresh_page();
+    page.units[0].plugged = true;
+    page.units[0].type = kFalcon;
+    ConnectionOptions options = options_for();
+    options.usb_devices = folder.path();
+    const Survey none = survey_arms(options);
+    CHECK_FALSE(none.trouble);
+    const bool in_use = GENERATE(true, false);
+    if (in_use) {
+        page.units[1].plugged = true;
+        page.units[1].in_use = true;
+    } else {
+        add_usb_device(folder / "1-2", "1451", "0402");  // without permission
+    }
+    const Survey survey = survey_arms(options);
+    CHECK(survey.trouble);
+    CHECK(survey.sentence.find(in_use ? "end that one" : "you may not open it") !=
+          std::string::npos);
+    CHECK_FALSE(page.units[0].was_opened);
 }
 
 TEST_CASE("a Falcon that the system does not list is closed again at once", "[forcedimension]") {

@@ -57,6 +57,8 @@ struct ArmPage {
     std::atomic<unsigned> raised{0};  ///< an error of every frame; 0: none
     std::atomic<int> raised_internal{0};
     std::atomic<int> raised_times{0};         ///< in so many frames
+    std::atomic<unsigned> unknown{0};         ///< a parameter that the library does not have
+    std::atomic<bool> hangs{false};           ///< a frame does not end
     std::atomic<bool> calls_back{true};       ///< false: the servo thread calls nobody
     std::atomic<bool> default_by_null{true};  ///< hdInitDevice(NULL) opens the first arm
     std::atomic<bool> default_by_name{true};  ///< hdInitDevice("Default Device") does

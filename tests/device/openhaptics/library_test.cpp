@@ -23,25 +23,37 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-/// Standard output leads into a file while this exists.
-class OutputInFile {
+/// Both output streams lead into files while this exists.
+class OutputInFiles {
   public:
-    explicit OutputInFile(const std::filesystem::path& file) {
-        std::fflush(stdout);
-        const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
-        ::dup2(descriptor, STDOUT_FILENO);
-        ::close(descriptor);
-    }
-    ~OutputInFile() {
-        std::fflush(stdout);
-        ::dup2(before_, STDOUT_FILENO);
-        ::close(before_);
-    }
-    OutputInFile(const OutputInFile&) = delete;
-    OutputInFile& operator=(const OutputInFile&) = delete;
+    explicit OutputInFiles(const test::TemporaryFolder& folder)
+        : output_(STDOUT_FILENO, folder / "out"), errors_(STDERR_FILENO, folder / "errors") {}
 
   private:
-    int before_{::dup(STDOUT_FILENO)};
+    class Stream {
+      public:
+        Stream(int stream, const std::filesystem::path& file)
+            : stream_(stream), before_(::dup(stream)) {
+            std::fflush(nullptr);
+            const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT, 0600);
+            ::dup2(descriptor, stream_);
+            ::close(descriptor);
+        }
+        ~Stream() {
+            std::fflush(nullptr);
+            ::dup2(before_, stream_);
+            ::close(before_);
+        }
+        Stream(const Stream&) = delete;
+        Stream& operator=(const Stream&) = delete;
+
+      private:
+        int stream_;
+        int before_;
+    };
+
+    Stream output_;
+    Stream errors_;
 };
 
 }  // namespace
@@ -79,34 +91,42 @@ TEST_CASE("the device says why the library cannot be used, and the mouse may tou
     CHECK_FALSE(loop.device.can_touch());
 }
 
-TEST_CASE("what the library prints stays out of standard output, and is kept", "[openhaptics]") {
+TEST_CASE("what the library prints goes to standard error, once", "[openhaptics]") {
     const test::TemporaryFolder folder;
-    Status status;
     {
-        const OutputInFile output(folder / "out");
+        const OutputInFiles files(folder);
         std::printf("before\n");
-        TouchDesk desk("", [](ArmPage& page) { page.prints = true; });
+        TouchDesk desk("", [](ArmPage& page) {
+            page.prints = true;
+            page.default_by_null = false;  // the second name opens it
+        });
         CHECK(desk.loop.tick_until_ready());
-        status = desk.loop.device.status();
+        CHECK(desk.bench.page().openings == 2);
         std::printf("after\n");
     }
     CHECK(test::read_text(folder / "out") == "before\nafter\n");
-    CHECK(status.printed == "A stand-in for development");
+    CHECK(test::read_text(folder / "errors") == "A stand-in for development\nSecond line\n");
 }
 
-TEST_CASE("standard output is back after a second, though the library has not returned",
+TEST_CASE("nothing that the program prints while the library opens a device is lost",
           "[openhaptics]") {
     const test::TemporaryFolder folder;
     {
-        const OutputInFile output(folder / "out");
-        OpeningCall call;
+        const OutputInFiles files(folder);
+        std::string printed;
+        for (const char* const text : {"one\n", "two\n"}) {
+            const OpeningCall call(printed);
+            std::printf("%s", text);
+        }
+        CHECK(printed == "two\n");
+        const OpeningCall call(printed);  // does not return
         std::printf("aside\n");
         test::let_pass(std::chrono::milliseconds(1100));
         std::printf("back\n");
         std::fflush(stdout);
-        CHECK(call.end() == "aside");
     }
     CHECK(test::read_text(folder / "out") == "back\n");
+    CHECK(test::read_text(folder / "errors") == "one\ntwo\naside\n");
 }
 
 TEST_CASE("the library reads numbers with a point, and the program's locale stays",

@@ -95,6 +95,10 @@ SimulatedArm* current_arm(const char* caller) {
 
 /// The arm of the open frame.
 SimulatedArm* arm_in_frame(const char* caller, unsigned parameter) {
+    if (parameter == library().page->unknown) {
+        raise(0x100);
+        return nullptr;
+    }
     if (library().frame == kInvalid) {
         wrong(caller, parameter);
         raise(0x402);
@@ -223,6 +227,7 @@ EXPORTED void hdBeginFrame(unsigned handle) {
 }
 
 EXPORTED void hdEndFrame(unsigned handle) {
+    while (library().page->hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(library().lock);
     ArmPage& page = *library().page;
     if (library().frame != handle) {
@@ -397,6 +402,7 @@ EXPORTED void hdStartScheduler() {
 EXPORTED void hdStopScheduler() {
     if (!library().runs) return wrong("hdStopScheduler twice");
     library().runs = false;
+    if (library().page->hangs) return library().servo.detach();
     library().servo.join();
 }
 
@@ -409,6 +415,7 @@ EXPORTED unsigned long hdScheduleAsynchronous(Callback callback, void* data,
 }
 
 EXPORTED void hdUnschedule(unsigned long schedule) {
+    if (library().page->hangs) return;
     const std::lock_guard callbacks(library().callback_lock);
     if (schedule == 0 || schedule >= library().next_schedule) wrong("hdUnschedule");
     auto& scheduled = library().scheduled;
