@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <exception>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 #include "core/realtime/tick_timer.hpp"
@@ -53,16 +55,12 @@ class Driver::Search {
     }
 
     [[nodiscard]] bool can_search() const noexcept { return library_ != nullptr; }
-    void run(const std::stop_token& stop);
+    void run();
+    ThreadEnd end{};
     [[nodiscard]] Status status() const { return board_.read(); }
     void agree_to(std::uint64_t offer) {
         offers_.agree_to(offer);
         buffers_->wake.signal();
-    }
-    /// False: the thread still runs.
-    [[nodiscard]] bool wait_for_end(milliseconds limit) {
-        std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, limit, [this] { return ended_; });
     }
     /// A last stop from another thread, while a call of the device's thread does not return.
     void stop_arm() const {
@@ -85,13 +83,10 @@ class Driver::Search {
     bool lost_{false};      // the sentence is about a loss
     milliseconds pause_{};  // before the next search
     std::atomic<int> open_id_{kNoArmOpen};
-
-    std::mutex mutex_{};
-    std::condition_variable_any changed_{};
-    bool ended_{false};  // guarded by mutex_
 };
 
-void Driver::Search::run(const std::stop_token& stop) {
+void Driver::Search::run() {
+    const std::stop_token stop = end.token();
     // A refusal is shown in the Loop panel, because the haptic thread requests the same.
     (void)become_realtime("dibhr forcedim");
     while (!stop.stop_requested()) {
@@ -106,12 +101,8 @@ void Driver::Search::run(const std::stop_token& stop) {
                              ") and begins again: close other programs if this happens again",
                          true);
         }
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, stop, pause_, [] { return false; });
+        end.pause(pause_);
     }
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    changed_.notify_all();
 }
 
 void Driver::Search::find_arm(const std::stop_token& stop) {
@@ -154,28 +145,19 @@ void Driver::Search::forget_arm() {
 
 /// The sentence about a loss stays until something else is attached.
 void Driver::Search::publish_no_arm(const NoArm& why) {
-    const Status& published = board_.draft();
-    if (lost_ && why.stage == Stage::looking) return;
-    if (published.stage == why.stage && published.sentence == why.sentence) return;
-    board_.enter(why.stage, why.sentence, why.stage != Stage::looking);
+    const bool looks = why.stage == Stage::looking;
+    if (!(lost_ && looks)) board_.enter_new(why.stage, why.sentence, !looks);
 }
 
 Driver::Driver(ConnectionOptions options, FoundCalls found, std::shared_ptr<ArmBuffers> buffers)
     : search_(std::make_shared<Search>(std::move(options), std::move(found), std::move(buffers))) {
-    if (!search_->can_search()) return;
-    thread_ = std::thread([search = search_, stop = stop_.get_token()] { search->run(stop); });
+    if (search_->can_search()) thread_.emplace(search_);
 }
 
 Driver::~Driver() {
-    if (!thread_.joinable()) return;
-    stop_.request_stop();
-    if (search_->wait_for_end(kLeaveAfter)) {
-        thread_.join();
-        return;
-    }
-    thread_.detach();
+    if (!thread_ || thread_->end_within(kLeaveAfter)) return;
     std::thread([search = search_] { search->stop_arm(); }).detach();
-    (void)search_->wait_for_end(kLastStopLimit);
+    (void)search_->end.comes_within(kLastStopLimit);
 }
 
 Status Driver::status() const {

@@ -50,35 +50,23 @@ DriverThread::DriverThread(const ConnectionOptions& options, std::shared_ptr<Arm
     board_.enter(Stage::opening, "looking for a Touch");
 }
 
-bool DriverThread::ends_within(milliseconds time) {
-    std::unique_lock lock(mutex_);
-    return waits_.wait_for(lock, time, [this] { return ended_; });
-}
-
-void DriverThread::wait(milliseconds time) {
-    std::unique_lock lock(mutex_);
-    waits_.wait_for(lock, stop_.get_token(), time, [] { return false; });
-}
-
 /// Without an installed library there is nothing to search for: the thread ends.
 void DriverThread::run() {
     library_ = load_hd_library(options_.library);
     board_.draft().library = library_.file;
     if (!library_.loaded) {
         const bool broken = !library_.trouble.empty();
-        enter(broken ? Stage::broken_library : Stage::no_library,
-              broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()),
-              broken || is_on_usb(options_.usb_devices));
+        board_.enter_new(
+            broken ? Stage::broken_library : Stage::no_library,
+            broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()),
+            broken || is_on_usb(options_.usb_devices));
     } else {
         (void)become_realtime("dibhr touch");
-        while (!stop_.stop_requested()) {
+        while (!end.requested()) {
             search();
-            wait(kLookAgainAfter);
+            end.pause(kLookAgainAfter);
         }
     }
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    waits_.notify_all();
 }
 
 void DriverThread::search() {
@@ -86,7 +74,8 @@ void DriverThread::search() {
         Fault fault;
         // Two servos would use the same buffers.
         if (!servos_.empty() && servos_.back()->runs())
-            return enter(Stage::looking, sentence_for(Stage::silent, board_.draft()), true);
+            return board_.enter_new(Stage::looking, sentence_for(Stage::silent, board_.draft()),
+                                    true);
         const HdHandle handle = open(fault);
         if (handle != kHdInvalidHandle) {
             trouble_.clear();
@@ -94,16 +83,16 @@ void DriverThread::search() {
             return;
         }
         if (is_refused(fault))
-            return enter(Stage::cannot_open, why_not_opened(fault, options_.name), true);
+            return board_.enter_new(Stage::cannot_open, why_not_opened(fault, options_.name), true);
         // A device that was lost is named as long as it does not come back.
         const bool lost = !trouble_.empty();
-        enter(Stage::looking, lost ? trouble_ : why_not_opened(fault, options_.name),
-              lost || !options_.name.empty());
+        board_.enter_new(Stage::looking, lost ? trouble_ : why_not_opened(fault, options_.name),
+                         lost || !options_.name.empty());
     } catch (const std::exception& failure) {
-        enter(Stage::looking,
-              std::string("the Touch's thread failed (") + failure.what() +
-                  ") and begins again: close other programs if this happens again",
-              true);
+        board_.enter_new(Stage::looking,
+                         std::string("the Touch's thread failed (") + failure.what() +
+                             ") and begins again: close other programs if this happens again",
+                         true);
     }
 }
 
@@ -185,7 +174,7 @@ void DriverThread::follow(HdHandle handle) {
     (void)take_faults(library_.functions);
     board_.draft().ticks_per_s = 0.0;
     trouble_ = why_ended;
-    if (!trouble_.empty()) enter(Stage::looking, trouble_, true);
+    if (!trouble_.empty()) board_.enter_new(Stage::looking, trouble_, true);
 }
 
 /// A device that has only this style of calibration gets it before the scheduler starts: the user
@@ -194,7 +183,7 @@ bool DriverThread::reset_encoders(HdHandle handle) {
     const HdLibrary& library = library_.functions;
     if (board_.draft().style != kHdEncoderReset) return true;
     bool was_pressed = true;  // a button that is held from before is no answer
-    while (!stop_.stop_requested()) {
+    while (!end.requested()) {
         int pressed = 0;
         library.begin_frame(handle);
         library.get_integers(kHdButtons, &pressed);
@@ -204,8 +193,9 @@ bool DriverThread::reset_encoders(HdHandle handle) {
         if (calibration == kHdCalibrated) return true;
         if (pressed != 0 && !was_pressed) library.update_calibration(kHdEncoderReset);
         was_pressed = pressed != 0;
-        enter(Stage::not_calibrated, sentence_for(Stage::not_calibrated, board_.draft()));
-        wait(kAskPersonEvery);
+        board_.enter_new(Stage::not_calibrated, sentence_for(Stage::not_calibrated, board_.draft()),
+                         false);
+        end.pause(kAskPersonEvery);
     }
     return false;
 }
@@ -226,7 +216,7 @@ Fault DriverThread::start(Servo& servo, HdSchedule& schedule) {
 
 /// Returns why the link ended; empty: the program ends.
 std::string DriverThread::watch_servo(Servo& servo) {
-    while (!stop_.stop_requested()) {
+    while (!end.requested()) {
         const Time now = Clock::now();
         const ServoReport& newest = servo.report();
         if (newest.loss.kind != FaultClass::none) return why_lost(newest.loss);
@@ -239,7 +229,7 @@ std::string DriverThread::watch_servo(Servo& servo) {
                            newest.stage == Stage::refused;
         switch_force(servo, options_.forces && ready && !silent);
         report(newest, silent, now);
-        wait(kLook);
+        end.pause(kLook);
     }
     return {};
 }
@@ -306,13 +296,7 @@ void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
     const bool trouble = stage == Stage::silent || stage == Stage::not_understood ||
                          stage == Stage::force_cut || stage == Stage::refused ||
                          stage == Stage::hot || stage == Stage::stands_still || status.warm;
-    enter(stage, sentence_for(stage, status), trouble);
-}
-
-void DriverThread::enter(Stage stage, const std::string& sentence, bool trouble) {
-    const Status& published = board_.draft();
-    if (published.stage == stage && published.sentence == sentence) return;
-    board_.enter(stage, sentence, trouble);
+    board_.enter_new(stage, sentence_for(stage, status), trouble);
 }
 
 }  // namespace dibhr::openhaptics

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "device/hand/guardian.hpp"
-
 namespace dibhr::openhaptics {
 
 namespace {
@@ -15,7 +13,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // README.md, Numbers.
-constexpr std::chrono::milliseconds kOldestForce{20};
 constexpr int kLastFrames = 5;  // of zero force, before the callback ends
 constexpr std::size_t kMostMotors = 6;
 
@@ -109,14 +106,9 @@ void Servo::read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwel
 }
 
 Vec3 Servo::force_at(Time now) noexcept {
-    const TimedForce& requested = buffers_.forces.front();
-    const bool may = watch_.epoch() != kNoEpoch && requested.epoch == watch_.epoch() &&
-                     now < requested.at + kOldestForce && !Guardian::alarmed() &&
-                     is_finite(requested.newton);
-    if (!may) return Vec3{0.0};
-    const double length = glm::length(requested.newton);
-    return length > now_.limit_newton ? requested.newton * (now_.limit_newton / length)
-                                      : requested.newton;
+    const Vec3 force = buffers_.force_for(watch_.epoch(), now);
+    const double length = glm::length(force);
+    return length > now_.limit_newton ? force * (now_.limit_newton / length) : force;
 }
 
 void Servo::publish_pose(const ArmSample& sample, std::uint8_t buttons, Time at) noexcept {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "device/openhaptics/driver.hpp"
+#include "device/openhaptics/driver_thread.hpp"
 
 namespace dibhr::openhaptics {
 

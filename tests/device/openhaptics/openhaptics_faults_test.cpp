@@ -88,7 +88,7 @@ TEST_CASE("whatever keeps the device from touching takes the force off and says 
     const auto began = Clock::now();
     fault.begin(desk.bench.page());
     CHECK(desk.tick_until([&] { return desk.bench.felt_newton() == Vec3{0.0}; }, kGrace));
-    CHECK(desk.tick_until_stage(fault.stage));
+    CHECK(desk.reaches(fault.stage));
     desk.tick_for(milliseconds(150));
     CHECK(desk.stage() == fault.stage);
     CAPTURE(desk.sentence());
@@ -173,7 +173,7 @@ TEST_CASE("each style of calibration is done at its time, and no force comes bef
         page.arms[0].calibration_style = style;
         page.arms[0].calibration = asked;
     });
-    REQUIRE(desk.tick_until_stage(Stage::not_calibrated) == true);
+    REQUIRE(desk.reaches(Stage::not_calibrated));
     SimulatedArm& arm = desk.bench.arm();
     if (style == 1) {
         CHECK(desk.says("press the stylus's button"));
@@ -209,7 +209,7 @@ TEST_CASE("why a device cannot be opened is told with the next step", "[openhapt
                                      Refusal{0x300, Stage::looking, "set it up once"});
     CAPTURE(refusal.code);
     TouchDesk desk("", [&](ArmPage& page) { page.arms[0].in_use_error = refusal.code; });
-    REQUIRE(desk.tick_until_stage(refusal.stage));
+    REQUIRE(desk.reaches(refusal.stage));
     CHECK(desk.says(refusal.next_step));
     CHECK(state_of(desk.loop.device.status()).absent);
     desk.bench.arm().in_use_error = 0;
@@ -237,7 +237,7 @@ TEST_CASE(
 
 TEST_CASE("a library that refuses the position gives no force", "[openhaptics_faults]") {
     TouchDesk desk("", [](ArmPage& page) { page.unknown = kHdPosition; });
-    REQUIRE(desk.tick_until_stage(Stage::refused));
+    REQUIRE(desk.reaches(Stage::refused));
     CHECK(desk.says("unknown parameter"));
     desk.tick_for(milliseconds(2000));
     CHECK(strongest(desk.bench.sent_since({})) == 0.0);
@@ -263,7 +263,7 @@ TEST_CASE("while a call of the servo thread does not return, no second servo is 
 
 TEST_CASE("a device with an unknown name is named", "[openhaptics_faults]") {
     TouchDesk desk("Third");
-    REQUIRE(desk.tick_until_stage(Stage::looking));
+    REQUIRE(desk.reaches(Stage::looking));
     CHECK(desk.says("no Touch with the name Third answers"));
 }
 

@@ -251,6 +251,9 @@ EXPORTED void hdEndFrame(unsigned handle) {
     if (!arm.output || !arm.attached) force = {};
     hold(arm, force);
     record(force);
+    arm.strongest_newton =
+        std::max(arm.strongest_newton.load(), std::hypot(force[0], force[1], force[2]));
+    arm.framed_at_ns = std::chrono::steady_clock::now().time_since_epoch().count();
 }
 
 EXPORTED ErrorInfo hdGetError() {
