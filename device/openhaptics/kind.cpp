@@ -2,10 +2,13 @@
 #include <memory>
 #include <string>
 
+#include "core/error.hpp"
 #include "device/force_device.hpp"
 #include "device/openhaptics/openhaptics_device.hpp"
+#include "device/openhaptics/record.hpp"
 #include "device/openhaptics/settings.hpp"
 #include "device/openhaptics/survey.hpp"
+#include "device/recorded_device.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -48,6 +51,28 @@ DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
             .refusal = is_usable(status) ? "" : name + " is not usable yet, " + status.sentence};
 }
 
+void record(const DeviceSettings& settings, const std::filesystem::path& file,
+            const PrintLine& print) {
+    ConnectionOptions connection = connection_in(settings);
+    const LoadedLibrary library = load_hd_library(connection.library);
+    if (!library.loaded)
+        throw DeviceError(library.trouble.empty() ? sentence_for(Stage::no_library, {})
+                                                  : library.trouble);
+    connection.forces = false;
+    connection.recorder = make_recorder(file, library.file);
+    OpenhapticsDevice device(connection);
+    record_device(device, file, print);
+}
+
+bool play(const std::filesystem::path& file, const PrintLine& print) {
+    if (!is_record(file)) return false;
+    if (const LoadedLibrary library = play_record(file); !library.loaded)
+        throw DeviceError(library.trouble);
+    OpenhapticsDevice device({.library = file.string()});
+    play_device(device, file, "openhaptics", print);
+    return true;
+}
+
 bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
     const Status status = survey_device(connection_in(settings));
     if (answers(status))
@@ -74,6 +99,8 @@ extern const ForceDeviceKind device_kind{
         },
     .survey = survey,
     .print_attached = print_attached,
+    .record = record,
+    .play = play,
 };
 
 }  // namespace dibhr::openhaptics

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "device/makers_library.hpp"
+#include "device/openhaptics/record.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -70,6 +71,7 @@ std::string functions_in(const MakersLibrary& library, HdLibrary& functions) {
 }  // namespace
 
 LoadedLibrary load_hd_library(const std::string& chosen) {
+    if (is_record(chosen)) return play_record(chosen);
     MakersLibrarySearch search = usual_places();
     search.chosen = chosen;
     LoadedLibrary loaded;

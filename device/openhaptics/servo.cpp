@@ -73,7 +73,8 @@ void Servo::one_frame() noexcept {
 
 /// An error of another kind comes again in the next frame.
 template <typename T>
-void Servo::read(OptionalValue& value, void (*get)(HdEnum, T*), T* into) noexcept {
+void Servo::read(OptionalValue& value, const std::function<void(HdEnum, T*)>& get,
+                 T* into) noexcept {
     if (!value.known) return;
     get(value.what, into);
     if (now_.ticks == 0) value.known = take_faults(library_).kind != FaultClass::call;

@@ -83,7 +83,7 @@ class Servo {
 
     void one_frame() noexcept;
     template <typename T>
-    void read(OptionalValue& value, void (*get)(HdEnum, T*), T* into) noexcept;
+    void read(OptionalValue& value, const std::function<void(HdEnum, T*)>& get, T* into) noexcept;
     void read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwell) noexcept;
     [[nodiscard]] Vec3 force_at(Time now) noexcept;
     void publish_pose(const ArmSample& sample, std::uint8_t buttons, Time at) noexcept;

@@ -19,7 +19,9 @@ std::vector<DeviceRow> OpenhapticsSettings::rows() {
         {"name", kConnection, "Name: the default one",
          "Which device: the name given in 3D Systems' setup program", &name, 0.0, 63.0},
         {"library", kConnection, "Library: where it is installed",
-         "The file libHD.so.3.4 of OpenHaptics, or its folder", &library, 0.0, kLongestPath},
+         "The file libHD.so.3.4 of OpenHaptics, or its folder; or a record that was made with "
+         "dibhr devices --record",
+         &library, 0.0, kLongestPath},
         scale_row(kWorkspace, workspace.scale),
         {"radius", kWorkspace, "Radius",
          "Radius of the volume that the hand reaches; the image is fitted to it. CHAI3D: 75 mm for "

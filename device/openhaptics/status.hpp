@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <tuple>
 
 #include "core/haptics/vec.hpp"
+#include "device/call_record.hpp"
 #include "device/hand/buttons.hpp"
 #include "device/hand/state_board.hpp"
 #include "device/hand/usb_list.hpp"
@@ -18,8 +20,9 @@ namespace dibhr::openhaptics {
 /// Set before the library is loaded.
 struct ConnectionOptions {
     std::string name{};     ///< of the device's configuration; empty: the default one
-    std::string library{};  ///< a file or a folder; empty: where OpenHaptics installs it
+    std::string library{};  ///< a file, a folder or a record; empty: where it is installed
     bool forces{true};      ///< false: the motors stay off, as for a survey
+    std::shared_ptr<CallRecorder> recorder{};  ///< of all calls; null: they are not recorded
     std::filesystem::path usb_devices{kUsbDevices};
 };
 

@@ -1,6 +1,8 @@
 // How 3D Systems' library is loaded, and what it may not do to the program.
 #include "device/openhaptics/library.hpp"
 
+#include "device/openhaptics/record.hpp"
+
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -127,6 +129,48 @@ TEST_CASE("nothing that the program prints while the library opens a device is l
     }
     CHECK(test::read_text(folder / "out") == "back\n");
     CHECK(test::read_text(folder / "errors") == "one\ntwo\naside\n");
+}
+
+TEST_CASE("a record of a Touch's calls plays as that Touch", "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    const std::string file = (folder / "record.txt").string();
+    {
+        FoundArm found({});
+        found.bench.move_to({4.0, 0.0, 0.0});
+        ConnectionOptions options = options_for();
+        options.forces = false;
+        options.recorder = make_recorder(file, "libHD.so.3.4");
+        test::TickingDevice<OpenhapticsDevice> loop(options);
+        REQUIRE(loop.tick_until([&] { return loop.device.status().stage == Stage::ready; }));
+        loop.tick_for(std::chrono::milliseconds(500));
+        found.bench.move_to({5.0, 0.0, 0.0});
+        loop.tick_for(std::chrono::milliseconds(500));
+        found.bench.arm().calibration = kHdNeedsPerson;
+        loop.tick_for(std::chrono::milliseconds(200));
+        CHECK(strongest(found.bench.sent_since({})) == 0.0);
+    }
+    REQUIRE(is_record(file));
+    test::TickingDevice<OpenhapticsDevice> loop(ConnectionOptions{.library = file});
+    REQUIRE(loop.tick_until_ready());
+    CHECK(loop.device.status().serial == "SIM-1");
+    CHECK(loop.reading.limits->max_force_newton == 0.88);
+    const Vec3 before = loop.reading.goal_in_grid;
+    REQUIRE(loop.tick_until([&] { return loop.reading.goal_in_grid.x > before.x + 1.0; }));
+    CHECK_THAT((loop.reading.goal_in_grid.x - before.x) * loop.kPitch_mm,
+               Catch::Matchers::WithinAbs(1.0, 1e-9));
+    CHECK(loop.tick_until([&] { return loop.device.status().stage == Stage::not_calibrated; }));
+    CHECK(says(loop.device.status().sentence, "into the inkwell"));
+}
+
+TEST_CASE("a damaged record of a Touch is refused with the number of the line", "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    const auto file = folder / "record.txt";
+    const std::string line = GENERATE(as<std::string>{}, "1 2 open - = 1", "1 2 hdGetDoublev",
+                                      "-1 2 hdBeginFrame - = 0", "1 2 hdGetDoublev 0x2050 = 0 1 2");
+    std::ofstream(file) << "dibhr openhaptics record 1\n1 2 hdBeginFrame - 7 = 0\n" << line << '\n';
+    const LoadedLibrary library = load_hd_library(file);
+    CHECK_FALSE(library.loaded);
+    CHECK(says(library.trouble, "line 3"));
 }
 
 TEST_CASE("the library reads numbers with a point, and the program's locale stays",
