@@ -10,6 +10,7 @@
 #include "core/realtime/triple_buffer.hpp"
 #include "core/realtime/wake.hpp"
 #include "device/hand/epoch.hpp"
+#include "device/hand/guardian.hpp"
 
 namespace dibhr {
 
@@ -35,6 +36,18 @@ struct ArmBuffers {
     TripleBuffer<DeviceLimits> limits{};  ///< likewise; of the connected arm, hand millimetres
     TripleBuffer<TimedForce> forces{};    ///< haptic thread to the device's thread
     Wake wake{};
+
+    static constexpr std::chrono::milliseconds kOldestForce{20};
+
+    /// For the device's thread: the newest force. Zero where the force was computed for a pose of
+    /// another epoch, is older than 20 ms or not finite, or where the program is about to end.
+    [[nodiscard]] Vec3 force_for(Epoch epoch, std::chrono::steady_clock::time_point now) noexcept {
+        const TimedForce& requested = forces.front();
+        const bool may = epoch != kNoEpoch && requested.epoch == epoch &&
+                         now < requested.at + kOldestForce && !Guardian::alarmed() &&
+                         is_finite(requested.newton);
+        return may ? requested.newton : Vec3{0.0};
+    }
 };
 
 }  // namespace dibhr

@@ -192,8 +192,8 @@ struct ForceDeviceKind {
     /// InputError, too. Null: it has no library.
     void (*record)(const DeviceSettings& settings, const std::filesystem::path& file,
                    const PrintLine& print) = nullptr;
-    /// Plays such a file as a device, and prints its stages. False: it is not of this kind. Null: as
-    /// of `record`.
+    /// Plays such a file as a device, and prints its stages. False: it is not of this kind. Null:
+    /// as of `record`.
     bool (*play)(const std::filesystem::path& file, const PrintLine& print) = nullptr;
     /// Simulates a device, commanded line by line, until the stream ends. Null: no simulation.
     void (*simulate)(const DeviceSettings& settings, std::istream& input,

@@ -64,6 +64,12 @@ class LibrarySymbols {
         optional(function, name);
         if (function == nullptr && missing_.empty()) missing_ = name;
     }
+    template <typename Function>
+    void required(std::function<Function>& function, const char* name) {
+        Function* found = nullptr;
+        required(found, name);
+        if (found != nullptr) function = found;
+    }
     /// The first required function that the library does not have; empty: it has all.
     [[nodiscard]] const std::string& missing() const noexcept { return missing_; }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -119,12 +120,24 @@ int initialise() {
     return 0;
 }
 
+/// Of the first kind whose device is attached; where none is, of the first one whose library is
+/// installed.
 int record_calls(const std::filesystem::path& file) {
     const AllDeviceSettings chosen = load_settings(settings_path()).devices;
-    for (std::size_t k = 0; k < chosen.size(); ++k) {
-        auto* const function = force_device_kinds()[k]->record;
-        if (function != nullptr) function(chosen[k], file, print);
+    std::optional<DeviceError> refusal;
+    for (const bool attached : {true, false}) {
+        for (std::size_t k = 0; k < chosen.size(); ++k) {
+            const ForceDeviceKind& kind = *force_device_kinds()[k];
+            if (kind.record == nullptr || (attached && !kind.attached(chosen[k]))) continue;
+            try {
+                kind.record(chosen[k], file, print);
+                return 0;
+            } catch (const DeviceError& error) {
+                if (!refusal) refusal = error;
+            }
+        }
     }
+    if (refusal) throw DeviceError(*refusal);
     return 0;
 }
 
@@ -157,8 +170,8 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
                      "you agreed that nobody touches it")
             ->excludes(check_given);
     add_file(app, "--record", recorded,
-             "Records for 10 seconds what the library of a Force Dimension device is asked and "
-             "answers: a text file to send with a report, which --simulate plays")
+             "Records for 10 seconds what the library of a Force Dimension arm or a Touch is asked "
+             "and answers: a text file to send with a report, which --simulate plays")
         ->excludes(check_given)
         ->excludes(initialise_given);
     app.footer(

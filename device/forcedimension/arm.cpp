@@ -43,7 +43,9 @@ std::unique_ptr<Arm> ArmSearch::next() {
         const auto id = by_type_ ? library_->open_type(known_type(static_cast<std::size_t>(place)))
                                  : library_->open(place);
         if (!id) {
-            if (!by_type_) last_error_ = library_->last_error();
+            // Most of the types are not attached.
+            const int error = library_->last_error();
+            if (!by_type_ || error == kDeviceInUse) last_error_ = error;
             continue;
         }
         auto arm = std::make_unique<Arm>(library_, *id);
@@ -54,15 +56,14 @@ std::unique_ptr<Arm> ArmSearch::next() {
 }
 
 NoArm why_no_arm(const ArmSearch& search, const UsbBus& bus, const std::string& serial) {
-    if (search.count() <= 0 && !bus.refused_node.empty())
-        return {Stage::no_permission,
-                sentence_for(Stage::no_permission, {}) + ": " +
-                    how_to_get_permission("70-dibhr-forcedimension.rules", "the arm")};
-    if (search.count() <= 0) return {Stage::looking, sentence_for(Stage::looking, {})};
     if (search.last_error() == kDeviceInUse)
         return {Stage::cannot_open,
                 "the Force Dimension arm is in use by another program: end that one"};
-    if (search.last_error() != 0)
+    if (!bus.refused_node.empty())
+        return {Stage::no_permission,
+                sentence_for(Stage::no_permission, {}) + ": " +
+                    how_to_get_permission("70-dibhr-forcedimension.rules", "the arm")};
+    if (search.count() > 0 && search.last_error() != 0)
         return {Stage::cannot_open, sentence_for(Stage::cannot_open, {}) + " (error " +
                                         std::to_string(search.last_error()) + ")"};
     if (!serial.empty())

@@ -3,6 +3,8 @@
 
 #include <atomic>
 #include <exception>
+#include <stop_token>
+#include <thread>
 #include <utility>
 
 #include "core/realtime/tick_timer.hpp"
@@ -15,10 +17,22 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kLookAgainAfter{1000};
-constexpr milliseconds kRetryOthersAfter{5000};  // where arms are attached and none can be used
+constexpr milliseconds kRetryOthersAfter{5000};  // where an arm is attached and cannot be used
 constexpr milliseconds kLastStopLimit{200};
 
 constexpr int kNoArmOpen = -1;
+
+/// Where another thread finds the ID of the open arm.
+class OpenMark {
+  public:
+    OpenMark(std::atomic<int>& place, int id) : place_(place) { place_ = id; }
+    ~OpenMark() { place_ = kNoArmOpen; }
+    OpenMark(const OpenMark&) = delete;
+    OpenMark& operator=(const OpenMark&) = delete;
+
+  private:
+    std::atomic<int>& place_;
+};
 
 }  // namespace
 
@@ -41,16 +55,12 @@ class Driver::Search {
     }
 
     [[nodiscard]] bool can_search() const noexcept { return library_ != nullptr; }
-    void run(const std::stop_token& stop);
+    void run();
+    ThreadEnd end{};
     [[nodiscard]] Status status() const { return board_.read(); }
     void agree_to(std::uint64_t offer) {
         offers_.agree_to(offer);
         buffers_->wake.signal();
-    }
-    /// False: the thread still runs.
-    [[nodiscard]] bool wait_for_end(milliseconds limit) {
-        std::unique_lock lock(mutex_);
-        return changed_.wait_for(lock, limit, [this] { return ended_; });
     }
     /// A last stop from another thread, while a call of the device's thread does not return.
     void stop_arm() const {
@@ -60,7 +70,7 @@ class Driver::Search {
 
   private:
     void find_arm(const std::stop_token& stop);
-    void use(std::unique_ptr<Arm> arm, const std::stop_token& stop);
+    void use(std::unique_ptr<Arm> opened, const std::stop_token& stop);
     void forget_arm();
     void publish_no_arm(const NoArm& why);
 
@@ -73,13 +83,10 @@ class Driver::Search {
     bool lost_{false};      // the sentence is about a loss
     milliseconds pause_{};  // before the next search
     std::atomic<int> open_id_{kNoArmOpen};
-
-    std::mutex mutex_{};
-    std::condition_variable_any changed_{};
-    bool ended_{false};  // guarded by mutex_
 };
 
-void Driver::Search::run(const std::stop_token& stop) {
+void Driver::Search::run() {
+    const std::stop_token stop = end.token();
     // A refusal is shown in the Loop panel, because the haptic thread requests the same.
     (void)become_realtime("dibhr forcedim");
     while (!stop.stop_requested()) {
@@ -87,18 +94,15 @@ void Driver::Search::run(const std::stop_token& stop) {
         try {
             find_arm(stop);
         } catch (const std::exception& failure) {
+            forget_arm();
             board_.enter(Stage::looking,
                          std::string("the thread of the Force Dimension arm failed (") +
                              failure.what() +
                              ") and begins again: close other programs if this happens again",
                          true);
         }
-        std::unique_lock lock(mutex_);
-        changed_.wait_for(lock, stop, pause_, [] { return false; });
+        end.pause(pause_);
     }
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    changed_.notify_all();
 }
 
 void Driver::Search::find_arm(const std::stop_token& stop) {
@@ -110,25 +114,23 @@ void Driver::Search::find_arm(const std::stop_token& stop) {
             return use(std::move(arm), stop);
     }
     forget_arm();
-    if (search.count() > 0) pause_ = kRetryOthersAfter;
-    publish_no_arm(why_no_arm(search, bus, options_.serial));
+    const NoArm why = why_no_arm(search, bus, options_.serial);
+    if (why.stage != Stage::looking || !options_.serial.empty()) pause_ = kRetryOthersAfter;
+    publish_no_arm(why);
 }
 
-void Driver::Search::use(std::unique_ptr<Arm> arm, const std::stop_token& stop) {
-    open_id_ = arm->id();
+void Driver::Search::use(std::unique_ptr<Arm> opened, const std::stop_token& stop) {
+    const OpenMark mark(open_id_, opened->id());
+    const std::unique_ptr<Arm> arm = std::move(opened);  // stopped and closed before the mark ends
     lost_ = false;
     try {
         ExchangeLoop exchange_loop(*arm, *buffers_, board_, driver_state_, offers_);
         exchange_loop.run(stop);
     } catch (const ArmLost& loss) {
         lost_ = true;
-        board_.draft().exchanges_per_s = 0.0;
-        board_.draft().offer.reset();
+        forget_arm();
         board_.enter(Stage::looking, loss.what(), true);
     }
-    arm.reset();  // stops it
-    open_id_ = kNoArmOpen;
-    forget_arm();
 }
 
 void Driver::Search::forget_arm() {
@@ -138,32 +140,24 @@ void Driver::Search::forget_arm() {
     status.controller_version.reset();
     status.watchdog_ms = 0.0;
     status.unguarded.clear();
+    status.exchanges_per_s = 0.0;
 }
 
 /// The sentence about a loss stays until something else is attached.
 void Driver::Search::publish_no_arm(const NoArm& why) {
-    const Status& published = board_.draft();
-    if (lost_ && why.stage == Stage::looking) return;
-    if (published.stage == why.stage && published.sentence == why.sentence) return;
-    board_.enter(why.stage, why.sentence, why.stage != Stage::looking);
+    const bool looks = why.stage == Stage::looking;
+    if (!(lost_ && looks)) board_.enter_new(why.stage, why.sentence, !looks);
 }
 
 Driver::Driver(ConnectionOptions options, FoundCalls found, std::shared_ptr<ArmBuffers> buffers)
     : search_(std::make_shared<Search>(std::move(options), std::move(found), std::move(buffers))) {
-    if (!search_->can_search()) return;
-    thread_ = std::thread([search = search_, stop = stop_.get_token()] { search->run(stop); });
+    if (search_->can_search()) thread_.emplace(search_);
 }
 
 Driver::~Driver() {
-    if (!thread_.joinable()) return;
-    stop_.request_stop();
-    if (search_->wait_for_end(kLeaveAfter)) {
-        thread_.join();
-        return;
-    }
-    thread_.detach();
+    if (!thread_ || thread_->end_within(kLeaveAfter)) return;
     std::thread([search = search_] { search->stop_arm(); }).detach();
-    (void)search_->wait_for_end(kLastStopLimit);
+    (void)search_->end.comes_within(kLastStopLimit);
 }
 
 Status Driver::status() const {

@@ -3,16 +3,13 @@
 #pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <stop_token>
-#include <string>
-#include <thread>
+#include <optional>
 
 #include "device/arm_buffers.hpp"
 #include "device/forcedimension/exchange_loop.hpp"
 #include "device/forcedimension/status.hpp"
+#include "device/library_thread.hpp"
 
 namespace dibhr::forcedimension {
 
@@ -36,9 +33,8 @@ class Driver {
   private:
     class Search;
 
-    std::shared_ptr<Search> search_;  // shared with its thread
-    std::stop_source stop_{};
-    std::thread thread_{};
+    std::shared_ptr<Search> search_;
+    std::optional<LibraryThread> thread_{};
 };
 
 }  // namespace dibhr::forcedimension

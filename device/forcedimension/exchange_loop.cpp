@@ -18,15 +18,13 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
 // README.md, Safety numbers.
-constexpr milliseconds kOldestForce{20};
 constexpr milliseconds kStatusPeriod{4};
 constexpr milliseconds kIdleStatusPeriod{50};  // while the arm waits for a person
 constexpr milliseconds kSettle{100};           // from switching the motors on to the first force
 constexpr milliseconds kWatchdogPause{500};    // until a force that the watchdog took off is back
 constexpr int kMostFailedStatuses = 3;         // in a row: 12 ms
 constexpr int kMostFailedExchanges = 10;       // in a row: 5 ms
-constexpr milliseconds kRatePeriod{500};
-constexpr milliseconds kLoopIdleAfter{200};  // without a force from the haptic loop
+constexpr milliseconds kLoopIdleAfter{200};    // without a force from the haptic loop
 
 // Pauses between two exchanges.
 constexpr microseconds kPause{500};
@@ -57,9 +55,8 @@ ExchangeLoop::ExchangeLoop(const Arm& arm, ArmBuffers& buffers, Board& board,
       board_(board),
       driver_state_(driver_state),
       offers_(offers),
-      last_loop_update_(Clock::now()),
-      rate_from_(driver_state.exchanges),
-      rate_since_(last_loop_update_) {
+      last_loop_update_(Clock::now()) {
+    driver_state_.exchanges.begin(last_loop_update_);
     driver_state_.trust.begin();
     driver_state_.trust.add_gap();
     buffers_.limits.publish(limits_of(model_of(board_.draft().type)));
@@ -123,7 +120,8 @@ Stage ExchangeLoop::stage_of(const ArmStatus& status, Time now) const noexcept {
     if (status.error) return Stage::fault;
     if (!status.initialised) return Stage::not_initialised;
     if (!status.force && now >= settled_at_) return Stage::force_off;
-    return driver_state_.delay.within_ms() > kLongestExchange_ms ? Stage::slow : Stage::ready;
+    return driver_state_.exchanges.delay.within_ms() > kLongestExchange_ms ? Stage::slow
+                                                                           : Stage::ready;
 }
 
 /// Makes the sentence and the offer of a new stage; for the same stage neither is made again.
@@ -222,7 +220,7 @@ void ExchangeLoop::initialise(const std::stop_token& stop) {
         std::this_thread::sleep_for(kInitialisingPoll);
     }
     moving.join();
-    refusal_ = *call == Call::succeeded ? std::string{} : refusal;
+    refusal_ = *call == Call::succeeded || stopped_at ? std::string{} : refusal;
     // Brakes: the motors are switched on for forces only after this.
     library_.stop_initialising(arm_.id());
 }
@@ -233,7 +231,7 @@ void ExchangeLoop::exchange_once() {
     const auto position = library_.position_m(arm_.id());
     const Time answered = Clock::now();
     exchanged_at_ = asked;
-    driver_state_.delay.add(asked, answered);
+    driver_state_.exchanges.delay.add(asked, answered);
     // An arm whose force is off may refuse every force: the status tells whether it is.
     if (!sent) status_due_ = asked;
     const bool refused = !sent && board_.draft().stage != Stage::force_off && asked >= settled_at_;
@@ -243,7 +241,7 @@ void ExchangeLoop::exchange_once() {
         return;
     }
     failed_exchanges_ = 0;
-    ++driver_state_.exchanges;
+    ++driver_state_.exchanges.count;
     const bool usable = board_.draft().stage == Stage::ready && answered >= settled_at_;
     driver_state_.trust.add(position, answered, usable);
     publish_pose(position, answered);
@@ -251,11 +249,7 @@ void ExchangeLoop::exchange_once() {
 
 Vec3 ExchangeLoop::current_force(Time now) {
     if (buffers_.forces.fresh()) last_loop_update_ = now;
-    const TimedForce& requested = buffers_.forces.front();
-    const bool may = epoch() != kNoEpoch && requested.epoch == epoch() &&
-                     now < requested.at + kOldestForce && !Guardian::alarmed() &&
-                     is_finite(requested.newton);
-    return may ? requested.newton : Vec3{0.0};
+    return buffers_.force_for(epoch(), now);
 }
 
 Epoch ExchangeLoop::epoch() const noexcept {
@@ -266,11 +260,11 @@ void ExchangeLoop::publish_pose(const std::optional<Vec3>& position_m, Time at) 
     if (!position_m) driver_state_.trust.add_gap();
     TimedPose& pose = buffers_.poses.back();
     pose.epoch = epoch();
-    pose.exchange_ms = driver_state_.delay.within_ms();
+    pose.exchange_ms = driver_state_.exchanges.delay.within_ms();
     pose.position_m = position_m.value_or(Vec3{0.0});
     pose.buttons = buttons_;
     pose.at = at;
-    pose.number = driver_state_.exchanges;
+    pose.number = driver_state_.exchanges.count;
     buffers_.poses.publish();
 }
 
@@ -288,17 +282,8 @@ void ExchangeLoop::report(Time now) {
     Status& status = board_.draft();
     status.presses = driver_state_.buttons.presses();
     status.pressed_at = driver_state_.buttons.pressed_at();
-    status.exchanges = driver_state_.exchanges;
     status.failed_calls = driver_state_.failed_calls;
-    status.exchange_ms = driver_state_.delay.mean_ms();
-    status.softened = driver_state_.delay.within_ms() > kPromptExchange_ms;
-    if (now - rate_since_ >= kRatePeriod) {
-        const std::chrono::duration<double> passed = now - rate_since_;
-        status.exchanges_per_s =
-            static_cast<double>(driver_state_.exchanges - rate_from_) / passed.count();
-        rate_from_ = driver_state_.exchanges;
-        rate_since_ = now;
-    }
+    driver_state_.exchanges.report(status, now);
     board_.publish_if_due(now);
 }
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "device/arm_buffers.hpp"
+#include "device/arm_exchanges.hpp"
 #include "device/forcedimension/arm.hpp"
 #include "device/forcedimension/offers.hpp"
 #include "device/forcedimension/status.hpp"
 #include "device/hand/buttons.hpp"
-#include "device/hand/delay_watch.hpp"
 #include "device/hand/pose_trust.hpp"
 
 namespace dibhr::forcedimension {
@@ -27,8 +27,7 @@ class ArmLost : public std::runtime_error {
 struct DriverState {
     PoseTrust trust{};
     ButtonDebounce buttons{};
-    DelayWatch delay{};
-    std::uint64_t exchanges{0};
+    ExchangeCount exchanges{};
     std::uint64_t failed_calls{0};
 };
 
@@ -83,8 +82,6 @@ class ExchangeLoop {
     Time force_off_since_{};
     Time exchanged_at_{};
     Time last_loop_update_{};
-    std::uint64_t rate_from_{0};
-    Time rate_since_{};
 };
 
 }  // namespace dibhr::forcedimension

@@ -12,6 +12,7 @@
 #include "device/forcedimension/forcedimension_device.hpp"
 #include "device/forcedimension/record.hpp"
 #include "device/hand/check/questions.hpp"
+#include "device/recorded_device.hpp"
 
 namespace dibhr::forcedimension {
 
@@ -23,7 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr milliseconds kPoll{10};
 constexpr seconds kSearchLimit{3};
-constexpr seconds kRecordFor{10};
 
 FoundCalls library_of(const ConnectionOptions& options) {
     FoundCalls found = load_calls(options.library);
@@ -67,20 +67,6 @@ bool agrees(CheckConsole& console, const DeviceOffer& offer) try {
     return false;
 }
 
-/// Prints the sentence of every stage for `span`.
-void print_stages(const ForceDimensionDevice& device, Clock::duration span,
-                  const PrintLine& print) {
-    std::string printed;
-    const auto end = Clock::now() + span;
-    while (Clock::now() < end) {
-        const Status status = wait_for(device, end - Clock::now(), [&printed](const Status& now) {
-            return now.sentence != printed;
-        });
-        if (status.sentence != printed) print(name_of(status) + ": " + status.sentence);
-        printed = status.sentence;
-    }
-}
-
 }  // namespace
 
 void initialise_arm(const ConnectionOptions& options, const PrintLine& print,
@@ -107,6 +93,7 @@ void initialise_arm(const ConnectionOptions& options, const PrintLine& print,
         }
         return now.stage != Stage::initialising && (!now.offer || now.offer->number != agreed);
     });
+    if (stopped) return print("You have stopped the arm. It does not know its position yet.");
     if (status.stage != Stage::ready) throw DeviceError(status.sentence);
     print(name_of(status) + " is initialised");
 }
@@ -115,12 +102,8 @@ void record_arm(const ConnectionOptions& options, const std::filesystem::path& f
                 const PrintLine& print) {
     FoundCalls found = library_of(options);
     found.calls = std::make_shared<RecordedCalls>(std::move(found.calls), file);
-    const ForceDimensionDevice device(options, std::move(found));
-    print(
-        "Move the grip slowly to all sides for 10 seconds, and press every button. There is no "
-        "force.");
-    print_stages(device, kRecordFor, print);
-    print("Recorded in " + file.string());
+    ForceDimensionDevice device(options, std::move(found));
+    record_device(device, file, print);
 }
 
 void play_arm(const std::filesystem::path& record, const PrintLine& print) {
@@ -128,10 +111,8 @@ void play_arm(const std::filesystem::path& record, const PrintLine& print) {
     options.library = record.string();
     FoundCalls found = play_record(record);
     if (found.calls == nullptr) throw DeviceError(found.trouble);
-    const ForceDimensionDevice device(options, std::move(found));
-    print_stages(device, kRecordFor, print);
-    print("To touch with this record, set library = \"" + record.string() +
-          "\" under [forcedimension] in settings.toml.");
+    ForceDimensionDevice device(options, std::move(found));
+    play_device(device, record, "forcedimension", print);
 }
 
 }  // namespace dibhr::forcedimension

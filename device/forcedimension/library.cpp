@@ -40,6 +40,7 @@ std::optional<int> Library::opened(Function function, int which) {
 std::optional<int> Library::serial(int id) {
     std::array<double, 1> serial{};
     if (calls_->call(Function::serial, id, {}, serial) < 0) return std::nullopt;
+    if (!(serial[0] >= 0.0 && serial[0] <= 65535.0)) return std::nullopt;
     return static_cast<int>(serial[0]);
 }
 

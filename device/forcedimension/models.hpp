@@ -35,7 +35,4 @@ struct ArmModel {
 /// Limits of the strongest model.
 [[nodiscard]] DeviceLimits strongest_limits() noexcept;
 
-inline constexpr int kPromptExchange_ms = 2;   ///< longer exchanges make springs noticeably softer
-inline constexpr int kLongestExchange_ms = 5;  ///< longer exchanges allow no force
-
 }  // namespace dibhr::forcedimension

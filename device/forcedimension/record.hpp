@@ -1,11 +1,11 @@
-// A record of what Force Dimension's library was asked and answered: a text file that a user can
-// send, and that dibhr plays as a device.
+// A record of what Force Dimension's library was asked and answered.
 #pragma once
 
 #include <filesystem>
 #include <memory>
 #include <string>
 
+#include "device/call_record.hpp"
 #include "device/forcedimension/calls.hpp"
 
 namespace dibhr::forcedimension {
@@ -24,10 +24,8 @@ class RecordedCalls final : public Calls {
     [[nodiscard]] const std::string& file() const noexcept override { return library_->file(); }
 
   private:
-    struct Output;
-
     const std::shared_ptr<Calls> library_;
-    const std::unique_ptr<Output> output_;
+    const std::unique_ptr<CallRecorder> recorder_;
 };
 
 /// The file exists and begins as a record does.

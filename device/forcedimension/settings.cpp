@@ -14,11 +14,8 @@ constexpr const char* kConnection = "Force Dimension library";
 }  // namespace
 
 std::vector<DeviceRow> ForceDimensionSettings::rows() {
-    constexpr const char* kAside =
-        "Where in the image the workspace's centre is, from the image's middle";
     constexpr const char* kCentre =
         "Centre of the workspace, from the arm's origin, in the directions of your hand";
-    Vec3& offset_mm = workspace.offset_mm;
     Vec3& centre_mm = tuning.centre_mm;
     std::vector<DeviceRow> rows{
         {"device", kConnection, "Serial: the first one found",
@@ -30,17 +27,14 @@ std::vector<DeviceRow> ForceDimensionSettings::rows() {
          "dibhr devices --record, which is then played as a device",
          &library, 0.0, 127.0},
         scale_row(kWorkspace, workspace.scale),
-        {"box", kWorkspace, "Comfortable box",
-         "Edge of the box that your hand moves in without effort; the image is fitted to it",
-         &box_mm, kSmallestBox_mm, kLargestBox_mm, "%.0f mm"},
+        box_row(kWorkspace, box_mm),
         {"centre-x", kWorkspace, "Centre right", kCentre, &centre_mm.x, -150.0, 150.0, "%.0f mm"},
         {"centre-y", kWorkspace, "Centre up", kCentre, &centre_mm.y, -150.0, 150.0, "%.0f mm"},
         {"centre-z", kWorkspace, "Centre out", kCentre, &centre_mm.z, -150.0, 150.0, "%.0f mm"},
-        offset_row("offset-x", "Offset right", kWorkspace, offset_mm.x, kAside),
-        offset_row("offset-y", "Offset up", kWorkspace, offset_mm.y, kAside),
-        offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
-                   "How far above the middle of the relief the workspace's centre is"),
     };
+    add_offset_rows(rows, kWorkspace,
+                    "Where in the image the workspace's centre is, from the image's middle",
+                    "How far above the middle of the relief the workspace's centre is");
     add_buttons(rows, kDeviceButtons, kButtons);
     return rows;
 }
@@ -66,9 +60,7 @@ ConnectionOptions connection_of(const ForceDimensionSettings& settings) {
 }
 
 Tuning tuning_of(const ForceDimensionSettings& settings, const HandTuning& hand) noexcept {
-    Tuning tuning = with_hand_tuning(settings.tuning, settings, hand);
-    tuning.max_force_newton = hand.max_force_newton;
-    return tuning;
+    return with_hand_tuning(settings.tuning, settings, hand);
 }
 
 }  // namespace dibhr::forcedimension

@@ -1,5 +1,6 @@
 // The state of a Force Dimension arm as data for the panel, the session and its reports.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/files/plain_text.hpp"
@@ -10,32 +11,16 @@ namespace dibhr::forcedimension {
 
 namespace {
 
-/// The histogram's last bin has no upper end.
-std::string age_text(double ms) {
-    return ms > PoseAges::kLongest_ms ? "20 ms or more" : number_text(ms, 2) + " ms";
-}
-
 std::string watchdog_text(const Status& status) {
     return status.watchdog_ms > 0.0 ? number_text(status.watchdog_ms, 1) + " ms" : "none";
 }
 
-void add_exchange(const Status& status, const PoseAges& recent, std::vector<DeviceLine>& lines) {
-    lines.push_back({"Exchanges",
-                     number_text(status.exchanges_per_s, 0) + " per second, " +
-                         number_text(status.exchange_ms, 1) + " ms each",
-                     "Time for setting a force and reading a position: above 2 ms springs are "
-                     "softer, above 5 ms there is no force"});
-    if (status.softened) {
-        lines.push_back({.text = "The arm answers slowly: springs are softer, so that they do not "
-                                 "swing."});
-    }
-    if (recent.count() > 0) {
-        lines.push_back({"Age of the pose",
-                         age_text(recent.quantile_ms(0.5)) + ", 99 % below " +
-                             age_text(recent.quantile_ms(0.99)),
-                         "Age of the position that a tick uses, in the last second. A position "
-                         "older than 20 ms gives no force"});
-    }
+std::vector<DeviceLine> lines_of(const Status& status, const PoseAges& recent) {
+    std::vector<DeviceLine> lines =
+        exchange_lines(status, recent,
+                       "Time for setting a force and reading a position: above 2 ms springs are "
+                       "softer, above 5 ms there is no force",
+                       "arm");
     lines.push_back({"Watchdog", watchdog_text(status),
                      "The arm itself takes its force off when dibhr sends nothing for so long"});
     if (!is_known(status.type)) {
@@ -46,6 +31,7 @@ void add_exchange(const Status& status, const PoseAges& recent, std::vector<Devi
         lines.push_back(
             {.label = "Link", .text = std::to_string(status.failed_calls) + " calls failed"});
     }
+    return lines;
 }
 
 }  // namespace
@@ -73,7 +59,8 @@ DeviceState state_of(const Status& status, const PoseAges& recent) {
         .text = known ? name_of_type(status.type) + " " + status.serial : "none attached"};
     if (!status.library.empty())
         state.lines.push_back({.label = "Library", .text = status.library});
-    if (state.ready) add_exchange(status, recent, state.lines);
+    if (!state.ready) return state;
+    for (DeviceLine& line : lines_of(status, recent)) state.lines.push_back(std::move(line));
     return state;
 }
 

@@ -8,9 +8,11 @@
 #include <string>
 #include <tuple>
 
+#include "device/arm_exchanges.hpp"
 #include "device/force_device.hpp"
 #include "device/forcedimension/library.hpp"
 #include "device/hand/state_board.hpp"
+#include "device/hand/usb_list.hpp"
 #include "device/hand/workspace.hpp"
 
 namespace dibhr::forcedimension {
@@ -19,7 +21,7 @@ namespace dibhr::forcedimension {
 struct ConnectionOptions {
     std::string serial{};   ///< empty: the first arm that can be opened
     std::string library{};  ///< a file, a folder or a record; empty: wherever it is installed
-    std::filesystem::path usb_devices{"/sys/bus/usb/devices"};
+    std::filesystem::path usb_devices{kUsbDevices};
 };
 
 /// May change while touching; the next tick takes it as a whole.
@@ -57,7 +59,7 @@ enum class Stage {
     ready             ///< poses and forces
 };
 
-struct Status : DeviceStatus {
+struct Status : DeviceStatus, ExchangeStatus {
     Stage stage{Stage::looking};
     std::string library{};  ///< file, and version
     std::string serial{};   ///< empty: not known
@@ -67,10 +69,6 @@ struct Status : DeviceStatus {
     bool clamped{false};      ///< the library limits the force, too
     ForceOff cause{ForceOff::none};
     std::optional<DeviceOffer> offer{};
-    double exchanges_per_s{0.0};
-    double exchange_ms{0.0};  ///< recent mean time of setting a force and reading a position
-    bool softened{false};     ///< stiffness is limited more, because exchanges take so long
-    std::uint64_t exchanges{0};
     std::uint64_t failed_calls{0};
 };
 

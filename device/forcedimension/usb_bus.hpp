@@ -1,9 +1,10 @@
-// What the system says of devices on the USB: the library itself reports a device without
-// permission as no device.
+// What the system says of devices on the USB.
 #pragma once
 
 #include <filesystem>
 #include <string>
+
+#include "device/hand/usb_list.hpp"
 
 namespace dibhr::forcedimension {
 
@@ -13,7 +14,6 @@ struct UsbBus {
     bool has_falcon{false};      ///< a Novint Falcon is attached
 };
 
-/// `devices`: the system's list. A list that cannot be read is empty.
-[[nodiscard]] UsbBus read_usb_bus(const std::filesystem::path& devices = "/sys/bus/usb/devices");
+[[nodiscard]] UsbBus read_usb_bus(const std::filesystem::path& devices = kUsbDevices);
 
 }  // namespace dibhr::forcedimension

@@ -51,6 +51,39 @@ struct DeviceRow {
     std::optional<Protection> protection{};
 };
 
+/// The row of WorkspaceOptions::scale.
+[[nodiscard]] inline DeviceRow scale_row(std::string_view topic, double& scale) {
+    return {.name = "scale",
+            .topic = topic,
+            .label = "Scale",
+            .help =
+                "Millimetres in the image for each millimetre of the hand. A larger image "
+                "feels softer: the stiffness in the hand never exceeds 1 N/mm",
+            .value = &scale,
+            .lowest = 0.1,
+            .highest = 10.0,
+            .format = "x %.2f"};
+}
+
+/// The row of one coordinate of WorkspaceOptions::offset_mm: "offset-x", "Offset right".
+[[nodiscard]] inline DeviceRow offset_row(std::string_view name, const char* label,
+                                          std::string_view topic, double& offset_mm,
+                                          const char* help) {
+    return {name, topic, label, help, &offset_mm, -200.0, 200.0, "%.1f mm"};
+}
+
+/// The row of the edge of the box in which a hand moves comfortably.
+[[nodiscard]] inline DeviceRow box_row(std::string_view topic, double& box_mm) {
+    return {"box",
+            topic,
+            "Comfortable box",
+            "Edge of the box that your hand moves in without effort; the image is fitted to it",
+            &box_mm,
+            kSmallestBox_mm,
+            kLargestBox_mm,
+            "%.0f mm"};
+}
+
 /// A heading of the panel, above the rows of that topic.
 struct DeviceTopic {
     const char* name;
@@ -85,6 +118,13 @@ struct DeviceSettings {
     [[nodiscard]] virtual DeviceLimits limits() const = 0;
 
   protected:
+    /// Appends the rows of WorkspaceOptions::offset_mm. `aside`, `out`: what they move.
+    void add_offset_rows(std::vector<DeviceRow>& rows, std::string_view topic, const char* aside,
+                         const char* out) {
+        rows.push_back(offset_row("offset-x", "Offset right", topic, workspace.offset_mm.x, aside));
+        rows.push_back(offset_row("offset-y", "Offset up", topic, workspace.offset_mm.y, aside));
+        rows.push_back(offset_row("offset-z", "Offset out", topic, workspace.offset_mm.z, out));
+    }
     /// Appends the rows of the device's buttons.
     void add_buttons(std::vector<DeviceRow>& rows, const DeviceButtons& grip,
                      std::string_view topic) {
@@ -100,34 +140,14 @@ struct DeviceSettings {
     }
 };
 
-/// The row of WorkspaceOptions::scale.
-[[nodiscard]] inline DeviceRow scale_row(std::string_view topic, double& scale) {
-    return {.name = "scale",
-            .topic = topic,
-            .label = "Scale",
-            .help =
-                "Millimetres in the image for each millimetre of the hand. A larger image "
-                "feels softer: the stiffness in the hand never exceeds 1 N/mm",
-            .value = &scale,
-            .lowest = 0.1,
-            .highest = 10.0,
-            .format = "x %.2f"};
-}
-
-/// The row of one coordinate of WorkspaceOptions::offset_mm: "offset-x", "Offset right".
-[[nodiscard]] inline DeviceRow offset_row(std::string_view name, const char* label,
-                                          std::string_view topic, double& offset_mm,
-                                          const char* help) {
-    return {name, topic, label, help, &offset_mm, -200.0, 200.0, "%.1f mm"};
-}
-
 /// What tunes every device, in addition to the settings of its kind.
 struct HandTuning {
     double max_force_newton;
     std::uint32_t centre_count;  ///< a new value resets the clutch's shift
 };
 
-/// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centre_count` set.
+/// Returns `tuning` with workspace, clutch buttons, force-off buttons and `centre_count` set, and
+/// `max_force_newton` where it has one.
 template <typename Tuning>
 [[nodiscard]] Tuning with_hand_tuning(Tuning tuning, const DeviceSettings& settings,
                                       const HandTuning& hand) noexcept {
@@ -135,6 +155,8 @@ template <typename Tuning>
     tuning.clutch_buttons = buttons_for(ButtonAction::clutch, settings.buttons);
     tuning.force_off_buttons = buttons_for(ButtonAction::force_off, settings.buttons);
     tuning.centre_count = hand.centre_count;
+    if constexpr (requires { tuning.max_force_newton; })
+        tuning.max_force_newton = hand.max_force_newton;
     return tuning;
 }
 

@@ -58,6 +58,11 @@ class StateBoard {
         publish();
     }
 
+    /// enter(), unless the draft has this stage with this sentence.
+    void enter_new(decltype(State::stage) stage, const std::string& sentence, bool trouble) {
+        if (draft_.stage != stage || draft_.sentence != sentence) enter(stage, sentence, trouble);
+    }
+
   private:
     static constexpr std::chrono::milliseconds kPeriod{20};  // more often than any screen shows
 

@@ -40,10 +40,10 @@ void Driver::run(const std::stop_token& stop) {
         try {
             find_device(stop);
         } catch (const std::exception& failure) {
-            publish_status(Stage::looking,
-                           std::string("the Inverse3's thread failed (") + failure.what() +
-                               ") and begins again: close other programs if this happens again",
-                           true);
+            board_.enter_new(Stage::looking,
+                             std::string("the Inverse3's thread failed (") + failure.what() +
+                                 ") and begins again: close other programs if this happens again",
+                             true);
         }
         std::unique_lock lock(mutex_);
         changed_.wait_for(lock, stop, pause_, [] { return false; });
@@ -56,7 +56,7 @@ void Driver::find_device(const std::stop_token& stop) {
     const auto version = ask_version(options_);
     status.version = version ? version->text : std::string{};
     if (version && !version->at_least(3, 1)) {
-        publish_status(Stage::too_old, sentence_for(Stage::too_old, status), true);
+        board_.enter_new(Stage::too_old, sentence_for(Stage::too_old, status), true);
         return;
     }
     try {
@@ -84,7 +84,7 @@ void Driver::handle_loss(const LinkError& error, const ExchangeLoop& exchange_lo
     status.grip.reset();
     if (!exchange_loop.closed_on_force()) {
         driver_state_.dialects_refused = 0;
-        publish_status(
+        board_.enter_new(
             error.why() == Why::too_long ? Stage::not_understood : Stage::looking,
             error.why() == Why::unguarded
                 ? "the process that takes the force off when dibhr dies was ended: another one is "
@@ -106,13 +106,7 @@ void Driver::handle_no_service(const LinkError& error) {
     if (error.why() == Why::not_the_service) pause_ = kRetryOtherServerAfter;
     // Keeps the sentence about the loss until the service is there again.
     if (lost_ && stage == Stage::looking && error.why() == Why::refused) return;
-    publish_status(stage, sentence, stage != Stage::looking);
-}
-
-void Driver::publish_status(Stage stage, const std::string& sentence, bool trouble) {
-    const Status& published = board_.draft();
-    if (published.stage == stage && published.sentence == sentence) return;
-    board_.enter(stage, sentence, trouble);
+    board_.enter_new(stage, sentence, stage != Stage::looking);
 }
 
 }  // namespace dibhr::inverse3

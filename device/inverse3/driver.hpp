@@ -34,7 +34,6 @@ class Driver {
     void run_exchanges(ServiceLink& link, bool newer, const std::stop_token& stop);
     void handle_loss(const LinkError& error, const ExchangeLoop& exchange_loop);
     void handle_no_service(const LinkError& error);
-    void publish_status(Stage stage, const std::string& sentence, bool trouble);
 
     const ConnectionOptions options_;
     ArmBuffers& buffers_;

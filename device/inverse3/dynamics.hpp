@@ -15,7 +15,5 @@ inline constexpr DeviceDynamics kAssumedDynamics{
 constexpr double delay_s_of(int exchange_ms) noexcept {
     return 1e-3 * (1.5 * exchange_ms + 1.5);
 }
-inline constexpr int kPromptExchange_ms = 2;   ///< longer exchanges make springs noticeably softer
-inline constexpr int kLongestExchange_ms = 5;  ///< longer exchanges allow no force
 
 }  // namespace dibhr::inverse3

@@ -18,14 +18,12 @@ using std::chrono::seconds;
 using Why = LinkError::Why;
 
 // README.md, Safety numbers.
-constexpr milliseconds kOldestForce{20};
 constexpr int kZerosAfterForce = 5;
 constexpr milliseconds kBeatPeriod{10};  // between beats; the guardian's timeout is 50 ms
 constexpr seconds kLongestSilence{2};
 constexpr milliseconds kMessageTimeout{500};  // from its first byte to its last
 constexpr milliseconds kCloseTimeout{100};
 constexpr milliseconds kInventoryTimeout{500};
-constexpr milliseconds kRatePeriod{500};
 constexpr milliseconds kLoopIdleAfter{200};  // without a force from the haptic loop
 constexpr milliseconds kReadBackEvery{1000};
 constexpr int kMostPresetRequests = 3;
@@ -60,9 +58,8 @@ ExchangeLoop::ExchangeLoop(ServiceLink& link, const ConnectionOptions& options, 
       board_(board),
       driver_state_(driver_state),
       guardian_(guardian),
-      last_loop_update_(Clock::now()),
-      rate_from_(driver_state.exchanges),
-      rate_since_(last_loop_update_) {
+      last_loop_update_(Clock::now()) {
+    driver_state_.exchanges.begin(last_loop_update_);
     forget_arm();
 }
 
@@ -98,11 +95,11 @@ void ExchangeLoop::exchange_once(const std::stop_token& stop) {
         throw LinkError(Why::lost, "it has been silent for 2 s");
     }
     if (!sent_whole_)
-        driver_state_.delay.add(sent_at_, Clock::now());  // a whole state takes longer
+        driver_state_.exchanges.delay.add(sent_at_, Clock::now());  // a whole state takes longer
     take();
     in_flight_ = false;
     if (sent_drives_) force_answered_ = true;
-    ++driver_state_.exchanges;
+    ++driver_state_.exchanges.count;
 }
 
 bool ExchangeLoop::closed_on_force() const noexcept {
@@ -210,10 +207,7 @@ ServiceRequest ExchangeLoop::next_request() {
 
 Vec3 ExchangeLoop::current_force(Time now) {
     if (buffers_.forces.fresh()) last_loop_update_ = now;
-    const TimedForce& requested = buffers_.forces.front();
-    const bool may = epoch() != kNoEpoch && requested.epoch == epoch() &&
-                     now < requested.at + kOldestForce && !Guardian::alarmed();
-    return may ? requested.newton : Vec3{0.0};
+    return buffers_.force_for(epoch(), now);
 }
 
 ForceDialect ExchangeLoop::dialect() const noexcept {
@@ -375,7 +369,8 @@ Stage ExchangeLoop::stage() const noexcept {
     if (of_arm != Stage::ready) return of_arm;
     if (board_.draft().other_preset && options_.preset != ShortWord(kUsualPreset))
         return Stage::other_preset;
-    return driver_state_.delay.within_ms() > kLongestExchange_ms ? Stage::slow : Stage::ready;
+    return driver_state_.exchanges.delay.within_ms() > kLongestExchange_ms ? Stage::slow
+                                                                           : Stage::ready;
 }
 
 Epoch ExchangeLoop::epoch() const noexcept {
@@ -426,11 +421,11 @@ void ExchangeLoop::try_other_dialect() {
 void ExchangeLoop::publish_pose(const Arm& arm, Time at) {
     TimedPose& pose = buffers_.poses.back();
     pose.epoch = epoch();
-    pose.exchange_ms = driver_state_.delay.within_ms();
+    pose.exchange_ms = driver_state_.exchanges.delay.within_ms();
     pose.position_m = arm.position_m.value_or(Vec3{0.0});
     pose.buttons = buttons_;
     pose.at = at;
-    pose.number = driver_state_.exchanges + 1;
+    pose.number = driver_state_.exchanges.count + 1;
     buffers_.poses.publish();
 }
 
@@ -438,28 +433,17 @@ void ExchangeLoop::report(Time now) {
     Status& status = board_.draft();
     status.presses = driver_state_.buttons.presses();
     status.pressed_at = driver_state_.buttons.pressed_at();
-    status.exchanges = driver_state_.exchanges;
     status.unrequested = driver_state_.unrequested;
     status.not_understood = driver_state_.not_understood;
     status.dialect = dialect();
     status.dialect_confirmed = driver_state_.dialect_confirmed;
-    status.exchange_ms = driver_state_.delay.mean_ms();
-    status.softened = driver_state_.delay.within_ms() > kPromptExchange_ms;
-    if (now - rate_since_ >= kRatePeriod) {
-        const std::chrono::duration<double> passed = now - rate_since_;
-        status.exchanges_per_s =
-            static_cast<double>(driver_state_.exchanges - rate_from_) / passed.count();
-        rate_from_ = driver_state_.exchanges;
-        rate_since_ = now;
-    }
+    driver_state_.exchanges.report(status, now);
     board_.publish_if_due(now);
 }
 
 void ExchangeLoop::publish_status(Stage stage, const std::string& sentence, bool trouble) {
     stage_published_ = true;
-    const Status& published = board_.draft();
-    if (published.stage == stage && published.sentence == sentence) return;
-    board_.enter(stage, sentence, trouble);
+    board_.enter_new(stage, sentence, trouble);
 }
 
 }  // namespace dibhr::inverse3

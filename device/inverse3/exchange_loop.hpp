@@ -10,8 +10,8 @@
 #include <string_view>
 
 #include "device/arm_buffers.hpp"
+#include "device/arm_exchanges.hpp"
 #include "device/hand/buttons.hpp"
-#include "device/hand/delay_watch.hpp"
 #include "device/hand/guardian.hpp"
 #include "device/inverse3/arm_watch.hpp"
 #include "device/inverse3/message.hpp"
@@ -26,12 +26,11 @@ struct DriverState {
     MessageReader reader{};
     RequestWriter writer{};
     ArmWatch watch{};  // its epochs continue
-    DelayWatch delay{};
     ButtonDebounce buttons{};
     std::optional<ForceDialect> dialect{};  ///< found by trial; nothing: the version decides
     bool dialect_confirmed{false};
     int dialects_refused{0};  ///< 2: the service refused both
-    std::uint64_t exchanges{0};
+    ExchangeCount exchanges{};
     std::uint64_t unrequested{0};
     std::uint64_t not_understood{0};
 };
@@ -128,8 +127,6 @@ class ExchangeLoop {
     Time whole_state_due_{};
     Time last_loop_update_{};
     std::uint8_t buttons_{0};
-    std::uint64_t rate_from_{0};
-    Time rate_since_{};
 };
 
 }  // namespace dibhr::inverse3

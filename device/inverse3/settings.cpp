@@ -19,9 +19,6 @@ constexpr const char* kService = "Inverse3 service";
 std::vector<DeviceRow> Inverse3Settings::rows() {
     constexpr double kLowestPort = 1.0;
     constexpr double kHighestPort = 65535.0;
-    constexpr const char* kAside =
-        "Where in the image the box's centre is, from the image's middle";
-    Vec3& offset_mm = workspace.offset_mm;
     std::vector<DeviceRow> rows{
         {"device", kService, "Name: the first one found",
          "Which Inverse3, when several are attached: its name, left or right", &device, 0.0, 63.0},
@@ -37,9 +34,7 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "led_front_centered; the centre above depends on the preset",
          &preset, 0.0, 31.0},
         scale_row(kWorkspace, workspace.scale),
-        {"box", kWorkspace, "Comfortable box",
-         "Edge of the box that your hand moves in without effort; the image is fitted to it",
-         &box_mm, kSmallestBox_mm, kLargestBox_mm, "%.0f mm"},
+        box_row(kWorkspace, box_mm),
         {"tilt", kWorkspace, "Tilt",
          "How far the image leans back under your hand: 0 upright before you, 90 flat on the table",
          &tuning.tilt_deg, 0.0, 90.0, "%.0f deg"},
@@ -54,11 +49,10 @@ std::vector<DeviceRow> Inverse3Settings::rows() {
          "Centre of the comfortable box, from the device's origin; 0 for the presets that have "
          "their origin in the middle",
          &tuning.centre_mm.z, -250.0, 400.0, "%.0f mm"},
-        offset_row("offset-x", "Offset right", kWorkspace, offset_mm.x, kAside),
-        offset_row("offset-y", "Offset up", kWorkspace, offset_mm.y, kAside),
-        offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
-                   "How far above the middle of the relief the box's centre is"),
     };
+    add_offset_rows(rows, kWorkspace,
+                    "Where in the image the box's centre is, from the image's middle",
+                    "How far above the middle of the relief the box's centre is");
     add_buttons(rows, kDeviceButtons, kButtons);
     return rows;
 }
@@ -86,9 +80,7 @@ ConnectionOptions connection_of(const Inverse3Settings& settings) {
 }
 
 Tuning tuning_of(const Inverse3Settings& settings, const HandTuning& hand) noexcept {
-    Tuning tuning = with_hand_tuning(settings.tuning, settings, hand);
-    tuning.max_force_newton = hand.max_force_newton;
-    return tuning;
+    return with_hand_tuning(settings.tuning, settings, hand);
 }
 
 }  // namespace dibhr::inverse3

@@ -1,5 +1,6 @@
 // The state of an Inverse3 as data for the panel, the session and its reports.
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/files/plain_text.hpp"
@@ -29,28 +30,12 @@ std::string grip_text(const GripStatus& grip) {
     return text;
 }
 
-/// The histogram's last bin has no upper end.
-std::string age_text(double ms) {
-    return ms > PoseAges::kLongest_ms ? "20 ms or more" : number_text(ms, 2) + " ms";
-}
-
-void add_exchange(const Status& status, const PoseAges& recent, std::vector<DeviceLine>& lines) {
-    lines.push_back({"Exchanges",
-                     number_text(status.exchanges_per_s, 0) + " per second, " +
-                         number_text(status.exchange_ms, 1) + " ms each",
-                     "Time from a message to the service's answer: above 2 ms springs are softer, "
-                     "above 5 ms there is no force"});
-    if (status.softened) {
-        lines.push_back({.text = "The service answers slowly: springs are softer, so that they do "
-                                 "not swing."});
-    }
-    if (recent.count() > 0) {
-        lines.push_back({"Age of the pose",
-                         age_text(recent.quantile_ms(0.5)) + ", 99 % below " +
-                             age_text(recent.quantile_ms(0.99)),
-                         "Age of the position that a tick uses, in the last second. A position "
-                         "older than 20 ms gives no force"});
-    }
+std::vector<DeviceLine> lines_of(const Status& status, const PoseAges& recent) {
+    std::vector<DeviceLine> lines =
+        exchange_lines(status, recent,
+                       "Time from a message to the service's answer: above 2 ms springs are "
+                       "softer, above 5 ms there is no force",
+                       "service");
     lines.push_back({"Forces", dialect_text(status),
                      "In which format the service gets a force, and whether it has confirmed one"});
     if (!status.preset.empty()) {
@@ -64,6 +49,7 @@ void add_exchange(const Status& status, const PoseAges& recent, std::vector<Devi
                          .text = std::to_string(status.unrequested) + " not asked for, " +
                                  std::to_string(status.not_understood) + " not understood"});
     }
+    return lines;
 }
 
 }  // namespace
@@ -85,7 +71,8 @@ DeviceState state_of(const Status& status, const PoseAges& recent) {
     state.name_line = {.label = status.minverse ? "Minverse" : "Inverse3", .text = id_text(status)};
     if (!status.version.empty())
         state.lines.push_back({.label = "Service", .text = status.version});
-    if (state.ready) add_exchange(status, recent, state.lines);
+    if (!state.ready) return state;
+    for (DeviceLine& line : lines_of(status, recent)) state.lines.push_back(std::move(line));
     return state;
 }
 

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "device/arm_exchanges.hpp"
 #include "device/hand/buttons.hpp"
 #include "device/hand/state_board.hpp"
 #include "device/hand/workspace.hpp"
@@ -74,7 +75,7 @@ struct GripStatus {
     std::optional<double> battery{};  ///< full: 1
 };
 
-struct Status : DeviceStatus {
+struct Status : DeviceStatus, ExchangeStatus {
     Stage stage{Stage::looking};
     bool installed{false};  ///< files of the service were found
     std::string version{};  ///< of the service; empty: not known
@@ -86,10 +87,6 @@ struct Status : DeviceStatus {
     std::optional<ForceDialect> dialect{};
     bool dialect_confirmed{false};  ///< the service reported back a force in this dialect
     std::optional<GripStatus> grip{};
-    double exchanges_per_s{0.0};
-    double exchange_ms{0.0};  ///< recent mean time from a message to its answer
-    bool softened{false};     ///< stiffness is limited more, because exchanges take so long
-    std::uint64_t exchanges{0};
     std::uint64_t unrequested{0};     ///< unrequested messages
     std::uint64_t not_understood{0};  ///< messages that were not valid
 };

@@ -12,6 +12,7 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "device/openhaptics/dynamics.hpp"
+#include "device/openhaptics/record.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -34,6 +35,11 @@ constexpr double kMostForce_newton = 8.5;  // of any device
 /// README.md, Where sources disagree.
 constexpr std::array<const char*, 3> kDefaultNames{nullptr, "Default Device", "Default PHANToM"};
 
+/// Another name would be refused, too.
+bool is_refused(const Fault& fault) noexcept {
+    return fault.code == kHdInUse || fault.code == kHdInvalidLicense;
+}
+
 double within(double value, double lowest, double highest, double usual) noexcept {
     return std::isfinite(value) && value >= lowest && value <= highest ? value : usual;
 }
@@ -45,55 +51,51 @@ DriverThread::DriverThread(const ConnectionOptions& options, std::shared_ptr<Arm
     board_.enter(Stage::opening, "looking for a Touch");
 }
 
-bool DriverThread::ends_within(milliseconds time) {
-    std::unique_lock lock(mutex_);
-    return waits_.wait_for(lock, time, [this] { return ended_; });
-}
-
-void DriverThread::wait(milliseconds time) {
-    std::unique_lock lock(mutex_);
-    waits_.wait_for(lock, stop_.get_token(), time, [] { return false; });
-}
-
 /// Without an installed library there is nothing to search for: the thread ends.
 void DriverThread::run() {
     library_ = load_hd_library(options_.library);
     board_.draft().library = library_.file;
     if (!library_.loaded) {
         const bool broken = !library_.trouble.empty();
-        enter(broken ? Stage::broken_library : Stage::no_library,
-              broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()), broken);
+        board_.enter_new(
+            broken ? Stage::broken_library : Stage::no_library,
+            broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()),
+            broken || is_on_usb(options_.usb_devices));
     } else {
+        if (options_.recorder != nullptr)
+            library_.functions = recorded(library_.functions, options_.recorder);
         (void)become_realtime("dibhr touch");
-        while (!stop_.stop_requested()) {
+        while (!end.requested()) {
             search();
-            wait(kLookAgainAfter);
+            end.pause(kLookAgainAfter);
         }
     }
-    const std::lock_guard lock(mutex_);
-    ended_ = true;
-    waits_.notify_all();
 }
 
 void DriverThread::search() {
     try {
         Fault fault;
+        // Two servos would use the same buffers.
+        if (!servos_.empty() && servos_.back()->runs())
+            return board_.enter_new(Stage::looking, sentence_for(Stage::silent, board_.draft()),
+                                    true);
         const HdHandle handle = open(fault);
         if (handle != kHdInvalidHandle) {
             trouble_.clear();
             follow(handle);
             return;
         }
+        if (is_refused(fault))
+            return board_.enter_new(Stage::cannot_open, why_not_opened(fault, options_.name), true);
         // A device that was lost is named as long as it does not come back.
-        const bool lost = !trouble_.empty() && fault.code != kHdInUse;
-        const bool told = fault.code == kHdInUse || fault.code == kHdInvalidLicense;
-        enter(Stage::looking, lost ? trouble_ : why_not_opened(fault, options_.name),
-              lost || told || !options_.name.empty());
+        const bool lost = !trouble_.empty();
+        board_.enter_new(Stage::looking, lost ? trouble_ : why_not_opened(fault, options_.name),
+                         lost || !options_.name.empty());
     } catch (const std::exception& failure) {
-        enter(Stage::looking,
-              std::string("the Touch's thread failed (") + failure.what() +
-                  ") and begins again: close other programs if this happens again",
-              true);
+        board_.enter_new(Stage::looking,
+                         std::string("the Touch's thread failed (") + failure.what() +
+                             ") and begins again: close other programs if this happens again",
+                         true);
     }
 }
 
@@ -103,17 +105,19 @@ HdHandle DriverThread::open(Fault& fault) {
     const auto names = options_.name.empty() ? std::span<const char* const>(kDefaultNames)
                                              : std::span<const char* const>(given);
     for (const char* const name : names) {
-        OpeningCall call;
-        const HdHandle handle = library_.functions.init_device(name);
+        const HdHandle handle = init_device(name);
         fault = take_faults(library_.functions);
-        if (std::string printed = call.end(); !printed.empty())
-            board_.draft().printed = std::move(printed);
         if (handle != kHdInvalidHandle && fault.kind != FaultClass::link) return handle;
         if (handle != kHdInvalidHandle) library_.functions.disable_device(handle);
-        if (fault.code == kHdInUse || fault.code == kHdInvalidLicense) break;
+        if (is_refused(fault)) break;
     }
     (void)take_faults(library_.functions);
     return kHdInvalidHandle;
+}
+
+HdHandle DriverThread::init_device(const char* name) {
+    const OpeningCall call(printed_);
+    return library_.functions.init_device(name);
 }
 
 /// Numbers that no device can have are replaced by those of the Touch.
@@ -165,16 +169,15 @@ void DriverThread::follow(HdHandle handle) {
         HdSchedule schedule = 0;
         const Fault refused = start(servo, schedule);
         why_ended = refused.kind == FaultClass::link ? why_lost(refused) : watch_servo(servo);
-        stop_servo(servo, schedule);
-        // The library may still call one that did not end.
-        if (servo.ended()) servos_.pop_back();
+        // The library may still call one that did not end by itself.
+        if (stop_servo(servo, schedule)) servos_.pop_back();
     }
     buttons_.release();
     library_.functions.disable_device(handle);
     (void)take_faults(library_.functions);
     board_.draft().ticks_per_s = 0.0;
     trouble_ = why_ended;
-    if (!trouble_.empty()) enter(Stage::looking, trouble_, true);
+    if (!trouble_.empty()) board_.enter_new(Stage::looking, trouble_, true);
 }
 
 /// A device that has only this style of calibration gets it before the scheduler starts: the user
@@ -183,7 +186,7 @@ bool DriverThread::reset_encoders(HdHandle handle) {
     const HdLibrary& library = library_.functions;
     if (board_.draft().style != kHdEncoderReset) return true;
     bool was_pressed = true;  // a button that is held from before is no answer
-    while (!stop_.stop_requested()) {
+    while (!end.requested()) {
         int pressed = 0;
         library.begin_frame(handle);
         library.get_integers(kHdButtons, &pressed);
@@ -193,8 +196,9 @@ bool DriverThread::reset_encoders(HdHandle handle) {
         if (calibration == kHdCalibrated) return true;
         if (pressed != 0 && !was_pressed) library.update_calibration(kHdEncoderReset);
         was_pressed = pressed != 0;
-        enter(Stage::not_calibrated, sentence_for(Stage::not_calibrated, board_.draft()));
-        wait(kAskPersonEvery);
+        board_.enter_new(Stage::not_calibrated, sentence_for(Stage::not_calibrated, board_.draft()),
+                         false);
+        end.pause(kAskPersonEvery);
     }
     return false;
 }
@@ -215,7 +219,7 @@ Fault DriverThread::start(Servo& servo, HdSchedule& schedule) {
 
 /// Returns why the link ended; empty: the program ends.
 std::string DriverThread::watch_servo(Servo& servo) {
-    while (!stop_.stop_requested()) {
+    while (!end.requested()) {
         const Time now = Clock::now();
         const ServoReport& newest = servo.report();
         if (newest.loss.kind != FaultClass::none) return why_lost(newest.loss);
@@ -228,7 +232,7 @@ std::string DriverThread::watch_servo(Servo& servo) {
                            newest.stage == Stage::refused;
         switch_force(servo, options_.forces && ready && !silent);
         report(newest, silent, now);
-        wait(kLook);
+        end.pause(kLook);
     }
     return {};
 }
@@ -253,16 +257,20 @@ void DriverThread::switch_force(Servo& servo, bool on) {
     if (!on) library_.functions.disable(kHdForceOutput);
 }
 
-/// Zero force, force output off, scheduler stopped, in this order.
-void DriverThread::stop_servo(Servo& servo, HdSchedule schedule) {
+/// Zero force, force output off, scheduler stopped, in this order. False: the servo was cut off.
+bool DriverThread::stop_servo(Servo& servo, HdSchedule schedule) {
     servo.end();
     for (const Time until = Clock::now() + kLongestEnd; !servo.ended() && Clock::now() < until;)
         std::this_thread::sleep_for(milliseconds(1));
+    const bool ended = servo.ended();
     library_.functions.disable(kHdForceOutput);
     library_.functions.stop_scheduler();
     library_.functions.unschedule(schedule);
     (void)take_faults(library_.functions);
+    servo.cut_off();
+    if (servo.runs()) return false;
     buffers_->poses.publish(TimedPose{});  // so that no tick uses an old pose
+    return ended;
 }
 
 void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
@@ -271,6 +279,7 @@ void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
     status.pressed_at = servo.pressed_at;
     status.limit_newton = servo.limit_newton;
     status.warmest = servo.warmest;
+    status.reports_heat = servo.reports_heat;
     status.errors = servo.errors;
     status.forces_cut = servo.forces_cut;
     if (now - counted_at_ >= kRatePeriod) {
@@ -290,13 +299,7 @@ void DriverThread::report(const ServoReport& servo, bool silent, Time now) {
     const bool trouble = stage == Stage::silent || stage == Stage::not_understood ||
                          stage == Stage::force_cut || stage == Stage::refused ||
                          stage == Stage::hot || stage == Stage::stands_still || status.warm;
-    enter(stage, sentence_for(stage, status), trouble);
-}
-
-void DriverThread::enter(Stage stage, const std::string& sentence, bool trouble) {
-    const Status& published = board_.draft();
-    if (published.stage == stage && published.sentence == sentence) return;
-    board_.enter(stage, sentence, trouble);
+    board_.enter_new(stage, sentence_for(stage, status), trouble);
 }
 
 }  // namespace dibhr::openhaptics

@@ -16,26 +16,27 @@ struct Named {
     FaultClass kind;
     const char* name;
 };
-constexpr std::array<Named, 20> kNamed{{{0x100, FaultClass::call, "unknown parameter"},
-                                        {0x101, FaultClass::call, "invalid value"},
-                                        {0x102, FaultClass::call, "call at the wrong time"},
-                                        {0x103, FaultClass::call, "wrong type"},
-                                        {0x104, FaultClass::link, "unknown device"},
-                                        {kHdWarmMotors, FaultClass::force, "warm motors"},
-                                        {0x201, FaultClass::force, "force too high"},
-                                        {0x202, FaultClass::force, "force changed too fast"},
-                                        {0x203, FaultClass::force, "hand too fast"},
-                                        {0x204, FaultClass::force, "force error"},
-                                        {0x300, FaultClass::link, "device fault"},
-                                        {kHdInUse, FaultClass::link, "device already open"},
-                                        {0x302, FaultClass::link, "communication error"},
-                                        {0x303, FaultClass::link, "wrong connection settings"},
-                                        {0x304, FaultClass::link, "timer error"},
-                                        {0x400, FaultClass::call, "frame begun twice"},
-                                        {0x401, FaultClass::call, "frame ended twice"},
-                                        {0x402, FaultClass::call, "frame error"},
-                                        {0x500, FaultClass::link, "invalid priority"},
-                                        {0x501, FaultClass::link, "scheduler full"}}};
+constexpr std::array<Named, 20> kNamed{
+    {{kHdUnknownParameter, FaultClass::call, "unknown parameter"},
+     {0x101, FaultClass::call, "invalid value"},
+     {0x102, FaultClass::call, "call at the wrong time"},
+     {0x103, FaultClass::call, "wrong type"},
+     {0x104, FaultClass::link, "unknown device"},
+     {kHdWarmMotors, FaultClass::force, "warm motors"},
+     {0x201, FaultClass::force, "force too high"},
+     {0x202, FaultClass::force, "force changed too fast"},
+     {0x203, FaultClass::force, "hand too fast"},
+     {0x204, FaultClass::force, "force error"},
+     {0x300, FaultClass::link, "device fault"},
+     {kHdInUse, FaultClass::link, "device already open"},
+     {0x302, FaultClass::link, "communication error"},
+     {0x303, FaultClass::link, "wrong connection settings"},
+     {0x304, FaultClass::link, "timer error"},
+     {0x400, FaultClass::call, "frame begun twice"},
+     {0x401, FaultClass::call, "frame ended twice"},
+     {0x402, FaultClass::call, "frame error"},
+     {0x500, FaultClass::link, "invalid priority"},
+     {0x501, FaultClass::link, "scheduler full"}}};
 
 const Named* named(unsigned int code) noexcept {
     const auto* const found = std::find_if(kNamed.begin(), kNamed.end(),

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 namespace dibhr::openhaptics {
 
@@ -63,32 +64,33 @@ inline constexpr HdEnum kHdInkwell = 4;
 
 /// Errors that dibhr treats by themselves; HdFault has the classes of all.
 inline constexpr unsigned int kHdSuccess = 0;
+inline constexpr unsigned int kHdUnknownParameter = 0x100;
 inline constexpr unsigned int kHdWarmMotors = 0x200;
 inline constexpr unsigned int kHdInUse = 0x301;
 inline constexpr unsigned int kHdInvalidLicense = 0x600;
 
-/// The functions of a loaded library.
+/// The functions of a library: a loaded one, one that is recorded, or a record that is played.
 struct HdLibrary {
-    HdHandle (*init_device)(const char*){nullptr};
-    void (*disable_device)(HdHandle){nullptr};
-    void (*make_current)(HdHandle){nullptr};
-    void (*begin_frame)(HdHandle){nullptr};
-    void (*end_frame)(HdHandle){nullptr};
-    HdErrorInfo (*get_error)(){nullptr};
-    void (*enable)(HdEnum){nullptr};
-    void (*disable)(HdEnum){nullptr};
-    void (*get_booleans)(HdEnum, std::uint8_t*){nullptr};
-    void (*get_integers)(HdEnum, int*){nullptr};
-    void (*get_doubles)(HdEnum, double*){nullptr};
-    void (*get_longs)(HdEnum, long*){nullptr};
-    void (*set_doubles)(HdEnum, const double*){nullptr};
-    const char* (*get_string)(HdEnum){nullptr};
-    HdEnum (*check_calibration)(){nullptr};
-    void (*update_calibration)(HdEnum){nullptr};
-    void (*start_scheduler)(){nullptr};
-    void (*stop_scheduler)(){nullptr};
-    HdSchedule (*schedule)(HdCallback, void*, unsigned short){nullptr};
-    void (*unschedule)(HdSchedule){nullptr};
+    std::function<HdHandle(const char*)> init_device{};
+    std::function<void(HdHandle)> disable_device{};
+    std::function<void(HdHandle)> make_current{};
+    std::function<void(HdHandle)> begin_frame{};
+    std::function<void(HdHandle)> end_frame{};
+    std::function<HdErrorInfo()> get_error{};
+    std::function<void(HdEnum)> enable{};
+    std::function<void(HdEnum)> disable{};
+    std::function<void(HdEnum, std::uint8_t*)> get_booleans{};
+    std::function<void(HdEnum, int*)> get_integers{};
+    std::function<void(HdEnum, double*)> get_doubles{};
+    std::function<void(HdEnum, long*)> get_longs{};
+    std::function<void(HdEnum, const double*)> set_doubles{};
+    std::function<const char*(HdEnum)> get_string{};
+    std::function<HdEnum()> check_calibration{};
+    std::function<void(HdEnum)> update_calibration{};
+    std::function<void()> start_scheduler{};
+    std::function<void()> stop_scheduler{};
+    std::function<HdSchedule(HdCallback, void*, unsigned short)> schedule{};
+    std::function<void(HdSchedule)> unschedule{};
 };
 
 }  // namespace dibhr::openhaptics

@@ -2,10 +2,13 @@
 #include <memory>
 #include <string>
 
+#include "core/error.hpp"
 #include "device/force_device.hpp"
 #include "device/openhaptics/openhaptics_device.hpp"
+#include "device/openhaptics/record.hpp"
 #include "device/openhaptics/settings.hpp"
 #include "device/openhaptics/survey.hpp"
+#include "device/recorded_device.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -31,21 +34,43 @@ bool is_usable(const Status& status) noexcept {
     return status.stage == Stage::ready;
 }
 
-/// Without OpenHaptics nothing is printed.
+/// Nothing is printed where neither OpenHaptics nor a Touch is there.
 DevicesFound survey(const DeviceSettings& settings, const PrintLine& print) {
-    const Status status = survey_device(connection_in(settings));
-    if (status.stage == Stage::no_library) return {};
+    const ConnectionOptions connection = connection_in(settings);
+    const Status status = survey_device(connection);
+    const bool attached = is_attached(status, connection);
+    if (status.stage == Stage::no_library && !attached) return {};
     if (!answers(status)) {
         print("3D Systems Touch: none usable, " + status.sentence);
-        if (!status.printed.empty()) print("  the library printed: " + status.printed);
-        return {};
+        return {.refusal = attached ? status.sentence : ""};
     }
     const std::string name = "3D Systems " + status.model + " " + status.serial;
     print(name + ": " + (is_usable(status) ? "usable, " : "not usable yet, ") + status.sentence);
     print("  driver " + status.driver + ", library " + status.version + ", " + status.library);
-    if (!status.printed.empty()) print("  the library printed: " + status.printed);
     return {.usable = is_usable(status),
             .refusal = is_usable(status) ? "" : name + " is not usable yet, " + status.sentence};
+}
+
+void record(const DeviceSettings& settings, const std::filesystem::path& file,
+            const PrintLine& print) {
+    ConnectionOptions connection = connection_in(settings);
+    const LoadedLibrary library = load_hd_library(connection.library);
+    if (!library.loaded)
+        throw DeviceError(library.trouble.empty() ? sentence_for(Stage::no_library, {})
+                                                  : library.trouble);
+    connection.forces = false;
+    connection.recorder = make_recorder(file, library.file);
+    OpenhapticsDevice device(connection);
+    record_device(device, file, print);
+}
+
+bool play(const std::filesystem::path& file, const PrintLine& print) {
+    if (!is_record(file)) return false;
+    if (const LoadedLibrary library = play_record(file); !library.loaded)
+        throw DeviceError(library.trouble);
+    OpenhapticsDevice device({.library = file.string()});
+    play_device(device, file, "openhaptics", print);
+    return true;
 }
 
 bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
@@ -74,6 +99,8 @@ extern const ForceDeviceKind device_kind{
         },
     .survey = survey,
     .print_attached = print_attached,
+    .record = record,
+    .play = play,
 };
 
 }  // namespace dibhr::openhaptics

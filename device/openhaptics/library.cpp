@@ -6,24 +6,22 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
 #include <mutex>
-#include <string_view>
 #include <thread>
 #include <utility>
 
-#include "core/files/plain_text.hpp"
 #include "device/makers_library.hpp"
+#include "device/openhaptics/record.hpp"
 
 namespace dibhr::openhaptics {
 
 namespace {
 
 constexpr std::chrono::seconds kLongestAside{1};
-constexpr std::size_t kLongestLine = 200;
 
 const MakersLibrarySearch& usual_places() {
     static const MakersLibrarySearch search{
@@ -73,6 +71,7 @@ std::string functions_in(const MakersLibrary& library, HdLibrary& functions) {
 }  // namespace
 
 LoadedLibrary load_hd_library(const std::string& chosen) {
+    if (is_record(chosen)) return play_record(chosen);
     MakersLibrarySearch search = usual_places();
     search.chosen = chosen;
     LoadedLibrary loaded;
@@ -107,7 +106,7 @@ class OpeningCall::DecimalPoint {
 /// Leads standard output into memory. A thread of its own ends this where the call does not return.
 class OpeningCall::Output {
   public:
-    Output() {
+    explicit Output(std::string& printed) : printed_(printed) {
         memory_ = memfd_create("printed", MFD_CLOEXEC);
         standard_ = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
         if (memory_ < 0 || standard_ < 0) return;
@@ -115,53 +114,43 @@ class OpeningCall::Output {
         aside_ = dup2(memory_, STDOUT_FILENO) >= 0;
         watch_ = std::jthread([this](const std::stop_token& stop) {
             std::unique_lock lock(mutex_);
-            ended_.wait_for(lock, stop, kLongestAside, [this] { return !aside_; });
+            ended_.wait_for(lock, stop, kLongestAside, [] { return false; });
             restore();
         });
     }
     ~Output() {
-        (void)end();
+        watch_ = {};  // restores standard output
         if (memory_ >= 0) close(memory_);
         if (standard_ >= 0) close(standard_);
     }
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
-    std::string end() {
-        const std::lock_guard lock(mutex_);
-        restore();
-        ended_.notify_all();
-        std::array<char, kLongestLine> text{};
-        const ssize_t size = memory_ < 0 ? 0 : pread(memory_, text.data(), text.size(), 0);
-        const std::string_view printed(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
-        return one_line(printed.substr(0, printed.find('\n')));
-    }
-
   private:
-    /// With the lock.
     void restore() {
-        if (!std::exchange(aside_, false)) return;
+        if (!aside_) return;
         std::fflush(stdout);
         dup2(standard_, STDOUT_FILENO);
+        const off_t size = lseek(memory_, 0, SEEK_END);
+        std::string text(static_cast<std::size_t>(std::max(size, off_t{0})), '\0');
+        const ssize_t read = pread(memory_, text.data(), text.size(), 0);
+        text.resize(static_cast<std::size_t>(std::max(read, ssize_t{0})));
+        if (text.empty() || text == printed_) return;
+        std::fputs(text.c_str(), stderr);
+        printed_ = std::move(text);
     }
 
+    std::string& printed_;
     int memory_{-1};
     int standard_{-1};
+    bool aside_{false};
     std::mutex mutex_{};
     std::condition_variable_any ended_{};
-    bool aside_{false};  // guarded by mutex_
     std::jthread watch_{};
 };
 
-OpeningCall::OpeningCall()
-    : point_(std::make_unique<DecimalPoint>()), output_(std::make_unique<Output>()) {}
+OpeningCall::OpeningCall(std::string& printed)
+    : point_(std::make_unique<DecimalPoint>()), output_(std::make_unique<Output>(printed)) {}
 OpeningCall::~OpeningCall() = default;
-
-std::string OpeningCall::end() {
-    std::string printed = output_->end();
-    output_.reset();
-    point_.reset();
-    return printed;
-}
 
 }  // namespace dibhr::openhaptics

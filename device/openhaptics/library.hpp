@@ -20,16 +20,16 @@ struct LoadedLibrary {
 [[nodiscard]] LoadedLibrary load_hd_library(const std::string& chosen);
 
 /// Around a call that opens a device. While it exists, the calling thread's decimal point is a
-/// point, and what is printed to standard output is kept from it, for a second at most.
+/// point, and what the program prints to standard output is kept from it, for a second at most. At
+/// its end that text goes to standard error.
 class OpeningCall {
   public:
-    OpeningCall();
+    /// `printed`: the text of the last call. The same text is not printed again, because a library
+    /// prints the same whenever it opens a device.
+    explicit OpeningCall(std::string& printed);
     ~OpeningCall();
     OpeningCall(const OpeningCall&) = delete;
     OpeningCall& operator=(const OpeningCall&) = delete;
-
-    /// Ends both; returns the first line that was printed meanwhile.
-    std::string end();
 
   private:
     class Output;

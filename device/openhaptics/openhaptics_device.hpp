@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/arm_device.hpp"
-#include "device/openhaptics/driver.hpp"
+#include "device/openhaptics/driver_thread.hpp"
 #include "device/openhaptics/settings.hpp"
 #include "device/openhaptics/status.hpp"
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <cstddef>
 
-#include "device/hand/guardian.hpp"
-
 namespace dibhr::openhaptics {
 
 namespace {
@@ -15,7 +13,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // README.md, Numbers.
-constexpr std::chrono::milliseconds kOldestForce{20};
 constexpr int kLastFrames = 5;  // of zero force, before the callback ends
 constexpr std::size_t kMostMotors = 6;
 
@@ -28,7 +25,14 @@ Vec3 vector_of(const std::array<double, 3>& values) noexcept {
 }  // namespace
 
 unsigned int Servo::tick() noexcept {
-    if (ended_) return kHdCallbackDone;
+    runs_ = true;
+    if (!ended_) one_frame();
+    const bool ended = ended_;
+    runs_ = false;
+    return ended ? kHdCallbackDone : kHdCallbackContinue;
+}
+
+void Servo::one_frame() noexcept {
     const Time now = Clock::now();
     if (now_.ticks > 0) ticks_.add(last_tick_, now);
     last_tick_ = now;
@@ -60,11 +64,20 @@ unsigned int Servo::tick() noexcept {
     now_.calibration = sample.calibration;
     now_.warm = watch_.warm();
     now_.warmest = sample.warmest;
+    now_.reports_heat = heat_.known;
     now_.presses = buttons_.presses();
     now_.pressed_at = buttons_.pressed_at();
     reports_.publish(now_);
     if (ending && ++last_frames_ >= kLastFrames) ended_ = true;
-    return ended_ ? kHdCallbackDone : kHdCallbackContinue;
+}
+
+/// An error of another kind comes again in the next frame.
+template <typename T>
+void Servo::read(OptionalValue& value, const std::function<void(HdEnum, T*)>& get,
+                 T* into) noexcept {
+    if (!value.known) return;
+    get(value.what, into);
+    if (now_.ticks == 0) value.known = take_faults(library_).kind != FaultClass::call;
 }
 
 /// Without an answer of the library, the values stay zero, and no number for the temperature.
@@ -76,15 +89,16 @@ void Servo::read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwel
     int pressed = 0;
     std::uint8_t inkwell = 0;
     library_.get_doubles(kHdPosition, position.data());
-    library_.get_doubles(kHdVelocity, velocity.data());
-    library_.get_doubles(kHdGimbalAngles, gimbal.data());
-    library_.get_longs(kHdEncoders, sample.encoders.data());
-    library_.get_doubles(kHdMotorTemperature, heat.data());
     library_.get_integers(kHdButtons, &pressed);
-    library_.get_booleans(kHdInkwellSwitch, &inkwell);
+    read(velocity_, library_.get_doubles, velocity.data());
+    read(gimbal_, library_.get_doubles, gimbal.data());
+    read(encoders_, library_.get_longs, sample.encoders.data());
+    read(heat_, library_.get_doubles, heat.data());
+    read(inkwell_, library_.get_booleans, &inkwell);
     sample.position_m = vector_of(position) / kMetre_mm;
     sample.velocity_m_per_s = vector_of(velocity) / kMetre_mm;
-    sample.gimbal_rad = vector_of(gimbal);
+    // Without encoders, a stylus that turns tells nothing of the arm.
+    if (encoders_.known) sample.gimbal_rad = vector_of(gimbal);
     for (const double motor : heat)
         if (std::isfinite(sample.warmest) && !(motor <= sample.warmest)) sample.warmest = motor;
     sample.calibration = library_.check_calibration();
@@ -93,14 +107,9 @@ void Servo::read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwel
 }
 
 Vec3 Servo::force_at(Time now) noexcept {
-    const TimedForce& requested = buffers_.forces.front();
-    const bool may = watch_.epoch() != kNoEpoch && requested.epoch == watch_.epoch() &&
-                     now < requested.at + kOldestForce && !Guardian::alarmed() &&
-                     is_finite(requested.newton);
-    if (!may) return Vec3{0.0};
-    const double length = glm::length(requested.newton);
-    return length > now_.limit_newton ? requested.newton * (now_.limit_newton / length)
-                                      : requested.newton;
+    const Vec3 force = buffers_.force_for(watch_.epoch(), now);
+    const double length = glm::length(force);
+    return length > now_.limit_newton ? force * (now_.limit_newton / length) : force;
 }
 
 void Servo::publish_pose(const ArmSample& sample, std::uint8_t buttons, Time at) noexcept {

@@ -25,6 +25,7 @@ struct ServoReport {
     bool in_inkwell{false};
     bool warm{false};
     double warmest{0.0};
+    bool reports_heat{true};
     double limit_newton{0.0};
     ButtonPresses presses{};
     ButtonPressTimes pressed_at{};
@@ -52,7 +53,8 @@ class Servo {
 
     /// For hdScheduleAsynchronous; `servo` is a Servo.
     static unsigned int run(void* servo) { return static_cast<Servo*>(servo)->tick(); }
-    /// One frame. Returns kHdCallbackDone after end() and some frames of zero force.
+    /// One frame. Returns kHdCallbackDone after end() and some frames of zero force, or after
+    /// cut_off().
     [[nodiscard]] unsigned int tick() noexcept;
 
     // For the driver:
@@ -62,12 +64,26 @@ class Servo {
     /// No force from the next tick on; the callback then ends.
     void end() noexcept { ending_ = true; }
     [[nodiscard]] bool ended() const noexcept { return ended_; }
+    /// A tick that begins from now on does nothing.
+    void cut_off() noexcept { ended_ = true; }
+    /// A tick has begun and not returned.
+    [[nodiscard]] bool runs() const noexcept { return runs_; }
     /// For one thread.
     [[nodiscard]] const ServoReport& report() noexcept { return reports_.front(); }
 
   private:
     using Time = std::chrono::steady_clock::time_point;
 
+    /// A value that not every device has. One that the library refuses in the first frame is not
+    /// read again, because every refusal takes the force off.
+    struct OptionalValue {
+        HdEnum what;
+        bool known{true};
+    };
+
+    void one_frame() noexcept;
+    template <typename T>
+    void read(OptionalValue& value, const std::function<void(HdEnum, T*)>& get, T* into) noexcept;
     void read_frame(ArmSample& sample, std::uint8_t& buttons, bool& in_inkwell) noexcept;
     [[nodiscard]] Vec3 force_at(Time now) noexcept;
     void publish_pose(const ArmSample& sample, std::uint8_t buttons, Time at) noexcept;
@@ -78,6 +94,7 @@ class Servo {
     std::atomic<bool> may_output_{false};
     std::atomic<bool> ending_{false};
     std::atomic<bool> ended_{false};
+    std::atomic<bool> runs_{false};
     TripleBuffer<ServoReport> reports_{};
 
     // Used by the servo thread only.
@@ -86,6 +103,11 @@ class Servo {
     DelayWatch ticks_{};
     Time last_tick_{};
     Fault fault_{};  // of the last frame
+    OptionalValue velocity_{kHdVelocity};
+    OptionalValue gimbal_{kHdGimbalAngles};
+    OptionalValue encoders_{kHdEncoders};
+    OptionalValue heat_{kHdMotorTemperature};
+    OptionalValue inkwell_{kHdInkwellSwitch};
     int last_frames_{0};
     ServoReport now_{};
 };

@@ -15,24 +15,23 @@ constexpr const char* kConnection = "Touch connection";
 
 std::vector<DeviceRow> OpenhapticsSettings::rows() {
     constexpr double kLongestPath = 127.0;
-    constexpr const char* kAside =
-        "Where in the image the middle of the hand's workspace is, from the image's middle";
-    Vec3& offset_mm = workspace.offset_mm;
     std::vector<DeviceRow> rows{
         {"name", kConnection, "Name: the default one",
          "Which device: the name given in 3D Systems' setup program", &name, 0.0, 63.0},
         {"library", kConnection, "Library: where it is installed",
-         "The file libHD.so.3.4 of OpenHaptics, or its folder", &library, 0.0, kLongestPath},
+         "The file libHD.so.3.4 of OpenHaptics, or its folder; or a record that was made with "
+         "dibhr devices --record",
+         &library, 0.0, kLongestPath},
         scale_row(kWorkspace, workspace.scale),
         {"radius", kWorkspace, "Radius",
          "Radius of the volume that the hand reaches; the image is fitted to it. CHAI3D: 75 mm for "
          "the Touch",
          &workspace.radius_mm, 20.0, 200.0, "%.0f mm"},
-        offset_row("offset-x", "Offset right", kWorkspace, offset_mm.x, kAside),
-        offset_row("offset-y", "Offset up", kWorkspace, offset_mm.y, kAside),
-        offset_row("offset-z", "Offset out", kWorkspace, offset_mm.z,
-                   "How far above the middle of the relief the middle of the workspace is"),
     };
+    add_offset_rows(
+        rows, kWorkspace,
+        "Where in the image the middle of the hand's workspace is, from the image's middle",
+        "How far above the middle of the relief the middle of the workspace is");
     add_buttons(rows, kDeviceButtons, kButtons);
     return rows;
 }
@@ -52,9 +51,7 @@ ConnectionOptions connection_of(const OpenhapticsSettings& settings) {
 }
 
 Tuning tuning_of(const OpenhapticsSettings& settings, const HandTuning& hand) noexcept {
-    Tuning tuning = with_hand_tuning(Tuning{}, settings, hand);
-    tuning.max_force_newton = hand.max_force_newton;
-    return tuning;
+    return with_hand_tuning(Tuning{}, settings, hand);
 }
 
 }  // namespace dibhr::openhaptics

@@ -31,7 +31,9 @@ std::vector<DeviceLine> lines_of(const Status& status) {
          "How often 3D Systems' library takes a force"},
         {"Force", number_text(status.limit_newton, 2) + " N at most",
          "The force that the motors stand for ever; lower while they are warm"},
-        {"Motors", number_text(100.0 * status.warmest, 0) + " % warm",
+        {"Motors",
+         status.reports_heat ? number_text(100.0 * status.warmest, 0) + " % warm"
+                             : "temperature not reported",
          "Of the warmest motor, as the library predicts it: from 70 % on the force is lower"}};
     if (status.errors > 0)
         lines.push_back(

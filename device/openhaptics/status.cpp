@@ -1,6 +1,8 @@
 // The sentences about a Touch for the user.
 #include "device/openhaptics/status.hpp"
 
+#include <algorithm>
+
 #include "device/openhaptics/hd.hpp"
 
 namespace dibhr::openhaptics {
@@ -21,6 +23,14 @@ std::string how_to_calibrate(const Status& status) {
 
 }  // namespace
 
+bool is_on_usb(const std::filesystem::path& devices) {
+    const auto all = listed_usb_devices(devices);
+    return std::any_of(all.begin(), all.end(), [](const UsbDevice& device) {
+        const bool older = device.maker == "0301" && device.product == "2988";
+        return device.maker == "2988" || older;
+    });
+}
+
 std::string sentence_for(Stage stage, const Status& status) {
     switch (stage) {
         case Stage::opening:
@@ -29,6 +39,7 @@ std::string sentence_for(Stage stage, const Status& status) {
             return "OpenHaptics is not installed: get OpenHaptics and the Touch Device Driver from "
                    "3D Systems, and start dibhr again";
         case Stage::broken_library:
+        case Stage::cannot_open:
         case Stage::looking:
             return status.sentence;
         case Stage::starting:

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <tuple>
 
 #include "core/haptics/vec.hpp"
+#include "device/call_record.hpp"
 #include "device/hand/buttons.hpp"
 #include "device/hand/state_board.hpp"
+#include "device/hand/usb_list.hpp"
 #include "device/hand/workspace.hpp"
 
 namespace dibhr::openhaptics {
@@ -16,8 +20,10 @@ namespace dibhr::openhaptics {
 /// Set before the library is loaded.
 struct ConnectionOptions {
     std::string name{};     ///< of the device's configuration; empty: the default one
-    std::string library{};  ///< a file or a folder; empty: where OpenHaptics installs it
+    std::string library{};  ///< a file, a folder or a record; empty: where it is installed
     bool forces{true};      ///< false: the motors stay off, as for a survey
+    std::shared_ptr<CallRecorder> recorder{};  ///< of all calls; null: they are not recorded
+    std::filesystem::path usb_devices{kUsbDevices};
 };
 
 /// May change while touching; the next tick takes it as a whole.
@@ -48,6 +54,7 @@ enum class Stage : std::uint8_t {
     opening,         ///< the library is being loaded, or the device opened
     no_library,      ///< OpenHaptics is not installed
     broken_library,  ///< it is, but cannot be loaded
+    cannot_open,     ///< in use by another program, or without a licence
     looking,         ///< no device answers, or the last one was lost
     starting,        ///< the first poses of a link
     not_calibrated,
@@ -67,13 +74,13 @@ struct Status : DeviceStatus {
     std::string driver{};   ///< version of the device's driver
     std::string model{};
     std::string serial{};
-    std::string printed{};  ///< the first line that the library printed at the last opening
     unsigned int style{0};  ///< of calibration, bits of hd.hpp
     double continuous_newton{0.0};
     double peak_newton{0.0};
     double stiffness_newton_per_mm{0.0};  ///< as the library reports it
     double limit_newton{0.0};             ///< now, with warm motors
     double warmest{0.0};                  ///< temperature of the warmest motor, 0 cold .. 1 hot
+    bool reports_heat{true};              ///< the library knows the temperature
     bool warm{false};                     ///< it lowers the limit
     double ticks_per_s{0.0};
     std::uint64_t forces_cut{0};  ///< ticks of this link in which the device cut the force
@@ -83,6 +90,9 @@ struct Status : DeviceStatus {
 
 /// Written by the library's thread of dibhr, read by the window.
 using Board = StateBoard<Status>;
+
+/// A Touch is in the system's list of USB devices. One with a network cable never is.
+[[nodiscard]] bool is_on_usb(const std::filesystem::path& devices);
 
 /// The sentence for the user: the state and the next step.
 [[nodiscard]] std::string sentence_for(Stage stage, const Status& status);

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "device/openhaptics/driver.hpp"
+#include "device/openhaptics/driver_thread.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -37,6 +37,10 @@ Status survey_device(const ConnectionOptions& options) {
 
 bool answers(const Status& status) noexcept {
     return status.stage > Stage::looking;
+}
+
+bool is_attached(const Status& status, const ConnectionOptions& options) {
+    return answers(status) || status.stage == Stage::cannot_open || is_on_usb(options.usb_devices);
 }
 
 }  // namespace dibhr::openhaptics

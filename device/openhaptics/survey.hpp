@@ -12,4 +12,7 @@ namespace dibhr::openhaptics {
 /// A device answers, whether or not it can be used.
 [[nodiscard]] bool answers(const Status& status) noexcept;
 
+/// A device is attached: it answers, another program uses it, or it is on the USB.
+[[nodiscard]] bool is_attached(const Status& status, const ConnectionOptions& options);
+
 }  // namespace dibhr::openhaptics

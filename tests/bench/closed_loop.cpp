@@ -41,6 +41,7 @@ class SimulatedArm final : public Device {
             .friction_newton_s_per_m = kFrictions_newton_s_per_m.front(),
             .resolution_mm = loop.resolution_mm,
             .delay_s = (loop.stated_ticks < 0 ? loop.delay_ticks : loop.stated_ticks) * kTick_s};
+        if (loop.stated) specification_.limits = *loop.stated;
         if (loop.measures_delay)
             specification_.limits = at_delay(specification_.limits, loop.delay_ticks * kTick_s);
     }
@@ -234,6 +235,23 @@ class Bench {
 
 ClosedLoopResult run(const ClosedLoop& loop) {
     return Bench(loop).run();
+}
+
+ClosedLoop on_device(const DeviceLimits& stated, double stiffness_newton_per_mm, const Grip& grip,
+                     double times_mass, double times_friction) {
+    const DeviceDynamics& device = stated.dynamics;
+    ClosedLoop loop;
+    loop.stability = true;
+    loop.grip = grip;
+    loop.mass_kg = times_mass * device.mass_kg;
+    loop.friction_newton_s_per_m = times_friction * device.friction_newton_s_per_m;
+    loop.resolution_mm = device.resolution_mm;
+    loop.delay_ticks = static_cast<int>(std::lround(1e3 * device.delay_s));
+    loop.stated = stated;
+    loop.press_newton = std::min(0.93, 0.5 * stated.max_force_newton);
+    loop.parameters.coupling.stiffness_newton_per_mm =
+        std::min(stiffness_newton_per_mm, stated.max_stiffness_newton_per_mm);
+    return loop;
 }
 
 bool oscillates(const ClosedLoopResult& result) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,12 +33,13 @@ struct ClosedLoop {
     Grip grip{kGrips[0]};
     double mass_kg{0.2};
     double friction_newton_s_per_m{1.0};
-    double resolution_mm{0.05};  ///< steps of the measured position
-    int delay_ticks{2};          ///< between reading a pose and its force acting
-    int stated_ticks{-1};        ///< the delay that the device states; -1: as it is
-    bool measures_delay{true};   ///< its limits follow a delay longer than stated
-    double press_newton{1.0};    ///< at rest
-    double tap_newton_s{0.03};   ///< into the surface, after two seconds; 0: none
+    double resolution_mm{0.05};            ///< steps of the measured position
+    int delay_ticks{2};                    ///< between reading a pose and its force acting
+    int stated_ticks{-1};                  ///< the delay that the device states; -1: as it is
+    std::optional<DeviceLimits> stated{};  ///< all that it states; nothing: of an unknown mass
+    bool measures_delay{true};             ///< its limits follow a delay longer than stated
+    double press_newton{1.0};              ///< at rest
+    double tap_newton_s{0.03};             ///< into the surface, after two seconds; 0: none
     double seconds{4.0};
     TouchParameters parameters{};
     bool stability{false};  ///< as in `view`: damping as the device needs it, energy observer on
@@ -62,6 +64,15 @@ struct ClosedLoopResult {
 };
 
 [[nodiscard]] ClosedLoopResult run(const ClosedLoop& loop);
+
+/// A hand on a device that is as its driver states it, with stability control: `times_mass` and
+/// `times_friction` its nominal ones. It presses with at most half of the device's force.
+[[nodiscard]] ClosedLoop on_device(const DeviceLimits& stated, double stiffness_newton_per_mm,
+                                   const Grip& grip, double times_mass, double times_friction);
+
+/// Mass and friction of those hands, beside kGrips: 27 in all.
+inline constexpr std::array kTimesMass{1.0, 2.0, 3.0};
+inline constexpr std::array kTimesFriction{1.0, 2.0, 4.0};
 
 /// More than 0.2 mm peak to peak in the last second.
 [[nodiscard]] bool oscillates(const ClosedLoopResult& result);

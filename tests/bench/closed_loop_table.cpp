@@ -1,5 +1,6 @@
-// Prints the table of core/haptics/README.md, Stability: closed_loop [--quick]. With --worst, what
-// the worst updates take that a search finds, with nothing of the image in a cache.
+// Prints the table of core/haptics/README.md, Stability: closed_loop [--quick]. With --devices, how
+// stable each kind of device is as its driver states it. With --worst, what the worst updates take
+// that a search finds, with nothing of the image in a cache.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "device/force_devices.hpp"
 #include "tests/bench/closed_loop.hpp"
 #include "tests/core/haptics/worst_update.hpp"
 
@@ -18,6 +20,10 @@ namespace {
 using dibhr::bench::ClosedLoop;
 using dibhr::bench::Grip;
 using dibhr::bench::kGrips;
+using dibhr::bench::kTimesFriction;
+using dibhr::bench::kTimesMass;
+using dibhr::bench::on_device;
+using dibhr::bench::oscillates;
 using dibhr::bench::run;
 
 /// Runs `use` for each mass and friction.
@@ -157,11 +163,54 @@ void print_worst() {
     }
 }
 
+/// The lowest stiffness from the asked one on at which this hand swings, held by nothing; `most`
+/// when none does.
+double swings_from(ClosedLoop loop, double most) {
+    loop.stated->max_stiffness_newton_per_mm = most;
+    double& stiffness = loop.parameters.coupling.stiffness_newton_per_mm;
+    while (stiffness < most && !oscillates(run(loop))) stiffness *= 1.12;
+    return std::min(stiffness, most);
+}
+
+/// Of each kind of device, as its driver states it: the margin, and how the 27 hands swing.
+void print_devices() {
+    for (const dibhr::ForceDeviceKind* const kind : dibhr::force_device_kinds()) {
+        const dibhr::DeviceLimits stated = kind->make_settings()->limits();
+        for (const double asked : {0.5, 1.0}) {
+            double swing_mm = 0.0;
+            double lowest = 12.0;
+            for (const Grip& grip : kGrips) {
+                for (const double mass : kTimesMass) {
+                    for (const double friction : kTimesFriction) {
+                        const ClosedLoop loop = on_device(stated, asked, grip, mass, friction);
+                        swing_mm = std::max(swing_mm, run(loop).swing_mm);
+                        lowest = std::min(lowest, swings_from(loop, lowest));
+                    }
+                }
+            }
+            const dibhr::Coupling held =
+                dibhr::held_coupling({.stiffness_newton_per_mm = asked}, stated);
+            const dibhr::Coupling stable =
+                dibhr::stable_coupling(held, held.stiffness_newton_per_mm, stated.dynamics);
+            std::printf(
+                "%-15s asked %.1f held %.2f N/mm, damping %.2f, margin %.2f N s/m; swing at most "
+                "%.3f mm; swings from %.2f N/mm on\n",
+                kind->name, asked, stable.stiffness_newton_per_mm, stable.damping_newton_s_per_m,
+                dibhr::stability_margin(stable, stated.dynamics), swing_mm, lowest);
+            std::fflush(stdout);
+        }
+    }
+}
+
 }  // namespace
 
 int main(int count, char** words) {
     if (count > 1 && std::string(words[1]) == "--worst") {
         print_worst();
+        return 0;
+    }
+    if (count > 1 && std::string(words[1]) == "--devices") {
+        print_devices();
         return 0;
     }
     const bool quick = count > 1 && std::string(words[1]) == "--quick";

@@ -20,6 +20,7 @@
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
 #include "tests/app/program/falcon_on_usb.hpp"
+#include "tests/app/program/stand_in_arm.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -794,4 +795,47 @@ TEST_CASE("trials are felt and answered with the Falcon alone", "[study window]"
     REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
                 .exit_code == 0);
     check_same_bits(at, "P7-001.dibhr");
+}
+
+TEST_CASE("a trial is felt and answered with an arm below a maker's library alone",
+          "[study window]") {
+    const Sitting at(head() + kPairs);
+    const auto arm =
+        make_stand_in(GENERATE(as<std::string>{}, "forcedimension", "openhaptics"), at.folder);
+    CAPTURE(arm->kind());
+    Participant person(at, {"--device", arm->kind()}, {});
+    arm->move_hand(0.0, 10.0, 100);
+    const auto press = [&](unsigned button, const std::function<bool(const Seen&)>& has_gone_on) {
+        person.wait_until([](const Seen& now) { return now.buttons == 0; });
+        arm->press_buttons(1U << button);
+        person.wait_until(has_gone_on);
+        arm->press_buttons(0);
+    };
+    person.wait_for(StudyStep::instructions);
+    press(0, [](const Seen& now) { return !Participant::is_at(now, StudyStep::instructions); });
+    for (const int interval : {0, 1}) {
+        person.wait_for_interval(0, interval);
+        person.wait_until([&](const Seen& now) { return now.ready && arm->newton() > 0.3; });
+        press(0, [=](const Seen& now) {
+            return now.interval != interval || !Participant::is_at(now, StudyStep::interval);
+        });
+    }
+    person.wait_for(StudyStep::question);
+    // The arm's second button keeps its use: it takes the force off.
+    press(0, [](const Seen& now) { return !Participant::is_at(now, StudyStep::question); });
+    person.wait_for(StudyStep::thanks);
+    person.wait_until([](const Seen& now) { return now.buttons == 0; });
+    arm->press_buttons(1);
+    CHECK(person.end() == 0);
+
+    CHECK(at.errors().empty());
+    const StudyRecord record = at.record();
+    CHECK(record.finished);
+    REQUIRE(record.answered.size() == 1);
+    CHECK(record.answered[0].answer.choice == 0);
+    REQUIRE(run_dibhr(at.folder, {"study", "sessions", "answers/P7.dibhr-study", "--out", "s"})
+                .exit_code == 0);
+    check_same_bits(at, "P7-001.dibhr");
+    CHECK(arm->wrong_calls() == 0);
+    CHECK_FALSE(arm->force_is_on());
 }

@@ -12,10 +12,9 @@
 #include <string>
 #include <string_view>
 
-#include "core/haptics/safety.hpp"
 #include "device/forcedimension/forcedimension_device.hpp"
 #include "tests/device/forcedimension/stand_in_page.hpp"
-#include "tests/device/ticking_device.hpp"
+#include "tests/device/pressing_device.hpp"
 
 namespace dibhr::test::forcedimension {
 
@@ -48,35 +47,16 @@ inline ConnectionOptions options_for(const std::string& library = kDrd) {
     return options;
 }
 
-/// Presses with a force that the loop's own last stage limits and lets rise.
-class ArmBench {
+class ArmBench : public PressingDevice<ForceDimensionDevice> {
   public:
     explicit ArmBench(Page& simulated, ConnectionOptions options = options_for())
-        : page(simulated), loop(options, load_calls(options.library)) {}
+        : PressingDevice(options, load_calls(options.library)), page(simulated) {}
 
     Page& page;
-    TickingDevice<ForceDimensionDevice> loop;
-    Vec3 pressed_newton{0.0, 0.0, 2.0};
 
-    /// Ticks until the condition is true; false: it never was.
-    template <typename IsSo>
-    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(20'000)) {
-        return loop.tick_until(
-            [&] {
-                choose_force();
-                return is_so();
-            },
-            patience);
-    }
-    void tick_for(milliseconds span) {
-        (void)tick_until([] { return false; }, span);
-    }
     bool press() {
         return tick_until(
             [&] { return loop.reading.ready && newton() > 0.99 * glm::length(pressed_newton); });
-    }
-    bool reaches(Stage stage) {
-        return tick_until([&] { return status().stage == stage; });
     }
     /// After a fault: how long the motors still push, at most `patience`.
     milliseconds pushes_for(milliseconds patience = milliseconds(1000)) {
@@ -103,24 +83,10 @@ class ArmBench {
         return std::sqrt(page.units[unit].square_newton(
             std::chrono::duration_cast<std::chrono::nanoseconds>(now).count()));
     }
-    [[nodiscard]] Status status() const { return loop.device.status(); }
-    [[nodiscard]] bool says(std::string_view part) const {
-        return status().sentence.find(part) != std::string::npos;
-    }
     /// The name of a call, `back` calls before the last one.
     [[nodiscard]] std::string_view call(std::size_t back = 0) const {
         return page.last_calls[(page.calls - 1 - back) % kCallsKept].load();
     }
-
-  private:
-    void choose_force() {
-        SafetyInput input;
-        input.device_ready = loop.reading.ready;
-        input.from_zero = loop.reading.hand_changed;
-        loop.force_newton = safety_.limit(pressed_newton, input, SafetyLimits{});
-    }
-
-    SafetyStage safety_{};
 };
 
 }  // namespace dibhr::test::forcedimension

@@ -3,6 +3,8 @@
 
 #include <glm/geometric.hpp>
 
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
@@ -10,6 +12,7 @@
 #include "device/forcedimension/survey.hpp"
 #include "tests/device/forcedimension/arm_bench.hpp"
 #include "tests/device/time/simulated_time.hpp"
+#include "tests/device/usb_folder.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,6 +22,7 @@ namespace {
 using namespace dibhr;
 using namespace dibhr::test::forcedimension;
 using Catch::Matchers::WithinAbs;
+using test::add_usb_device;
 using test::let_pass;
 
 }  // namespace
@@ -168,12 +172,7 @@ TEST_CASE("a tick allocates nothing with an arm", "[forcedimension]") {
 TEST_CASE("a Falcon belongs to dibhr's own driver, and is never opened through the library",
           "[forcedimension]") {
     const test::TemporaryFolder folder;
-    const auto add_device = [&](const char* name, const char* maker, const char* product) {
-        std::filesystem::create_directories(folder / name);
-        std::ofstream(folder / name / "idVendor") << maker << '\n';
-        std::ofstream(folder / name / "idProduct") << product << '\n';
-    };
-    add_device("1-1", "0403", "cb48");
+    add_usb_device(folder / "1-1", "0403", "cb48");
     Page& page = fresh_page();
     page.units[0].plugged = true;
     page.units[0].type = kFalcon;
@@ -187,6 +186,45 @@ TEST_CASE("a Falcon belongs to dibhr's own driver, and is never opened through t
     CHECK(survey_arms(options).arms.size() == (has_arm ? 1U : 0U));
     ArmBench bench(page, options);
     CHECK(bench.tick_until([&] { return bench.newton(1) > 1.9; }, milliseconds(5000)) == has_arm);
+    CHECK_FALSE(page.units[0].was_opened);
+}
+
+TEST_CASE("a library that cannot be used is trouble only where an arm is attached",
+          "[forcedimension]") {
+    const test::TemporaryFolder folder;
+    std::ofstream(folder / "libdrd.so.3") << "no library";
+    ConnectionOptions options = options_for((folder / "libdrd.so.3").string());
+    options.usb_devices = folder.path();
+    const bool has_arm = GENERATE(true, false);
+    if (has_arm) add_usb_device(folder / "1-1", "1451", "0402");
+    const Survey survey = survey_arms(options);
+    CHECK(survey.trouble == has_arm);
+    CHECK(survey.arms.empty());
+    CHECK(survey.sentence.starts_with(options.library + " is not a library"));
+}
+
+TEST_CASE("beside a Falcon, why an arm cannot be opened is told as without one",
+          "[forcedimension]") {
+    const test::TemporaryFolder folder;
+    add_usb_device(folder / "1-1", "0403", "cb48");
+    Page& page = fresh_page();
+    page.units[0].plugged = true;
+    page.units[0].type = kFalcon;
+    ConnectionOptions options = options_for();
+    options.usb_devices = folder.path();
+    const Survey none = survey_arms(options);
+    CHECK_FALSE(none.trouble);
+    const bool in_use = GENERATE(true, false);
+    if (in_use) {
+        page.units[1].plugged = true;
+        page.units[1].in_use = true;
+    } else {
+        add_usb_device(folder / "1-2", "1451", "0402");  // without permission
+    }
+    const Survey survey = survey_arms(options);
+    CHECK(survey.trouble);
+    CHECK(survey.sentence.find(in_use ? "end that one" : "you may not open it") !=
+          std::string::npos);
     CHECK_FALSE(page.units[0].was_opened);
 }
 

@@ -12,6 +12,7 @@
 #include "device/forcedimension/survey.hpp"
 #include "tests/device/forcedimension/arm_bench.hpp"
 #include "tests/device/time/simulated_time.hpp"
+#include "tests/device/usb_folder.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -203,7 +204,8 @@ TEST_CASE("an arm initialises itself only when the user agrees to it, this time"
         REQUIRE(bench.reaches(Stage::not_initialised));
         CHECK_FALSE(unit.moves_itself);
         CHECK_FALSE(unit.force_on);
-        CHECK(bench.says("free its way"));
+        CHECK(bench.says("does not know its position"));
+        CHECK_FALSE(bench.status().trouble);  // the user wanted it so
         CHECK(bench.status().offer);
     }
     SECTION("agreed, and it fails: the user is asked again") {
@@ -312,10 +314,7 @@ TEST_CASE("an arm of another program is named, and used when that one has ended"
 TEST_CASE("an arm that may not be opened looks to the library like none, and is told of",
           "[forcedimension]") {
     const test::TemporaryFolder folder;
-    std::filesystem::create_directories(folder / "1-2");
-    for (const auto& [name, value] :
-         {std::pair{"idVendor", "1451"}, {"idProduct", "0402"}, {"busnum", "99"}, {"devnum", "9"}})
-        std::ofstream(folder / "1-2" / name) << value << '\n';
+    test::add_usb_device(folder / "1-2", "1451", "0402");
     Page& page = fresh_page();
     ConnectionOptions options = options_for();
     options.usb_devices = folder.path();

@@ -6,6 +6,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -240,6 +241,7 @@ int dhdSetForceAndTorqueAndGripperForce(double x, double y, double z, double tor
     unit->newton[1] = y;
     unit->newton[2] = z;
     unit->newton_at_ns = now_ns();
+    unit->strongest_newton = std::max(unit->strongest_newton.load(), std::hypot(x, y, z));
     return page().remarks ? kSaturated : 0;
 }
 int dhdEnableForce(unsigned char on, char id) {

@@ -40,6 +40,7 @@ struct Unit {
     std::atomic<bool> force_on{false};  ///< the motors take forces
     std::atomic<int> cause{0};          ///< why the force is off
     std::array<std::atomic<double>, 3> newton{};
+    std::atomic<double> strongest_newton{0.0};  ///< of all forces that were set
     std::atomic<std::int64_t> newton_at_ns{0};  ///< when it was set, on the steady clock
     std::atomic<int> watchdog{0};               ///< periods of 125 us; 0: off
     std::atomic<double> max_newton{-1.0};

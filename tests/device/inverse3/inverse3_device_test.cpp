@@ -194,7 +194,7 @@ TEST_CASE("on the network thread no exchange allocates, once there is a connecti
     }
     network.request_stop();
     network.join();
-    CHECK(driver_state.exchanges >= kExchanges);
+    CHECK(driver_state.exchanges.count >= kExchanges);
     CHECK(driver_state.dialect_confirmed);
     CHECK(allocations < 50);  // what is said of each new stage
 }

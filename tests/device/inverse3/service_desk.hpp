@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/haptics/safety.hpp"
 #include "device/inverse3/inverse3_device.hpp"
 #include "device/inverse3/simulated/service.hpp"
-#include "tests/device/ticking_device.hpp"
+#include "tests/device/pressing_device.hpp"
 
 namespace dibhr::test::inverse3 {
 
@@ -35,33 +34,21 @@ inline simulated::Scene usual_scene() {
     return scene;
 }
 
-/// Presses with a force that the loop's own last stage limits and lets rise.
-class ServiceDesk {
+struct RunningService {
+    explicit RunningService(simulated::Scene scene) : service(std::move(scene)) {}
+
+    simulated::Service service;
+};
+
+class ServiceDesk : public RunningService, public PressingDevice<Inverse3Device> {
   public:
     explicit ServiceDesk(simulated::Scene scene = usual_scene(), const std::string& device = {})
-        : service(std::move(scene)), loop([&] {
+        : RunningService(std::move(scene)), PressingDevice([&] {
               ConnectionOptions options = options_for(service);
               options.device = device;
               return options;
           }()) {}
 
-    simulated::Service service;
-    TickingDevice<Inverse3Device> loop;
-    Vec3 pressed_newton{0.0, 0.0, 2.0};
-
-    /// Ticks until the condition is true; false: it never was.
-    template <typename IsSo>
-    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(60'000)) {
-        return loop.tick_until(
-            [&] {
-                choose_force();
-                return is_so();
-            },
-            patience);
-    }
-    void tick_for(milliseconds span) {
-        (void)tick_until([] { return false; }, span);
-    }
     bool press() {
         return tick_until([&] { return loop.reading.ready && reaches_full_force(); });
     }
@@ -70,9 +57,6 @@ class ServiceDesk {
         return tick_until(
             [&] { return loop.reading.ready && glm::length(loop.force_newton) > 0.3; });
     }
-    [[nodiscard]] Stage stage() const { return loop.device.status().stage; }
-    [[nodiscard]] std::string sentence() const { return loop.device.status().sentence; }
-
     /// What the simulated motors do.
     [[nodiscard]] Vec3 felt_newton() {
         return service.with([](simulated::Scene& scene) {
@@ -93,17 +77,9 @@ class ServiceDesk {
     }
 
   private:
-    void choose_force() {
-        SafetyInput input;
-        input.device_ready = loop.reading.ready;
-        input.from_zero = loop.reading.hand_changed;
-        loop.force_newton = safety_.limit(pressed_newton, input, SafetyLimits{});
-    }
     [[nodiscard]] bool reaches_full_force() const {
         return glm::length(loop.force_newton) > 0.99 * glm::length(pressed_newton);
     }
-
-    SafetyStage safety_{};
 };
 
 }  // namespace dibhr::test::inverse3

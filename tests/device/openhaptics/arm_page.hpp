@@ -8,6 +8,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -39,6 +40,16 @@ struct SimulatedArm {
     std::atomic<bool> output{false};  ///< the force output is on
     Axes force_newton{};              ///< that the motors hold
     std::atomic<int> frames{0};
+    std::atomic<std::int64_t> framed_at_ns{0};  ///< end of the last frame, on the steady clock
+    std::atomic<double> strongest_newton{0.0};  ///< of all frames
+    std::atomic<int> watchdog_ms{0};            ///< the arm's own; 0: none
+
+    /// Length of the force at the motors [N].
+    [[nodiscard]] double newton(std::int64_t now_ns) const {
+        const bool late = watchdog_ms > 0 && now_ns - framed_at_ns > watchdog_ms * 1'000'000LL;
+        if (!output || late) return 0.0;
+        return std::hypot(force_newton[0], force_newton[1], force_newton[2]);
+    }
 };
 
 /// A frame that ended.
@@ -57,6 +68,8 @@ struct ArmPage {
     std::atomic<unsigned> raised{0};  ///< an error of every frame; 0: none
     std::atomic<int> raised_internal{0};
     std::atomic<int> raised_times{0};         ///< in so many frames
+    std::atomic<unsigned> unknown{0};         ///< a parameter that the library does not have
+    std::atomic<bool> hangs{false};           ///< a frame does not end
     std::atomic<bool> calls_back{true};       ///< false: the servo thread calls nobody
     std::atomic<bool> default_by_null{true};  ///< hdInitDevice(NULL) opens the first arm
     std::atomic<bool> default_by_name{true};  ///< hdInitDevice("Default Device") does

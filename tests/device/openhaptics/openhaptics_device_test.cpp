@@ -7,6 +7,7 @@
 #include "device/openhaptics/survey.hpp"
 #include "tests/device/openhaptics/touch_desk.hpp"
 #include "tests/device/time/simulated_time.hpp"
+#include "tests/device/usb_folder.hpp"
 #include "tests/support/allocations.hpp"
 #include "tests/support/catch.hpp"
 
@@ -201,4 +202,23 @@ TEST_CASE("a survey opens the device, tells of it, and never switches its force 
     const Status none = survey_device(options_for());
     CHECK_FALSE(answers(none));
     CHECK(none.sentence.find("no Touch answers") != std::string::npos);
+}
+
+TEST_CASE("a device that does not answer is attached where the USB or another program has it",
+          "[openhaptics]") {
+    const test::TemporaryFolder folder;
+    ConnectionOptions options = options_for();
+    options.usb_devices = folder.path();
+    Status status;
+    for (const Stage stage : {Stage::no_library, Stage::broken_library, Stage::looking}) {
+        status.stage = stage;
+        CHECK_FALSE(is_attached(status, options));
+    }
+    status.stage = Stage::cannot_open;
+    CHECK(is_attached(status, options));
+    const auto [maker, product, is_touch] = GENERATE(table<const char*, const char*, bool>(
+        {{"2988", "0304", true}, {"0301", "2988", true}, {"0301", "0304", false}}));
+    test::add_usb_device(folder / "1-1", maker, product);
+    status.stage = Stage::no_library;
+    CHECK(is_attached(status, options) == is_touch);
 }

@@ -88,7 +88,7 @@ TEST_CASE("whatever keeps the device from touching takes the force off and says 
     const auto began = Clock::now();
     fault.begin(desk.bench.page());
     CHECK(desk.tick_until([&] { return desk.bench.felt_newton() == Vec3{0.0}; }, kGrace));
-    CHECK(desk.tick_until_stage(fault.stage));
+    CHECK(desk.reaches(fault.stage));
     desk.tick_for(milliseconds(150));
     CHECK(desk.stage() == fault.stage);
     CAPTURE(desk.sentence());
@@ -173,7 +173,7 @@ TEST_CASE("each style of calibration is done at its time, and no force comes bef
         page.arms[0].calibration_style = style;
         page.arms[0].calibration = asked;
     });
-    REQUIRE(desk.tick_until_stage(Stage::not_calibrated) == true);
+    REQUIRE(desk.reaches(Stage::not_calibrated));
     SimulatedArm& arm = desk.bench.arm();
     if (style == 1) {
         CHECK(desk.says("press the stylus's button"));
@@ -200,23 +200,70 @@ TEST_CASE("each style of calibration is done at its time, and no force comes bef
 TEST_CASE("why a device cannot be opened is told with the next step", "[openhaptics_faults]") {
     struct Refusal {
         unsigned code;
+        Stage stage;
         const char* next_step;
     };
-    const Refusal refusal =
-        GENERATE(Refusal{0x301, "end that one"}, Refusal{0x600, "accept its licence"},
-                 Refusal{0x302, "plug in its cable"}, Refusal{0x300, "set it up once"});
+    const Refusal refusal = GENERATE(Refusal{0x301, Stage::cannot_open, "end that one"},
+                                     Refusal{0x600, Stage::cannot_open, "accept its licence"},
+                                     Refusal{0x302, Stage::looking, "plug in its cable"},
+                                     Refusal{0x300, Stage::looking, "set it up once"});
     CAPTURE(refusal.code);
     TouchDesk desk("", [&](ArmPage& page) { page.arms[0].in_use_error = refusal.code; });
-    REQUIRE(desk.tick_until_stage(Stage::looking));
+    REQUIRE(desk.reaches(refusal.stage));
     CHECK(desk.says(refusal.next_step));
     CHECK(state_of(desk.loop.device.status()).absent);
     desk.bench.arm().in_use_error = 0;
     CHECK(desk.press());
 }
 
+TEST_CASE(
+    "a value that the library does not have is asked for once, and its lack takes no force off",
+    "[openhaptics_faults]") {
+    const unsigned unknown = GENERATE(as<unsigned>{}, kHdVelocity, kHdGimbalAngles, kHdEncoders,
+                                      kHdMotorTemperature, kHdInkwellSwitch);
+    CAPTURE(unknown);
+    TouchDesk desk("", [unknown](ArmPage& page) { page.unknown = unknown; });
+    REQUIRE(desk.press());
+    // A stylus that turns says nothing of encoders that nobody reads.
+    for (int k = 0; k < 300; ++k) {
+        if (unknown == kHdEncoders) desk.bench.arm().gimbal_rad[0] = 0.01 * k;
+        desk.tick_for(milliseconds(1));
+    }
+    CHECK(desk.stage() == Stage::ready);
+    CHECK(desk.loop.device.status().errors == 0);
+    CHECK(desk.loop.device.status().reports_heat == (unknown != kHdMotorTemperature));
+    CHECK(glm::length(desk.bench.felt_newton()) > 0.59);
+}
+
+TEST_CASE("a library that refuses the position gives no force", "[openhaptics_faults]") {
+    TouchDesk desk("", [](ArmPage& page) { page.unknown = kHdPosition; });
+    REQUIRE(desk.reaches(Stage::refused));
+    CHECK(desk.says("unknown parameter"));
+    desk.tick_for(milliseconds(2000));
+    CHECK(strongest(desk.bench.sent_since({})) == 0.0);
+}
+
+TEST_CASE("while a call of the servo thread does not return, no second servo is started",
+          "[openhaptics_faults]") {
+    TouchDesk desk;
+    REQUIRE(desk.press());
+    desk.bench.page().hangs = true;
+    CHECK(desk.tick_until([&] { return desk.bench.felt_newton() == Vec3{0.0}; }, kGrace));
+    REQUIRE(desk.tick_until([&] { return !desk.bench.arm().open; }));
+    desk.tick_for(std::chrono::seconds(10));
+    CHECK(desk.bench.page().openings == 1);
+    CHECK(desk.stage() == Stage::looking);
+    CHECK(desk.says("start dibhr again"));
+    desk.bench.page().hangs = false;
+    CHECK(desk.press());
+    CHECK(desk.bench.page().openings == 2);
+    CAPTURE(desk.bench.page().first_wrong);
+    CHECK(desk.bench.page().wrong_calls == 0);
+}
+
 TEST_CASE("a device with an unknown name is named", "[openhaptics_faults]") {
     TouchDesk desk("Third");
-    REQUIRE(desk.tick_until_stage(Stage::looking));
+    REQUIRE(desk.reaches(Stage::looking));
     CHECK(desk.says("no Touch with the name Third answers"));
 }
 

@@ -95,6 +95,10 @@ SimulatedArm* current_arm(const char* caller) {
 
 /// The arm of the open frame.
 SimulatedArm* arm_in_frame(const char* caller, unsigned parameter) {
+    if (parameter == library().page->unknown) {
+        raise(0x100);
+        return nullptr;
+    }
     if (library().frame == kInvalid) {
         wrong(caller, parameter);
         raise(0x402);
@@ -223,6 +227,7 @@ EXPORTED void hdBeginFrame(unsigned handle) {
 }
 
 EXPORTED void hdEndFrame(unsigned handle) {
+    while (library().page->hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::lock_guard lock(library().lock);
     ArmPage& page = *library().page;
     if (library().frame != handle) {
@@ -246,6 +251,9 @@ EXPORTED void hdEndFrame(unsigned handle) {
     if (!arm.output || !arm.attached) force = {};
     hold(arm, force);
     record(force);
+    arm.strongest_newton =
+        std::max(arm.strongest_newton.load(), std::hypot(force[0], force[1], force[2]));
+    arm.framed_at_ns = std::chrono::steady_clock::now().time_since_epoch().count();
 }
 
 EXPORTED ErrorInfo hdGetError() {
@@ -397,6 +405,7 @@ EXPORTED void hdStartScheduler() {
 EXPORTED void hdStopScheduler() {
     if (!library().runs) return wrong("hdStopScheduler twice");
     library().runs = false;
+    if (library().page->hangs) return library().servo.detach();
     library().servo.join();
 }
 
@@ -409,6 +418,7 @@ EXPORTED unsigned long hdScheduleAsynchronous(Callback callback, void* data,
 }
 
 EXPORTED void hdUnschedule(unsigned long schedule) {
+    if (library().page->hangs) return;
     const std::lock_guard callbacks(library().callback_lock);
     if (schedule == 0 || schedule >= library().next_schedule) wrong("hdUnschedule");
     auto& scheduled = library().scheduled;

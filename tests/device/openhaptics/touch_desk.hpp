@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <chrono>
 #include <fstream>
+#include <functional>
 #include <new>
 #include <string>
 #include <vector>
 
-#include "core/haptics/safety.hpp"
 #include "device/openhaptics/openhaptics_device.hpp"
 #include "tests/device/openhaptics/arm_page.hpp"
-#include "tests/device/ticking_device.hpp"
+#include "tests/device/pressing_device.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -82,38 +82,25 @@ inline ConnectionOptions options_for(const std::string& name = {}) {
     return {.name = name, .library = STAND_IN_LIBRARY};
 }
 
-/// Presses with a force that the loop's own last stage limits and lets rise.
-class TouchDesk {
-  public:
-    explicit TouchDesk(const std::string& name = {}) : loop(options_for(name)) {}
+/// The arm, where the library finds it.
+struct FoundArm {
     /// `prepare` changes the page before the device is searched for.
-    template <typename Prepare>
-    explicit TouchDesk(const std::string& name, Prepare&& prepare)
-        : bench(), prepared_((prepare(bench.page()), true)), loop(options_for(name)) {}
+    explicit FoundArm(const std::function<void(ArmPage&)>& prepare) {
+        if (prepare) prepare(bench.page());
+    }
 
     ArmBench bench{};
     EnvironmentVariable page_variable{kPageVariable, bench.file().c_str()};
+};
 
-  private:
-    bool prepared_{false};
-
+class TouchDesk : public FoundArm, public PressingDevice<OpenhapticsDevice> {
   public:
-    TickingDevice<OpenhapticsDevice> loop;
-    Vec3 pressed_newton{0.0, 0.0, 0.6};
+    explicit TouchDesk(const std::string& name = {},
+                       const std::function<void(ArmPage&)>& prepare = {})
+        : FoundArm(prepare), PressingDevice(options_for(name)) {
+        pressed_newton = {0.0, 0.0, 0.6};
+    }
 
-    /// Ticks until the condition is true; false: it never was.
-    template <typename IsSo>
-    bool tick_until(IsSo&& is_so, milliseconds patience = milliseconds(60'000)) {
-        return loop.tick_until(
-            [&] {
-                choose_force();
-                return is_so();
-            },
-            patience);
-    }
-    void tick_for(milliseconds span) {
-        (void)tick_until([] { return false; }, span);
-    }
     bool press() {
         return tick_until([&] {
             return loop.reading.ready &&
@@ -125,24 +112,6 @@ class TouchDesk {
         return tick_until(
             [&] { return loop.reading.ready && glm::length(bench.felt_newton()) > 0.1; });
     }
-    bool tick_until_stage(Stage stage) {
-        return tick_until([&] { return this->stage() == stage; });
-    }
-    [[nodiscard]] Stage stage() const { return loop.device.status().stage; }
-    [[nodiscard]] std::string sentence() const { return loop.device.status().sentence; }
-    [[nodiscard]] bool says(const std::string& part) const {
-        return sentence().find(part) != std::string::npos;
-    }
-
-  private:
-    void choose_force() {
-        SafetyInput input;
-        input.device_ready = loop.reading.ready;
-        input.from_zero = loop.reading.hand_changed;
-        loop.force_newton = safety_.limit(pressed_newton, input, SafetyLimits{});
-    }
-
-    SafetyStage safety_{};
 };
 
 }  // namespace dibhr::test::openhaptics
