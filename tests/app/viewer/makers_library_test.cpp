@@ -178,7 +178,7 @@ TEST_CASE("what stands still, or goes, takes the force off an arm while the prog
 }
 
 TEST_CASE("how long an arm still pushes, for every way out", "[makers_library][bench]") {
-    constexpr int kRuns = 11;
+    constexpr int kRuns = 3;
     const std::string what = GENERATE(as<std::string>{}, "SIGTERM", "SIGKILL", "SIGSEGV", "SIGABRT",
                                       "SIGSTOP", "display's end", "display", "disk", "window");
     const std::string kind = any_kind();
