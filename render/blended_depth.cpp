@@ -9,9 +9,12 @@ void drawn_elevations(const BlendedDepth& depth, const ReliefGrid& grid,
     elevations.resize(static_cast<std::size_t>(grid.columns()) *
                       static_cast<std::size_t>(grid.rows()));
     float* next = elevations.data();
+    const auto step = static_cast<std::size_t>(grid.step);
+    const auto columns = static_cast<std::size_t>(grid.columns());
     for (int j = 0; j < grid.rows(); ++j) {
-        for (int i = 0; i < grid.columns(); ++i)
-            *next++ = elevation(depth.from.index(grid.image_i(i), grid.image_j(j)));
+        const std::size_t row = depth.from.index(0, grid.image_j(j));
+        for (std::size_t i = 0; i + 1 < columns; ++i) *next++ = elevation(row + i * step);
+        *next++ = elevation(row + static_cast<std::size_t>(grid.image_columns - 1));
     }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
+#include "render/blended_depth.hpp"
 
 namespace dibhr {
 
@@ -201,36 +202,15 @@ void GridTexture::upload(int columns, int rows, const float* values) {
     rows_ = rows;
 }
 
-DepthTextures::Names DepthTextures::show(const std::shared_ptr<const DepthImage>& from,
-                                         const std::shared_ptr<const DepthImage>& to,
-                                         const ReliefGrid& grid) {
-    const auto holds = [&grid](const Slot& slot, const std::shared_ptr<const DepthImage>& image) {
-        return slot.image.is(image) && slot.grid == grid;
-    };
-    const std::size_t from_slot =
-        holds(slots_[0], from) || (!holds(slots_[1], from) && !holds(slots_[0], to)) ? 0 : 1;
-    Names names;
-    names.from = upload(slots_[from_slot], from, grid);
-    names.to = to == from ? names.from : upload(slots_[1 - from_slot], to, grid);
-    return names;
-}
-
-GLuint DepthTextures::upload(Slot& slot, const std::shared_ptr<const DepthImage>& image,
-                             const ReliefGrid& grid) {
-    if (slot.image.is(image) && slot.grid == grid) return slot.texture.name();
-    const float* values = image->levels.data();
-    if (grid.step > 1) {
-        staged_.clear();
-        for (int j = 0; j < grid.rows(); ++j) {
-            const float* row = values + image->index(0, grid.image_j(j));
-            for (int i = 0; i < grid.columns(); ++i) staged_.push_back(row[grid.image_i(i)]);
-        }
-        values = staged_.data();
-    }
-    slot.texture.upload(grid.columns(), grid.rows(), values);
-    slot.image.set(image);
-    slot.grid = grid;
-    return slot.texture.name();
+bool ElevationTexture::show(const DepthBlend& depth, double px_per_level, const ReliefGrid& grid) {
+    const auto& from = depth.from->drawn();
+    const auto& to = depth.to->drawn();
+    const Source source{ObjectMark(from), ObjectMark(to), depth.blend, px_per_level, grid};
+    if (source_ == source) return false;
+    drawn_elevations({*from, *to, depth.blend, px_per_level}, grid, elevations_);
+    texture_.upload(grid.columns(), grid.rows(), elevations_.data());
+    source_ = source;
+    return true;
 }
 
 GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>>& mask,

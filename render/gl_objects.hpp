@@ -143,29 +143,25 @@ class GridTexture {
     int rows_{0};
 };
 
-/// The two depth images of a moment. In playback the old `to` is the next `from` and keeps its
-/// texture: one upload a video frame.
-class DepthTextures {
+/// The surface between two depth images at every vertex of a grid [px].
+class ElevationTexture {
   public:
-    struct Names {
-        GLuint from{0};
-        GLuint to{0};
-    };
-    /// Uploads the images that are not in a texture yet. Both have the grid's size.
-    Names show(const std::shared_ptr<const DepthImage>& from,
-               const std::shared_ptr<const DepthImage>& to, const ReliefGrid& grid);
+    /// Uploads if an image, the blend, the scale or the grid has changed. Whether it did.
+    bool show(const DepthBlend& depth, double px_per_level, const ReliefGrid& grid);
+    [[nodiscard]] GLuint name() const noexcept { return texture_.name(); }
+    [[nodiscard]] const std::vector<float>& elevations() const noexcept { return elevations_; }
 
   private:
-    struct Slot {
-        GridTexture texture{};
-        UploadedFrom<DepthImage> image{};
+    struct Source {
+        ObjectMark from{}, to{};
+        double blend{0.0};
+        double px_per_level{0.0};
         ReliefGrid grid{};
+        bool operator==(const Source&) const = default;
     };
-    GLuint upload(Slot& slot, const std::shared_ptr<const DepthImage>& image,
-                  const ReliefGrid& grid);
-
-    std::array<Slot, 2> slots_{};
-    std::vector<float> staged_{};
+    GridTexture texture_{};
+    std::optional<Source> source_{};
+    std::vector<float> elevations_{};
 };
 
 /// The mask of places where no surface was ever seen (1), filtered.

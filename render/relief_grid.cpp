@@ -14,23 +14,46 @@ namespace {
 constexpr int kTileColumns = 17;
 constexpr int kTileRows = 10;
 
+void add_cell(const GridTile& tile, int i, int j, std::vector<std::uint32_t>& indices) {
+    const auto width = static_cast<std::uint32_t>(tile.right - tile.left + 1);
+    const auto here = tile.first_vertex + static_cast<std::uint32_t>(j - tile.top) * width +
+                      static_cast<std::uint32_t>(i - tile.left);
+    const auto below = here + width;
+    indices.insert(indices.end(), {here, below, here + 1, below, below + 1, here + 1});
+}
+
 void add_tile(GridMesh& mesh, int left, int top, int right, int bottom) {
-    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-    const auto width = static_cast<std::uint32_t>(right - left + 1);
+    const GridTile tile{left,
+                        top,
+                        right,
+                        bottom,
+                        static_cast<std::uint32_t>(mesh.vertices.size()),
+                        static_cast<std::uint32_t>(mesh.indices.size())};
+    mesh.tiles.push_back(tile);
     for (int j = top; j <= bottom; ++j) {
         for (int i = left; i <= right; ++i) {
             mesh.vertices.push_back({static_cast<std::uint16_t>(i), static_cast<std::uint16_t>(j)});
         }
     }
-    // Both triangles of a cell end with its upper right vertex, so the last vertex names the cell.
-    for (int j = top; j < bottom; ++j) {
-        for (int i = left; i < right; ++i) {
-            const auto here = first + static_cast<std::uint32_t>(j - top) * width +
-                              static_cast<std::uint32_t>(i - left);
-            const auto below = here + width;
-            mesh.indices.insert(mesh.indices.end(),
-                                {here, below, here + 1, below, below + 1, here + 1});
-        }
+    for (int j = top; j < bottom; ++j)
+        for (int i = left; i < right; ++i) add_cell(tile, i, j, mesh.indices);
+}
+
+std::uint32_t index_count(const GridTile& tile) {
+    constexpr int kOfCell = 6;
+    return static_cast<std::uint32_t>(kOfCell * (tile.right - tile.left) *
+                                      (tile.bottom - tile.top));
+}
+
+/// Calls `visit` with column, row and whether the cell is cut; false from it ends the loop.
+template <class Visit>
+void each_cell(const GridTile& tile, const ReliefGrid& grid, const std::vector<float>& cut,
+               const Visit& visit) {
+    const auto columns = static_cast<std::size_t>(grid.columns());
+    for (int j = tile.top; j < tile.bottom; ++j) {
+        const float* const row = cut.data() + static_cast<std::size_t>(j) * columns;
+        for (int i = tile.left; i < tile.right; ++i)
+            if (!visit(i, j, row[i] > 0.0F)) return;
     }
 }
 
@@ -70,6 +93,27 @@ GridMesh tile_grid(const ReliefGrid& grid) {
         }
     }
     return mesh;
+}
+
+void leave_out(const std::vector<float>& cut, const ReliefGrid& grid,
+               const std::vector<GridTile>& tiles, UncutMesh& uncut) {
+    uncut.whole.clear();
+    uncut.rest.clear();
+    bool continues = false;
+    for (const GridTile& tile : tiles) {
+        bool whole = true;
+        each_cell(tile, grid, cut, [&whole](int, int, bool is_cut) { return whole = !is_cut; });
+        if (whole && continues)
+            uncut.whole.back().count += index_count(tile);
+        else if (whole)
+            uncut.whole.push_back({tile.first_index, index_count(tile)});
+        else
+            each_cell(tile, grid, cut, [&](int i, int j, bool is_cut) {
+                if (!is_cut) add_cell(tile, i, j, uncut.rest);
+                return true;
+            });
+        continues = whole;
+    }
 }
 
 std::vector<GridVertex> border_strip(const ReliefGrid& grid) {

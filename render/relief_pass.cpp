@@ -24,10 +24,8 @@ constexpr glm::vec3 kDarkSide{0.125F, 0.130F, 0.140F};
 constexpr glm::vec3 kLightSide{0.64F, 0.65F, 0.67F};
 
 enum Unit : GLint {
-    kDepthFromUnit,
-    kDepthToUnit,
-    kDetailFromUnit,
-    kDetailToUnit,
+    kElevationsUnit,
+    kDetailUnit,
     kCutUnit,
     kUnseenUnit,
     kBumpUnit,
@@ -40,23 +38,32 @@ void bind(GLint unit, GLuint texture) {
     glBindTexture(GL_TEXTURE_2D, texture);
 }
 
-void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
-                   const std::vector<GridVertex>& vertices) {
+void use_vertices(const GlVertexArray& array, const GlBuffer& buffer) {
     glBindVertexArray(array.get());
     glBindBuffer(GL_ARRAY_BUFFER, buffer.get());
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(GridVertex)),
-                 vertices.data(), GL_STATIC_DRAW);
     glEnableVertexAttribArray(0);
     glVertexAttribIPointer(0, 2, GL_UNSIGNED_SHORT, sizeof(GridVertex), nullptr);
 }
 
+void fill_vertices(const GlVertexArray& array, const GlBuffer& buffer,
+                   const std::vector<GridVertex>& vertices) {
+    use_vertices(array, buffer);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(GridVertex)),
+                 vertices.data(), GL_STATIC_DRAW);
+}
+
+void upload_indices(const GlVertexArray& array, const GlBuffer& buffer,
+                    const std::vector<std::uint32_t>& indices, GLenum usage) {
+    glBindVertexArray(array.get());
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.get());
+    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(indices.size() * sizeof(std::uint32_t)), indices.data(),
+                 usage);
+}
+
 void upload(const LayerMesh& mesh, const SilhouetteLayer& layer) {
     const std::vector<LayerVertex>& vertices = layer.vertices;
-    glBindVertexArray(mesh.array.get());
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.get());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(layer.indices.size() * sizeof(std::uint32_t)),
-                 layer.indices.data(), GL_STREAM_DRAW);
+    upload_indices(mesh.array, mesh.indices, layer.indices, GL_STREAM_DRAW);
     glBindBuffer(GL_ARRAY_BUFFER, mesh.vertices.get());
     constexpr GLsizei kBytes = sizeof(LayerVertex);
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(LayerVertex)),
@@ -99,12 +106,12 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     if (grid != grid_) build(grid);
 
     const Variant variant = variant_for(content);
-    if (variant.silhouettes) cut(content, clip_from_world);
+    lift(content, variant);
+    cut(content, variant, clip_from_world);
     bind_textures(content, variant);
 
     use_program(variant, content, clip_from_world);
-    glBindVertexArray(surface_.get());
-    glDrawElements(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr);
+    draw_surface();
 
     if (variant.silhouettes && !layers_.behind.indices.empty()) {
         Variant behind = variant;
@@ -153,11 +160,10 @@ ReliefPass::Variant ReliefPass::variant_for(const SceneContent& content) const {
 void ReliefPass::build(const ReliefGrid& grid) {
     const GridMesh mesh = tile_grid(grid);
     fill_vertices(surface_, surface_vertices_, mesh.vertices);
-    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, surface_indices_.get());
-    glBufferData(GL_ELEMENT_ARRAY_BUFFER,
-                 static_cast<GLsizeiptr>(mesh.indices.size() * sizeof(std::uint32_t)),
-                 mesh.indices.data(), GL_STATIC_DRAW);
-    index_count_ = static_cast<GLsizei>(mesh.indices.size());
+    use_vertices(rest_, surface_vertices_);
+    upload_indices(surface_, surface_indices_, mesh.indices, GL_STATIC_DRAW);
+    index_count_ = static_cast<std::uint32_t>(mesh.indices.size());
+    tiles_ = mesh.tiles;
 
     const std::vector<GridVertex> strip = border_strip(grid);
     fill_vertices(wall_, wall_vertices_, strip);
@@ -168,31 +174,59 @@ void ReliefPass::build(const ReliefGrid& grid) {
     if (detail_grid_.step >= grid.step) detail_grid_ = grid;
 }
 
-void ReliefPass::cut(const SceneContent& content, const glm::mat4& clip_from_world) {
+void ReliefPass::lift(const SceneContent& content, const Variant& variant) {
+    DepthBlend depth = content.depth;
+    depth.blend = std::clamp(depth.blend, 0.0, 1.0);
+    const double px_per_level = content.shape.relief_px / depth.from->drawn()->highest_level;
+    if (depth_.show(depth, px_per_level, grid_)) cut_slope_ = 0.0;
+    if (variant.silhouettes && detail_grid_ != grid_)
+        detail_.show(depth, px_per_level, detail_grid_);
+}
+
+/// Finds cuts and layers again where they may have changed: while only the hand moves, they stay.
+void ReliefPass::cut(const SceneContent& content, const Variant& variant,
+                     const glm::mat4& clip_from_world) {
+    if (!variant.silhouettes) {
+        uncut_ = {.whole = {{0, index_count_}}};
+        cut_slope_ = 0.0;
+        return;
+    }
     const DepthImage& from = *content.depth.from->drawn();
     const BlendedDepth depth{from, *content.depth.to->drawn(),
                              std::clamp(content.depth.blend, 0.0, 1.0),
                              content.shape.relief_px / from.highest_level};
-    drawn_elevations(depth, grid_, elevations_);
-    find_cuts(depth, grid_, elevations_, content.relief_style.silhouette_slope, cuts_);
-    cut_.upload(grid_.columns(), grid_.rows(), cuts_.around.data());
-    const bool textured = variant_for(content).textured;
-    build_layers(
-        {depth, grid_, elevations_, cuts_, textured ? content.colour->colour.get() : nullptr,
-         eye_in_grid(clip_from_world, grid_)},
-        layers_);
+    if (const double slope = content.relief_style.silhouette_slope; slope != cut_slope_) {
+        find_cuts(depth, grid_, depth_.elevations(), slope, cuts_);
+        cut_.upload(grid_.columns(), grid_.rows(), cuts_.around.data());
+        leave_out(cuts_.cut, grid_, tiles_, uncut_);
+        upload_indices(rest_, rest_indices_, uncut_.rest, GL_STREAM_DRAW);
+        cut_slope_ = slope;
+        layers_of_.reset();
+    }
+    const std::shared_ptr<const ColourImage> colour =
+        variant.textured ? content.colour->colour : nullptr;
+    const LayerSource source{ObjectMark(colour), eye_in_grid(clip_from_world, grid_)};
+    if (layers_of_ == source) return;
+    build_layers({depth, grid_, depth_.elevations(), cuts_, colour.get(), source.eye}, layers_);
     upload(behind_, layers_.behind);
     upload(under_, layers_.under);
     upload(front_, layers_.front);
+    layers_of_ = source;
+}
+
+void ReliefPass::draw_surface() const {
+    glBindVertexArray(surface_.get());
+    for (const IndexRun& run : uncut_.whole)
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(run.count), GL_UNSIGNED_INT,
+                       attribute_offset(run.first * sizeof(std::uint32_t)));
+    if (uncut_.rest.empty()) return;
+    glBindVertexArray(rest_.get());
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(uncut_.rest.size()), GL_UNSIGNED_INT,
+                   nullptr);
 }
 
 void ReliefPass::bind_textures(const SceneContent& content, const Variant& variant) {
     // Uploads bind to the active unit, so all uploads come before the units are set.
-    const auto depth = depth_.show(content.depth.from->drawn(), content.depth.to->drawn(), grid_);
-    auto detail = depth;
-    if (variant.silhouettes && detail_grid_ != grid_) {
-        detail = detail_.show(content.depth.from->drawn(), content.depth.to->drawn(), detail_grid_);
-    }
     const GLuint unseen =
         variant.unseen ? unseen_.show(content.depth.nearest().unseen, detail_grid_) : 0;
     const GLuint bump = variant.rough ? bump_.show(*content.bump, content.shape.bump_size_px,
@@ -206,10 +240,8 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
         colour = colour_.show(content.colour->colour, most_side, !limits_.software);
     if (variant.by_depth)
         colour = depth_colours_.show(depth_colours(content.relief_style.paint), most_side, false);
-    bind(kDetailFromUnit, detail.from);
-    bind(kDetailToUnit, detail.to);
-    bind(kDepthFromUnit, depth.from);
-    bind(kDepthToUnit, depth.to);
+    bind(kElevationsUnit, depth_.name());
+    bind(kDetailUnit, detail_grid_ != grid_ ? detail_.name() : depth_.name());
     bind(kCutUnit, cut_.name());
     bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
@@ -237,18 +269,14 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
     }
     const DepthImage& image = *content.depth.from->drawn();
     program->use();
-    program->set("depth_from", kDepthFromUnit);
-    program->set("depth_to", kDepthToUnit);
-    program->set("detail_from", kDetailFromUnit);
-    program->set("detail_to", kDetailToUnit);
+    program->set("elevations", kElevationsUnit);
+    program->set("detail", kDetailUnit);
     program->set("cut_around", kCutUnit);
     program->set("unseen", kUnseenUnit);
     program->set("bump", kBumpUnit);
     program->set("heights", kHeightsUnit);
     program->set("side", content.light_wall ? kLightSide : kDarkSide);
     program->set("colour", kColourUnit);
-    program->set("blend", static_cast<float>(std::clamp(content.depth.blend, 0.0, 1.0)));
-    program->set("px_per_level", static_cast<float>(content.shape.relief_px / image.highest_level));
     program->set("relief_px", static_cast<float>(content.shape.relief_px));
     program->set("roughness_px", static_cast<float>(content.shape.roughness_px));
     program->set("ground_px", static_cast<float>(-kGroundDepth * image.columns));

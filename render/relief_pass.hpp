@@ -3,8 +3,10 @@
 
 #include <compare>
 #include <glm/mat4x4.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "render/gl_objects.hpp"
@@ -49,8 +51,17 @@ class ReliefPass {
         auto operator<=>(const Variant&) const = default;  // NOLINT(modernize-use-nullptr)
     };
 
+    /// With the cuts, what the layers are built from.
+    struct LayerSource {
+        ObjectMark colour{};
+        glm::vec4 eye{0.0F};
+        bool operator==(const LayerSource&) const = default;
+    };
+
     void build(const ReliefGrid& grid);
-    void cut(const SceneContent& content, const glm::mat4& clip_from_world);
+    void lift(const SceneContent& content, const Variant& variant);
+    void cut(const SceneContent& content, const Variant& variant, const glm::mat4& clip_from_world);
+    void draw_surface() const;
     [[nodiscard]] Variant variant_for(const SceneContent& content) const;
     void bind_textures(const SceneContent& content, const Variant& variant);
     const ShaderProgram& use_program(const Variant& variant, const SceneContent& content,
@@ -58,8 +69,8 @@ class ReliefPass {
 
     GlLimits limits_{};
     std::map<Variant, std::unique_ptr<ShaderProgram>> programs_{};
-    DepthTextures depth_{};
-    DepthTextures detail_{};  ///< at full resolution if possible, for the outlines
+    ElevationTexture depth_{};
+    ElevationTexture detail_{};  ///< at full resolution if possible, for the outlines
     UnseenTexture unseen_{};
     BumpTexture bump_{};
     HeightTexture heights_{};
@@ -70,16 +81,21 @@ class ReliefPass {
     GlVertexArray surface_{};
     GlBuffer surface_vertices_{};
     GlBuffer surface_indices_{};
+    GlVertexArray rest_{};  ///< the uncut cells of tiles with cut ones
+    GlBuffer rest_indices_{};
     GlVertexArray wall_{};
     GlBuffer wall_vertices_{};
     LayerMesh behind_{};
     LayerMesh under_{};
     LayerMesh front_{};
-    std::vector<float> elevations_{};
+    std::vector<GridTile> tiles_{};
+    UncutMesh uncut_{};
     SilhouetteCuts cuts_{};
+    double cut_slope_{0.0};  ///< with which cuts_ was found; 0: it was not
     SilhouetteLayers layers_{};
+    std::optional<LayerSource> layers_of_{};
     GridTexture cut_{};
-    GLsizei index_count_{0};
+    std::uint32_t index_count_{0};  ///< of the whole surface
     GLsizei wall_count_{0};
 };
 

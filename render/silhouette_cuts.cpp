@@ -14,49 +14,55 @@ constexpr float kLeastStep = 2.0F;  // limits; lower ones are folds
 constexpr float kOnSlope =
     0.2F;  // share of a step; a vertex this near a face's slope is on the face
 
-/// The elevations along a row or a column of the image; the last one goes on beyond the border.
-class PixelLine {
+/// The elevations around the edge from a pixel to the next one in a row or a column, as many as
+/// steps that contain the edge may depend on.
+class StepSurroundings {
   public:
-    PixelLine(const PixelElevation& elevation, std::size_t first, std::size_t stride, int count)
-        : elevation_(elevation), first_(first), stride_(stride), last_(count - 1) {}
-
-    [[nodiscard]] float operator[](int k) const {
-        return elevation_(first_ + static_cast<std::size_t>(std::clamp(k, 0, last_)) * stride_);
+    /// The edge from pixel `k` of `count`, whose first one is `first` of the image.
+    StepSurroundings(const PixelElevation& elevation, std::size_t first, std::size_t stride,
+                     int count, int k) {
+        for (int n = 0; n < kValues; ++n) {
+            const int clamped = std::clamp(k - kBefore + n, 0, count - 1);
+            values_[static_cast<std::size_t>(n)] =
+                elevation(first + static_cast<std::size_t>(clamped) * stride);
+        }
+    }
+    /// Whether a step of 1 to kWidestStep pixels that contains the edge is higher than `least_px`.
+    [[nodiscard]] bool has_step(float least_px) const {
+        for (int width = 1; width <= kWidestStep; ++width) {
+            for (int from = 1 - width; from <= 0; ++from)
+                if (unexplained(from, width) > least_px) return true;
+        }
+        return false;
     }
 
   private:
-    const PixelElevation& elevation_;
-    std::size_t first_, stride_;
-    int last_;
-};
+    static constexpr int kBefore = kWidestStep + 1;  // the step's begin, and two pixels before it
+    static constexpr int kValues = 2 * kBefore + 2;
 
-/// The rise to the next pixel that the two rises before it lead to [px].
-float continued(float rise, float rise_before) {
-    const float curvature = std::clamp(rise - rise_before, 0.0F, std::max(rise, 0.0F));
-    return std::max(rise + curvature, 0.0F);
-}
+    /// The elevation `n` pixels from the edge's first one.
+    [[nodiscard]] float at(int n) const { return values_[static_cast<std::size_t>(kBefore + n)]; }
 
-/// The height of a step from pixel `from` to pixel `from + width`, less what its sides explain
-/// [px].
-float unexplained(const PixelLine& line, int from, int width) {
-    const int to = from + width;
-    const float rise = line[to] - line[from];
-    const float sign = rise < 0.0F ? -1.0F : 1.0F;
-    const auto rise_at = [&line, sign](int k) { return sign * (line[k + 1] - line[k]); };
-    const float explained = std::max(continued(rise_at(from - 1), rise_at(from - 2)),
-                                     continued(rise_at(to), rise_at(to + 1)));
-    return sign * rise - static_cast<float>(width) * explained;
-}
-
-/// The highest step among those that contain the edge from pixel k to the next one [px].
-float step_at(const PixelLine& line, int k) {
-    float highest = 0.0F;
-    for (int width = 1; width <= kWidestStep; ++width) {
-        for (int from = k - width + 1; from <= k; ++from)
-            highest = std::max(highest, unexplained(line, from, width));
+    /// The height of a step from pixel `from` to pixel `from + width`, less what its sides explain
+    /// [px].
+    [[nodiscard]] float unexplained(int from, int width) const {
+        const int to = from + width;
+        const float rise = at(to) - at(from);
+        const float sign = rise < 0.0F ? -1.0F : 1.0F;
+        const auto rise_at = [this, sign](int k) { return sign * (at(k + 1) - at(k)); };
+        const float explained = std::max(continued(rise_at(from - 1), rise_at(from - 2)),
+                                         continued(rise_at(to), rise_at(to + 1)));
+        return sign * rise - static_cast<float>(width) * explained;
     }
-    return highest;
-}
+
+    /// The rise to the next pixel that the two rises before it lead to [px].
+    [[nodiscard]] static float continued(float rise, float rise_before) {
+        const float curvature = std::clamp(rise - rise_before, 0.0F, std::max(rise, 0.0F));
+        return std::max(rise + curvature, 0.0F);
+    }
+
+    std::array<float, kValues> values_{};
+};
 
 class CutFinder {
   public:
@@ -115,11 +121,14 @@ class CutFinder {
 
     void find_steps() {
         for (int j = 0; j + 1 < rows_; ++j) {
+            const float* const above = &elevations_[index({0, j})];
+            const float* const below = above + columns_;
             for (int i = 0; i + 1 < columns_; ++i) {
-                const auto [low, high] =
-                    std::minmax({at({i, j}), at({i + 1, j}), at({i, j + 1}), at({i + 1, j + 1})});
-                if (!(high - low > limit_px_)) continue;
-                if (!has_step({i, j})) continue;
+                const float low =
+                    std::min(std::min(above[i], above[i + 1]), std::min(below[i], below[i + 1]));
+                const float high =
+                    std::max(std::max(above[i], above[i + 1]), std::max(below[i], below[i + 1]));
+                if (!(high - low > limit_px_) || !has_step({i, j})) continue;
                 cuts_.cut[index({i, j})] = 1.0F;
                 cuts_.cells.push_back(index({i, j}));
             }
@@ -131,23 +140,28 @@ class CutFinder {
         const int right = grid_.image_i(cell.i + 1);
         const int top = grid_.image_j(cell.j);
         const int bottom = grid_.image_j(cell.j + 1);
-        for (int y = top; y <= bottom; ++y) {
-            const PixelLine row(elevation_, image_.index(0, y), 1, image_.columns);
-            for (int x = left; x < right; ++x)
-                if (is_step(row, x)) return true;
-        }
+        for (int y = top; y <= bottom; ++y)
+            if (has_step_along(image_.index(0, y), 1, image_.columns, left, right)) return true;
         const auto stride = static_cast<std::size_t>(image_.columns);
-        for (int x = left; x <= right; ++x) {
-            const PixelLine column(elevation_, image_.index(x, 0), stride, image_.rows);
-            for (int y = top; y < bottom; ++y)
-                if (is_step(column, y)) return true;
-        }
+        for (int x = left; x <= right; ++x)
+            if (has_step_along(image_.index(x, 0), stride, image_.rows, top, bottom)) return true;
         return false;
     }
 
-    [[nodiscard]] bool is_step(const PixelLine& line, int k) const {
-        return std::abs(line[k + 1] - line[k]) > limit_px_ &&
-               step_at(line, k) > kLeastStep * limit_px_;
+    /// Whether the row or column that begins at pixel `first`, of `count` pixels, has a step
+    /// between its pixels `from` and `to`.
+    [[nodiscard]] bool has_step_along(std::size_t first, std::size_t stride, int count, int from,
+                                      int to) const {
+        float before = elevation_(first + static_cast<std::size_t>(from) * stride);
+        for (int k = from; k < to; ++k) {
+            const float next = elevation_(first + static_cast<std::size_t>(k + 1) * stride);
+            const bool steep = std::abs(next - before) > limit_px_;
+            before = next;
+            if (steep && StepSurroundings(elevation_, first, stride, count, k)
+                             .has_step(kLeastStep * limit_px_))
+                return true;
+        }
+        return false;
     }
 
     /// A corner that continues neither face's slope lies between the faces: no uncut cell may hang

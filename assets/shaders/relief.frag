@@ -1,21 +1,15 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), SILHOUETTES (leave out the cut cells), WALL,
+// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), WALL,
 // LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it; with UNDER:
 // where all is continued),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
 in float shade;
-#ifdef SILHOUETTES
-flat in float cell_cut;
-#endif
 #ifdef LAYER
 in vec2 faces_px;
 in vec3 continued;
-uniform sampler2D detail_from;  // levels, as fine as can be
-uniform sampler2D detail_to;
-uniform float blend;
-uniform float px_per_level;
+uniform sampler2D detail;  // elevations as fine as can be, without bumps [px]
 #endif
 #ifdef UNSEEN
 uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
@@ -41,7 +35,7 @@ vec2 in_detail(ivec2 size) {
 // The depth image [px], smoothed by a cubic B-spline, so that outlines have no corners at pixels: of 4 x 4
 // values, with four samples between two of them each.
 float smooth_depth() {
-    vec2 size = vec2(textureSize(detail_from, 0));
+    vec2 size = vec2(textureSize(detail, 0));
     vec2 place = in_detail(ivec2(size)) * size - 0.5;
     vec2 first = floor(place);
     vec2 f = place - first;
@@ -55,11 +49,11 @@ float smooth_depth() {
     vec4 at[2] = vec4[2](vec4(low, high.x, low.y), vec4(low.x, high.y, high));
     float sum = 0.0;
     for (int k = 0; k < 2; ++k) {
-        float left = mix(texture(detail_from, at[k].xy).r, texture(detail_to, at[k].xy).r, blend);
-        float right = mix(texture(detail_from, at[k].zw).r, texture(detail_to, at[k].zw).r, blend);
+        float left = texture(detail, at[k].xy).r;
+        float right = texture(detail, at[k].zw).r;
         sum += mix(right, left, low_part.x) * (k == 0 ? low_part.y : 1.0 - low_part.y);
     }
-    return px_per_level * sum;
+    return sum;
 }
 
 // 0: on the far face, 1: on the near face.
@@ -104,9 +98,6 @@ void main() {
     float soft = clamp(fwidth(share), 1e-3, 0.5);
     alpha = smoothstep(0.5 - soft, 0.5 + soft, share);
     if (alpha < 0.02) discard;
-#endif
-#if defined(SILHOUETTES) && !defined(LAYER)
-    if (cell_cut > 0.5) discard;
 #endif
 #if defined(TEXTURED)
     vec3 body = texture(colour, lifted.xy).rgb;

@@ -1,5 +1,5 @@
 #version 330 core
-// The relief: one corner of the drawn grid, lifted by the two depth images, the blend and the bump map.
+// The relief: one corner of the drawn grid, lifted by its elevation and the bump map.
 // Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
 // the relief; every second vertex is on the ground), LAYER (at a silhouette: a corner with its own elevation, in
 // the light of another vertex), SILHOUETTES (the cut cells are left out).
@@ -13,12 +13,9 @@ out vec2 faces_px;  // far, near
 out vec3 continued;  // colour of the far face under the near one
 #endif
 
-uniform sampler2D depth_from;  // levels
-uniform sampler2D depth_to;
+uniform sampler2D elevations;  // px, without bumps and painted heights
 uniform sampler2D bump;  // height in [0, 1]
 uniform sampler2D heights;  // px
-uniform float blend;
-uniform float px_per_level;
 uniform float roughness_px;
 uniform float ground_px;
 uniform vec4 dent;  // column, row, radius, depth [px]
@@ -32,7 +29,6 @@ uniform mat4 clip_from_world;
 #ifdef SILHOUETTES
 uniform sampler2D cut_around;  // of each drawn vertex, which cells around it are cut: 1: upper left, 2: upper right,
                                // 4: lower left, 8: lower right
-flat out float cell_cut;  // not 0: of a cell's upper right vertex, the last one of both its triangles
 #endif
 out vec3 lifted;  // normalised place in the picture, elevation
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
@@ -41,10 +37,6 @@ const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the 
 const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
 const float kShadowReach = 1.3;  // of the dent's radius
-
-float level(ivec2 at) {
-    return texelFetch(depth_from, at, 0).r * (1.0 - blend) + texelFetch(depth_to, at, 0).r * blend;
-}
 
 vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
 
@@ -63,7 +55,7 @@ float unshadowed(vec2 here) {
 }
 
 float elevation(ivec2 at) {
-    float z = px_per_level * level(at) - pressed_in(at);
+    float z = texelFetch(elevations, at, 0).r - pressed_in(at);
 #ifdef ROUGH
     z += roughness_px * texelFetch(bump, at, 0).r;
 #endif
@@ -112,7 +104,6 @@ void main() {
     int cut = int(texelFetch(cut_around, at, 0).r);
     across = equal(ivec2(cut & 5, cut & 10), ivec2(5, 10));
     along = equal(ivec2(cut & 3, cut & 12), ivec2(3, 12));
-    cell_cut = float(cut & 4);
 #endif
     float dx = slope(elevation(ivec2(low.x, at.y)), z, elevation(ivec2(high.x, at.y)),
                      vec2(to_low.x, to_high.x), across);
@@ -121,7 +112,7 @@ void main() {
     shade = brightness(normalize(vec3(-dx, dy, 1.0)));
 #endif
 #ifdef LAYER
-    z += layer_px.x - px_per_level * level(at);
+    z += layer_px.x - texelFetch(elevations, at, 0).r;
     faces_px = layer_px.yz;
     continued = fill.rgb;
 #endif

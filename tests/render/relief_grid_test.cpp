@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include "tests/support/catch.hpp"
 
@@ -56,11 +58,7 @@ TEST_CASE("each cell has its two triangles once, split from upper right to lower
     std::set<Triangle> drawn;
     for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {
         Triangle corners = triangle(mesh, k);
-        const Corner last = corners.back();  // identifies the cell, for torn cells
         std::sort(corners.begin(), corners.end());
-        const int upper =
-            std::min(corners[0].second, std::min(corners[1].second, corners[2].second));
-        CHECK(last == Corner{corners.back().first, upper});
         drawn.insert(corners);
     }
     CHECK(drawn.size() == mesh.indices.size() / 3);
@@ -70,6 +68,36 @@ TEST_CASE("each cell has its two triangles once, split from upper right to lower
         const bool near_origin = t == Triangle{Corner{i, j}, Corner{i, j + 1}, Corner{i + 1, j}};
         const bool far_corner = t == Triangle{Corner{i, j}, Corner{i + 1, j - 1}, Corner{i + 1, j}};
         CHECK((near_origin || far_corner));
+    }
+}
+
+TEST_CASE("without its cut cells the surface has each other cell's triangles once") {
+    const ReliefGrid grid{90, 47, 1};
+    const int every = GENERATE(1, 2, 7, 300, 100'000);  // cells from one cut cell to the next
+    const GridMesh mesh = tile_grid(grid);
+    std::vector<float> cut(std::size_t{90} * 47, 0.0F);
+    for (std::size_t k = 0; k < cut.size(); k += static_cast<std::size_t>(every)) cut[k] = 1.0F;
+    UncutMesh uncut;
+    leave_out(cut, grid, mesh.tiles, uncut);
+    std::vector<std::uint32_t> drawn = uncut.rest;
+    for (const IndexRun& run : uncut.whole) {
+        const auto first = mesh.indices.begin() + run.first;
+        drawn.insert(drawn.end(), first, first + run.count);
+    }
+    std::multiset<Corner> cells;
+    for (std::size_t k = 0; k < drawn.size(); k += 3) {
+        Corner cell{grid.columns(), grid.rows()};
+        for (std::size_t n = k; n < k + 3; ++n) {
+            const GridVertex& vertex = mesh.vertices.at(drawn.at(n));
+            cell = {std::min(cell.first, int{vertex.i}), std::min(cell.second, int{vertex.j})};
+        }
+        cells.insert(cell);
+    }
+    for (int j = 0; j + 1 < grid.rows(); ++j) {
+        for (int i = 0; i + 1 < grid.columns(); ++i) {
+            const bool is_cut = cut[static_cast<std::size_t>(j * grid.columns() + i)] > 0.0F;
+            CHECK(cells.count({i, j}) == (is_cut ? 0U : 2U));
+        }
     }
 }
 

@@ -1,0 +1,58 @@
+// The colour of a face beside an outline.
+#include "render/face_colour.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace dibhr {
+namespace {
+
+constexpr float kSameFaceColour_px = 10.0F;  // a larger difference is another face
+constexpr int kFewest = 4;                   // pixels; fewer are in the shade of the near face
+constexpr int kReach = 6;                    // pixels of the depth image
+constexpr int kApart = 3;
+constexpr int kFringe = 2;  // beside an outline, where the colours of both sides are mixed
+
+}  // namespace
+
+std::optional<glm::vec3> FaceColour::around(int x, int y) const {
+    if (image_ == nullptr || image_->rgb.empty()) return std::nullopt;
+    const float face_px = elevation_(depth_.index(x, y));
+    glm::vec3 sum(0.0F);
+    int count = 0;
+    for (int dy = -kReach; dy <= kReach; dy += kApart) {
+        for (int dx = -kReach; dx <= kReach; dx += kApart) {
+            if (!is_inside(x + dx, y + dy, face_px)) continue;
+            sum += pixel(x + dx, y + dy);
+            ++count;
+        }
+    }
+    if (count < kFewest) return std::nullopt;
+    return sum / static_cast<float>(count);
+}
+
+bool FaceColour::is_inside(int x, int y, float face_px) const {
+    if (x < kFringe || y < kFringe || x + kFringe >= depth_.columns || y + kFringe >= depth_.rows)
+        return false;
+    const std::size_t here = depth_.index(x, y);
+    const auto on_face = [this, face_px](std::size_t pixel) {
+        return std::abs(elevation_(pixel) - face_px) <= kSameFaceColour_px;
+    };
+    const std::size_t rows =
+        static_cast<std::size_t>(kFringe) * static_cast<std::size_t>(depth_.columns);
+    return on_face(here) && on_face(here - kFringe) && on_face(here + kFringe) &&
+           on_face(here - rows) && on_face(here + rows);
+}
+
+glm::vec3 FaceColour::pixel(int x, int y) const {
+    const auto column =
+        static_cast<std::size_t>((2 * x + 1) * image_->columns / (2 * depth_.columns));
+    const auto row = static_cast<std::size_t>((2 * y + 1) * image_->rows / (2 * depth_.rows));
+    const std::uint8_t* rgb =
+        &image_->rgb[3 * (row * static_cast<std::size_t>(image_->columns) + column)];
+    return {rgb[0], rgb[1], rgb[2]};
+}
+
+}  // namespace dibhr

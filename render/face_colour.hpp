@@ -1,0 +1,31 @@
+// The colour of a face beside an outline.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <optional>
+
+#include "core/video/frames/colour_image.hpp"
+#include "render/blended_depth.hpp"
+
+namespace dibhr {
+
+/// The colour of a face around a vertex, from pixels that are well inside of the face.
+class FaceColour {
+  public:
+    /// `colour`: of the same view, of any size; may be null.
+    FaceColour(const ColourImage* colour, const BlendedDepth& depth)
+        : image_(colour), depth_(depth.from), elevation_(depth) {}
+
+    /// The mean around a pixel of the depth image; nothing where an outline is near on all sides.
+    [[nodiscard]] std::optional<glm::vec3> around(int x, int y) const;
+
+  private:
+    [[nodiscard]] bool is_inside(int x, int y, float face_px) const;
+    [[nodiscard]] glm::vec3 pixel(int x, int y) const;
+
+    const ColourImage* image_;
+    const DepthImage& depth_;  // used for the size only
+    PixelElevation elevation_;
+};
+
+}  // namespace dibhr
