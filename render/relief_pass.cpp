@@ -101,7 +101,11 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
     ReliefGrid grid = plan_grid(image.columns, image.rows,
                                 limits_.software ? kMostVerticesSoftware : kMostVerticesHardware,
                                 limits_.texture_side);
-    if (!grid.drawable()) return;
+    if (!grid.drawable()) {
+        layers_ = {};
+        layers_of_.reset();
+        return;
+    }
     if (content.relief_style.coarse) grid.step *= 2;
     if (grid != grid_) build(grid);
 

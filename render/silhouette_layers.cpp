@@ -2,6 +2,7 @@
 #include "render/silhouette_layers.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "render/outline_faces.hpp"
 #include "render/silhouette_fill.hpp"
@@ -10,6 +11,8 @@
 namespace dibhr {
 namespace {
 
+constexpr float kLargestSide = 65536.0F;
+constexpr int kOutside = -2;  // with its neighbours
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
 
@@ -152,8 +155,10 @@ class LayerMesher {
         return false;
     }
 
+    /// From an eye beside the surface a place may be endlessly far outside.
     [[nodiscard]] int nearest(float image_px) const {
-        return static_cast<int>(image_px / static_cast<float>(relief_.grid.step) + 0.5F);
+        const float place = image_px / static_cast<float>(relief_.grid.step) + 0.5F;
+        return std::fabs(place) < kLargestSide ? static_cast<int>(place) : kOutside;
     }
 
     const CutRelief& relief_;
