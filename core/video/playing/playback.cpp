@@ -320,7 +320,7 @@ double Playback::interval_s() const {
 
 /// The filter in time needs every frame decoded and cleaned.
 FrameCosts Playback::measured_costs() const {
-    if (steps().steady) return {.decoding_s = each_frame_s_, .cleaning_s = cleaning_s_};
+    if (filters_in_time()) return {.decoding_s = each_frame_s_, .cleaning_s = cleaning_s_};
     const double conversion_s = reader_->conversion_s();
     return {.decoding_s = reader_->decoding_s(),
             .conversion_s = conversion_s,
@@ -347,7 +347,7 @@ void Playback::forget_costs() {
 /// one after a jump takes longer.
 void Playback::add_cost(double took_s, double waited_s) {
     if (starts_) return;
-    if (steps().steady) {
+    if (filters_in_time()) {
         const double finish_s = std::min(1e-3 * cost().finish_ms, took_s);
         cleaning_s_ = steady_mean(cleaning_s_, finish_s);
         each_frame_s_ = steady_mean(each_frame_s_, (took_s - finish_s) / read_frames_);
@@ -397,7 +397,7 @@ void Playback::on_frame_read(Time now) {
     if (playing_ && frames_.size() == 2) place_late_frame(starts, now);
     update_plan(now);
     if (playing_ && cleaning_.preset == CleaningPreset::automatic &&
-        degradation_.update(reader_->whole_plan().steps, costs(), interval_s(), speed_))
+        degradation_.update(steps(), costs(), interval_s(), speed_))
         apply_degradation();
 }
 
@@ -423,8 +423,7 @@ std::string Playback::dropped_in_words() const {
         words += words.empty() ? sentence : std::string(" ") + sentence;
     };
     if (falls_behind_ && words.empty()) add("The clock waited for frames.");
-    const std::string left_out =
-        left_out_in_words(reader_->whole_plan().steps, reader_->degradation());
+    const std::string left_out = left_out_in_words(steps(), reader_->degradation());
     if (!left_out.empty()) add(left_out.c_str());
     const MotionRequest done = reader_->affordable_motion();
     if (motion_request_.motion && !done.motion)

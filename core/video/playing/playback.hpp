@@ -87,11 +87,11 @@ class Playback {
     [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] const MediaDescription& description() const { return reader_->description(); }
     [[nodiscard]] const FrameCost& cost() const { return reader_->cost(); }
-    /// The cleaning of the depth, as a sentence and as steps.
+    /// The cleaning of the depth with nothing left out, as a sentence and as steps.
     [[nodiscard]] std::string cleaning_in_words() const {
         return in_words(cleaning_, reader_->whole_plan());
     }
-    [[nodiscard]] const CleaningSteps& steps() const { return reader_->plan().steps; }
+    [[nodiscard]] const CleaningSteps& steps() const { return reader_->whole_plan().steps; }
 
   private:
     void jump_to(Frame frame, Time now, bool is_preview = false);
@@ -99,6 +99,7 @@ class Playback {
     bool read_next(Time now);
     [[nodiscard]] Pace pace(Time now) const;
     [[nodiscard]] double earliest_in_time_s(Time now) const;
+    [[nodiscard]] bool filters_in_time() const { return reader_->plan().steps.steady; }
     [[nodiscard]] FrameCosts measured_costs() const;
     [[nodiscard]] FrameCosts costs() const;
     void add_cost(double took_s, double waited_s);
