@@ -158,7 +158,10 @@ void Playback::set_speed(double speed, Time now) {
 
 void Playback::set_cleaning(const CleaningOptions& options) {
     if (options == cleaning_) return;
+    degradation_ = {};
     if (is_open()) {
+        forget_costs();
+        reader_->set_degradation(0);
         reader_->set_cleaning(options);
         try {
             clean_again();
@@ -166,9 +169,6 @@ void Playback::set_cleaning(const CleaningOptions& options) {
             reader_->set_cleaning(cleaning_);
             throw;
         }
-        degradation_ = {};
-        apply_degradation();
-        forget_costs();
     }
     cleaning_ = options;
 }

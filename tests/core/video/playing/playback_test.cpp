@@ -623,6 +623,8 @@ TEST_CASE("steps that a slow machine leaves out come back at rest; no surface bl
     scene.playback.play(scene.now);
     while (steps_shown() == whole) scene.go_on();
     CHECK(scene.media_s() < media_s + 0.2);
+    scene.playback.set_cleaning({.preset = CleaningPreset::sensor});
+    CHECK(steps_shown() == kSensorSteps);
     scene.playback.set_cleaning({.preset = CleaningPreset::gentle});
     scene.go_on_until(scene.played_s() + 4.0);
     CHECK(steps_shown() == kGentleSteps);
