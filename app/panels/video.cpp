@@ -101,13 +101,17 @@ void draw_files(const MediaDescription& media) {
     if (!media.notice.empty()) draw_dimmed(capitalised(media.notice));
 }
 
-/// The frame's number and, on a machine that is too slow, the shown rate.
+/// The frame's number and, on a machine that is too slow, the shown rate, with the reason as
+/// tooltip: one line in any case, so that no row moves while a person clicks on it.
 void draw_frame(const PlaybackStatus& playback) {
-    std::string value = std::to_string(playback.frame + 1) + " of " +
-                        std::to_string(std::max(playback.frames, playback.frame + 1));
-    if (playback.playing && !playback.dropped.empty())
+    std::string value = std::to_string(playback.frame + 1);
+    if (playback.playing && !playback.dropped.empty()) {
         value += formatted(", %.0f of %.0f/s", playback.shown_per_s, playback.frames_per_s);
-    fact_row("Frame", value);
+        fact_row("Frame", value, playback.dropped.c_str());
+    } else {
+        value += " of " + std::to_string(std::max(playback.frames, playback.frame + 1));
+        fact_row("Frame", value);
+    }
 }
 
 void draw_playback(const ViewerState& state, Transport& player) {
@@ -222,11 +226,7 @@ void draw_video_panel(ViewerState& state, Transport* player) {
     ImGui::BeginDisabled(player == nullptr);  // a replay shows what was touched
     draw_cleaning(state);
     ImGui::EndDisabled();
-    // Last, so that the line moves no row while a person clicks on it.
-    const PlaybackStatus& playback = state.media.playback;
-    if (player != nullptr && playback.playing && !playback.dropped.empty())
-        draw_dimmed(playback.dropped);
-    const std::string& failure = playback.failure;
+    const std::string& failure = state.media.playback.failure;
     if (player != nullptr && !failure.empty()) draw_dimmed(failure);
     ImGui::PopID();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/panels/widgets.hpp"
+#include "tests/app/panels/undrawn_context.hpp"
 #include "tests/support/catch.hpp"
 
 using namespace dibhr;
@@ -16,21 +17,9 @@ namespace {
 class TypedRows {
   public:
     TypedRows() {
-        ImGui::CreateContext();
-        ImGuiIO& io = ImGui::GetIO();
-        io.IniFilename = nullptr;
-        io.DisplaySize = {800.0F, 600.0F};
-        io.DeltaTime = 1.0F / 30.0F;
-        unsigned char* pixels = nullptr;
-        int columns = 0;
-        int rows = 0;
-        io.Fonts->GetTexDataAsRGBA32(&pixels, &columns, &rows);
         picture();
         picture();
     }
-    ~TypedRows() { ImGui::DestroyContext(); }
-    TypedRows(const TypedRows&) = delete;
-    TypedRows& operator=(const TypedRows&) = delete;
 
     /// Ctrl+click on a row's first value.
     void click(int row) {
@@ -102,6 +91,7 @@ class TypedRows {
         ImGui::Render();
     }
 
+    test::UndrawnContext context_{};
     std::array<float, 2> middles_{};
 };
 
