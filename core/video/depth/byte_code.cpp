@@ -11,6 +11,7 @@
 #include <functional>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <utility>
 #include <vector>
 
 #include "core/video/depth/picture_levels.hpp"
@@ -114,6 +115,13 @@ struct Steps {
         smooth += static_cast<std::int64_t>(second < kVerySmall);
     }
 
+    Steps& operator+=(const Steps& others) {
+        all += others.all;
+        continued += others.continued;
+        smooth += others.smooth;
+        return *this;
+    }
+
     [[nodiscard]] bool vanish() const {
         const auto steps = static_cast<double>(all);
         return static_cast<double>(continued) >= kLeastContinued * steps ||
@@ -121,25 +129,77 @@ struct Steps {
     }
 };
 
-/// Along rows and columns.
-Steps steps_in(std::span<const cv::Mat> pictures, ByteOrder order) {
-    Steps steps;
-    for (const cv::Mat& picture : pictures) {
-        const auto right = static_cast<std::ptrdiff_t>(picture.channels());
-        const auto down = static_cast<std::ptrdiff_t>(picture.step[0]);
-        visit_rows(picture, [&](const std::uint8_t* row) {
-            const auto number = [order](const std::uint8_t* pixel) {
-                return static_cast<std::int64_t>(number_at(pixel, order));
-            };
-            for (int i = 1; i + 1 < picture.cols; ++i) {
-                const std::uint8_t* const pixel = row + i * right;
-                const std::int64_t here = number(pixel);
-                steps.add(number(pixel - right), here, number(pixel + right));
-                steps.add(number(pixel - down), here, number(pixel + down));
-            }
-        });
+/// Of the numbers of a code's two highest bytes, its three highest, and so on.
+using StepsOfBytes = std::array<Steps, 3>;
+
+void add(StepsOfBytes& sum, const StepsOfBytes& steps) {
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += steps[k];
+}
+
+/// Adds the steps of one row, along it and across it. `rows`: the numbers above, in and below it.
+void add_steps(StepsOfBytes& steps, std::size_t bytes,
+               const std::array<std::vector<std::uint32_t>, 3>& rows) {
+    const auto& [above, row, below] = rows;
+    for (std::size_t of = 2; of <= bytes; ++of) {
+        Steps& sum = steps[of - 2];
+        const auto number = [shift = 8U * (bytes - of)](std::uint32_t all_bytes) {
+            return static_cast<std::int64_t>(all_bytes >> shift);
+        };
+        for (std::size_t i = 1; i + 1 < row.size(); ++i) {
+            const std::int64_t here = number(row[i]);
+            sum.add(number(row[i - 1]), here, number(row[i + 1]));
+            sum.add(number(above[i]), here, number(below[i]));
+        }
     }
+}
+
+StepsOfBytes steps_in(const cv::Mat& picture, ByteOrder order) {
+    StepsOfBytes steps;
+    const auto down = static_cast<std::ptrdiff_t>(picture.step[0]);
+    std::array<std::vector<std::uint32_t>, 3> rows;
+    for (std::vector<std::uint32_t>& row : rows) row.resize(static_cast<std::size_t>(picture.cols));
+    visit_rows(picture, [&](const std::uint8_t* middle) {
+        const std::uint8_t* pixel = middle - down;
+        for (std::vector<std::uint32_t>& row : rows) {
+            const std::uint8_t* from = std::exchange(pixel, pixel + down);
+            for (std::uint32_t& number : row) {
+                number = number_at(from, order);
+                from += picture.channels();
+            }
+        }
+        add_steps(steps, order.size(), rows);
+    });
     return steps;
+}
+
+/// As is_continuous(). The highest byte of a shallow scene is the same everywhere, or steps at
+/// silhouettes alone, and the lowest one may be noise: so one pair of bytes is enough.
+std::optional<bool> do_vanish(const StepsOfBytes& steps) {
+    bool has_steps = false;
+    for (const Steps& one : steps) {
+        if (one.all < kLeastSteps) continue;
+        has_steps = true;
+        if (one.vanish()) return true;
+    }
+    return has_steps ? std::optional(false) : std::nullopt;
+}
+
+bool all_have_bytes(std::span<const cv::Mat> pictures, DepthCode code) {
+    return std::all_of(pictures.begin(), pictures.end(),
+                       [code](const cv::Mat& one) { return has_bytes(one, code); });
+}
+
+/// Whether the steps of all pictures vanish and none of them contradicts alone: the first one tells
+/// of most codes that the colours are none.
+bool each_is_continuous(std::span<const cv::Mat> pictures, DepthCode code) {
+    if (!all_have_bytes(pictures, code)) return false;
+    StepsOfBytes all;
+    for (const cv::Mat& picture : pictures) {
+        const StepsOfBytes steps = steps_in(picture, byte_order(code));
+        if (!do_vanish(steps).value_or(true)) return false;
+        add(all, steps);
+    }
+    return do_vanish(all).value_or(false);
 }
 
 /// The share of pixels with data for which `fits` is true.
@@ -309,37 +369,19 @@ DepthStatement byte_code_meaning(DepthCode code) {
 }
 
 std::optional<bool> is_continuous(std::span<const cv::Mat> pictures, DepthCode code) {
-    const bool all_have = std::all_of(pictures.begin(), pictures.end(),
-                                      [code](const cv::Mat& one) { return has_bytes(one, code); });
-    if (!all_have) return std::nullopt;
-    const ByteOrder order = byte_order(code);
-    // The highest byte of a shallow scene is the same everywhere, or steps at silhouettes alone,
-    // and the lowest one may be noise: so one pair of bytes is enough.
-    bool has_steps = false;
-    for (std::size_t bytes = 2; bytes <= order.size(); ++bytes) {
-        const Steps steps = steps_in(pictures, order.first(bytes));
-        if (steps.all < kLeastSteps) continue;
-        has_steps = true;
-        if (steps.vanish()) return true;
-    }
-    return has_steps ? std::optional(false) : std::nullopt;
+    if (!all_have_bytes(pictures, code)) return std::nullopt;
+    StepsOfBytes all;
+    for (const cv::Mat& picture : pictures) add(all, steps_in(picture, byte_order(code)));
+    return do_vanish(all);
 }
 
 std::optional<DepthCode> byte_code_in(std::span<const cv::Mat> pictures) {
-    const auto none_contradicts = [pictures](DepthCode code) {
-        return std::all_of(pictures.begin(), pictures.end(), [code](const cv::Mat& picture) {
-            return is_continuous({&picture, 1}, code).value_or(true);
-        });
-    };
     // Of codes that agree in the order of their bytes the first: it has them all, or no others.
     std::optional<DepthCode> found;
     for (const DepthCode code :
          {DepthCode::float32, DepthCode::float32_bgra, DepthCode::terrain, DepthCode::rg16,
           DepthCode::gb16, DepthCode::rgb24, DepthCode::bgr24}) {
-        // The first picture alone tells of most codes that the colours are none.
-        const bool fits = none_contradicts(code) && is_continuous(pictures, code).value_or(false) &&
-                          is_plausible(pictures, code);
-        if (!fits) continue;
+        if (!each_is_continuous(pictures, code) || !is_plausible(pictures, code)) continue;
         if (!found)
             found = code;
         else if (have_contrary_bytes(*found, code))
