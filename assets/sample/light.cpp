@@ -13,6 +13,9 @@ constexpr Vec3 kSkyColour{0.60F, 0.64F, 0.70F};
 constexpr Vec3 kFrontColour{0.50F, 0.47F, 0.45F};
 constexpr Vec3 kRimColour{0.40F, 0.44F, 0.50F};
 
+/// Of the sky's light: what other surfaces reflect reaches the wall behind a hand, too.
+constexpr float kLeastSky = 0.35F;
+
 using Grid = std::vector<float>;
 
 float read(const Grid& grid, int columns, int rows, float x, float y) noexcept {
@@ -141,6 +144,7 @@ LightMap::LightMap(const Relief& relief) : columns_{relief.columns / 2}, rows_{r
             sky_[i] /= 1.0F + ring.weight * 3.2F * sunk / (1.0F + sunk);
         }
     }
+    for (float& sky : sky_) sky = std::max(sky, kLeastSky);
 }
 
 Reach LightMap::at(float column, float row, float level) const noexcept {
