@@ -10,18 +10,9 @@ extern "C" {
 #include <new>
 #include <utility>
 
+#include "core/video/formats/av_frame.hpp"
+
 namespace dibhr {
-
-namespace {
-
-std::size_t bytes_of(const AVFrame& frame) noexcept {
-    std::size_t bytes = 0;
-    for (const AVBufferRef* const buffer : frame.buf)
-        if (buffer != nullptr) bytes += static_cast<std::size_t>(buffer->size);
-    return bytes;
-}
-
-}  // namespace
 
 void DecodedRing::add(const AVFrame& frame, double time_s, std::int64_t index) {
     const std::size_t bytes = bytes_of(frame);

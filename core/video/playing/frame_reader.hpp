@@ -129,7 +129,7 @@ class FrameReader {
         }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
-            return frame.colour && (is_cleaned() || can_be_cleaned());
+            return frame.colour_object() && (is_cleaned() || can_be_cleaned());
         }
         [[nodiscard]] std::size_t bytes() const;
     };
