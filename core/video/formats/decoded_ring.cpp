@@ -17,8 +17,8 @@ namespace dibhr {
 void DecodedRing::add(const AVFrame& frame, double time_s, std::int64_t index) {
     const std::size_t bytes = bytes_of(frame);
     if (frame.hw_frames_ctx != nullptr || bytes > kMostBytes) return clear();
-    while (!pictures_.empty() &&
-           (bytes_ + bytes > kMostBytes || pictures_.size() >= kMostPictures)) {
+    const std::size_t most = few_ ? kFewBytes : kMostBytes;
+    while (!pictures_.empty() && (bytes_ + bytes > most || pictures_.size() >= kMostPictures)) {
         bytes_ -= pictures_.front().bytes;
         pictures_.pop_front();
     }

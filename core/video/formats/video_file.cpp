@@ -226,6 +226,7 @@ std::optional<TimedPicture> VideoFile::next() {
         ahead_.pop_front();
         return first;
     }
+    if (from_ring_ == ring_.size()) ring_.keep_few(true);
     if (!grab()) return std::nullopt;
     return taken();
 }
@@ -242,6 +243,7 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     if (has_times_) decoder_.skip_non_reference_before(earliest_s);
     const std::int64_t from = index_;
     const bool decodes = from_ring_ == ring_.size();
+    if (decodes) ring_.keep_few(true);
     const auto begin = std::chrono::steady_clock::now();
     while (grab()) {
         if (!(time_s_ < earliest_s)) {
@@ -367,6 +369,7 @@ void VideoFile::seek(double time_s) {
         skip_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, timed({}))) return;
     } else {
+        ring_.keep_few(!near_behind);
         rewind_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, {})) return;
     }

@@ -21,7 +21,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostKept = 48;
-constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beside what cleaning needs
+constexpr std::size_t kMostBytes = std::size_t{48} << 20;  ///< beside what cleaning needs
 /// Frames read at once to step back: all that clean the frame before.
 constexpr auto kMostReadBack = static_cast<double>(kReachInTime + 1);
 /// Farther frames do not clean this one: all that could at 30 frames/s are nearer.
@@ -164,21 +164,22 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 std::size_t FrameReader::reach() const {
     if (!plan().steps.steady) return 0;
     // Farther frames of large pictures need more memory than most machines have.
-    const bool is_large = description().depth_pixels() > kMostPixelsForSensor;
-    return plan().noise.per_frame_scale || is_large ? kNearInTime : kReachInTime;
+    return plan().noise.per_frame_scale || is_large() ? kNearInTime : kReachInTime;
 }
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
 /// other cleaned frames keeps only the result; removes frames farthest from the wanted one first.
 void FrameReader::evict() {
     const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
+    // Of large pictures fewer: another cleaning reads them again.
+    const auto raw_stays = is_large() ? stays - 1 : stays;
     const auto wanted = kept_.lower_bound(wanted_s_);
     auto before = std::distance(kept_.begin(), wanted);
     auto after = std::distance(wanted, kept_.end());
     std::ptrdiff_t away = -before;
     std::size_t bytes = 0;
     for (auto& [media_s, kept] : kept_) {
-        if (kept.is_cleaned() && std::abs(away) > stays) kept.raw = {};
+        if (kept.is_cleaned() && std::abs(away) > raw_stays) kept.raw = {};
         ++away;
         bytes += kept.bytes();
     }

@@ -167,6 +167,9 @@ class FrameReader {
     void prefetch_after_kept(double media_s);
     void evict();
     [[nodiscard]] std::size_t reach() const;
+    [[nodiscard]] bool is_large() const {
+        return description().depth_pixels() > kMostPixelsForSensor;
+    }
     void make_plan();
     void measure();
     [[nodiscard]] bool tries() const;
