@@ -17,8 +17,15 @@ constexpr int kFringe = 2;  // beside an outline, where the colours of both side
 
 }  // namespace
 
+FaceColour::FaceColour(const Frame* frame, const BlendedDepth& depth)
+    : depth_(depth.from), elevation_(depth) {
+    if (frame == nullptr || !frame->has_colour()) return;
+    image_ = frame->colour.get();
+    video_ = frame->video.get();
+}
+
 std::optional<glm::vec3> FaceColour::around(int x, int y) const {
-    if (image_ == nullptr || image_->rgb.empty()) return std::nullopt;
+    if (image_ == nullptr && video_ == nullptr) return std::nullopt;
     const float face_px = elevation_(depth_.index(x, y));
     glm::vec3 sum(0.0F);
     int count = 0;
@@ -47,9 +54,16 @@ bool FaceColour::is_inside(int x, int y, float face_px) const {
 }
 
 glm::vec3 FaceColour::pixel(int x, int y) const {
-    const auto column =
-        static_cast<std::size_t>((2 * x + 1) * image_->columns / (2 * depth_.columns));
-    const auto row = static_cast<std::size_t>((2 * y + 1) * image_->rows / (2 * depth_.rows));
+    const auto under = [](int at, int pixels, int of_depth) {
+        return (2 * at + 1) * pixels / (2 * of_depth);
+    };
+    if (video_ != nullptr) {
+        const auto rgb = rgb_at(*video_, under(x, video_->columns, depth_.columns),
+                                under(y, video_->rows, depth_.rows));
+        return {rgb[0], rgb[1], rgb[2]};
+    }
+    const auto column = static_cast<std::size_t>(under(x, image_->columns, depth_.columns));
+    const auto row = static_cast<std::size_t>(under(y, image_->rows, depth_.rows));
     const std::uint8_t* rgb =
         &image_->rgb[3 * (row * static_cast<std::size_t>(image_->columns) + column)];
     return {rgb[0], rgb[1], rgb[2]};

@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <optional>
 
-#include "core/video/frames/colour_image.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "render/blended_depth.hpp"
 
 namespace dibhr {
@@ -12,9 +12,8 @@ namespace dibhr {
 /// The colour of a face around a vertex, from pixels that are well inside of the face.
 class FaceColour {
   public:
-    /// `colour`: of the same view, of any size; may be null.
-    FaceColour(const ColourImage* colour, const BlendedDepth& depth)
-        : image_(colour), depth_(depth.from), elevation_(depth) {}
+    /// `frame`: whose colour it is, of the same view, of any size; may be null.
+    FaceColour(const Frame* frame, const BlendedDepth& depth);
 
     /// The mean around a pixel of the depth image; nothing where an outline is near on all sides.
     [[nodiscard]] std::optional<glm::vec3> around(int x, int y) const;
@@ -23,7 +22,8 @@ class FaceColour {
     [[nodiscard]] bool is_inside(int x, int y, float face_px) const;
     [[nodiscard]] glm::vec3 pixel(int x, int y) const;
 
-    const ColourImage* image_;
+    const ColourImage* image_{nullptr};
+    const VideoPicture* video_{nullptr};
     const DepthImage& depth_;  // used for the size only
     PixelElevation elevation_;
 };

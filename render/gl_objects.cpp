@@ -51,13 +51,6 @@ void attach(GLenum point, const GlRenderbuffer& buffer, GLenum format, glm::ivec
 
 constexpr std::size_t kFingerprintSamples = 4096;
 
-void filter(GLenum minify, GLenum magnify) {
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
-
 /// Identifies a map by its size and evenly spaced heights (FNV-1a): its address may be reused by
 /// another map.
 std::uint64_t fingerprint(const BumpMap& bump) {
@@ -73,6 +66,13 @@ std::uint64_t fingerprint(const BumpMap& bump) {
 }
 
 }  // namespace
+
+void filter_texture(GLenum minify, GLenum magnify) {
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(minify));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(magnify));
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
 
 ShaderProgram::ShaderProgram(std::string_view vertex, std::string_view fragment,
                              const std::string& defines)
@@ -197,7 +197,7 @@ void GridTexture::upload(int columns, int rows, const float* values) {
         return;
     }
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, columns, rows, 0, GL_RED, GL_FLOAT, values);
-    filter(GL_LINEAR, GL_LINEAR);
+    filter_texture(GL_LINEAR, GL_LINEAR);
     columns_ = columns;
     rows_ = rows;
 }
@@ -231,7 +231,7 @@ GLuint UnseenTexture::show(const std::shared_ptr<const std::vector<std::uint8_t>
     glTexImage2D(GL_TEXTURE_2D, 0, GL_R8, grid.columns(), grid.rows(), 0, GL_RED, GL_UNSIGNED_BYTE,
                  staged_.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-    filter(GL_LINEAR, GL_LINEAR);
+    filter_texture(GL_LINEAR, GL_LINEAR);
     mask_.set(mask);
     grid_ = grid;
     return texture_.get();
@@ -308,7 +308,7 @@ void ColourTexture::upload(const ColourImage& image, int most_side, bool mipmaps
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, columns, rows, GL_RGB, GL_UNSIGNED_BYTE, values);
     } else {
         glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB8, columns, rows, 0, GL_RGB, GL_UNSIGNED_BYTE, values);
-        filter(mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
+        filter_texture(mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR, GL_LINEAR);
         columns_ = columns;
         rows_ = rows;
     }

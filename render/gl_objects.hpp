@@ -84,6 +84,9 @@ struct GlLimits {
 /// Throws DeviceError when the current context is older than OpenGL 3.3.
 [[nodiscard]] GlLimits read_limits();
 
+/// Of the bound texture, whose edge goes on beyond it.
+void filter_texture(GLenum minify, GLenum magnify);
+
 /// Waits until all is drawn, or until `go_on`, called every 20 ms, returns false.
 void wait_for_drawing(const std::function<bool()>& go_on);
 
@@ -211,6 +214,7 @@ class ColourTexture {
   public:
     /// Uploads if the image has changed. An image larger than `most_side` is subsampled.
     GLuint show(const std::shared_ptr<const ColourImage>& image, int most_side, bool mipmaps);
+    [[nodiscard]] GLuint name() const noexcept { return texture_.get(); }
 
   private:
     void upload(const ColourImage& image, int most_side, bool mipmaps);

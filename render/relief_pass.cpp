@@ -30,7 +30,7 @@ enum Unit : GLint {
     kUnseenUnit,
     kBumpUnit,
     kHeightsUnit,
-    kColourUnit
+    kColourUnit  ///< the first of FrameTexture::kUnits
 };
 
 void bind(GLint unit, GLuint texture) {
@@ -153,8 +153,9 @@ ReliefPass::Variant ReliefPass::variant_for(const SceneContent& content) const {
     variant.rough = content.bump != nullptr && content.shape.roughness_px != 0.0;
     variant.painted = content.maps && content.maps->at_vertices.columns == grid_.image_columns &&
                       content.maps->at_vertices.rows == grid_.image_rows;
-    variant.textured = content.relief_style.paint == ReliefPaint::video && content.colour &&
-                       content.colour->colour && !content.colour->colour->rgb.empty();
+    const bool textured = content.relief_style.paint == ReliefPaint::video &&
+                          content.colour != nullptr && content.colour->has_colour();
+    if (textured) variant.colour_textures = textures_of(*content.colour, limits_);
     variant.by_depth = depth_colours(content.relief_style.paint) != nullptr;
     variant.silhouettes = content.relief_style.discard_silhouettes;
     variant.unseen = content.depth.nearest().unseen != nullptr;
@@ -207,11 +208,11 @@ void ReliefPass::cut(const SceneContent& content, const Variant& variant,
         cut_slope_ = slope;
         layers_of_.reset();
     }
-    const std::shared_ptr<const ColourImage> colour =
-        variant.textured ? content.colour->colour : nullptr;
-    const LayerSource source{ObjectMark(colour), eye_in_grid(clip_from_world, grid_)};
+    const Frame* const colour = variant.colour_textures > 0 ? content.colour : nullptr;
+    const LayerSource source{ObjectMark(colour != nullptr ? colour->colour_object() : nullptr),
+                             eye_in_grid(clip_from_world, grid_)};
     if (layers_of_ == source) return;
-    build_layers({depth, grid_, depth_.elevations(), cuts_, colour.get(), source.eye}, layers_);
+    build_layers({depth, grid_, depth_.elevations(), cuts_, colour, source.eye}, layers_);
     upload(behind_, layers_.behind);
     upload(under_, layers_.under);
     upload(front_, layers_.front);
@@ -239,18 +240,19 @@ void ReliefPass::bind_textures(const SceneContent& content, const Variant& varia
     const GLuint heights = variant.painted ? heights_.show(content.maps, grid_) : 0;
     const int most_side = limits_.software ? std::min(kMostColourSideSoftware, limits_.texture_side)
                                            : limits_.texture_side;
-    GLuint colour = 0;
-    if (variant.textured)
-        colour = colour_.show(content.colour->colour, most_side, !limits_.software);
-    if (variant.by_depth)
-        colour = depth_colours_.show(depth_colours(content.relief_style.paint), most_side, false);
+    if (variant.colour_textures > 0) colour_.show(*content.colour, most_side, limits_);
+    const GLuint ramp =
+        variant.by_depth
+            ? depth_colours_.show(depth_colours(content.relief_style.paint), most_side, false)
+            : 0;
     bind(kElevationsUnit, depth_.name());
     bind(kDetailUnit, detail_grid_ != grid_ ? detail_.name() : depth_.name());
     bind(kCutUnit, cut_.name());
     bind(kUnseenUnit, unseen);
     bind(kBumpUnit, bump);
     bind(kHeightsUnit, heights);
-    bind(kColourUnit, colour);
+    bind(kColourUnit, ramp);
+    if (variant.colour_textures > 0) colour_.bind(kColourUnit);
 }
 
 const ShaderProgram& ReliefPass::use_program(const Variant& variant, const SceneContent& content,
@@ -264,7 +266,8 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
         if (variant.front) defines += "#define LAYER\n#define FRONT\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.painted) defines += "#define PAINTED\n";
-        if (variant.textured) defines += "#define TEXTURED\n";
+        if (variant.colour_textures > 0)
+            defines += "#define TEXTURED " + std::to_string(variant.colour_textures) + "\n";
         if (variant.by_depth) defines += "#define BY_DEPTH\n";
         if (variant.unseen) defines += "#define UNSEEN\n";
         if (variant.silhouettes) defines += "#define SILHOUETTES\n";
@@ -280,7 +283,7 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
     program->set("bump", kBumpUnit);
     program->set("heights", kHeightsUnit);
     program->set("side", content.light_wall ? kLightSide : kDarkSide);
-    program->set("colour", kColourUnit);
+    colour_.set(*program, kColourUnit);
     program->set("relief_px", static_cast<float>(content.shape.relief_px));
     program->set("roughness_px", static_cast<float>(content.shape.roughness_px));
     program->set("ground_px", static_cast<float>(-kGroundDepth * image.columns));

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "render/frame_texture.hpp"
 #include "render/gl_objects.hpp"
 #include "render/relief_grid.hpp"
 #include "render/scene_view.hpp"
@@ -44,7 +45,7 @@ class ReliefPass {
         bool front{false};
         bool rough{false};
         bool painted{false};
-        bool textured{false};
+        int colour_textures{0};  ///< see textures_of(); 0: not in the video's colour
         bool by_depth{false};
         bool silhouettes{false};
         bool unseen{false};
@@ -74,7 +75,7 @@ class ReliefPass {
     UnseenTexture unseen_{};
     BumpTexture bump_{};
     HeightTexture heights_{};
-    ColourTexture colour_{};
+    FrameTexture colour_{};
     ColourTexture depth_colours_{};
     ReliefGrid grid_{};
     ReliefGrid detail_grid_{};

@@ -63,7 +63,7 @@ SceneMark scene_mark(const SceneContent& content, const Camera& camera, glm::ive
         mark.to = ObjectMark(content.depth.to->drawn());
         mark.unseen = ObjectMark(content.depth.nearest().unseen);
     }
-    if (content.colour != nullptr) mark.colour = ObjectMark(content.colour->colour);
+    if (content.colour != nullptr) mark.colour = ObjectMark(content.colour->colour_object());
     round_all(mark.markers);
     round_all(mark.dent);
     return mark;

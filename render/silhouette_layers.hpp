@@ -14,7 +14,7 @@
 
 namespace dibhr {
 
-struct ColourImage;
+struct Frame;
 
 /// One corner of a triangle of a layer.
 struct LayerVertex {
@@ -43,7 +43,7 @@ struct CutRelief {
     const ReliefGrid& grid;
     const std::vector<float>& elevations;  ///< of drawn_elevations()
     const SilhouetteCuts& cuts;
-    const ColourImage* colour{nullptr};  ///< of the same view, of any size; null: the fill is black
+    const Frame* colour{nullptr};           ///< whose colour is continued; null: the fill is black
     glm::vec4 eye{0.0F, 0.0F, 1.0F, 0.0F};  ///< in grid space, homogeneous
 };
 

@@ -111,9 +111,9 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
     const DepthBlend blend = depth_at(frames, options.time_s);
+    const std::shared_ptr<const ColourImage> colour = blend.colour_frame().rgb();
     const ExportedSurface exported{blend.surface(parameters.shape, bump.get()),
-                                   parameters.coupling.pixel_pitch_mm,
-                                   blend.colour_frame().colour.get()};
+                                   parameters.coupling.pixel_pitch_mm, colour.get()};
 
     const MediaDescription& media = reader.description();
     refuse_overwriting(options.out,

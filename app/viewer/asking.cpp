@@ -87,6 +87,7 @@ void ViewerAsking::draw_reliefs(const DepthBlend& shown, std::uint32_t media, Vi
     frame.depth = std::make_shared<const DepthImage>(
         depth_by(*frame_, now, meaning_by(question->alternatives[next], now)));
     frame.colour = frame_->colour;
+    frame.video = frame_->video;
     SceneContent content{.depth = {&frame, &frame, 0.0}, .colour = &frame};
     content.shape.relief_px = fit_of({.depth_columns = frame.depth->columns}).relief_px;
     content.relief_style.light = 1.0;

@@ -338,14 +338,14 @@ std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
     const std::shared_ptr<const TouchMaps> maps = drawn();
     const BrushLayer layer = state.ui.brush.layer;
-    if (!state.ui.brush.on || !maps || frame == nullptr || !frame->colour) return frame;
+    if (!state.ui.brush.on || !maps || frame == nullptr || !frame->has_colour()) return frame;
     const bool is_same =
-        tinted_colour_ == frame->colour && tinted_maps_ == maps && tinted_layer_ == layer;
+        tinted_of_ == frame->colour_object() && tinted_maps_ == maps && tinted_layer_ == layer;
     if (!is_same) {
         tinted_ = {};
         tinted_.colour =
-            std::make_shared<const ColourImage>(Tint(*maps, layer).over(*frame->colour));
-        tinted_colour_ = frame->colour;
+            std::make_shared<const ColourImage>(Tint(*maps, layer).over(*frame->rgb()));
+        tinted_of_ = frame->colour_object();
         tinted_maps_ = maps;
         tinted_layer_ = layer;
     }

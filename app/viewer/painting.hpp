@@ -101,7 +101,7 @@ class ViewerPainting {
     std::string failure_{};  // for the next poll()
     // What tinted_ was made of.
     Frame tinted_{};
-    std::shared_ptr<const ColourImage> tinted_colour_{};
+    std::shared_ptr<const void> tinted_of_{};  ///< the colour
     std::shared_ptr<const TouchMaps> tinted_maps_{};
     BrushLayer tinted_layer_{BrushLayer::material};
 };

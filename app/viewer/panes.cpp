@@ -15,8 +15,11 @@ void ViewerPanes::show(const DepthBlend& shown, ViewerState& state) {
     state.ui.panes = {};
     if (!shows_panes(state) || !shown.makes_surface()) return;
     const Frame& frame = shown.colour_frame();
-    if (frame.colour && !frame.colour->rgb.empty())
-        state.ui.panes.colour = colour_.show(frame.colour, kMostOfPane_px, false);
+    if (frame.has_colour() && !coloured_.is(frame.colour_object())) {
+        colour_.show(frame.rgb(), kMostOfPane_px, false);
+        coloured_.set(frame.colour_object());
+    }
+    if (frame.has_colour()) state.ui.panes.colour = colour_.name();
     const ReliefPaint paint = depth_paint(state);
     if (!painted_.is(frame.drawn()) || paint != paint_) {
         depth_picture_ = depth_picture(*frame.drawn(), frame.unseen.get(), paint, kMostOfPane_px);

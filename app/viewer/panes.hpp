@@ -16,6 +16,7 @@ class ViewerPanes {
   private:
     ColourTexture colour_{};
     ColourTexture depth_{};
+    UploadedFrom<void> coloured_{};  ///< what colour_ was made of
     // What depth_picture_ was made of.
     UploadedFrom<DepthImage> painted_{};
     ReliefPaint paint_{};

@@ -1,5 +1,6 @@
 #version 330 core
-// The relief's colour. Defines: TEXTURED or BY_DEPTH (else clay), WALL,
+// The relief's colour. Defines: TEXTURED (with 1: red, green and blue; 2: luma, and both chromas in one texture; 3: luma and each
+// chroma) or BY_DEPTH (else clay), WALL,
 // LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it; with UNDER:
 // where all is continued),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
@@ -16,6 +17,18 @@ uniform sampler2D unseen;  // 1: no surface was ever seen, as fine as can be
 #endif
 
 uniform sampler2D colour;  // BY_DEPTH: one row, from far to near
+#ifdef TEXTURED
+uniform vec3 colour_across;  // the place in the texture of one in the picture, whose video may be turned
+uniform vec3 colour_down;
+#if TEXTURED > 1
+uniform sampler2D chroma;  // blue; with 2 also red
+uniform sampler2D red_chroma;
+uniform vec2 chroma_scale;
+uniform vec4 red_of;  // of luma, blue chroma, red chroma and 1
+uniform vec4 green_of;
+uniform vec4 blue_of;
+#endif
+#endif
 uniform float relief_px;
 uniform int detail_step;
 uniform ivec2 image;
@@ -30,6 +43,25 @@ const float kBackside = 0.35;  // seen from behind, as through a gap
 vec2 in_detail(ivec2 size) {
     return ((lifted.xy * vec2(image) - 0.5) / float(detail_step) + 0.5) / vec2(size);
 }
+
+#ifdef TEXTURED
+vec3 of_video() {
+    vec3 here = vec3(lifted.xy, 1.0);
+    vec2 place = vec2(dot(colour_across, here), dot(colour_down, here));
+#if TEXTURED > 1
+    vec2 beside = place * chroma_scale;
+#if TEXTURED == 2
+    vec2 chromas = texture(chroma, beside).rg;
+#else
+    vec2 chromas = vec2(texture(chroma, beside).r, texture(red_chroma, beside).r);
+#endif
+    vec4 samples = vec4(texture(colour, place).r, chromas, 1.0);
+    return clamp(vec3(dot(red_of, samples), dot(green_of, samples), dot(blue_of, samples)), 0.0, 1.0);
+#else
+    return texture(colour, place).rgb;
+#endif
+}
+#endif
 
 #ifdef LAYER
 // The depth image [px], smoothed by a cubic B-spline, so that outlines have no corners at pixels: of 4 x 4
@@ -100,7 +132,7 @@ void main() {
     if (alpha < 0.02) discard;
 #endif
 #if defined(TEXTURED)
-    vec3 body = texture(colour, lifted.xy).rgb;
+    vec3 body = of_video();
 #ifdef BEHIND
     body = mix(body, continued, smoothstep(0.01, 0.12, share));
 #endif

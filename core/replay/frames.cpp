@@ -267,7 +267,7 @@ const SessionFrames::Kept* SessionFrames::find(const FrameSource& source, double
 }
 
 void SessionFrames::keep(const FrameSource& source, const Frame& frame) {
-    std::size_t bytes = frame.depth->levels.size() * sizeof(float) + frame.colour->rgb.size();
+    std::size_t bytes = frame.depth->levels.size() * sizeof(float) + frame.colour_bytes();
     if (frame.undilated) bytes += frame.undilated->levels.size() * sizeof(float);
     if (frame.unseen) bytes += frame.unseen->size();
     const std::size_t room = options_.colour ? kMostOfWindow : kMostOfRun;

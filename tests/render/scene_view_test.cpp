@@ -24,13 +24,6 @@ namespace {
 
 using Catch::Matchers::WithinAbs;
 
-Camera straight(int columns, int rows, double relief_px = 255.0) {
-    Camera camera;
-    camera.frame_relief(columns, rows, relief_px);
-    camera.set_projection(Camera::Projection::straight);
-    return camera;
-}
-
 /// The screen pixel that shows a grid point.
 glm::ivec2 pixel_of(const Camera& camera, Vec3 grid, glm::ivec2 size) {
     return glm::ivec2(glm::floor(on_screen(camera, grid, size)));

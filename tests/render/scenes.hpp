@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "core/video/frames/frame_window.hpp"
+#include "render/camera.hpp"
 #include "render/scene_view.hpp"
 
 namespace dibhr {
@@ -51,6 +52,14 @@ inline Frame frame(std::shared_ptr<const DepthImage> depth,
     made.depth = std::move(depth);
     made.colour = std::move(colour);
     return made;
+}
+
+/// Along the recording axis.
+inline Camera straight(int columns, int rows, double relief_px = 255.0) {
+    Camera camera;
+    camera.frame_relief(columns, rows, relief_px);
+    camera.set_projection(Camera::Projection::straight);
+    return camera;
 }
 
 /// Shows one frame that does not move.

@@ -62,10 +62,14 @@ cv::Mat resampleable(const cv::Mat& picture) {
     return smaller;
 }
 
+cv::Size with_square_pixels(cv::Size size, double aspect) {
+    return {static_cast<int>(std::lround(size.width * std::max(aspect, 1.0))),
+            static_cast<int>(std::lround(size.height / std::min(aspect, 1.0)))};
+}
+
 cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role) {
     if (aspect == 1.0 || picture.empty()) return picture;
-    const cv::Size size(static_cast<int>(std::lround(picture.cols * std::max(aspect, 1.0))),
-                        static_cast<int>(std::lround(picture.rows / std::min(aspect, 1.0))));
+    const cv::Size size = with_square_pixels(picture.size(), aspect);
     cv::Mat between;
     cv::resize(picture, between, size, 0.0, 0.0, cv::INTER_LINEAR);
     if (role == PictureRole::colour) return between;

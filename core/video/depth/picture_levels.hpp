@@ -36,6 +36,7 @@ inline constexpr int kMostSide_px = 32000;
 
 /// The picture with square pixels: stretched along one side; `aspect`: width over height of its
 /// pixels. A level of depth is never mixed with no data, which is level 0.
+[[nodiscard]] cv::Size with_square_pixels(cv::Size size, double aspect);
 [[nodiscard]] cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role);
 
 /// By how many levels a picture rises from pixel to pixel, CV_32F.

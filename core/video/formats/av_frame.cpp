@@ -137,6 +137,13 @@ std::string name_of_codec(int id) {
     return found == names.end() ? avcodec_get_name(codec) : found->second;
 }
 
+std::size_t bytes_of(const AVFrame& frame) noexcept {
+    std::size_t bytes = 0;
+    for (const AVBufferRef* const buffer : frame.buf)
+        if (buffer != nullptr) bytes += static_cast<std::size_t>(buffer->size);
+    return bytes;
+}
+
 bool holds_floats(const AVFrame& frame) noexcept {
     const AVPixFmtDescriptor* const kind = kind_of(frame);
     return kind != nullptr && has(*kind, AV_PIX_FMT_FLAG_FLOAT);
@@ -163,6 +170,15 @@ double pixel_aspect(const AVFrame& frame, const AVStream& stream) noexcept {
     const double larger = std::max(aspect, 1.0 / aspect);
     const double squares = larger * frame.width * frame.height;
     return larger > kMost || squares > static_cast<double>(kMostPixels) ? 1.0 : aspect;
+}
+
+cv::Mat turned(const cv::Mat& picture, int quarter_turns) {
+    static constexpr std::array kTurns{cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180,
+                                       cv::ROTATE_90_COUNTERCLOCKWISE};
+    if (quarter_turns == 0 || picture.empty()) return picture;
+    cv::Mat turned;
+    cv::rotate(picture, turned, kTurns[static_cast<std::size_t>(quarter_turns - 1)]);
+    return turned;
 }
 
 cv::Mat FramePictures::colour(const AVFrame& frame) {

@@ -1,6 +1,7 @@
 // Converts libav's decoded frames to OpenCV pictures without losing levels; inside the room.
 #pragma once
 
+#include <cstddef>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,8 @@ namespace dibhr {
 
 /// Bits of a level; the highest level is 2^bits - 1.
 [[nodiscard]] int bits_of(const AVFrame& frame) noexcept;
+/// Of the memory that it refers to.
+[[nodiscard]] std::size_t bytes_of(const AVFrame& frame) noexcept;
 /// Whether it is coded as floating-point numbers, which have no levels.
 [[nodiscard]] bool holds_floats(const AVFrame& frame) noexcept;
 /// Whether it is coded without colours.
@@ -21,6 +24,9 @@ namespace dibhr {
 [[nodiscard]] double pixel_aspect(const AVFrame& frame, const AVStream& stream) noexcept;
 /// The usual name of the codec with that AVCodecID.
 [[nodiscard]] std::string name_of_codec(int id);
+
+/// Rotated clockwise.
+[[nodiscard]] cv::Mat turned(const cv::Mat& picture, int quarter_turns);
 
 /// Converts the frames of one track.
 class FramePictures {

@@ -10,24 +10,15 @@ extern "C" {
 #include <new>
 #include <utility>
 
+#include "core/video/formats/av_frame.hpp"
+
 namespace dibhr {
-
-namespace {
-
-std::size_t bytes_of(const AVFrame& frame) noexcept {
-    std::size_t bytes = 0;
-    for (const AVBufferRef* const buffer : frame.buf)
-        if (buffer != nullptr) bytes += static_cast<std::size_t>(buffer->size);
-    return bytes;
-}
-
-}  // namespace
 
 void DecodedRing::add(const AVFrame& frame, double time_s, std::int64_t index) {
     const std::size_t bytes = bytes_of(frame);
     if (frame.hw_frames_ctx != nullptr || bytes > kMostBytes) return clear();
-    while (!pictures_.empty() &&
-           (bytes_ + bytes > kMostBytes || pictures_.size() >= kMostPictures)) {
+    const std::size_t most = few_ ? kFewBytes : kMostBytes;
+    while (!pictures_.empty() && (bytes_ + bytes > most || pictures_.size() >= kMostPictures)) {
         bytes_ -= pictures_.front().bytes;
         pictures_.pop_front();
     }

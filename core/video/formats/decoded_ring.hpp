@@ -23,9 +23,13 @@ class DecodedRing {
   public:
     static constexpr std::size_t kMostPictures = 32;
     static constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< seven pictures of 4K
+    static constexpr std::size_t kFewBytes = std::size_t{24} << 20;
 
     /// Adds the picture that follows the newest one, and drops the oldest beyond the bounds.
     void add(const AVFrame& frame, double time_s, std::int64_t index);
+    /// From the next picture on keeps kFewBytes of them, as while playing nobody steps back, or
+    /// kMostBytes, as after a step back more may follow.
+    void keep_few(bool few) noexcept { few_ = few; }
     /// Before a picture that does not follow the newest one.
     void clear() noexcept;
 
@@ -38,12 +42,13 @@ class DecodedRing {
     }
     [[nodiscard]] std::size_t size() const noexcept { return pictures_.size(); }
     [[nodiscard]] std::size_t bytes() const noexcept { return bytes_; }
-    /// How many pictures as large as the newest one fit; 0: nothing is kept.
+    /// How many pictures as large as the newest one fit at most; 0: nothing is kept.
     [[nodiscard]] std::size_t room() const noexcept;
 
   private:
     std::deque<DecodedPicture> pictures_{};
     std::size_t bytes_{0};
+    bool few_{false};
 };
 
 }  // namespace dibhr

@@ -20,6 +20,7 @@
 namespace dibhr {
 
 struct LivePair;
+struct VideoPicture;
 
 /// A decoded picture: 8-bit BGR, or for depth the unchanged levels (8 or 16 bits, or 32-bit real
 /// numbers, where not finite is no data; 1 to 4 channels). Shared; never written to.
@@ -29,6 +30,7 @@ struct TimedPicture {
     std::int64_t index{0};
     double decoding_s{0.0};                  ///< mean time to pass over a picture; 0: not known
     std::shared_ptr<const LivePair> pair{};  ///< of a live source: the pair that it is from
+    std::shared_ptr<const VideoPicture> video{};  ///< instead of `picture`, after share_video()
 };
 
 /// Where the times of pictures are from.
@@ -99,6 +101,8 @@ class PictureSource {
     virtual void seek(double time_s) = 0;
     /// The next picture returned is one near it that is quick to decode.
     virtual void seek_near(double time_s) { seek(time_s); }
+    /// From the next picture on those of a colour video may come as its decoder made them.
+    virtual void share_video() {}
     /// Reads at most `most` pictures, so that the facts become exact. For a source that is not read
     /// otherwise.
     virtual void count_frames(std::int64_t /*most*/) {}

@@ -197,20 +197,15 @@ double VideoDecoder::pixel_aspect() const noexcept {
 }
 
 cv::Mat VideoDecoder::colour() {
-    return turned(pictures_.colour(*frame_));
+    return turned(pictures_.colour(*frame_), quarter_turns_);
 }
 
 cv::Mat VideoDecoder::levels() {
-    return turned(pictures_.levels(*frame_));
+    return turned(pictures_.levels(*frame_), quarter_turns_);
 }
 
-cv::Mat VideoDecoder::turned(cv::Mat picture) const {
-    static constexpr std::array kTurns{cv::ROTATE_90_CLOCKWISE, cv::ROTATE_180,
-                                       cv::ROTATE_90_COUNTERCLOCKWISE};
-    if (quarter_turns_ == 0 || picture.empty()) return picture;
-    cv::Mat turned;
-    cv::rotate(picture, turned, kTurns[static_cast<std::size_t>(quarter_turns_ - 1)]);
-    return turned;
+std::shared_ptr<const VideoPicture> VideoDecoder::shared(double aspect) {
+    return sharer_.picture(*frame_, quarter_turns_, aspect);
 }
 
 }  // namespace dibhr

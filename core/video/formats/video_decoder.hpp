@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <optional>
 #include <set>
@@ -14,6 +15,7 @@
 
 #include "core/av/objects.hpp"
 #include "core/video/formats/av_frame.hpp"
+#include "core/video/formats/shared_frame.hpp"
 #include "core/video/formats/video_packets.hpp"
 
 namespace dibhr {
@@ -60,6 +62,8 @@ class VideoDecoder {
     [[nodiscard]] double time_s() const noexcept;
     [[nodiscard]] cv::Mat colour();
     [[nodiscard]] cv::Mat levels();
+    /// Its memory, with pixels of that shape; null: only colour() can give it.
+    [[nodiscard]] std::shared_ptr<const VideoPicture> shared(double pixel_aspect);
     [[nodiscard]] int bits() const noexcept { return bits_of(*frame_); }
     [[nodiscard]] bool has_floats() const noexcept { return holds_floats(*frame_); }
     [[nodiscard]] double pixel_aspect() const noexcept;
@@ -72,12 +76,12 @@ class VideoDecoder {
     bool send(const AVPacket* packet);
     void update_skipped(double until_s);
     const AVPacket* next_packet();
-    [[nodiscard]] cv::Mat turned(cv::Mat picture) const;
 
     VideoPackets packets_;
     AvOwned<AVCodecContext> decoder_{};
     AvOwned<AVFrame> frame_{new_frame()}, kept_{new_frame()};
     FramePictures pictures_{};
+    FrameSharer sharer_{};
     int quarter_turns_{0};  // clockwise
     int packets_left_{kAllPackets};
     bool drained_{false};

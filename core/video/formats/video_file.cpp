@@ -33,28 +33,10 @@ constexpr double kNearAhead_s = 1.0;   ///< up to here decoding forward is as qu
 constexpr double kNearBehind_s = 2.0;  ///< a seek back by less is a step: more may follow
 constexpr double kFewFrames = 3.0;     ///< directly before the wanted frame none is skipped
 constexpr double kAllFrames = 1e9;
-constexpr double kMissing_s = 0.5;     ///< a shorter loss at the end may be rounding,
-constexpr double kMissingPart = 0.15;  ///< a smaller part may be a long last frame
-constexpr double kMostSampled = 1e8;   ///< pixels decoded for samples: a third of a second
-constexpr double kLarge = 1e6;         ///< pixels; of larger pictures the key frames are enough
-constexpr double kHalf = 0.5;          ///< of the pictures of an H.264 video may be non-reference
-constexpr double kLongest_s = 1e6;     ///< bounds a seek into a file of unknown length
-
-/// The earliest end of a whole file.
-double least_end_s(double header_duration_s) {
-    return header_duration_s - std::max(kMissing_s, kMissingPart * header_duration_s);
-}
-
-/// Throws InputError for a truncated copy, whose header claims more than the file holds.
-void require_whole(const std::filesystem::path& file, int track, double header_duration_s) {
-    const double least_s = least_end_s(header_duration_s);
-    if (!(least_s > 0.0)) return;
-    const std::optional<double> end_s = packets_end_s(file, track, least_s);
-    if (!end_s || *end_s >= least_s) return;
-    throw InputError(shown(file) + " is cut off or has a damaged header: it ends at " +
-                     number_text(*end_s, 1) + " s of " + number_text(header_duration_s, 1) +
-                     " s; copy or export it again");
-}
+constexpr double kMostSampled = 1e8;  ///< pixels decoded for samples: a third of a second
+constexpr double kLarge = 1e6;        ///< pixels; of larger pictures the key frames are enough
+constexpr double kHalf = 0.5;         ///< of the pictures of an H.264 video may be non-reference
+constexpr double kLongest_s = 1e6;    ///< bounds a seek into a file of unknown length
 
 }  // namespace
 
@@ -244,8 +226,9 @@ std::optional<TimedPicture> VideoFile::next() {
         ahead_.pop_front();
         return first;
     }
+    if (from_ring_ == ring_.size()) ring_.keep_few(true);
     if (!grab()) return std::nullopt;
-    return timed(retrieve());
+    return taken();
 }
 
 /// Earlier frames are not converted, and those that no other frame refers to are not decoded.
@@ -260,12 +243,13 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     if (has_times_) decoder_.skip_non_reference_before(earliest_s);
     const std::int64_t from = index_;
     const bool decodes = from_ring_ == ring_.size();
+    if (decodes) ring_.keep_few(true);
     const auto begin = std::chrono::steady_clock::now();
     while (grab()) {
         if (!(time_s_ < earliest_s)) {
             if (decodes)
                 measure_passing(index_ - from - 1, std::chrono::steady_clock::now() - begin);
-            return timed(retrieve());
+            return taken();
         }
         decoder_.keep();
         last = timed({});
@@ -275,7 +259,7 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
         rewind_before(time_s_, kAllFrames);
         if (run_up_to(std::numeric_limits<double>::infinity(), {})) last = next();
     }
-    if (last && last->picture.empty()) last = retrieve_kept(std::move(*last));
+    if (last && last->picture.empty() && !last->video) last = retrieve_kept(std::move(*last));
     return last;
 }
 
@@ -291,10 +275,29 @@ TimedPicture VideoFile::timed(cv::Mat picture) const {
     return {std::move(picture), time_s_, index_, passing_s_ > 0.0 ? passing_s_ : guess_s};
 }
 
+TimedPicture VideoFile::taken() {
+    TimedPicture taken = timed({});
+    if (shares_video_) taken.video = decoder_.shared(pixel_aspect_);
+    if (!taken.video) taken.picture = retrieve();
+    return taken;
+}
+
+/// Also of the pictures that are given out next.
+void VideoFile::share_video() {
+    if (role_ != PictureRole::colour || shares_video_) return;
+    shares_video_ = true;
+    if (ahead_.size() == 1 && ahead_.front().index == index_ && !grabbed_)
+        ahead_.front() = taken();
+    else if (!ahead_.empty())
+        seek(ahead_.front().time_s);
+}
+
 TimedPicture VideoFile::retrieve_kept(TimedPicture kept) {
     decoder_.swap_kept();
-    kept.picture = retrieve();
+    TimedPicture converted = taken();
     decoder_.swap_kept();
+    kept.picture = std::move(converted.picture);
+    kept.video = std::move(converted.video);
     return kept;
 }
 
@@ -366,6 +369,7 @@ void VideoFile::seek(double time_s) {
         skip_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, timed({}))) return;
     } else {
+        ring_.keep_few(!near_behind);
         rewind_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, {})) return;
     }
@@ -380,7 +384,7 @@ bool VideoFile::run_up_to(double wanted_s, std::optional<TimedPicture> shown_the
         const bool beyond = time_s_ > wanted_s;
         if (beyond && skipped_until(wanted_s)) return false;
         if (beyond && shown_then) {
-            ahead_.push_back(timed(retrieve()));
+            ahead_.push_back(taken());
             break;
         }
         const auto follower = static_cast<std::size_t>(index_) + 1;
@@ -408,7 +412,7 @@ void VideoFile::seek_near(double time_s) {
     grabbed_ = false;
     if (!has_times_ || !jump(std::max(time_s, 0.0))) return seek(time_s);
     if (!grab()) return seek(time_s);
-    ahead_.push_back(timed(retrieve()));
+    ahead_.push_back(taken());
 }
 
 void VideoFile::count_frames(std::int64_t most) {
@@ -420,7 +424,7 @@ std::vector<cv::Mat> VideoFile::samples(int most) {
     std::vector<cv::Mat> pictures;
     const double pixels = static_cast<double>(facts_.columns) * facts_.rows;
     const double frames = kMostSampled / pixels;
-    if (!ahead_.empty()) pictures.push_back(ahead_.front().picture);
+    if (!ahead_.empty() && !ahead_.front().video) pictures.push_back(ahead_.front().picture);
     if (most <= static_cast<int>(pictures.size())) return pictures;
     if (static_cast<double>(facts_.frames) <= frames)
         sample_evenly(most, pictures);

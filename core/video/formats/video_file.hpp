@@ -29,6 +29,7 @@ class VideoFile : public PictureSource {
     std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
     void seek_near(double time_s) override;
+    void share_video() override;
     /// How many pictures were decoded since the file was opened last.
     [[nodiscard]] std::int64_t decoded() const noexcept { return decoder_.decoded(); }
 
@@ -54,6 +55,7 @@ class VideoFile : public PictureSource {
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
+    TimedPicture taken();                           ///< the same with its picture, or its memory
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
     void measure_passing(std::int64_t frames, std::chrono::duration<double> taken);
@@ -72,6 +74,7 @@ class VideoFile : public PictureSource {
     SourceFacts facts_{};
     PictureRole role_;
     int track_;
+    bool shares_video_{false};
     bool keeps_levels_{false};  ///< levels have fewer bits than the file; do not scale them
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};

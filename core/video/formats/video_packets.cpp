@@ -17,11 +17,17 @@ extern "C" {
 #include <string>
 #include <utility>
 
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/video/formats/file_bytes.hpp"
 
 namespace dibhr {
 
 namespace {
+
+constexpr double kMissing_s = 0.5;     ///< a shorter loss at the end may be rounding,
+constexpr double kMissingPart = 0.15;  ///< a smaller part may be a long last frame
 
 constexpr int kMostPackets = 30000;  ///< searched for the end: a quarter of an hour at 30 Hz
 
@@ -213,6 +219,20 @@ std::optional<double> packets_end_s(const std::filesystem::path& file, int track
     }
     if (end_s && *end_s < 0.0) return std::nullopt;
     return end_s;
+}
+
+double least_end_s(double header_duration_s) {
+    return header_duration_s - std::max(kMissing_s, kMissingPart * header_duration_s);
+}
+
+void require_whole(const std::filesystem::path& file, int track, double header_duration_s) {
+    const double least_s = least_end_s(header_duration_s);
+    if (!(least_s > 0.0)) return;
+    const std::optional<double> end_s = packets_end_s(file, track, least_s);
+    if (!end_s || *end_s >= least_s) return;
+    throw InputError(shown(file) + " is cut off or has a damaged header: it ends at " +
+                     number_text(*end_s, 1) + " s of " + number_text(header_duration_s, 1) +
+                     " s; copy or export it again");
 }
 
 std::vector<double> packet_times_s(const std::filesystem::path& file, int track) {

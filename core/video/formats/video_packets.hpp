@@ -65,6 +65,12 @@ class VideoPackets {
 [[nodiscard]] std::optional<double> packets_end_s(const std::filesystem::path& file, int track,
                                                   double from_s);
 
+/// The earliest end of a whole file [s].
+[[nodiscard]] double least_end_s(double header_duration_s);
+
+/// Throws InputError for a truncated copy, whose header claims more than the file holds.
+void require_whole(const std::filesystem::path& file, int track, double header_duration_s);
+
 /// When the picture of each packet is shown, from the track's beginning, in the order of decoding
 /// [s]; NaN: no time stamp. Leaves out packets whose picture is not shown. Empty when the file
 /// cannot be opened, or holds too many packets. Reads the file to its end.

@@ -2,9 +2,14 @@
 #include "core/video/frames/frame_window.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 namespace dibhr {
+
+std::shared_ptr<const ColourImage> Frame::rgb() const {
+    return video ? std::make_shared<const ColourImage>(video->convert()) : colour;
+}
 
 bool DepthBlend::makes_surface() const noexcept {
     if (from == nullptr || to == nullptr || !from->depth || !to->depth) return false;

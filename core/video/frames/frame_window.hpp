@@ -19,6 +19,7 @@
 #include "core/haptics/touch_maps.hpp"
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/frames/colour_image.hpp"
+#include "core/video/frames/video_picture.hpp"
 
 namespace dibhr {
 
@@ -29,6 +30,8 @@ struct Frame {
     /// pixel was seen.
     std::shared_ptr<const std::vector<std::uint8_t>> unseen{};
     std::shared_ptr<const ColourImage> colour{};
+    /// The colour of a video, as its decoder made it; `colour` is null then.
+    std::shared_ptr<const VideoPicture> video{};
     bool colour_of_view{false};  ///< from a camera, with the depth's own view as far as known
     /// The surface that a ball as fingertip touches, of the same size; `depth` is it dilated by the
     /// ball. Null: the fingertip is a point, which touches `depth`.
@@ -45,6 +48,21 @@ struct Frame {
     std::int64_t index{0};     ///< number of the frame in the file, from 0
     std::uint32_t media{0};    ///< number of its media, as given to the player
     FrameCleaning cleaning{};  ///< how its depth was cleaned
+
+    /// In red, green and blue, which each call converts from `video`. Null or empty: no colour.
+    [[nodiscard]] std::shared_ptr<const ColourImage> rgb() const;
+    [[nodiscard]] bool has_colour() const noexcept {
+        return video != nullptr || (colour != nullptr && !colour->rgb.empty());
+    }
+    /// What tells its colour from those of other frames.
+    [[nodiscard]] std::shared_ptr<const void> colour_object() const noexcept {
+        if (video) return video;
+        return colour;
+    }
+    [[nodiscard]] std::size_t colour_bytes() const noexcept {
+        if (video) return video->bytes;
+        return colour ? colour->rgb.size() : 0;
+    }
 
     /// The drawn surface: the one that the ball touches, not the dilated one that its lowest point
     /// follows.

@@ -157,10 +157,6 @@ DIBHR_VECTOR_CLONES void mix_channel(const Coloured& before, const Coloured& aft
     }
 }
 
-bool has_colour(const Frame& frame) {
-    return frame.colour && !frame.colour->rgb.empty();
-}
-
 /// Longest way, squared, and count of pixels that move by kShortestWay_px or more, in kLanes parts.
 struct Moving {
     static constexpr std::size_t kLanes = 16;
@@ -201,6 +197,10 @@ class InBetweenMaker::Warper {
     void begin(const Frame& from, const Frame& to) {
         from_ = &from;
         to_ = &to;
+        const bool goes_on = second_of_ && from.colour_object() == second_of_;
+        first_colour_ = goes_on ? std::move(second_colour_) : from.rgb();
+        second_colour_ = to.rgb();
+        second_of_ = to.colour_object();
         warp_.begin(*from.motion, first(), second());
     }
 
@@ -218,6 +218,7 @@ class InBetweenMaker::Warper {
         frame.in_betweens.reset();
         frame.unseen = std::move(unseen);
         frame.colour = std::move(colour);
+        frame.video.reset();
         lay(std::move(depth), frame);
         return frame;
     }
@@ -253,16 +254,16 @@ class InBetweenMaker::Warper {
     }
 
     [[nodiscard]] std::shared_ptr<ColourImage> blended_colour(float share) {
-        if (!has_colour(*from_)) return nullptr;
+        if (!from_->has_colour()) return nullptr;
         auto colour = colours_.take();
-        colour->columns = from_->colour->columns;
-        colour->rows = from_->colour->rows;
-        colour->rgb.resize(from_->colour->rgb.size());
-        if (!has_colour(*to_) || to_->colour->rgb.size() != colour->rgb.size()) {
-            colour->rgb = from_->colour->rgb;
+        colour->columns = first_colour_->columns;
+        colour->rows = first_colour_->rows;
+        colour->rgb.resize(first_colour_->rgb.size());
+        if (!to_->has_colour() || second_colour_->rgb.size() != colour->rgb.size()) {
+            colour->rgb = first_colour_->rgb;
             return colour;
         }
-        blend_bytes(from_->colour->rgb.data(), to_->colour->rgb.data(),
+        blend_bytes(first_colour_->rgb.data(), second_colour_->rgb.data(),
                     static_cast<int>(std::lround(share * 256.0F)), colour->rgb.data(),
                     colour->rgb.size());
         return colour;
@@ -311,13 +312,13 @@ class InBetweenMaker::Warper {
     }
 
     [[nodiscard]] bool same_colour_size() const {
-        return has_colour(*to_) && to_->colour->columns == from_->colour->columns &&
-               to_->colour->rows == from_->colour->rows;
+        return to_->has_colour() && second_colour_->columns == first_colour_->columns &&
+               second_colour_->rows == first_colour_->rows;
     }
 
     void mix_colours(std::uint8_t* row) {
-        read_colours(*from_->colour, before_, movers_.count, colours_before_);
-        read_colours(*to_->colour, after_, movers_.count, colours_after_);
+        read_colours(*first_colour_, before_, movers_.count, colours_before_);
+        read_colours(*second_colour_, after_, movers_.count, colours_after_);
         for (int channel = 0; channel < 3; ++channel) {
             mix_channel({colours_before_, before_}, {colours_after_, after_}, movers_.first,
                         channel, mixed_.data());
@@ -382,8 +383,8 @@ class InBetweenMaker::Warper {
                     return colour_at(image, static_cast<float>(x) + times * right * pixel.way.right,
                                      static_cast<float>(y) + times * down * pixel.way.down);
                 };
-                const auto before = at(*from_->colour, -share);
-                const auto after = at(*to_->colour, 1.0F - share);
+                const auto before = at(*first_colour_, -share);
+                const auto after = at(*second_colour_, 1.0F - share);
                 std::uint8_t* const rgb =
                     colour.rgb.data() + 3 * (std::ptrdiff_t{y} * colour.columns + x);
                 for (std::size_t k = 0; k < 3; ++k)
@@ -395,6 +396,8 @@ class InBetweenMaker::Warper {
 
     const Frame* from_{nullptr};
     const Frame* to_{nullptr};
+    std::shared_ptr<const ColourImage> first_colour_{}, second_colour_{};
+    std::shared_ptr<const void> second_of_{};  ///< what that was converted from
     MotionWarp warp_{};
     ObjectPool<DepthImage> depths_{};
     ObjectPool<ColourImage> colours_{};

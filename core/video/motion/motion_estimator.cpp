@@ -331,21 +331,22 @@ void MotionEstimator::stop_unconfirmed() {
 
 std::shared_ptr<const MotionField> MotionEstimator::estimate(const Frame& from, const Frame& to) {
     const auto has_colour = [](const Frame& frame) {
-        return frame.colour_of_view && frame.colour && !frame.colour->rgb.empty();
+        return frame.colour_of_view && frame.has_colour();
     };
     const bool by_depth = !has_colour(from) || !has_colour(to);
     const auto take = [this, by_depth](const Frame& frame, MotionSide& side) {
         maker_.make(frame, by_depth, side.pictures);
         split_into_cells(side);
     };
-    if (from.drawn() == last_depth_ && from.colour == last_colour_ && by_depth == by_depth_)
+    if (from.drawn() == last_depth_ && from.colour_object() == last_colour_ &&
+        by_depth == by_depth_)
         std::swap(from_, to_);
     else
         take(from, from_);
     take(to, to_);
     by_depth_ = by_depth;
     last_depth_ = to.drawn();
-    last_colour_ = to.colour;
+    last_colour_ = to.colour_object();
     similar_.find(from_.cells);
     gain_ = by_depth ? 1.0F : motion_gain(from_.pictures, to_.pictures);
     wanted_.resize(from_.cells.columns, from_.cells.rows);

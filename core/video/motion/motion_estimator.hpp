@@ -62,7 +62,7 @@ class MotionEstimator {
     MotionSide from_{}, to_{};
     /// Inputs of `to_`: mostly they are the next call's first frame.
     std::shared_ptr<const DepthImage> last_depth_{};
-    std::shared_ptr<const ColourImage> last_colour_{};
+    std::shared_ptr<const void> last_colour_{};
     bool by_depth_{false};
     SimilarParts similar_{};  ///< of the first frame's parts
     PlainParts plain_{};

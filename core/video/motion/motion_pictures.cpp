@@ -186,7 +186,7 @@ void MotionPictureMaker::make(const Frame& frame, bool by_depth, MotionPictures&
         pictures.grey[0] = pictures.level[0];
     } else {
         std::swap(pictures.here[0], depth_);
-        grey_of(*frame.colour, (depth.columns + pictures.step - 1) / pictures.step,
+        grey_of(*frame.rgb(), (depth.columns + pictures.step - 1) / pictures.step,
                 (depth.rows + pictures.step - 1) / pictures.step, pictures.grey[0]);
         soften(pictures.grey[0], scratch_, pictures.grey[0]);
     }

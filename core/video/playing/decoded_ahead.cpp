@@ -20,7 +20,8 @@ constexpr double kMostSkipped_s = 0.5;  ///< in one call: the heartbeat goes on,
 constexpr std::size_t kMostBytes = std::size_t{24} << 20;  ///< one frame always fits
 
 std::size_t bytes_of(const RawFrame& frame) {
-    return frame.depth.levels.size() * sizeof(float) + frame.colour.rgb.size() +
+    const std::size_t colour = frame.video ? frame.video->bytes : frame.colour.rgb.size();
+    return frame.depth.levels.size() * sizeof(float) + colour +
            frame.held.size() * sizeof(HeldLevel);
 }
 

@@ -12,6 +12,8 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     const std::lock_guard lock(single_frame_mutex_);
     const auto begin = now_();
     const std::vector<HeldLevel> held = std::move(raw.held);
+    if (raw.video && raw.colour_of_view && need_colour(plan.steps) && raw.colour.rgb.empty())
+        raw.colour = raw.video->convert();
     const ColourImage* const colour = raw.colour_of_view ? &raw.colour : nullptr;
     SingleFrameDepth single_frame = chain_.clean_frame(std::move(raw.depth), plan, held, colour);
     // By its time: after some jumps the index is an estimate.
@@ -22,7 +24,8 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
 
 Frame FrameAssembly::without_depth(RawFrame& raw) const {
     Frame frame;
-    frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
+    frame.video = std::move(raw.video);
+    if (!frame.video) frame.colour = std::make_shared<const ColourImage>(std::move(raw.colour));
     frame.colour_of_view = raw.colour_of_view;
     frame.media_s = raw.media_s;
     frame.index = raw.index;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdlib>
 #include <iterator>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -20,7 +21,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kMostKept = 48;
-constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< beside what cleaning needs
+constexpr std::size_t kMostBytes = std::size_t{48} << 20;  ///< beside what cleaning needs
 /// Frames read at once to step back: all that clean the frame before.
 constexpr auto kMostReadBack = static_cast<double>(kReachInTime + 1);
 /// Farther frames do not clean this one: all that could at 30 frames/s are nearer.
@@ -45,6 +46,11 @@ double frames_read_back(const MediaDescription& description) {
     return std::clamp(std::floor(kMostBytes / bytes) - 2.0, 1.0, kMostReadBack);
 }
 
+std::unique_ptr<Media> with_shared_video(std::unique_ptr<Media> media) {
+    media->share_video();
+    return media;
+}
+
 std::size_t bytes_of(const DepthImage& depth) {
     return depth.levels.size() * sizeof(float);
 }
@@ -55,7 +61,8 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
                          ReaderHeartbeats heartbeats, Now now)
     : now_(std::move(now)),
       assembly_(now_, kLongestPause),
-      media_(std::make_unique<HeldLevelsMedia>(std::move(media)), heartbeats, now_),
+      media_(std::make_unique<HeldLevelsMedia>(with_shared_video(std::move(media))), heartbeats,
+             now_),
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows) {
     assembly_.set_number(number);
     assembly_.set_interval(interval_s(description()));
@@ -66,7 +73,7 @@ double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) c
 }
 
 std::size_t FrameReader::Kept::bytes() const {
-    std::size_t bytes = frame.colour ? frame.colour->rgb.size() : 0;
+    std::size_t bytes = frame.colour_bytes();
     bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
     if (const SingleFrameDepth* single_frame = raw.single_frame.get(); single_frame != nullptr)
         bytes += bytes_of(single_frame->depth) + single_frame->filled.size() +
@@ -146,9 +153,10 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     if (need_colour(plan().steps) && !raw.single_frame && !kept.can_be_cleaned())
         assembly_.clean_frame(raw, plan());
     // The frame is new, or its colour was dropped to save memory.
-    if (!kept.frame.colour) kept.frame = assembly_.without_depth(raw);
+    if (!kept.frame.colour_object()) kept.frame = assembly_.without_depth(raw);
     kept.frame.index = raw.index;  // after some jumps an estimate, off by the same for all
     raw.colour = {};
+    raw.video.reset();
     if (!kept.can_be_cleaned()) kept.raw = std::move(raw);
     return &kept;
 }
@@ -156,21 +164,22 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 std::size_t FrameReader::reach() const {
     if (!plan().steps.steady) return 0;
     // Farther frames of large pictures need more memory than most machines have.
-    const bool is_large = description().depth_pixels() > kMostPixelsForSensor;
-    return plan().noise.per_frame_scale || is_large ? kNearInTime : kReachInTime;
+    return plan().noise.per_frame_scale || is_large() ? kNearInTime : kReachInTime;
 }
 
 /// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
 /// other cleaned frames keeps only the result; removes frames farthest from the wanted one first.
 void FrameReader::evict() {
     const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
+    // Of large pictures fewer: another cleaning reads them again.
+    const auto raw_stays = is_large() ? stays - 1 : stays;
     const auto wanted = kept_.lower_bound(wanted_s_);
     auto before = std::distance(kept_.begin(), wanted);
     auto after = std::distance(wanted, kept_.end());
     std::ptrdiff_t away = -before;
     std::size_t bytes = 0;
     for (auto& [media_s, kept] : kept_) {
-        if (kept.is_cleaned() && std::abs(away) > stays) kept.raw = {};
+        if (kept.is_cleaned() && std::abs(away) > raw_stays) kept.raw = {};
         ++away;
         bytes += kept.bytes();
     }
@@ -189,6 +198,7 @@ void FrameReader::evict() {
         Kept& kept = at->second;
         bytes -= kept.bytes();
         kept.frame.colour.reset();
+        kept.frame.video.reset();
         kept.forget_cleaned();
         bytes += kept.bytes();
     }

@@ -129,7 +129,7 @@ class FrameReader {
         }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
-            return frame.colour && (is_cleaned() || can_be_cleaned());
+            return frame.colour_object() && (is_cleaned() || can_be_cleaned());
         }
         [[nodiscard]] std::size_t bytes() const;
     };
@@ -167,6 +167,9 @@ class FrameReader {
     void prefetch_after_kept(double media_s);
     void evict();
     [[nodiscard]] std::size_t reach() const;
+    [[nodiscard]] bool is_large() const {
+        return description().depth_pixels() > kMostPixelsForSensor;
+    }
     void make_plan();
     void measure();
     [[nodiscard]] bool tries() const;

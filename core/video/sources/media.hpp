@@ -29,6 +29,8 @@ struct RawFrame {
     std::shared_ptr<const SingleFrameDepth> single_frame{};
     double single_frame_ms{0.0};  ///< how long that took
     ColourImage colour{};
+    /// The colour as a video's decoder made it, after Media::share_video(); `colour` is empty then.
+    std::shared_ptr<const VideoPicture> video{};
     std::shared_ptr<const SourcePictures> taken{};  ///< of a live source: the original pictures
     bool colour_of_view{false};  ///< a camera's picture, as far as known from the depth's view
     double media_s{0.0};
@@ -149,6 +151,8 @@ class Media {
     /// As seek(), for a reader that uses the depth alone: until the next seek frames may come
     /// without colour, which then need not be decoded.
     virtual void seek_depth(double media_s) { seek(media_s); }
+    /// From the next frame on the colour of a video may come as its decoder made it.
+    virtual void share_video() {}
     /// The feed of a live source: next() waits for its frames, and seek() does nothing. Null: read
     /// from files.
     [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }

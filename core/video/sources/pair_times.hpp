@@ -48,6 +48,7 @@ class RetimedPictures : public PictureSource {
     std::optional<TimedPicture> next_from(double earliest_s) override;
     void seek(double time_s) override;
     void seek_near(double time_s) override;
+    void share_video() override { source_->share_video(); }
     void count_frames(std::int64_t most) override;
     std::vector<cv::Mat> samples(int most) override { return source_->samples(most); }
     [[nodiscard]] std::vector<double> picture_times_s() const override;

@@ -98,14 +98,14 @@ double ColourTrack::go_near(double depth_time_s) {
     return now_.time_s + start_offset_s_;
 }
 
-const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
+const TimedPicture& ColourTrack::shown_at(double depth_time_s) {
     if (source_->facts().live) {  // joined with the depth already
         now_ = source_->next().value_or(now_);
-        return now_.picture;
+        return now_;
     }
     const double time_s = depth_time_s - start_offset_s_;
     const bool is_near = std::exchange(is_near_, false);
-    if (is_near && std::fabs(now_.time_s - time_s) <= half_s_) return now_.picture;
+    if (is_near && std::fabs(now_.time_s - time_s) <= half_s_) return now_;
     const bool is_far = later_ && later_->time_s + kFarAhead * interval_s_ < time_s;
     if (!placed_ || (is_far && !pass_to(time_s))) {
         source_->seek(time_s);
@@ -118,7 +118,7 @@ const cv::Mat& ColourTrack::shown_at(double depth_time_s) {
         now_ = std::move(*later_);
         later_ = source_->next();
     }
-    return now_.picture;
+    return now_;
 }
 
 /// Passed pictures are farther from `time_s` than the one that is taken.
@@ -177,16 +177,17 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     frame.never_has_holes = scale_.is_always_data() && !shape_;
     cv::Mat colour;
     const bool has_colour = colour_.has_value() && !depth_alone_;
-    const cv::Mat as_taken = has_colour ? colour_->shown_at(taken->time_s) : cv::Mat();
-    if (has_colour) colour = colour_for(*taken, as_taken);
+    const TimedPicture as_taken = has_colour ? colour_->shown_at(taken->time_s) : TimedPicture();
+    frame.video = as_taken.video;
+    if (has_colour) colour = colour_for(*taken, as_taken.picture);
     if (taken->pair)
         frame.taken = std::make_shared<const SourcePictures>(
-            SourcePictures{taken->picture, depth_->facts().bits, as_taken, taken->pair});
+            SourcePictures{taken->picture, depth_->facts().bits, as_taken.picture, taken->pair});
     if (frame.never_has_holes && taken->decoding_s > 0.0)
         frame.skipping_s = taken->decoding_s + (colour_ ? colour_->decoding_s() : 0.0);
     if (shape_)
         apply_true_shape(frame, colour);
-    else if (has_colour)
+    else if (has_colour && !frame.video)
         frame.colour = colour_of(colour);
     if (painted_ && !depth_alone_) frame.colour = painted_depth(frame.depth);
     return frame;
@@ -294,6 +295,11 @@ void PairedMedia::apply_true_shape(RawFrame& frame, const cv::Mat& colour) {
     OrthographicPicture straight = shape_->orthographic_view(in_mm(frame.depth), colour);
     frame.depth = std::move(straight.depth);
     frame.colour = std::move(straight.colour);
+}
+
+/// Where nothing moves or resamples the colour.
+void PairedMedia::share_video() {
+    if (colour_ && !cameras_ && !shape_ && registration_ == Registration{}) colour_->share_video();
 }
 
 void PairedMedia::seek(double media_s) {

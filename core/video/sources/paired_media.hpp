@@ -29,11 +29,12 @@ class ColourTrack {
                 const PairTimes& times);
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
+    void share_video() { source_->share_video(); }
     void forget() { placed_ = is_near_ = false; }
     /// Goes to a picture near the depth's time that is quick to decode; returns its own time in
     /// that of the depth. If another picture is nearer to the next depth frame, that one is read.
     double go_near(double depth_time_s);
-    const cv::Mat& shown_at(double depth_time_s);
+    const TimedPicture& shown_at(double depth_time_s);
     /// Mean time to pass over a picture; 0: not known.
     [[nodiscard]] double decoding_s() const { return now_.decoding_s; }
 
@@ -63,6 +64,7 @@ class PairedMedia : public Media {
     void seek(double media_s) override;
     void seek_near(double media_s) override;
     void seek_depth(double media_s) override;
+    void share_video() override;
     [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
     /// Reads at most `most` more frames of depth, so that the description becomes exact.

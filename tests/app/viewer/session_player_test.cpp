@@ -119,7 +119,7 @@ TEST_CASE("a replay passes every tick once and in order, over exactly the frames
         REQUIRE_THAT(frames.from.media_s, WithinAbs(ticks[k].frames.from_s, 0.0));
         REQUIRE_THAT(frames.to.media_s, WithinAbs(ticks[k].frames.to_s, 0.0));
         REQUIRE(frames.from.index == ticks[k].frames.from_frame);
-        REQUIRE_FALSE(frames.from.colour->rgb.empty());
+        REQUIRE(frames.from.has_colour());
     }
     CHECK_THAT(player.playback().now_s, WithinAbs(ticks.back().t_s, 1e-9));
     player.play();  // from the beginning again

@@ -429,6 +429,22 @@ TEST_CASE("decoded pictures are kept within bounds of number and bytes, the newe
     CHECK(ring.bytes() == 0);
 }
 
+TEST_CASE("of large pictures few are held while they play, and more after a step back", "[media]") {
+    const AvOwned<AVFrame> frame = new_frame();
+    allocate_buffer(*frame, AV_PIX_FMT_YUV420P, 3840, 2160);
+    DecodedRing ring;
+    const auto add = [&](bool few) {
+        ring.keep_few(few);
+        for (int k = 0; k < 30; ++k) ring.add(*frame, k, k);
+        return ring.bytes();
+    };
+    CHECK(add(true) <= DecodedRing::kFewBytes);
+    CHECK(ring.size() >= 1);
+    CHECK(add(false) > DecodedRing::kFewBytes);
+    CHECK(ring.size() == ring.room());
+    CHECK(add(true) <= DecodedRing::kFewBytes);
+}
+
 TEST_CASE("the first of all samples is the first frame, whatever was read before", "[media]") {
     const TemporaryFolder folder;
     make_flat_clip(folder / "clip.mp4", 20, 25, kH264);

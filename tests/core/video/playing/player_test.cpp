@@ -100,8 +100,7 @@ TEST_CASE("both readers see the media play: depth and colour of the same frame",
         for (std::size_t k = 0; k < window.count; ++k) {
             const Frame& frame = window.frames[k];
             CHECK_THAT(level_of(frame), WithinAbs(5.0 * static_cast<double>(frame.index), 0.5));
-            CHECK_THAT(frame.colour->rgb[0],
-                       WithinAbs(5.0 * static_cast<double>(frame.index), 0.5));
+            CHECK_THAT(frame.rgb()->rgb[0], WithinAbs(5.0 * static_cast<double>(frame.index), 0.5));
         }
     }
     CHECK(eventually([&] { return player.picture().front().count == FrameWindow::kFrames; }));
