@@ -477,10 +477,7 @@ bool Viewer::played_to_the_end() const {
     const PlayState at = state_.play_state();
     if (at.playing || at.looping) return false;
     if (state_.touch.replay) return at.now_s >= at.last_s();
-    const PlaybackStatus& video = state_.media.playback;
-    if (!video.open || state_.media.still || !(video.frames_per_s > 0.0)) return false;
-    constexpr double kFramesBefore = 1.5;  // the last one is shown
-    return at.now_s + kFramesBefore / video.frames_per_s >= at.last_s();
+    return state_.media.playback.ended && !state_.media.still;
 }
 
 glm::ivec2 Viewer::relief_viewport() const {
