@@ -127,7 +127,7 @@ void Viewer::run() {
 
 /// After a picture: as long as until the next one. Else: for input, frames, or the next turn.
 void Viewer::wait_for_turn(Turn last) {
-    if (last.drawn) return pace_.wait();
+    if (last.drawn) return pace_.wait([this] { follow_pointer(); });
     if (last.input) std::this_thread::sleep_for(kAfterInput);
     window_.wait_for_input(change_.pause(may_touch(state_.touch), steady_clock::now()));
 }
@@ -213,8 +213,7 @@ Viewer::Turn Viewer::take_turn() {
     take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
-    const glm::ivec2 viewport = relief_viewport();
-    move_hand(input, viewport);
+    move_hand(input);
     const bool drawn = draw_if_changed(input);
     carry_out_commands();
     show_recording_trouble();  // a command may have ended it
@@ -222,7 +221,12 @@ Viewer::Turn Viewer::take_turn() {
     keep_settings();
     log_messages();
     if (drawn) {
-        if (software_) beat_while_drawing([this] { beat(); });
+        if (software_) {
+            beat_while_drawing([this] {
+                beat();
+                follow_pointer();
+            });
+        }
         window_.show_picture();
         require_graphics();
         beat();
