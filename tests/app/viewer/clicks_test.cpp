@@ -1,4 +1,5 @@
-// Clicks and key presses that come while the window draws nothing: none is lost.
+// Clicks and key presses that come while the window draws nothing: none is lost; and keys that an
+// open list takes.
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -37,6 +38,9 @@ void act_in_one_picture(const Desk& desk, const WindowProgram& viewer, const std
     }
     viewer.go_on();
 }
+
+// The place of a list in the window as it starts, 1280 x 800.
+constexpr const char* kCleaningList = "mousemove 1150 285 click 1";
 
 }  // namespace
 
@@ -84,4 +88,20 @@ TEST_CASE("every click of the ruler counts, and every press of a key", "[clicks]
     REQUIRE(viewer.wait() == 0);
     const auto is_session = [](const std::string& name) { return name.ends_with(".dibhr"); };
     CHECK(std::ranges::count_if(names_in(folder.path()), is_session) == 2);
+}
+
+TEST_CASE("an open list takes the keys, and Esc closes it", "[clicks]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    WindowProgram viewer = desk.start_viewer(folder, {"--device", "mouse", "--pause"});
+    viewer.wait_for_surface();
+    viewer.act(kCleaningList);
+    viewer.wait_for_turn();
+    viewer.act("key i key space");
+    CHECK_FALSE(viewer.seen().statistics);
+    CHECK_FALSE(viewer.seen().playing);
+    viewer.act("key Escape");
+    viewer.wait_for_turn();
+    viewer.act("key i");
+    CHECK(viewer.seen().statistics);
 }
