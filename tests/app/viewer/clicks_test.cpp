@@ -1,5 +1,5 @@
-// Clicks and key presses that come while the window draws nothing: none is lost; and keys that an
-// open list takes.
+// Clicks and key presses that come while the window draws nothing: none is lost. The toolbar, and
+// keys that an open list takes.
 #include <algorithm>
 #include <chrono>
 #include <string>
@@ -39,7 +39,9 @@ void act_in_one_picture(const Desk& desk, const WindowProgram& viewer, const std
     viewer.go_on();
 }
 
-// The place of a list in the window as it starts, 1280 x 800.
+// The places of buttons in the window as it starts, 1280 x 800.
+constexpr const char* kPlayTool = "mousemove 23 338 click 1";
+constexpr const char* kRulerTool = "mousemove 23 467 click 1";
 constexpr const char* kCleaningList = "mousemove 1150 285 click 1";
 
 }  // namespace
@@ -104,4 +106,24 @@ TEST_CASE("an open list takes the keys, and Esc closes it", "[clicks]") {
     viewer.wait_for_turn();
     viewer.act("key i");
     CHECK(viewer.seen().statistics);
+}
+
+TEST_CASE("the toolbar's pictures do what their keys do, and hide with the panels", "[clicks]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    WindowProgram viewer = desk.start_viewer(folder, {"--device", "mouse", "--pause"});
+    viewer.wait_for_surface();
+    viewer.act(kPlayTool);
+    viewer.wait_until([](const Seen& now) { return now.playing; });
+    viewer.act(kPlayTool);
+    viewer.wait_until([](const Seen& now) { return !now.playing; });
+    viewer.act(kRulerTool);
+    viewer.wait_until([](const Seen& now) { return now.ruler; });
+    viewer.act(kRulerTool);
+    viewer.wait_until([](const Seen& now) { return !now.ruler; });
+    CHECK_FALSE(viewer.seen().contact);
+    viewer.act("key Tab");
+    viewer.act(kRulerTool);
+    viewer.wait_for_turn();
+    CHECK_FALSE(viewer.seen().ruler);
 }
