@@ -37,7 +37,7 @@ struct MouseHandOptions {
     double first_px{4.0};         ///< depth of the anchor when the button goes down
     double press_px_per_s{60.0};  ///< how fast the anchor sinks while the button is held
     double deepest_px{40.0};      ///< its greatest depth; the wheel adds to it
-    double mass_kg{0.2};          ///< with the stiffness: 1/w = 20 ms, the cursor leads by 40 ms
+    double mass_kg{0.17};         ///< with the stiffness: 1/w = 18 ms, the cursor leads by 37 ms
     double hand_stiffness_newton_per_mm{0.5};
     double damping_ratio{1.0};  ///< 1: critical
     /// Below the 10 m/s at which the safety stage takes a motion for a jump of the goal.

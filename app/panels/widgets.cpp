@@ -307,8 +307,13 @@ void place_next_tooltip() {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float widest =
         kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+    const float right = window.x + ImGui::GetWindowWidth() + gap;
     // Shifted by its place on the display, so that the tooltip stays inside.
-    if (window.x > widest + gap) {
+    if (right < 0.25F * display.x) {  // of a narrow window at the left
+        const float y = ImGui::GetItemRectMin().y;
+        ImGui::SetNextWindowPos({right, y}, ImGuiCond_Always,
+                                {0.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
+    } else if (window.x > widest + gap) {
         const float y = ImGui::GetItemRectMin().y;
         ImGui::SetNextWindowPos({window.x - gap, y}, ImGuiCond_Always,
                                 {1.0F, std::clamp(y / display.y, 0.0F, 1.0F)});

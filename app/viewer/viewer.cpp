@@ -269,6 +269,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     lay_out_panels(input.keys, read);
     if (!change_.take({scene, gui_.content()}, now) && !wanted) return false;
     scene_.draw(content, camera, viewport);
+    follow_pointer();
     if (of_relief) deliver_picture(PictureOf::relief, read_framebuffer(viewport));
     beat();
     gui_.draw();
