@@ -125,7 +125,9 @@ void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour
             draw_folder(list, centre, r, colour);
             break;
         case Icon::record:
-            list.AddCircleFilled(centre, r * 0.9F, IM_COL32(226, 60, 52, 255), 24);
+            // Not red: red says that a recording runs.
+            list.AddCircle(centre, r, colour, 24, std::max(1.2F, r * 0.18F));
+            list.AddCircleFilled(centre, r * 0.6F, colour, 24);
             break;
         case Icon::explain:
             draw_magnifier(list, centre, r, colour);
