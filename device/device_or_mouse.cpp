@@ -30,6 +30,7 @@ HandReading DeviceOrMouse::read(const HandContext& context) noexcept {
         if (devices_[k]) readings_[k] = devices_[k]->read(context);
     }
     const std::size_t before = std::exchange(touching_, next_hand());
+    if (touching_ == kMouse && touching_ != before) mouse_.forget_clicks();
     HandReading reading =
         touching_ == kMouse ? of_mouse(mouse_.read(context)) : readings_[touching_ - 1];
     reading.device_number = static_cast<std::uint8_t>(touching_);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace dibhr {
 
@@ -18,6 +19,22 @@ constexpr double kBeyondFrame_px = 40.0;  // how far a pressing hand may leave t
 constexpr int kLookAhead = 8;             // places checked between a hovering hand and the cursor
 constexpr double kStill_px = 0.01;        // from its anchor, a hand that rests
 constexpr double kStill_px_per_s = 0.1;   // likewise
+
+// A click.
+constexpr double kLeastFelt_s = 0.020;  // a press is felt after so long below the surface
+constexpr double kLongestTap_s = 0.5;   // a press that cannot be felt, as over a hole, ends then
+constexpr double kLongestLifting_s =
+    0.3;                                // a hand that cannot leave the surface presses again then
+constexpr double kLongestWay_s = 0.15;  // a drag to the place of a click, which a force may stop
+
+// A climb.
+constexpr double kStopped_s = 0.010;       // a proxy that stands so long at a wall is stopped
+constexpr double kStands_px_per_s = 20.0;  // slower than this it stands
+constexpr double kLeastAhead_px = 2.0;     // how far the goal of a stopped proxy is ahead
+constexpr double kWallWithin_px = 4.0;     // the wall is so near to the proxy that it stops
+constexpr double kLeastRise_px = 4.0;  // lower walls are texture; of slopes of 45 degrees or more
+constexpr double kOver_px = 1.0;       // a climb ends so high above the surface
+constexpr int kMostPlaces = 64;        // looked at on the way to the goal
 
 bool sensible(const MouseTarget& target) noexcept {
     return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
@@ -49,8 +66,9 @@ MouseHand::MouseHand(MouseHandOptions options) : options_(options), depth_px_(-o
 
 HandReading MouseHand::read(const HandContext& context) noexcept {
     const double dt_s = context.dt_s > 0.0 ? std::min(context.dt_s, kLongestTick_s) : 0.0;
-    take_target(context.surface);
+    take_target(context.surface, dt_s);
     press(dt_s);
+    look_ahead(context, dt_s);
     const Vec3 anchor = anchor_in_grid(context.surface);
     if (!placed_) {
         position_in_grid_ = anchor;
@@ -59,16 +77,20 @@ HandReading MouseHand::read(const HandContext& context) noexcept {
     const Vec3 before = position_in_grid_;
     move(anchor, dt_s, context.pixel_pitch_mm);
     if (!pressing_) keep_clear_of_cliffs(context.surface, before);
-    resting_ = !valid_target_.pressed && glm::length(velocity_px_per_s_) < kStill_px_per_s &&
+    climb(context, before.z, dt_s);
+    const bool above = is_above(context.surface);
+    if (pressing_ && !above) felt_s_ += dt_s;
+    resting_ = !valid_target_.pressed && !next_click_ && clicks_.size() == 0 &&
+               glm::length(velocity_px_per_s_) < kStill_px_per_s &&
                glm::distance(position_in_grid_, anchor) < kStill_px;
 
     HandReading reading;
     reading.goal_in_grid = position_in_grid_;
     reading.buttons = valid_target_.pressed ? 1 : 0;
-    // The cursor may leave the surface on a path that no proxy can follow, as from under a chin.
-    reading.lifted =
-        !pressing_ && position_in_grid_.z >
-                          context.surface.elevation_at(position_in_grid_.x, position_in_grid_.y);
+    // The cursor may leave the surface on a path that no proxy can follow, as from under a chin or
+    // up a wall.
+    reading.lifted = above && (!pressing_ || climb_);
+    reading.harmless = true;
     return reading;
 }
 
@@ -76,18 +98,58 @@ void MouseHand::send(Vec3 force_newton) noexcept {
     force_newton_ = is_finite(force_newton) ? force_newton : Vec3{0.0};
 }
 
-void MouseHand::take_target(const DepthSurface& surface) noexcept {
+void MouseHand::take_target(const DepthSurface& surface, double dt_s) noexcept {
+    button_s_ += dt_s;
+    on_the_way_s_ -= dt_s;
     const MouseTarget& newest = target_.front();
-    if (sensible(newest)) valid_target_ = newest;
+    MouseClick click;
+    if (!next_click_ && clicks_.pop(click)) {
+        next_click_ = click;
+        const double way = glm::distance(click.cursor_in_grid, valid_target_.cursor_in_grid);
+        on_the_way_s_ = way > kReached_px ? kLongestWay_s : 0.0;
+    }
+    if (next_click_) {
+        valid_target_.cursor_in_grid = next_click_->cursor_in_grid;
+        valid_target_.pointing = true;
+        if (may_take(*next_click_, surface)) {
+            valid_target_.pressed = next_click_->pressed;
+            button_s_ = felt_s_ = 0.0;
+            ++clicks_taken_;
+            next_click_.reset();
+        }
+    } else if (newest.clicks == clicks_taken_ && sensible(newest)) {
+        if (newest.pressed != valid_target_.pressed) button_s_ = felt_s_ = 0.0;
+        valid_target_ = newest;
+    }
     const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, 0.0);
     const bool reached = glm::distance(cursor, Vec2(position_in_grid_)) <= kReached_px;
     pressing_ = valid_target_.pointing && valid_target_.pressed && (pressing_ || reached);
 }
 
+/// Whether the button may go up or down now: each press is felt, and as long as it was; between two
+/// of them the hand leaves the surface.
+bool MouseHand::may_take(const MouseClick& click, const DepthSurface& surface) const noexcept {
+    if (click.pressed == valid_target_.pressed) return true;
+    if (click.pressed) return is_above(surface) || button_s_ > kLongestLifting_s;
+    const bool there = on_the_way_s_ <= 0.0 ||
+                       glm::distance(click.cursor_in_grid, Vec2(position_in_grid_)) <= kReached_px;
+    const bool felt = felt_s_ >= kLeastFelt_s || button_s_ > kLongestTap_s;
+    return there && felt && button_s_ >= click.after_s;
+}
+
+void MouseHand::forget_clicks() noexcept {
+    for (MouseClick click; clicks_.pop(click);) ++clicks_taken_;
+    if (next_click_) ++clicks_taken_;
+    next_click_.reset();
+    valid_target_.pressed = false;
+}
+
 void MouseHand::press(double dt_s) noexcept {
-    depth_px_ = pressing_
-                    ? std::min(depth_px_ + options_.press_px_per_s * dt_s, options_.deepest_px)
-                    : -options_.hover_px;
+    depth_px_ =
+        pressing_
+            ? std::min(std::max(depth_px_, options_.first_px) + options_.press_px_per_s * dt_s,
+                       options_.deepest_px)
+            : -options_.hover_px;
 }
 
 Vec3 MouseHand::anchor_in_grid(const DepthSurface& surface) const noexcept {
@@ -99,7 +161,9 @@ Vec3 MouseHand::anchor_in_grid(const DepthSurface& surface) const noexcept {
     if (pressing_) {
         const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, kBeyondFrame_px);
         const double depth = depth_px_ + std::clamp(valid_target_.wheel_px, 0.0, kMostWheel_px);
-        return {cursor, surface.elevation_at(hand.x, hand.y) - depth};
+        const double below = surface.elevation_at(hand.x, hand.y);
+        // Behind an edge the hand waits for the proxy: pressed down, it would hold it there.
+        return {cursor, (over_edge_ ? std::max(contact_->z, below) : below) - depth};
     }
     const Vec2 cursor = within_frame(valid_target_.cursor_in_grid, surface, 0.0);
     const double highest = std::max(highest_between(surface, hand, cursor), obstacle_px_);
@@ -125,6 +189,56 @@ void MouseHand::move(Vec3 anchor, double dt_s, double pixel_pitch_mm) noexcept {
     const double speed = glm::length(velocity_px_per_s_);
     if (speed > fastest) velocity_px_per_s_ *= fastest / speed;
     position_in_grid_ += dt_s * velocity_px_per_s_;
+}
+
+/// What lies between the proxy and the hand.
+MouseHand::Way MouseHand::way_to_hand(const HandContext& context) const noexcept {
+    const Vec2 proxy{*context.contact};
+    const Vec2 ahead = Vec2(position_in_grid_) - proxy;
+    Way way{.length_px = glm::length(ahead)};
+    if (way.length_px < kLeastAhead_px) return way;
+    way.moved_px = glm::dot(proxy - Vec2(*contact_), ahead) / way.length_px;
+    const double step = std::max(1.0, way.length_px / kMostPlaces);
+    double last = context.surface.elevation_at(proxy.x, proxy.y);
+    for (double at = step; at <= way.length_px; at += step) {
+        const Vec2 place = proxy + ahead * (at / way.length_px);
+        const double here = context.surface.elevation_at(place.x, place.y);
+        way.begins_steep = way.begins_steep || (at - step < kWallWithin_px && here - last > step);
+        way.falls = way.falls || last - here > step + kLeastRise_px;
+        way.top_px = std::max(way.top_px, here);
+        last = here;
+    }
+    return way;
+}
+
+/// Looks at the way from the proxy to the hand, and counts how long a wall has stopped the proxy.
+void MouseHand::look_ahead(const HandContext& context, double dt_s) noexcept {
+    const bool touches = pressing_ && contact_ && context.contact;
+    const Way way = touches ? way_to_hand(context) : Way{};
+    over_edge_ = way.falls && !way.begins_steep;
+    const bool stopped = way.begins_steep && way.moved_px < kStands_px_per_s * dt_s &&
+                         way.top_px > context.contact->z + kLeastRise_px;
+    stopped_s_ = stopped ? stopped_s_ + dt_s : 0.0;
+    contact_ = context.contact;
+}
+
+/// Lifts the hand over the surface below it, where a wall has stopped the proxy. The contact is
+/// released in the tick that ends above the surface; after that the hand presses again.
+void MouseHand::climb(const HandContext& context, double before_px, double dt_s) noexcept {
+    if (!pressing_ || !contact_) climb_.reset();
+    if (!pressing_ || !(context.pixel_pitch_mm > 0.0)) return;
+    if (!climb_ && stopped_s_ < kStopped_s) return;
+    if (!climb_) climb_ = Climb{before_px, before_px, before_px};
+    const double here = context.surface.elevation_at(position_in_grid_.x, position_in_grid_.y);
+    climb_->to_px = std::max(climb_->to_px, here + kOver_px);
+    climb_->age_s += dt_s;
+    const double share = std::min(climb_->age_s / kClimb_s, 1.0);
+    const double rise = share * share * (3.0 - 2.0 * share);  // soft at both ends
+    const double wanted = climb_->from_px + (climb_->to_px - climb_->from_px) * rise;
+    const double fastest = options_.max_speed_mm_per_s / context.pixel_pitch_mm * dt_s;
+    climb_->at_px = std::clamp(wanted, climb_->at_px, climb_->at_px + fastest);
+    position_in_grid_.z = climb_->at_px;
+    velocity_px_per_s_.z = 0.0;
 }
 
 // Holds the hand beside a place that is still too high to pass over, while the spring lifts it. The

@@ -125,7 +125,7 @@ void ShaderProgram::set(const char* name, const glm::mat4& value) const {
 }
 
 void wait_for_drawing(const std::function<bool()>& go_on) {
-    constexpr GLuint64 kStep_ns = 20'000'000;
+    constexpr GLuint64 kStep_ns = 5'000'000;
     const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     while (glClientWaitSync(fence, GL_SYNC_FLUSH_COMMANDS_BIT, kStep_ns) == GL_TIMEOUT_EXPIRED &&
            go_on()) {

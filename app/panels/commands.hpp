@@ -85,16 +85,15 @@ Overloaded(Visit...) -> Overloaded<Visit...>;
 
 class CommandQueue {
   public:
-    /// A command replaces a queued one of its kind (of an Action: the same Action). But each
-    /// MarkMoment is kept.
+    /// A command replaces a queued one of its kind. But each Action and each MarkMoment is kept: of
+    /// two quick presses of a key none is lost.
     void push(WindowCommand command) {
-        const auto again = [&command](const WindowCommand& queued) {
-            if (queued.index() != command.index()) return false;
-            const Action* const action = std::get_if<Action>(&command);
-            return action == nullptr || *action == std::get<Action>(queued);
-        };
-        const auto same = std::find_if(queue_.begin(), queue_.end(), again);
-        if (same == queue_.end() || std::holds_alternative<MarkMoment>(command))
+        const bool each =
+            std::holds_alternative<Action>(command) || std::holds_alternative<MarkMoment>(command);
+        const auto same = std::find_if(
+            queue_.begin(), queue_.end(),
+            [&command](const WindowCommand& queued) { return queued.index() == command.index(); });
+        if (each || same == queue_.end())
             queue_.push_back(std::move(command));
         else
             *same = std::move(command);

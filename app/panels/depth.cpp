@@ -178,7 +178,10 @@ bool has_assumed(const DepthMeaning& meaning) {
 
 /// The longest text that fits into `room` [px].
 std::string depth_line(const DepthMeaning& meaning, float room) {
-    const std::string whole = "Depth: " + in_words(meaning);
+    const bool relative =
+        meaning.unit.value == DepthUnit::levels || meaning.unit.value == DepthUnit::disparity;
+    const std::string whole =
+        relative ? "Depth: nearer and farther, without a unit" : "Depth: " + in_words(meaning);
     std::vector<std::string> lines;
     if (has_assumed(meaning)) {
         lines = {whole + " (assumed: click to change)", whole + " (assumed)",
@@ -259,7 +262,8 @@ void draw_depth_line(ViewerState& state) {
     if (!state.media.meaning) return;
     const std::string line = depth_line(*state.media.meaning, ImGui::GetContentRegionAvail().x);
     ImGui::TextDisabled("%s", line.c_str());
-    add_tooltip("What the depth's levels mean; click to change it");
+    add_tooltip((in_words(*state.media.meaning) + "; click to change what the depth's levels mean")
+                    .c_str());
     if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     if (ImGui::IsItemClicked()) ImGui::OpenPopup(kRowsPopup);
     ImGui::SetNextWindowSize({ImGui::GetFontSize() * 24.0F, 0.0F});

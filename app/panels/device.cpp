@@ -1,6 +1,7 @@
 // The Device panel: the devices, the state of the touch, and the switch of the force.
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,38 +36,42 @@ std::string state_text(const ViewerState& state) {
 /// Text, colour and help of the force switch.
 struct ForceSwitch {
     const char* text;
-    ImVec4 ground;
+    std::optional<ImVec4> ground;  ///< nothing: as other buttons
     std::string help;
 };
 
 ForceSwitch force_switch(const ViewerState& state) {
     const std::string key = state.keys.in_brackets(Action::toggle_force);
     if (!state.touch.force_enabled) {
-        return {"Force is OFF###force",
-                {0.46F, 0.22F, 0.16F, 1.0F},
+        return {"Force is OFF###force", ImVec4{0.46F, 0.22F, 0.16F, 1.0F},
                 "Switch the force on again; it rises slowly" + key};
     }
     if (waits_for_front(state.settings, state.touch)) {
-        return {"Force waits###force",
-                {0.44F, 0.35F, 0.12F, 1.0F},
+        return {"Force waits###force", ImVec4{0.44F, 0.35F, 0.12F, 1.0F},
                 "The force rises again when this window is in front. Click to switch it off" + key};
     }
-    return {"Force is ON###force", {0.14F, 0.38F, 0.33F, 1.0F}, "Switch the force off" + key};
+    // A mouse has no motors, of which people should be warned.
+    if (!may_touch(state.touch)) {
+        return {"Force on###force", {}, "Switch the force that the arrow shows off" + key};
+    }
+    return {"Force is ON###force", ImVec4{0.14F, 0.38F, 0.33F, 1.0F}, "Switch the force off" + key};
 }
 
 }  // namespace
 
 void draw_force_switch(ViewerState& state, float width) {
     const ForceSwitch shown = force_switch(state);
-    const ImVec4& ground = shown.ground;
-    const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0F, 1.0F, 1.0F, 1.0F));  // in every theme
-    ImGui::PushStyleColor(ImGuiCol_Button, ground);
-    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
-    ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
+    if (shown.ground) {
+        const ImVec4& ground = *shown.ground;
+        const ImVec4 raised{ground.x * 1.2F, ground.y * 1.2F, ground.z * 1.2F, 1.0F};
+        ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1.0F, 1.0F, 1.0F, 1.0F));  // in every theme
+        ImGui::PushStyleColor(ImGuiCol_Button, ground);
+        ImGui::PushStyleColor(ImGuiCol_ButtonHovered, raised);
+        ImGui::PushStyleColor(ImGuiCol_ButtonActive, raised);
+    }
     bool& on = state.touch.force_enabled;
     if (ImGui::Button(shown.text, {width, 0.0F})) on = !on;
-    ImGui::PopStyleColor(4);
+    if (shown.ground) ImGui::PopStyleColor(4);
     add_tooltip(shown.help.c_str());
 }
 

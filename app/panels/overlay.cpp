@@ -13,6 +13,7 @@
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
+#include "app/touching/device_state.hpp"
 #include "app/touching/force_law.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/plot/axes.hpp"
@@ -116,6 +117,17 @@ std::string position_text(const ViewerState& state) {
                    : ", frame " + std::to_string(video.frame + 1));
 }
 
+/// Whether the spring asks for more than may be sent: not while the force only rises.
+bool is_limited(const ViewerState& state) {
+    constexpr double kNearly = 0.999;
+    const Touch& touch = state.touch.haptic.touch;
+    const double most =
+        std::min(state.settings.max_force_newton, limits_of_hand(state.touch).max_force_newton);
+    return glm::length(touch.spring_force_newton) > most &&
+           glm::length(touch.sent_force_newton) > kNearly * most;
+}
+
+/// In words; with a device, in a replay and beside the statistics also in numbers.
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
     if (!state.touch.replay && !state.touch.force_enabled) return "Force off";
@@ -128,11 +140,12 @@ std::string touch_text(const ViewerState& state) {
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return "Free";
+    const bool in_numbers = state.ui.statistics || state.touch.replay || may_touch(state.touch);
+    if (!in_numbers) return "Touching";
     const Vec3& f = haptic.touch.sent_force_newton;
-    const bool limited = glm::length(haptic.touch.spring_force_newton) > 1.001 * glm::length(f);
     return formatted("Touching   %.2f N%s   (%s, %s, %s)", glm::length(f),
-                     limited ? ", limited" : "", decimal(f.x, 2).c_str(), decimal(f.y, 2).c_str(),
-                     decimal(f.z, 2).c_str());
+                     is_limited(state) ? ", limited" : "", decimal(f.x, 2).c_str(),
+                     decimal(f.y, 2).c_str(), decimal(f.z, 2).c_str());
 }
 
 /// The statistics, one line each.
@@ -330,7 +343,9 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
         low.y += draw_algorithms(side_by_side(state), low) + 0.3F * ImGui::GetFrameHeight();
     if (state.ui.statistics) add(statistics_text(state));
     if (state.ui.ruler && !state.ui.explained) add(ruler_text(state));
-    if (state.ui.under_pointer && !state.ui.explained) add(pointer_text(state, widest));
+    const bool inspects = state.ui.statistics || state.ui.ruler || shows_panes(state) ||
+                          depth_colours(state.settings.relief_style.paint);
+    if (inspects && state.ui.under_pointer && !state.ui.explained) add(pointer_text(state, widest));
     if (state.touch.catching_up) add("Catching up");
 }
 

@@ -55,6 +55,11 @@ void draw_replay_panel(ViewerState& state, Transport& replay);
 void draw_panel_column(ViewerState& state, Transport& transport);
 [[nodiscard]] float panel_column_width(const ViewerState& state);
 
+/// Seven buttons with pictures at the left edge of the relief: open, play, record, explain, paint,
+/// measure, save a clip. Hidden with the panels, while an update is explained, and where there is
+/// no room.
+void draw_toolbar(ViewerState& state);
+
 /// The height of the bar under the relief [px].
 [[nodiscard]] float bottom_bar_height(const ViewerState& state);
 /// The bar under the relief: play, time line, time and frame, force switch; in a replay, contacts

@@ -9,7 +9,6 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
-#include <numbers>
 #include <string>
 #include <utility>
 #include <variant>
@@ -60,64 +59,6 @@ bool restore_arrow(bool changed) {
         return false;
     }
     return icon_button("put back", Icon::restore, "Back to the default");
-}
-
-void draw_restore(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
-    constexpr float kPi = std::numbers::pi_v<float>;
-    list.PathArcTo(centre, r, -0.75F * kPi, 0.9F * kPi, 20);
-    list.PathStroke(colour, 0, std::max(1.5F, r * 0.28F));
-    const ImVec2 tip{centre.x + r * std::cos(-0.75F * kPi), centre.y + r * std::sin(-0.75F * kPi)};
-    list.AddTriangleFilled({tip.x - r * 0.6F, tip.y + r * 0.5F},
-                           {tip.x - r * 0.5F, tip.y - r * 0.6F},
-                           {tip.x + r * 0.6F, tip.y + r * 0.3F}, colour);
-}
-
-void draw_loop(ImDrawList& list, ImVec2 centre, float r, ImU32 colour) {
-    const float thick = std::max(1.5F, r * 0.25F);
-    const ImVec2 low{centre.x - r, centre.y - r * 0.55F};
-    const ImVec2 high{centre.x + r, centre.y + r * 0.65F};
-    list.AddRect(low, high, colour, r * 0.5F, 0, thick);
-    list.AddTriangleFilled({centre.x - r * 0.35F, low.y - r * 0.55F},
-                           {centre.x - r * 0.35F, low.y + r * 0.55F}, {centre.x + r * 0.45F, low.y},
-                           colour);
-}
-
-void draw_step(ImDrawList& list, ImVec2 centre, float r, float way, ImU32 colour) {
-    list.AddTriangleFilled({centre.x - way * r * 0.8F, centre.y - r * 0.8F},
-                           {centre.x - way * r * 0.8F, centre.y + r * 0.8F},
-                           {centre.x + way * r * 0.4F, centre.y}, colour);
-    const float near = centre.x + way * r * 0.55F;
-    const float far = centre.x + way * r * 0.85F;
-    list.AddRectFilled({std::min(near, far), centre.y - r * 0.8F},
-                       {std::max(near, far), centre.y + r * 0.8F}, colour);
-}
-
-void draw_icon(ImDrawList& list, Icon icon, ImVec2 centre, float r, ImU32 colour) {
-    switch (icon) {
-        case Icon::play:
-            list.AddTriangleFilled({centre.x - r * 0.6F, centre.y - r},
-                                   {centre.x - r * 0.6F, centre.y + r}, {centre.x + r, centre.y},
-                                   colour);
-            break;
-        case Icon::pause:
-            list.AddRectFilled({centre.x - r * 0.75F, centre.y - r * 0.9F},
-                               {centre.x - r * 0.2F, centre.y + r * 0.9F}, colour);
-            list.AddRectFilled({centre.x + r * 0.2F, centre.y - r * 0.9F},
-                               {centre.x + r * 0.75F, centre.y + r * 0.9F}, colour);
-            break;
-        case Icon::step_back:
-            draw_step(list, centre, r, -1.0F, colour);
-            break;
-        case Icon::step_forward:
-            draw_step(list, centre, r, 1.0F, colour);
-            break;
-        case Icon::loop:
-            draw_loop(list, centre, r, colour);
-            break;
-        case Icon::restore:
-            draw_restore(list, centre, r * 0.8F, colour);
-            break;
-    }
 }
 
 /// The name, shortened in its middle if it needs more than two lines of that width.
@@ -366,8 +307,13 @@ void place_next_tooltip() {
     const float gap = ImGui::GetStyle().ItemSpacing.x;
     const float widest =
         kTooltip_em * ImGui::GetFontSize() + 2.0F * ImGui::GetStyle().WindowPadding.x;
+    const float right = window.x + ImGui::GetWindowWidth() + gap;
     // Shifted by its place on the display, so that the tooltip stays inside.
-    if (window.x > widest + gap) {
+    if (right < 0.25F * display.x) {  // of a narrow window at the left
+        const float y = ImGui::GetItemRectMin().y;
+        ImGui::SetNextWindowPos({right, y}, ImGuiCond_Always,
+                                {0.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
+    } else if (window.x > widest + gap) {
         const float y = ImGui::GetItemRectMin().y;
         ImGui::SetNextWindowPos({window.x - gap, y}, ImGuiCond_Always,
                                 {1.0F, std::clamp(y / display.y, 0.0F, 1.0F)});
@@ -439,8 +385,8 @@ bool subsection(const char* title) {
         title, ImGuiTreeNodeFlags_SpanAvailWidth | ImGuiTreeNodeFlags_NoTreePushOnOpen);
 }
 
-bool icon_button(const char* id, Icon icon, const char* help, bool lit) {
-    const float side = ImGui::GetFrameHeight();
+bool icon_button(const char* id, Icon icon, const char* help, bool lit, float times) {
+    const float side = std::round(times * ImGui::GetFrameHeight());
     ImGui::PushID(id);
     const ImVec4 clear{0.0F, 0.0F, 0.0F, 0.0F};
     ImGui::PushStyleColor(ImGuiCol_Button, lit ? ImGui::GetStyleColorVec4(ImGuiCol_Button) : clear);

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "app/panels/icons.hpp"
 #include "app/panels/viewer_state.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/video/playing/transport.hpp"
@@ -143,10 +144,9 @@ void draw_warning(const std::string& text);
 /// A collapsible part of a section; true if it is open. Its rows are not indented.
 bool subsection(const char* title);
 
-enum class Icon { play, pause, step_back, step_forward, loop, restore };
-
-/// A square button with a drawn icon and a tooltip. `lit`: its function is on.
-bool icon_button(const char* id, Icon icon, const char* help, bool lit = false);
+/// A square button with a drawn icon and a tooltip. `lit`: its function is on. `times`: its side,
+/// as a multiple of a row's height.
+bool icon_button(const char* id, Icon icon, const char* help, bool lit = false, float times = 1.0F);
 
 /// The check box whether files are opened by the desktop's dialog.
 void desktop_dialog_box(OpenWith& with);

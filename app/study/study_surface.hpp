@@ -2,6 +2,7 @@
 // trial.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -48,7 +49,9 @@ class StudySurface {
         return (touch_.haptic.hand.buttons >> button & 1) != 0;
     }
     /// Moves the virtual hand to where the mouse points.
-    void point(const Camera::Ray& ray, const PointerUse& use) { session_.point(ray, shown_, use); }
+    void point(const Camera::Ray& ray, const PointerUse& use) {
+        session_.point(ray, shown_, use, std::chrono::steady_clock::now());
+    }
 
     [[nodiscard]] const Settings& settings() const noexcept { return settings_; }
     [[nodiscard]] const TouchState& touch() const noexcept { return touch_; }

@@ -234,13 +234,21 @@ DepthBlend TouchSession::frames_now() {
     return frames.at(frames.clock.playback_s(steady_clock::now()));
 }
 
-void TouchSession::point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use) {
+void TouchSession::point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use,
+                         steady_clock::time_point at) {
     const TouchState& touch = state_.touch;
     if (touch.replay || hand_.mouse == nullptr || !shown.makes_surface()) return;
     use.pressed = use.pressed && by_mouse();
     const SurfaceShape& shape = touch.shape(state_.settings.touch);
     const DepthSurface surface = shown.surface(shape, touch.bump.get());
-    hand_.mouse->target().publish(pointer_.target(ray, surface, use));
+    MouseTarget target = pointer_.target(ray, surface, use);
+    if (std::exchange(clicked_, target.pressed) != target.pressed) {
+        const double after_s =
+            std::chrono::duration<double>(at - std::exchange(clicked_at_, at)).count();
+        if (hand_.mouse->clicks().push({target.cursor_in_grid, target.pressed, after_s})) ++clicks_;
+    }
+    target.clicks = clicks_;
+    hand_.mouse->target().publish(target);
 }
 
 bool TouchSession::by_mouse() const noexcept {

@@ -72,7 +72,9 @@ class TouchSession {
     [[nodiscard]] DepthBlend frames_now();
 
     /// Moves the virtual hand to where the mouse points. It presses only while no device touches.
-    void point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use);
+    /// `at`: when it did; the ring's clicks follow from `use`.
+    void point(const Camera::Ray& ray, const DepthBlend& shown, PointerUse use,
+               std::chrono::steady_clock::time_point at);
     /// Whether the mouse is the hand: no device touches.
     [[nodiscard]] bool by_mouse() const noexcept;
 
@@ -102,6 +104,9 @@ class TouchSession {
     HandDevice hand_;
     std::vector<DeviceClient> devices_{};  // in the order of touch.devices
     HandPointer pointer_{};
+    bool clicked_{false};  // the button is down, as of the last click
+    std::chrono::steady_clock::time_point clicked_at_{};
+    std::uint64_t clicks_{0};  // pushed to the mouse's hand
     std::uint32_t media_number_{0};
     HapticSettings published_{};
     std::uint64_t recording_ended_at_{0};  // count of the loop's ticks when the end was published

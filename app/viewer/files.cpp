@@ -159,11 +159,15 @@ std::optional<OpenRequest> dropped_request(const std::vector<fs::path>& files) {
     return request;
 }
 
-fs::path remembered_file(const MediaDescription& media) try {
+bool is_sample(const fs::path& file) try {
+    return file == sample_files().colour;
+} catch (const InputError&) {  // it is not installed
+    return false;
+}
+
+fs::path remembered_file(const MediaDescription& media) {
     const fs::path& file = media.colour_path.empty() ? media.depth_path : media.colour_path;
-    return file == sample_files().colour ? fs::path{} : file;
-} catch (const InputError&) {  // the sample is not installed
-    return media.colour_path;
+    return is_sample(file) ? fs::path{} : file;
 }
 
 FileMemory memory_of(const Media& media) {

@@ -94,6 +94,8 @@ struct OpenResult {
     bool lacks_depth{false};  ///< the failed file has colour only
 };
 
+/// Whether that is the colour file of the built-in sample.
+[[nodiscard]] bool is_sample(const std::filesystem::path& file);
 /// The file for which view and relief are saved: colour, where there is a pair; empty for the
 /// built-in sample, which always opens unchanged.
 [[nodiscard]] std::filesystem::path remembered_file(const MediaDescription& media);

@@ -127,7 +127,7 @@ void Viewer::run() {
 
 /// After a picture: as long as until the next one. Else: for input, frames, or the next turn.
 void Viewer::wait_for_turn(Turn last) {
-    if (last.drawn) return pace_.wait();
+    if (last.drawn) return pace_.wait([this] { follow_pointer(); });
     if (last.input) std::this_thread::sleep_for(kAfterInput);
     window_.wait_for_input(change_.pause(may_touch(state_.touch), steady_clock::now()));
 }
@@ -213,8 +213,7 @@ Viewer::Turn Viewer::take_turn() {
     take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
-    const glm::ivec2 viewport = relief_viewport();
-    move_hand(input, viewport);
+    move_hand(input);
     const bool drawn = draw_if_changed(input);
     carry_out_commands();
     show_recording_trouble();  // a command may have ended it
@@ -222,7 +221,12 @@ Viewer::Turn Viewer::take_turn() {
     keep_settings();
     log_messages();
     if (drawn) {
-        if (software_) beat_while_drawing([this] { beat(); });
+        if (software_) {
+            beat_while_drawing([this] {
+                beat();
+                follow_pointer();
+            });
+        }
         window_.show_picture();
         require_graphics();
         beat();
@@ -265,6 +269,7 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     lay_out_panels(input.keys, read);
     if (!change_.take({scene, gui_.content()}, now) && !wanted) return false;
     scene_.draw(content, camera, viewport);
+    follow_pointer();
     if (of_relief) deliver_picture(PictureOf::relief, read_framebuffer(viewport));
     beat();
     gui_.draw();
@@ -349,6 +354,7 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     draw_brush(state_, clip_from_grid);
     if (state_.settings.panels_visible) draw_panel_column(state_, transport());
     draw_bottom_bar(state_, transport());
+    draw_toolbar(state_);
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
@@ -477,10 +483,7 @@ bool Viewer::played_to_the_end() const {
     const PlayState at = state_.play_state();
     if (at.playing || at.looping) return false;
     if (state_.touch.replay) return at.now_s >= at.last_s();
-    const PlaybackStatus& video = state_.media.playback;
-    if (!video.open || state_.media.still || !(video.frames_per_s > 0.0)) return false;
-    constexpr double kFramesBefore = 1.5;  // the last one is shown
-    return at.now_s + kFramesBefore / video.frames_per_s >= at.last_s();
+    return state_.media.playback.ended && !state_.media.still;
 }
 
 glm::ivec2 Viewer::relief_viewport() const {

@@ -152,7 +152,9 @@ class Viewer {
     void take_dropped(const std::vector<std::filesystem::path>& files);
     [[nodiscard]] Answer open_by_dialog();
     void take_desktop_answer();
-    void move_hand(const WindowInput& input, glm::ivec2 viewport);
+    void move_hand(const WindowInput& input);
+    void follow_pointer();
+    void use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at);
     [[nodiscard]] SceneContent prepare_scene();
     [[nodiscard]] SceneMark mark_scene(SceneContent content, glm::ivec2 viewport) const;
     [[nodiscard]] bool draw_if_changed(const WindowInput& input);

@@ -88,6 +88,7 @@ void Viewer::start_or_stop_recording() {
         show_notice(recording.stop());
     } else if (recording.finishing()) {
         show_notice("Still finishing the last recording");
+        state_.commands.push(Action::record);  // begins after it
     } else if (!touch_.may_record()) {
         state_.commands.push(Action::record);  // try again after the next picture
     } else {

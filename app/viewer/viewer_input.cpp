@@ -1,5 +1,6 @@
 // Keys and mouse: what the viewer does at once.
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +9,8 @@
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
+
+using std::chrono::steady_clock;
 
 void Viewer::take_keys(const WindowInput& input) {
     // With the dialog open keys are text, even before its field has the keyboard; with a question
@@ -127,13 +130,29 @@ void Viewer::perform(Action action) {
     state_.ui.notice_shows_position = answer->place;
 }
 
-void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
+/// All clicks since the last picture, in their order, and then the pointer as it is now.
+void Viewer::move_hand(const WindowInput& input) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
-    Pointer pointer = window_.pointer();
+    for (const PointerClick& click : input.clicks) use_pointer(click.pointer, 0.0, click.at);
+    use_pointer(window_.pointer(), input.wheel_steps, steady_clock::now());
+}
+
+/// Between two pictures: the hand follows the pointer however long a picture takes.
+void Viewer::follow_pointer() {
+    const auto clicks = window_.take_pointer();
+    if (!clicks) return;
+    for (const PointerClick& click : *clicks) use_pointer(click.pointer, 0.0, click.at);
+    use_pointer(window_.pointer(), 0.0, steady_clock::now());
+}
+
+/// `at`: when the pointer was so.
+void Viewer::use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at) {
+    const glm::ivec2 viewport = relief_viewport();
+    Pointer pointer = now;
+    const bool over_panel = gui_.covers(pointer.position_px);
     const auto on_panes = place_on_panes(state_, pointer.position_px);
     pointer.position_px.y -= panes_height(state_);  // the relief is below the panes
-    PointerUse use =
-        mouse_.use(pointer, input.wheel_steps, gui_.wants_pointer(), viewport, camera_);
+    PointerUse use = mouse_.use(pointer, wheel_steps, over_panel, viewport, camera_);
     pressed_deeper_ = pressed_deeper_ || (use.pressed && use.wheel_steps != 0.0);
     if (state_.touch.depth_in_question) use = {};  // the hand stays where it is
     pointed_at_.reset();
@@ -143,7 +162,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
     if (use.over_relief && (measures || paints || !use.pressed) && shown_.makes_surface())
         pointed_at_ =
             surface_under(ray, shown_.drawn_surface(state_.shape(), state_.touch.bump.get()));
-    if (on_panes && !gui_.wants_pointer() && !use.pressed) pointed_at_ = on_panes;
+    if (on_panes && !over_panel && !use.pressed) pointed_at_ = on_panes;
     if (paints) {
         paint(use);
         use.pressed = false;
@@ -151,7 +170,7 @@ void Viewer::move_hand(const WindowInput& input, glm::ivec2 viewport) {
         state_.ui.ruler->press(use.pressed, pointed_at_);
         use.pressed = false;
     }
-    touch_.point(ray, shown_, use);
+    touch_.point(ray, shown_, use, at);
 }
 
 /// Paints, and computes the ring that shows the brush.

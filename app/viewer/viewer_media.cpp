@@ -288,7 +288,9 @@ void Viewer::keep_recent(const RecentFile& opened) {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
-    const std::string name = is_live(file) ? public_name(file) : file.filename().string();
+    const std::string name = is_sample(file) ? "The sample: a woman waves"
+                             : is_live(file) ? public_name(file)
+                                             : file.filename().string();
     window_.set_title(name + " - dibhr");
 }
 

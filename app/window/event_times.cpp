@@ -30,9 +30,9 @@ void EventTimes::collect() {
         if (event->type == KeyPress)
             all.push_back(
                 {Kind::key, event->xkey.keycode, static_cast<std::uint32_t>(event->xkey.time)});
-        if (event->type == ButtonPress)
-            all.push_back({Kind::mouse_button, event->xbutton.button,
-                           static_cast<std::uint32_t>(event->xbutton.time)});
+        if (event->type == ButtonPress || event->type == ButtonRelease)
+            all.push_back({event->type == ButtonPress ? Kind::mouse_button : Kind::mouse_release,
+                           event->xbutton.button, static_cast<std::uint32_t>(event->xbutton.time)});
         return False;
     };
     XEvent none;

@@ -1,4 +1,4 @@
-// The times of key and mouse button presses, which GLFW does not pass on.
+// The times of key presses and of mouse buttons, which GLFW does not pass on.
 #pragma once
 
 #include <chrono>
@@ -7,11 +7,12 @@
 
 namespace dibhr {
 
-/// The X server's time stamps of the presses that wait to be polled.
+/// The X server's time stamps of the presses, and of the mouse buttons' releases, that wait to be
+/// polled.
 class EventTimes {
   public:
     using Time = std::chrono::steady_clock::time_point;
-    enum class Kind : std::uint8_t { key, mouse_button };
+    enum class Kind : std::uint8_t { key, mouse_button, mouse_release };
 
     struct Press {
         Kind kind{Kind::key};

@@ -297,8 +297,15 @@ std::string Gui::copied() const {
     return text != nullptr ? text : "";
 }
 
-bool Gui::wants_pointer() const {
-    return ImGui::GetIO().WantCaptureMouse;
+bool Gui::covers(glm::dvec2 place_px) const {
+    if (list_is_open()) return true;
+    const ImVec2 place(static_cast<float>(place_px.x), static_cast<float>(place_px.y));
+    const ImVector<ImGuiWindow*>& windows = ImGui::GetCurrentContext()->Windows;
+    return std::any_of(windows.begin(), windows.end(), [place](const ImGuiWindow* window) {
+        return window->Active && !window->Hidden &&
+               (window->Flags & ImGuiWindowFlags_NoMouseInputs) == 0 &&
+               window->OuterRectClipped.Contains(place);
+    });
 }
 
 bool Gui::wants_keyboard() const {

@@ -45,7 +45,8 @@ class Gui {
     /// slider.
     [[nodiscard]] bool in_use() const;
 
-    [[nodiscard]] bool wants_pointer() const;   ///< the cursor is over a panel or drags in one
+    /// A panel of the last picture is at that place of the window [px], or a list is open.
+    [[nodiscard]] bool covers(glm::dvec2 place_px) const;
     [[nodiscard]] bool wants_keyboard() const;  ///< a text field is being typed into
     [[nodiscard]] bool list_is_open() const;    ///< a list opened from a panel
     void close_lists();                         ///< in the next picture

@@ -32,8 +32,42 @@ void note_event(GLFWwindow* window) {
     input_of(window).any = true;
 }
 
-bool pressed(GLFWwindow* window, int button) {
-    return glfwGetMouseButton(window, button) == GLFW_PRESS;
+/// The state of a mouse button that dibhr uses; null: of another one.
+bool* button_of(Pointer& pointer, int button) {
+    switch (button) {
+        case GLFW_MOUSE_BUTTON_LEFT:
+            return &pointer.left;
+        case GLFW_MOUSE_BUTTON_MIDDLE:
+            return &pointer.middle;
+        case GLFW_MOUSE_BUTTON_RIGHT:
+            return &pointer.right;
+        default:
+            return nullptr;
+    }
+}
+
+/// From screen units to pixels of the framebuffer.
+Pointer in_pixels(Pointer pointer, const PendingInput& pending) {
+    pointer.position_px *=
+        glm::dvec2(pending.framebuffer_size) / glm::dvec2(glm::max(pending.window_size, 1));
+    return pointer;
+}
+
+void note_click(GLFWwindow* window, int button, bool down, int mods) {
+    PendingInput& all = pending_of(window);
+    bool* const state = button_of(all.pointer, button);
+    // The X server's numbers: 1 left, 2 middle, 3 right.
+    const unsigned code = button == GLFW_MOUSE_BUTTON_LEFT     ? 1
+                          : button == GLFW_MOUSE_BUTTON_MIDDLE ? 2
+                                                               : 3;
+    if (state == nullptr) return;
+    *state = down;
+    all.pointer.shift = (mods & GLFW_MOD_SHIFT) != 0;
+    all.pointer_moved = true;
+    const auto at =
+        all.times.of(down ? EventTimes::Kind::mouse_button : EventTimes::Kind::mouse_release, code);
+    all.input.clicks.push_back({in_pixels(all.pointer, all), at});
+    if (down && button == GLFW_MOUSE_BUTTON_LEFT) all.input.clicked_at = at;
 }
 
 bool key_down(GLFWwindow* window, int key) {
@@ -132,11 +166,10 @@ void Window::collect_events() {
         const KeyPress& by = pending_of(window).key;
         input_of(window).characters.push_back({character, by.repeated, by.shift, by.at});
     });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+    glfwGetCursorPos(window_, &pending_.pointer.position_px.x, &pending_.pointer.position_px.y);
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
         note_event(window);
-        if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
-        PendingInput& all = pending_of(window);
-        all.input.clicked_at = all.times.of(EventTimes::Kind::mouse_button, 1);
+        note_click(window, button, action == GLFW_PRESS, mods);
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double up) {
         note_event(window);
@@ -146,8 +179,11 @@ void Window::collect_events() {
         note_event(window);
         input_of(window).dropped.assign(files, files + count);
     });
-    glfwSetCursorPosCallback(window_,
-                             [](GLFWwindow* window, double, double) { note_event(window); });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        note_event(window);
+        pending_of(window).pointer.position_px = {x, y};
+        pending_of(window).pointer_moved = true;
+    });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* window, int) { note_event(window); });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* window, int) { note_event(window); });
     glfwSetWindowIconifyCallback(window_, [](GLFWwindow* window, int iconified) {
@@ -189,6 +225,13 @@ WindowInput Window::take_input() {
     return std::exchange(pending_.input, {});
 }
 
+std::optional<std::vector<PointerClick>> Window::take_pointer() {
+    pending_.times.collect();
+    glfwPollEvents();
+    if (!std::exchange(pending_.pointer_moved, false)) return {};
+    return std::exchange(pending_.input.clicks, {});
+}
+
 void Window::wait_for_input(std::chrono::milliseconds at_most) {
     if (!wait_for_x_events(wake_.descriptor(), at_most))
         glfwWaitEventsTimeout(std::chrono::duration<double>(at_most).count());
@@ -214,13 +257,10 @@ bool Window::in_front() const {
 }
 
 Pointer Window::pointer() const {
-    glm::dvec2 position{0.0};
-    glfwGetCursorPos(window_, &position.x, &position.y);
-    const glm::dvec2 pixels_per_unit =
-        glm::dvec2(framebuffer_size()) / glm::dvec2(glm::max(pending_.window_size, 1));
-    return {position * pixels_per_unit, pressed(window_, GLFW_MOUSE_BUTTON_LEFT),
-            pressed(window_, GLFW_MOUSE_BUTTON_MIDDLE), pressed(window_, GLFW_MOUSE_BUTTON_RIGHT),
-            key_down(window_, GLFW_KEY_LEFT_SHIFT) || key_down(window_, GLFW_KEY_RIGHT_SHIFT)};
+    Pointer now = pending_.pointer;
+    glfwGetCursorPos(window_, &now.position_px.x, &now.position_px.y);
+    now.shift = key_down(window_, GLFW_KEY_LEFT_SHIFT) || key_down(window_, GLFW_KEY_RIGHT_SHIFT);
+    return in_pixels(now, pending_);
 }
 
 bool Window::holds(int key) const {
@@ -268,10 +308,14 @@ void Window::show_picture() {
     glfwSwapBuffers(window_);
 }
 
-void PicturePace::wait() {
+void PicturePace::wait(const std::function<void()>& meanwhile) {
+    constexpr std::chrono::milliseconds kBetween{4};
     if (next_ == Clock::time_point{}) next_ = Clock::now();
     next_ = std::max(next_ + shortest_, Clock::now());
-    std::this_thread::sleep_until(next_);
+    for (auto now = Clock::now(); now < next_; now = Clock::now()) {
+        meanwhile();
+        std::this_thread::sleep_until(std::min(next_, now + kBetween));
+    }
 }
 
 void PicturePace::count(bool drawn) {

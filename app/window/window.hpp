@@ -33,12 +33,28 @@ struct TypedCharacter {
     EventTimes::Time at{};  ///< when its key went down
 };
 
+/// The pointer at a moment; position in pixels of the framebuffer from the upper left.
+struct Pointer {
+    glm::dvec2 position_px{0.0};
+    bool left{false};
+    bool middle{false};
+    bool right{false};
+    bool shift{false};
+};
+
+/// A mouse button went down or up: the pointer right after it.
+struct PointerClick {
+    Pointer pointer{};
+    EventTimes::Time at{};
+};
+
 /// What happened since the last call of Window::take_input().
 struct WindowInput {
     std::vector<KeyPress> keys{};
     std::vector<TypedCharacter> characters{};
     std::vector<std::filesystem::path> dropped{};
-    double wheel_steps{0.0};  ///< > 0: away from the person
+    std::vector<PointerClick> clicks{};  ///< in their order; but for those of take_pointer()
+    double wheel_steps{0.0};             ///< > 0: away from the person
     /// When the left mouse button was last pressed.
     std::optional<EventTimes::Time> clicked_at{};
     bool any{false};      ///< something happened, also what has no entry here: the pointer moved
@@ -50,18 +66,11 @@ struct PendingInput {
     WindowInput input{};
     KeyPress key{};  ///< the last key press: its character may follow
     EventTimes times{};
+    Pointer pointer{};          ///< as of the last event; position in screen units
+    bool pointer_moved{false};  ///< since take_pointer()
     glm::ivec2 window_size{0};
     glm::ivec2 framebuffer_size{0};
     bool iconified{false};
-};
-
-/// The pointer now; position in pixels of the framebuffer from the upper left.
-struct Pointer {
-    glm::dvec2 position_px{0.0};
-    bool left{false};
-    bool middle{false};
-    bool right{false};
-    bool shift{false};
 };
 
 /// The size of a window to open [screen units].
@@ -89,6 +98,9 @@ class Window {
 
     /// Polls for events; does not wait.
     WindowInput take_input();
+    /// Polls for events and returns the clicks, where the pointer has moved or clicked since the
+    /// last call. All other input waits for take_input().
+    std::optional<std::vector<PointerClick>> take_pointer();
     /// Waits for an event, for wake(), or so long. The next take_input() has what happened.
     void wait_for_input(std::chrono::milliseconds at_most);
     /// Ends a wait_for_input() that runs, or else the next one. For any thread.
@@ -148,8 +160,9 @@ class PicturePace {
     /// `shortest`: least time from picture to picture; zero: do not wait.
     explicit PicturePace(std::chrono::nanoseconds shortest) : shortest_(shortest) {}
 
-    /// After a picture was shown: waits until the next one may be drawn.
-    void wait();
+    /// After a picture was shown: waits until the next one may be drawn. Meanwhile calls
+    /// `meanwhile` every few milliseconds.
+    void wait(const std::function<void()>& meanwhile);
 
     /// Once a turn of the window. `drawn`: it showed a picture.
     void count(bool drawn);

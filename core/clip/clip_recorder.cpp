@@ -14,13 +14,14 @@ namespace dibhr {
 
 namespace {
 
-/// Gives the calling thread the lowest priority that still runs: the haptic thread replaces it at
-/// once. Not SCHED_IDLE, because the window's thread waits for the same mutex.
+/// Gives the calling thread a low priority: the haptic thread replaces it at once. Not SCHED_IDLE,
+/// because the window's thread waits for the same mutex; and not the lowest, with which the last
+/// pictures take many seconds on a busy machine.
 void lower_thread_priority() {
-    constexpr int kLeast = 19;
+    constexpr int kLow = 10;
     const sched_param none{};
     ::sched_setscheduler(0, SCHED_BATCH, &none);
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLeast);
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), kLow);
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct HandContext {
     double dt_s{0.001};
     const DepthSurface& surface;
     double pixel_pitch_mm{kPaperPitch_mm};
+    std::optional<Vec3> contact{};  ///< the proxy's place in the last tick; nothing: no contact
 };
 
 /// One reading, already in grid space: a device's own millimetres stay in `device`.
@@ -40,6 +41,7 @@ struct HandReading {
     bool lifted{false};       ///< taken off the surface: a contact is released
     bool hand_changed{
         false};             ///< another hand than in the last reading: the force begins from zero
+    bool harmless{false};   ///< it has no motors: the mouse
     bool force_off{false};  ///< a button that takes the force off is down
     bool mouse_fallback{false};     ///< the mouse, while the requested device is not ready
     std::uint8_t device_number{0};  ///< number of the device among several, from 1; 0: the mouse

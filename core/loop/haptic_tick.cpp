@@ -34,7 +34,7 @@ void HapticTick::run(const TickTiming& timing, std::uint64_t late_ticks) noexcep
     state_.late_ticks = late_ticks;
     notice_changes(settings, frames);
     const bool touched = state_.touchable && state_.touch.proxy.contact;
-    standstill_ = watch_.poll(timing.begin, touched) || frames.silent;
+    standstill_ = watch_.poll(timing.begin, touched, state_.hand.harmless) || frames.silent;
     state_.standstill = watch_.last();
     const DepthBlend pair = frames.at(frames.clock.playback_s(timing.begin));
     state_.touchable = pair.makes_surface();
@@ -94,8 +94,10 @@ TickRecord HapticTick::touch_surface(const DepthBlend& pair, const HapticSetting
     // is read over the last shape.
     const SurfaceShape& last_shape =
         from_zero_ ? settings.parameters.shape : runner_.effective_values().parameters.shape;
+    const Proxy& proxy = state_.touch.proxy;
     const HandReading hand = connections_.device.read(
-        {timing.dt_s, pair.surface(last_shape, settings.bump.get()), context_.pitch_mm});
+        {timing.dt_s, pair.surface(last_shape, settings.bump.get()), context_.pitch_mm,
+         proxy.contact ? std::optional(proxy.position) : std::nullopt});
     const DeviceLimits limits_now =
         usable(hand.limits.value_or(connections_.device.specification().limits));
     const bool other_limits = limits_ != limits_now;  // which hold at once, without gliding

@@ -23,6 +23,9 @@ struct Heartbeats {
 /// than the 250 ms of the safety rules.
 inline constexpr std::chrono::milliseconds kLongestSilence{200};
 
+/// The timeout for a hand without motors: a window that is late on a busy machine does no harm.
+inline constexpr std::chrono::milliseconds kLongestHarmlessSilence{2000};
+
 /// A standstill that is over, during which there was a contact.
 struct Standstill {
     enum class Thread : std::uint8_t { window, video, recorder };
@@ -40,14 +43,16 @@ class StandstillWatch {
                     HeartbeatMonitor(hearts.recorder), HeartbeatMonitor(hearts.decoder)} {}
 
     /// Once a tick: whether a thread stands still. `contact`: there is a force, which goes to zero.
-    [[nodiscard]] bool poll(std::chrono::steady_clock::time_point now, bool contact) noexcept {
+    /// `harmless`: of a hand without motors, whose standstills are not told.
+    [[nodiscard]] bool poll(std::chrono::steady_clock::time_point now, bool contact,
+                            bool harmless) noexcept {
         std::array<std::chrono::steady_clock::duration, kMonitors> silence{};
         for (std::size_t k = 0; k < silence.size(); ++k) silence[k] = monitors_[k].silence(now);
         const auto longest = std::max_element(silence.begin(), silence.end());
-        if (*longest >= kLongestSilence) {
+        if (*longest >= (harmless ? kLongestHarmlessSilence : kLongestSilence)) {
             running_.thread = kThreads[static_cast<std::size_t>(longest - silence.begin())];
             running_.seconds = std::chrono::duration<double>(*longest).count();
-            had_contact_ = had_contact_ || contact;
+            had_contact_ = had_contact_ || (contact && !harmless);
             return true;
         }
         if (had_contact_) last_ = {running_.thread, running_.seconds, last_.count + 1};

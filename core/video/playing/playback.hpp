@@ -82,6 +82,11 @@ class Playback {
     [[nodiscard]] std::string dropped_in_words() const;
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
     [[nodiscard]] bool playing() const { return playing_; }
+    /// The last frame that playing shows is shown, of the media or its part, and nothing plays on.
+    /// On a slow machine that may be an earlier one than the file's last.
+    [[nodiscard]] bool ended() const {
+        return complete_ && !playing_ && !seek_target_s_ && frames_.size() == 1;
+    }
     [[nodiscard]] bool looping() const { return looping_; }
     [[nodiscard]] const std::optional<MediaPart>& part() const { return part_; }
     [[nodiscard]] double speed() const { return speed_; }

@@ -201,6 +201,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     status.open = true;
     status.playing = playback.playing();
     status.looping = playback.looping();
+    status.ended = playback.ended();
     status.part = playback.part();
     status.speed = playback.speed();
     status.duration_s = playback.description().duration_s;
@@ -225,6 +226,7 @@ void Player::Implementation::publish_live() {
     status.live = live.status(std::chrono::steady_clock::now());
     status.open = true;
     status.playing = live.playing();
+    status.ended = false;
     status.part.reset();
     status.speed = 1.0;
     status.duration_s = 0.0;

@@ -24,6 +24,7 @@ struct PlaybackStatus {
     bool open{false};
     bool playing{false};
     bool looping{true};
+    bool ended{false};    ///< the last frame that playing shows is shown, and nothing plays on
     bool preview{false};  ///< what is shown is not touched: the frame itself is being read
     std::optional<MediaPart> part{};
     double speed{1.0};

@@ -257,6 +257,23 @@ TEST_CASE("a clip that an option saves ends with what is played", "[clip]") {
     check_one_clip(folder);
 }
 
+TEST_CASE("a clip ends also where its last frames are missing or its end is behind the file",
+          "[clip]") {
+    const std::string end = GENERATE("1.2", "60");
+    CAPTURE(end);
+    const Desk desk;
+    const TemporaryFolder folder;
+    const std::string gap = "select='lt(t,0.5)+gt(t,1.6)'\" -vsync vfr -c:v ffv1 ";
+    run_shell(folder, "ffmpeg -nostdin -v error -f lavfi -i color=gray:s=64x48:r=20:d=2 -vf \"" +
+                          gap + "film_color.mkv -vf \"" + gap + "-pix_fmt gray film_depth.mkv");
+    WindowProgram viewer =
+        desk.start_viewer(folder, film_and({"--clip", "all.mp4", "--end", end, "--no-panels"}));
+    REQUIRE(viewer.wait() == 0);
+    CHECK_FALSE(viewer.seen().playing);
+    CHECK(probed(folder, "all.mp4").pictures > 0);
+    check_one_clip(folder);
+}
+
 TEST_CASE("a run that ends by itself goes on with what is likely of the depth, and says so once",
           "[clip]") {
     const Desk desk;

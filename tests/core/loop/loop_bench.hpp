@@ -23,6 +23,7 @@ class TestHand final : public Device {
                 .buttons = 1,
                 .lifted = lifted,
                 .hand_changed = std::exchange(hand_changed, false),
+                .harmless = harmless,
                 .force_off = force_off,
                 .limits = limits_now,
                 .own_force_newton = own_force_newton};
@@ -33,6 +34,7 @@ class TestHand final : public Device {
     Vec3 goal{20.0, 10.0, 90.0};
     bool lifted{false};
     bool hand_changed{false};  // by the next reading
+    bool harmless{false};
     bool force_off{false};
     bool resting{false};
     Vec3 own_force_newton{0.0};

@@ -116,6 +116,17 @@ TEST_CASE("a standstill in which nothing was touched is not told", "[loop]") {
     CHECK(bench.state.front().standstill.count == 0);
 }
 
+TEST_CASE("a hand without motors waits two seconds, and its standstill is not told", "[loop]") {
+    ListeningBench bench;
+    bench.hand.harmless = true;
+    CHECK(bench.run(1900).back() > 3.7);
+    CHECK(bench.run(300).back() < 1e-12);
+    CHECK(bench.state.front().touch.cut == SafetyCut::standstill);
+    bench.set_idle();
+    bench.run(10);
+    CHECK(bench.state.front().standstill.count == 0);
+}
+
 TEST_CASE("once the program is to end no tick sends a force", "[loop]") {
     ListeningBench bench;
     bench.set_idle();

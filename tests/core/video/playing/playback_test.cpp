@@ -213,6 +213,36 @@ TEST_CASE("without looping, playing ends with the part, and play begins with it 
     CHECK_THAT(scene.shown(), WithinAbs(2.0, 1e-6));
 }
 
+TEST_CASE("playing has ended once its last frame is shown, wherever the part ends", "[playback]") {
+    const double end_s = GENERATE(0.0, 0.05, 0.25, 0.3, 0.7, 5.0);
+    CAPTURE(end_s);
+    Scene scene(kTenths);
+    scene.playback.set_looping(false);
+    scene.playback.set_part(MediaPart{0.0, end_s});
+    scene.settle();
+    while (scene.playback.playing()) {
+        REQUIRE_FALSE(scene.playback.ended());
+        scene.pass(0.01);
+    }
+    CHECK(scene.playback.ended());
+    scene.playback.play(scene.now);
+    scene.settle();
+    CHECK(scene.playback.ended() != scene.playback.playing());
+}
+
+TEST_CASE("neither a pause nor a loop is the end of playing", "[playback]") {
+    Scene scene(kTenths);
+    scene.pass(5.0);
+    CHECK_FALSE(scene.playback.ended());
+    scene.playback.set_looping(false);
+    scene.playback.pause(scene.now);
+    scene.settle();
+    CHECK_FALSE(scene.playback.ended());
+    scene.playback.seek(0.6, scene.now);
+    scene.settle();
+    CHECK_FALSE(scene.playback.ended());
+}
+
 TEST_CASE("sought beyond the part the media goes on to its own end, and begins as a whole",
           "[playback]") {
     Scene scene(kTenths);

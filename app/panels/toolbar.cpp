@@ -1,0 +1,69 @@
+// The toolbar: what most people look for, as pictures at the left edge of the relief.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "app/panels/panels.hpp"
+#include "app/panels/widgets.hpp"
+
+namespace dibhr {
+
+namespace {
+
+constexpr float kSide = 1.45F;  // of a button, as a multiple of a row's height
+
+struct Tool {
+    Icon icon;
+    Action action;
+    std::string help{};
+    bool lit{false};
+};
+
+/// What each does now: the first picture of two, and whether it is on.
+std::array<Tool, 7> tools_of(const ViewerState& state) {
+    const bool plays = state.play_state().playing;
+    const bool records = state.touch.recording.has_value();
+    return {
+        {{Icon::open, Action::open_file, "Open a recording"},
+         {plays ? Icon::pause : Icon::play, Action::play_or_pause, plays ? "Pause" : "Play"},
+         {Icon::record, Action::record, records ? "End the recording" : "Record what is touched",
+          records},
+         {Icon::explain, Action::explain, "Explain how the force is found, step by step",
+          state.ui.explained.has_value()},
+         {Icon::paint, Action::toggle_brush, "Paint materials on the surface", state.ui.brush.on},
+         {Icon::ruler, Action::toggle_ruler, "Measure between two points",
+          state.ui.ruler.has_value()},
+         {Icon::clip, Action::take_clip, state.ui.clip ? "End the clip" : "Save a clip",
+          state.ui.clip.has_value()}}};
+}
+
+}  // namespace
+
+void draw_toolbar(ViewerState& state) {
+    const ImGuiStyle& style = ImGui::GetStyle();
+    const auto tools = tools_of(state);
+    const float side = std::round(kSide * ImGui::GetFrameHeight());
+    const float pad = style.FramePadding.y;
+    const auto count = static_cast<float>(tools.size());
+    const float height = count * side + (count - 1.0F) * pad + 2.0F * pad;
+    const float top = panes_height(state) + 3.0F * ImGui::GetFrameHeight();  // below the texts
+    const float room = ImGui::GetIO().DisplaySize.y - bottom_bar_height(state) - top;
+    if (!state.settings.panels_visible || state.ui.explained || height > room) return;
+    ImGui::SetNextWindowPos({style.WindowPadding.x * 0.5F, top + 0.5F * (room - height)});
+    ImGui::SetNextWindowSize({side + 2.0F * pad, height});
+    ImGui::SetNextWindowBgAlpha(0.85F);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {pad, pad});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 2.0F * style.FrameRounding);
+    ImGui::Begin("Tools", nullptr, kBareWindow | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::PopStyleVar(3);
+    for (const Tool& tool : tools) {
+        const std::string help = tool.help + state.keys.in_brackets(tool.action);
+        const std::string id(job_of(tool.action).name);
+        if (icon_button(id.c_str(), tool.icon, help.c_str(), tool.lit, kSide))
+            state.commands.push(tool.action);
+    }
+    ImGui::End();
+}
+
+}  // namespace dibhr
