@@ -246,6 +246,14 @@ CLI::Option* add_session(CLI::App& app, std::filesystem::path& file) {
     return add_file(app, "SESSION", file, "A recorded session", "")->required();
 }
 
+CLI::Option* add_surfaces_option(CLI::App& app, SurfacesFrom& from) {
+    return add_words_option<SurfacesFrom>(
+        app, "--surface-from",
+        "Where a replay's surface comes from; auto: the video if it is there, unchanged and "
+        "cleaned as it was, else the session",
+        [&from](SurfacesFrom word) { from = word; });
+}
+
 CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file) {
     return add_file(app, "--firmware", file,
                     "Firmware for a Falcon that has none; checked, and kept for the next time");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/panels/picture_hook.hpp"
+#include "core/replay/frames.hpp"
 
 namespace CLI {
 class App;
@@ -34,6 +35,8 @@ int run_command_line(const Arguments& arguments, const PictureHook& after_pictur
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,
                       const std::string& help, const std::string& type = "FILE");
 CLI::Option* add_session(CLI::App& app, std::filesystem::path& file);
+/// --surface-from: where a replay's surfaces come from.
+CLI::Option* add_surfaces_option(CLI::App& app, SurfacesFrom& from);
 CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);
 /// --size WxH.
 CLI::Option* add_size_option(CLI::App& app, std::optional<std::pair<int, int>>& size,

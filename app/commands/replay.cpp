@@ -32,7 +32,8 @@ struct ReplayOptions {
     std::vector<Algorithm> algorithms{};  ///< empty: as recorded
     TouchRequest touch{};                 ///< replaces recorded values
     bool any_media{false};                ///< also over files that have changed
-    std::filesystem::path csv{};          ///< rows of the one run, "-": standard output; or empty
+    SurfacesFrom surfaces{SurfacesFrom::automatic};
+    std::filesystem::path csv{};  ///< rows of the one run, "-": standard output; or empty
 };
 
 struct Run {
@@ -103,26 +104,27 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
     const CleaningOptions requested_cleaning = touch.cleaning(parameters);
     SessionFramesOptions frames{.any_media = options.any_media,
                                 .motion = requested.carry,
-                                .bump = touch.given.bump_file(),
-                                .bump_size_px = parameters.shape.bump_size_px,
-                                .maps = touch.uses_maps()};
+                                .materials = {.bump = touch.given.bump_file(),
+                                              .bump_size_px = parameters.shape.bump_size_px,
+                                              .maps = touch.uses_maps()}};
     if (touch.raw_depth || touch.preset) frames.cleaning = requested_cleaning.preset;
     if (touch.finger_mm) frames.finger = requested_cleaning.finger;
     return frames;
 }
 
-void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs,
+void replay(const Session& session, RecordedSurfaces& surfaces, std::vector<Run>& runs,
             const std::filesystem::path& csv) {
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
-    SessionReplay replay(session, video, std::move(changes));
+    SessionReplay replay(session, surfaces, std::move(changes));
     RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");
     rows.text() = kOutputHeader;
     ProgressBar bar("Replaying");
     for (std::int64_t done = 0; replay.next(); ++done) {
         const TickRecord& tick = replay.recorded();
         for (std::size_t k = 0; k < runs.size(); ++k)
-            runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k));
+            runs[k].comparison.add(tick, replay.touch(k), replay.update_us(k),
+                                   replay.left_known(k));
         if (rows.has_target()) {
             append_row(rows.text(), {tick.t_s, replay.touch(0),
                                      static_cast<std::int64_t>(replay.update_us(0) * 1e3)});
@@ -134,7 +136,23 @@ void replay(const Session& session, SessionFrames& video, std::vector<Run>& runs
     rows.commit();
 }
 
-void print_table(const Session& session, const std::vector<Run>& runs) {
+/// "pga: 12 of 5000 updates (0.24 %) may have left what the session stores ...".
+std::string left_text(const Run& run) {
+    const std::size_t left = run.comparison.left_known();
+    const std::size_t updates = std::max<std::size_t>(run.comparison.updates(), 1);
+    const double share = 100.0 * static_cast<double>(left) / static_cast<double>(updates);
+    std::ostringstream text;
+    text << run.name << ": ";
+    if (left == 0) {
+        text << "no update";
+    } else {
+        text << left << " of " << updates << " updates (" << number_text(share, 2) << " %)";
+    }
+    text << " left the surface that the session holds";
+    return text.str() + (left == 0 ? "" : "; beyond it the surface is at its lowest level");
+}
+
+void print_table(const Session& session, const std::vector<Run>& runs, bool stored) {
     std::cout << session.file().string() << ": " << session.rows() << " ticks in " << std::fixed
               << std::setprecision(3) << session.end_s() - session.begin_s() << " s\n"
               << comparison_heading();
@@ -147,6 +165,8 @@ void print_table(const Session& session, const std::vector<Run>& runs) {
         std::cout << run.name << ": " << bounds_met_text(bounds_met, run.comparison.updates())
                   << '\n';
     }
+    if (stored)
+        for (const Run& run : runs) std::cout << left_text(run) << '\n';
     for (const Run& run : runs) {
         if (run.as_recorded && !run.comparison.first_difference()) {
             std::cout << run.name << ", as recorded: all " << session.rows()
@@ -199,12 +219,13 @@ int replay_all(const ReplayOptions& options) {
         throw InputError(options.session.string() +
                          ": holds no tick to replay; record a longer one");
     std::vector<Run> runs = make_runs(session, options);
-    SessionFrames video(session, frames_options(session, options));
+    const SessionSurfaces opened =
+        open_surfaces(session, frames_options(session, options), options.surfaces);
     print_warning(session.warning());
-    print_warning(video.warning());
+    print_warning(opened.warning);
     print_warning(roughness_warning(options.touch.given, has_bump(session, options)));
-    replay(session, video, runs, options.csv);
-    if (options.csv != "-") print_table(session, runs);
+    replay(session, *opened.surfaces, runs, options.csv);
+    if (options.csv != "-") print_table(session, runs, opened.stored);
     int exit_code = 0;
     for (const Run& run : runs) {
         if (!run.as_recorded || !run.comparison.first_difference()) continue;
@@ -225,6 +246,7 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
     add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
     app.add_flag("--any-media", options.any_media,
                  "Replays also if the video or the bump map has changed since the recording");
+    add_surfaces_option(app, options.surfaces);
     app.footer(
         "Without --algorithm and other changes, says whether proxies and forces are those of the\n"
         "recording, bit for bit, and ends with 1 if not. What is not given is as recorded.\n\n"

@@ -255,9 +255,10 @@ std::unique_ptr<Media> opened(const OpenRequest& open, TaskGroup& tasks,
 bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks,
                 const ShutdownWatchdog& shutdown, MessageLog& log) {
     if (is_session_file(options.open.colour)) {
-        parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media);
+        parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media,
+                                                        options.surfaces);
         warn(parts.session->session.warning(), log);
-        warn(parts.session->frames.warning(), log);
+        warn(parts.session->frames.warning, log);
     } else {
         auto media = opened(options.open, tasks, shutdown);
         if (!media) return false;
@@ -311,6 +312,10 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
     add_firmware(app, options.firmware);
     add_file(app, "--record", options.record,
              "Records every tick into a new session file (.dibhr)");
+    add_words_option<SurfaceRecording>(
+        app, "--record-surface",
+        "What a recording stores of the surface that is felt: around the hand, or whole frames",
+        [&options](SurfaceRecording how) { options.record_surface = how; });
     add_file(app, "--screenshot", options.screenshot, "Saves the last picture as PNG");
     add_file(app, "--clip", options.clip,
              "Saves what the window shows as MP4, from start to end; the program ends at --end, "
@@ -381,6 +386,7 @@ void add_view_options(CLI::App& app, ViewCommand& command) {
     add_window_options(app, command);
     app.add_flag("--any-media", options.any_media,
                  "Replays a session also over files that have changed since");
+    add_surfaces_option(app, options.surfaces);
     add_touch_options(app, options.touch);
     add_sure_option(app, options.must_be_sure);
     add_in_betweens_option(app, options.touch);

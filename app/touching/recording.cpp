@@ -144,7 +144,11 @@ void TouchRecording::start(const std::filesystem::path& file) {
     std::map<std::string, std::string> facts = session_facts(state_);
     facts.emplace(kParticipant, participant_);
     facts.emplace(kNote, note_);
-    recorder_ = std::make_unique<Recorder>(file, ticks_, facts, &heart_);
+    const SurfaceRecording how = state_.touch.record_surface;
+    recorder_ =
+        std::make_unique<Recorder>(file, ticks_, facts, &heart_, std::chrono::steady_clock::now,
+                                   RecordedSurface{&felt_frames_, how});
+    felt_frames_.keep(how != SurfaceRecording::off);
     crash_note_.set_recording(file);
     std::uint32_t number = 0;
     for (const KnownMedia& known : known_media_) record_media(++number, known);
@@ -223,7 +227,8 @@ void TouchRecording::record_parameters(const HapticSettings& settings) {
          .touch = settings.parameters,
          .limits = settings.limits,
          .force_enabled = settings.force_enabled,
-         .bump = {settings.bump ? state_.touch.bump_file : std::filesystem::path{}}});
+         .bump = {settings.bump ? state_.touch.bump_file : std::filesystem::path{}}},
+        settings.bump);
 }
 
 void TouchRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) {
@@ -304,6 +309,7 @@ void TouchRecording::release_recorder() {
     if (live_) player_.record_live(0, {});
     live_.reset();
     recorder_.reset();
+    if (!finishing_.valid()) felt_frames_.keep(false);
     crash_note_.set_recording({});
 }
 

@@ -15,6 +15,7 @@
 #include "app/touching/touch_state.hpp"
 #include "app/window/crash_note.hpp"
 #include "core/clip/live_recorder.hpp"
+#include "core/loop/felt_frames.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/session/recorder.hpp"
 #include "core/video/playing/player.hpp"
@@ -26,9 +27,13 @@ namespace dibhr {
 class TouchRecording {
   public:
     /// All arguments must outlive the object. The haptic loop writes `ticks`.
-    TouchRecording(TickRing& ticks, CrashNote& crash_note, Player& player,
+    TouchRecording(TickRing& ticks, CrashNote& crash_note, Player& player, FeltFrames& felt_frames,
                    const TouchStateRefs& state)
-        : ticks_(ticks), crash_note_(crash_note), player_(player), state_(state) {}
+        : ticks_(ticks),
+          crash_note_(crash_note),
+          player_(player),
+          felt_frames_(felt_frames),
+          state_(state) {}
 
     /// Registers a video. Returns the number by which ticks refer to it.
     [[nodiscard]] std::uint32_t add_media(const MediaDescription& media);
@@ -108,6 +113,7 @@ class TouchRecording {
     TickRing& ticks_;
     CrashNote& crash_note_;
     Player& player_;
+    FeltFrames& felt_frames_;
     TouchStateRefs state_;
     Heartbeat heart_{};                      // before recorder_, whose thread beats it
     std::vector<KnownMedia> known_media_{};  // by media number - 1

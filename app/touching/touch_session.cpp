@@ -44,11 +44,12 @@ TouchSession::TouchSession(HandDevice hand, const TouchConnections& connections,
     : connections_(connections),
       state_(state),
       hand_(std::move(hand)),
-      player_(connections.on_frames),
+      player_(connections.on_frames,
+              [this](const FrameWindow& window) { felt_frames_.add(window); }),
       strips_(std::make_unique<StripRing>()),
       ticks_(std::make_unique<TickRing>()),
       walked_(std::make_unique<WalkedTickRing>()),
-      recording_(*ticks_, connections.crash_note, player_, state) {
+      recording_(*ticks_, connections.crash_note, player_, felt_frames_, state) {
     state_.touch.device = hand_.device->specification();
     state_.touch.haptic.hand = hand_.device->reading_without_surface();
     for (std::size_t k = 0; k < hand_.devices.size(); ++k)

@@ -114,6 +114,7 @@ class TouchSession {
     std::uint64_t bounds_met_{0};          // as of the last picture
     bool priority_reported_{false};
     std::chrono::steady_clock::time_point catching_up_until_{};
+    FeltFrames felt_frames_{};  // the player fills it
     Player player_;
     TripleBuffer<HapticSettings> haptic_settings_{};
     TripleBuffer<HapticState> haptic_state_{};

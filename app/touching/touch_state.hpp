@@ -25,6 +25,7 @@
 #include "core/loop/tick_strip.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "core/replay/session_player.hpp"
+#include "core/session/felt_surface.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/video/playing/player.hpp"
@@ -109,6 +110,7 @@ struct TouchState {
     std::filesystem::path bump_file{};
     Material material{};  ///< last choice; its values may have been changed since
     SessionFields session_fields{};
+    SurfaceRecording record_surface{SurfaceRecording::tiles};  ///< of the next recording
 
     // Shown only.
     bool in_front{true};  ///< the window is; false: another window is in front

@@ -67,7 +67,7 @@ void ViewerReplay::begin(std::unique_ptr<OpenedSession> opened, const GivenParam
                                     .started = session.fact("started"),
                                     .device = session.fact("device"),
                                     .marks = session.marks()};
-    state.media.describe(opened->frames.description());
+    state.media.describe(opened->frames.description);
     state.touch.strips = {};
     state.touch.haptic = {};
     recorded_ =

@@ -65,11 +65,13 @@ struct ViewOptions {
     std::optional<double> end_s{};             ///< end of playing, from the media's begin
     bool start_given{false};                   ///< by --start: the saved position is not used
     bool full_screen{false};
-    bool stays{false};         ///< also where the named files cannot be opened
-    bool size_given{false};    ///< by --size: the window has exactly this size
-    bool any_media{false};     ///< replay: also over files that have changed
-    bool must_be_sure{false};  ///< --sure
-    TouchRequest touch{};      ///< the command line's; it overrides a session's
+    bool stays{false};       ///< also where the named files cannot be opened
+    bool size_given{false};  ///< by --size: the window has exactly this size
+    bool any_media{false};   ///< replay: also over files that have changed
+    SurfacesFrom surfaces{SurfacesFrom::automatic};            ///< of a replay
+    SurfaceRecording record_surface{SurfaceRecording::tiles};  ///< of recordings
+    bool must_be_sure{false};                                  ///< --sure
+    TouchRequest touch{};  ///< the command line's; it overrides a session's
     std::filesystem::path settings_file{settings_path()};  ///< where settings are saved
     Settings in_file{};  ///< as read; the window saves only changes of it
     std::vector<UnsafeSetting>

@@ -256,7 +256,7 @@ void Viewer::forget_relief() {
 void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
     painting_.flush_maps(touch_.recording());
     if (touch_.recording().active_or_waiting()) show_notice(touch_.recording().stop());
-    for (const std::string& warning : {session->session.warning(), session->frames.warning()})
+    for (const std::string& warning : {session->session.warning(), session->frames.warning})
         if (!warning.empty()) show_notice(capitalised(warning));
     explaining_.end(state_, camera_);
     painting_.end(state_);

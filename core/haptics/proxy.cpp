@@ -60,6 +60,7 @@ const Proxy& ProxyAlgorithm::update(const DepthSurface& surface, Vec3 goal,
         start_above(surface, goal_in_frame);
     }
     proxy_.moves = proxy_.reads = 0;
+    proxy_.flown = {};
     proxy_.bound_met = false;
     walk(surface, goal_in_frame, friction, proxy_);
     proxy_.position = surface.clamped_to_frame(proxy_.position);  // of round-off at the border
@@ -130,6 +131,8 @@ Flight ProxyWalk::fly_to(Vec3 end) noexcept {
     const int moves_left = std::max(most_moves_ - proxy_.moves, 0);
     const Flight flight = fly(surface_, proxy_.position, end, moves_left * kMostCells / all_moves_);
     most_moves_ -= (flight.cells * all_moves_ + kMostCells - 1) / kMostCells;
+    proxy_.flown.add(proxy_.position);
+    proxy_.flown.add(flight.end);
     if (flight.cut_short) proxy_.bound_met = true;
     return flight;
 }

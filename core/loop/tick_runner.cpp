@@ -34,6 +34,16 @@ FramePair frames_of(const DepthBlend& pair) noexcept {
             to.time_s - from.time_s};
 }
 
+/// What lies between two frames means nothing where a frame blends with itself.
+SurfaceMark mark_of(const DepthBlend& pair) noexcept {
+    const Frame& from = *pair.from;
+    SurfaceMark mark{.from = from.depth.get(), .to = pair.to->depth.get()};
+    if (pair.from == pair.to) return mark;
+    mark.motion = from.motion.get();
+    mark.in_betweens = from.in_betweens.get();
+    return mark;
+}
+
 }  // namespace
 
 const Touch& TickRunner::run(const TickInput& input,
@@ -68,6 +78,7 @@ void TickRunner::reset() noexcept {
 TickRecord TickRunner::record_of(const TickInput& input) const noexcept {
     return {.dt_s = input.safety.dt_s,
             .frames = frames_of(input.pair),
+            .mark = mark_of(input.pair),
             .blend = input.pair.blend,
             .own_newton = input.safety.device_force_newton,
             .device_ready = input.safety.device_ready,

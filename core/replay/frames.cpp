@@ -8,12 +8,12 @@
 #include "core/error.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/replay/stored_frames.hpp"
 #include "core/sqlite/database.hpp"
 #include "core/video/cleaning/surface_version.hpp"
 #include "core/video/sources/layouts/picture_pattern.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "core/video/sources/sidecar.hpp"
-#include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
 
@@ -135,8 +135,11 @@ SessionFrames::SessionFrames(const Session& session, const SessionFramesOptions&
         Video& first = videos_[session.sources().front().source.media];
         description_ = reader_of(first).description();
     }
-    read_bumps(session);
-    if (options_.maps) read_maps(session);
+    const auto read = [this](const SessionMedia& bump) {
+        return std::make_shared<const BumpMap>(read_bump_map(finder_.find(bump, "bump map")));
+    };
+    materials_.emplace(session, options_.materials,
+                       SurfaceSize{description_.depth_columns, description_.depth_rows}, read);
 }
 
 void SessionFrames::find_videos(const Session& session) {
@@ -159,64 +162,6 @@ void SessionFrames::find_videos(const Session& session) {
     }
 }
 
-void SessionFrames::read_bumps(const Session& session) {
-    if (!options_.bump.empty()) {
-        other_bump_ = std::make_shared<const BumpMap>(read_bump_map(options_.bump));
-        stretch_over_video(other_bump_, options_.bump_size_px);
-        return;
-    }
-    for (const SessionParameters& parameters : session.parameters()) {
-        const SessionMedia& bump = parameters.bump;
-        if (bump.file.empty() || bumps_.contains(bump.file)) continue;
-        bumps_[bump.file] =
-            std::make_shared<const BumpMap>(read_bump_map(finder_.find(bump, "bump map")));
-    }
-}
-
-std::shared_ptr<const BumpMap> SessionFrames::bump(const SessionParameters& parameters) {
-    if (other_bump_) return other_bump_;
-    const auto found = bumps_.find(parameters.bump.file);
-    if (found == bumps_.end()) return nullptr;
-    stretch_over_video(found->second, parameters.touch.shape.bump_size_px);
-    return found->second;
-}
-
-/// For the first video: mostly there is no other, and a video of another size works as well.
-void SessionFrames::stretch_over_video(std::shared_ptr<const BumpMap>& bump, double size_px) const {
-    stretch(bump, description_.depth_columns, description_.depth_rows, size_px);
-}
-
-void SessionFrames::read_maps(const Session& session) {
-    for (const SessionSource& each : session.sources()) {
-        const std::uint32_t version = each.source.maps;
-        if (version == 0 || maps_.contains(version)) continue;
-        std::vector<SessionMap> maps = session.maps_of(version);
-        if (maps.empty())
-            throw InputError(session.file().string() +
-                             ": does not hold the touch maps that were felt, as its recording was "
-                             "broken off; replay it with --maps off");
-        maps_.emplace(version, std::move(maps));
-    }
-}
-
-std::shared_ptr<const TouchMaps> SessionFrames::maps_of(const FrameSource& source,
-                                                        const MediaDescription& media) {
-    const auto kept = maps_.find(source.maps);
-    if (kept == maps_.end()) return nullptr;
-    if (decoded_maps_ && decoded_maps_->version == source.maps) return decoded_maps_;
-    auto maps = std::make_shared<TouchMaps>();
-    maps->version = source.maps;
-    for (const SessionMap& map : kept->second) {
-        const auto kind = touch_map_kind_named(map.kind);
-        if (!kind) continue;
-        maps->of(*kind) =
-            touch_map_in(map.png, {map.lowest, map.highest}, finder_.session().string());
-    }
-    lay_heights(*maps, media.depth_columns, media.depth_rows);
-    decoded_maps_ = std::move(maps);
-    return decoded_maps_;
-}
-
 Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
     // What depends on a second frame is not part of the key.
     FrameSource source = touched;
@@ -225,7 +170,8 @@ Frame SessionFrames::frame(const FrameSource& touched, double media_s) {
     Video& video = videos_[source.media];
     FrameReader& reader = reader_of(video);
     reader.set_cleaning(cleaning_for(source));
-    reader.set_maps(maps_of(source, reader.description()));
+    const MediaDescription& media = reader.description();
+    reader.set_maps(materials_->maps_of(source, {media.depth_columns, media.depth_rows}));
     const bool near_ahead =
         video.last_s && *video.last_s < media_s && media_s < *video.last_s + kNearAhead_s;
     std::optional<Frame> frame = near_ahead ? reader.after(*video.last_s) : reader.at(media_s);
@@ -274,6 +220,56 @@ void SessionFrames::keep(const FrameSource& source, const Frame& frame) {
     const std::size_t most = std::max(room / std::max<std::size_t>(bytes, 1), kLeastKept);
     while (kept_.size() >= most) kept_.pop_front();
     kept_.push_back({source, frame});
+}
+
+namespace {
+
+/// Why the stored surface does not do; empty: it does.
+std::string video_needed(const Session& session, const SessionFramesOptions& options) {
+    if (options.cleaning || options.finger) return "other cleaning or another fingertip needs it";
+    const auto moves = [](const SessionSource& one) { return one.source.motion; };
+    if (options.motion && !std::ranges::all_of(session.sources(), moves))
+        return "the motion that was not recorded is found in it";
+    return {};
+}
+
+SessionSurfaces of_video(const Session& session, const SessionFramesOptions& options) {
+    auto frames = std::make_unique<SessionFrames>(session, options);
+    SessionSurfaces opened{nullptr, frames->description(), frames->warning(), false};
+    opened.surfaces = std::move(frames);
+    return opened;
+}
+
+SessionSurfaces of_session(const Session& session, const SessionFramesOptions& options) {
+    auto frames = std::make_unique<StoredFrames>(session, options.materials);
+    SessionSurfaces opened{nullptr, frames->description(), {}, true};
+    opened.surfaces = std::move(frames);
+    return opened;
+}
+
+}  // namespace
+
+SessionSurfaces open_surfaces(const Session& session, const SessionFramesOptions& options,
+                              SurfacesFrom from) {
+    const std::string needed = video_needed(session, options);
+    if (from == SurfacesFrom::session) {
+        if (!needed.empty())
+            throw InputError(session.file().string() + ": is not replayed from itself, as " +
+                             needed + "; replay it from its video");
+        return of_session(session, options);
+    }
+    const bool may_use_stored = from == SurfacesFrom::automatic && needed.empty() &&
+                                !options.any_media && SurfaceReader(session.reader()).any();
+    if (!may_use_stored) return of_video(session, options);
+    std::string why = version_warning(session, true);
+    try {
+        if (why.empty()) return of_video(session, options);
+    } catch (const InputError& error) {
+        why = error.what();
+    }
+    SessionSurfaces opened = of_session(session, options);
+    opened.warning = "replayed from the surface that the session holds, as " + why;
+    return opened;
 }
 
 }  // namespace dibhr

@@ -2,6 +2,7 @@
 // frames decoded and cleaned as they were recorded.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -12,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "core/haptics/enum_names.hpp"
+#include "core/replay/session_materials.hpp"
 #include "core/replay/session_replay.hpp"
 #include "core/session/session.hpp"
 #include "core/video/motion/frame_motion.hpp"
@@ -58,9 +61,7 @@ struct SessionFramesOptions {
     // Instead of the recorded values; nothing: as recorded.
     std::optional<CleaningPreset> cleaning{};  ///< raw: without the recorded fingertip, too
     std::optional<Fingertip> finger{};
-    std::filesystem::path bump{};  ///< instead of the recorded bump map; empty: the recorded one
-    double bump_size_px{0.0};      ///< of that one; SurfaceShape::bump_size_px
-    bool maps{true};               ///< false: without the recorded touch maps
+    SessionMaterials::Options materials{};
 };
 
 /// Cleans frames as they were recorded, and caches as many as there is room for: a video that
@@ -75,7 +76,10 @@ class SessionFrames final : public RecordedFrames {
     void connect(Frame& from, const Frame& to, const MotionRequest& wanted) override {
         motion_.connect(from, to, wanted);
     }
-    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(
+        const SessionParameters& parameters) override {
+        return materials_->bump(parameters);
+    }
 
     /// The description of the video that was touched first.
     [[nodiscard]] const MediaDescription& description() const noexcept { return description_; }
@@ -97,12 +101,6 @@ class SessionFrames final : public RecordedFrames {
     };
 
     void find_videos(const Session& session);
-    void read_bumps(const Session& session);
-    void stretch_over_video(std::shared_ptr<const BumpMap>& bump, double size_px) const;
-    void read_maps(const Session& session);
-    /// Null: the source has no touch maps.
-    [[nodiscard]] std::shared_ptr<const TouchMaps> maps_of(const FrameSource& source,
-                                                           const MediaDescription& media);
     [[nodiscard]] FrameReader& reader_of(Video& video) const;
     [[nodiscard]] CleaningOptions cleaning_for(const FrameSource& source) const;
     [[nodiscard]] const Kept* find(const FrameSource& source, double media_s) const;
@@ -111,13 +109,41 @@ class SessionFrames final : public RecordedFrames {
     SessionFramesOptions options_;
     SessionMediaFinder finder_;
     std::map<std::uint32_t, Video> videos_{};
-    std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> bumps_{};  // by recorded names
-    std::shared_ptr<const BumpMap> other_bump_{};
-    std::map<std::uint32_t, std::vector<SessionMap>> maps_{};  // by their versions
-    std::shared_ptr<const TouchMaps> decoded_maps_{};          // the last ones read
+    std::optional<SessionMaterials> materials_{};
     MediaDescription description_{};
     std::deque<Kept> kept_{};  // the oldest first
     FrameMotion motion_{};
 };
+
+/// Where the surfaces of a replay come from.
+enum class SurfacesFrom {
+    automatic,  ///< from the video if it is there, unchanged and cleaned as it was; else the
+                ///< session
+    video,
+    session,
+};
+inline constexpr std::array<NamedValue<SurfacesFrom>, 3> kSurfacesFromNames{
+    {{SurfacesFrom::automatic, "auto", "Automatic"},
+     {SurfacesFrom::video, "video", "The video"},
+     {SurfacesFrom::session, "session", "The session"}}};
+static_assert(has_all_in_order(kSurfacesFromNames, SurfacesFrom::session));
+
+[[nodiscard]] constexpr const auto& name_table(SurfacesFrom) noexcept {
+    return kSurfacesFromNames;
+}
+
+/// The surfaces of a session, ready to be replayed.
+struct SessionSurfaces {
+    std::unique_ptr<RecordedSurfaces> surfaces{};
+    MediaDescription description{};  ///< of what was touched first
+    std::string warning{};           ///< sentences for people; empty: none
+    bool stored{false};              ///< of the session itself, which knows them around the hand
+};
+
+/// Throws InputError where neither video nor session gives what is wanted. `session` must outlive
+/// the result.
+[[nodiscard]] SessionSurfaces open_surfaces(const Session& session,
+                                            const SessionFramesOptions& options,
+                                            SurfacesFrom from = SurfacesFrom::automatic);
 
 }  // namespace dibhr

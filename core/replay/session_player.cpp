@@ -52,7 +52,7 @@ class SessionMoments {
         }
         runs_ = runs;
         from_s_ = from_s;
-        replay_.emplace(opened_.session, opened_.frames, std::move(changes),
+        replay_.emplace(opened_.session, *opened_.frames.surfaces, std::move(changes),
                         runs.any() ? from_s - kWarmUp_s : from_s);
     }
 
@@ -82,7 +82,8 @@ class SessionMoments {
         moment.count = opened_.session.count_of(tick.tick);
         moment.frames = frames_;
         moment.parameters = opened_.session.parameters_of(tick.settings);
-        if (moment.parameters != nullptr) moment.bump = opened_.frames.bump(*moment.parameters);
+        if (moment.parameters != nullptr)
+            moment.bump = opened_.frames.surfaces->bump(*moment.parameters);
         if (runs_.other) moment.computed = replay_->touch(0);
         if (runs_.algorithms && tick.surface) add_others(moment);
         return moment;
@@ -123,8 +124,10 @@ std::unique_ptr<ContactBand> read_band(const std::filesystem::path& file, double
 
 }  // namespace
 
-OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media)
-    : session(file), frames((session.check(), session), {.any_media = any_media, .colour = true}) {
+OpenedSession::OpenedSession(const std::filesystem::path& file, bool any_media, SurfacesFrom from)
+    : session(file),
+      frames(open_surfaces((session.check(), session), {.any_media = any_media, .colour = true},
+                           from)) {
     if (session.rows() > 0 && !session.sources().empty()) return;
     // One of the first format says why it has no video.
     if (!session.warning().empty()) throw InputError(session.warning());

@@ -26,11 +26,12 @@ namespace dibhr {
 /// A session and its frames. One thread at a time.
 struct OpenedSession {
     /// Checks the whole file. Throws InputError when it cannot be read, holds no tick, or one of
-    /// its media files is missing or has changed (unless `any_media`).
-    OpenedSession(const std::filesystem::path& file, bool any_media);
+    /// its media files is missing or has changed (unless `any_media`) and it holds no surface.
+    OpenedSession(const std::filesystem::path& file, bool any_media,
+                  SurfacesFrom from = SurfacesFrom::automatic);
 
     Session session;
-    SessionFrames frames;
+    SessionSurfaces frames;
 };
 
 /// One tick, with its frames and parameters.

@@ -28,7 +28,7 @@ std::string cell(double value) {
 
 }  // namespace
 
-SessionReplay::SessionReplay(const Session& session, RecordedFrames& frames,
+SessionReplay::SessionReplay(const Session& session, RecordedSurfaces& frames,
                              std::vector<ParameterChange> changes, double from_s)
     : session_(session), frames_(frames), ticks_(session, from_s), runs_(changes.size()) {
     for (std::size_t k = 0; k < changes.size(); ++k) runs_[k].change = std::move(changes[k]);
@@ -59,21 +59,33 @@ void SessionReplay::take_parameters() {
 
 void SessionReplay::take_frames() {
     const FramePair& wanted = tick_.frames;
-    if (touched_ && pair_ == wanted) return;
+    if (touched_ && pair_ == wanted && pair_number_ == tick_.pair) return;
     if (session_.source_of(wanted.source) == nullptr)
         refuse_tick("does not say which video tick ",
                     " touched; it can be exported, but not replayed");
-    // Mostly, the frame that was blended into is the next one to start from.
-    const bool goes_on = touched_ && pair_.source == wanted.source && pair_.to_s == wanted.from_s;
-    Frame from = goes_on ? touched_->to : frames_.frame(wanted.source, wanted.from_s);
-    Frame to = wanted.to_s == wanted.from_s ? from : frames_.frame(wanted.source, wanted.to_s);
-    if (!DepthBlend{&from, &to}.makes_surface())
-        refuse_tick("the frames at tick ", " make no surface; put the original video back");
     const bool carries = std::any_of(runs_.begin(), runs_.end(),
                                      [](const Run& run) { return run.parameters.carry; });
-    frames_.connect(from, to, {wanted.source.motion || carries, wanted.source.in_betweens});
-    touched_ = std::make_shared<const TouchedFrames>(TouchedFrames{std::move(from), std::move(to)});
+    auto touched = std::make_shared<const TouchedFrames>(frames_.touched(
+        tick_, {wanted.source.motion || carries, wanted.source.in_betweens}, touched_.get()));
+    if (!DepthBlend{&touched->from, &touched->to}.makes_surface())
+        refuse_tick("the frames at tick ", " make no surface; put the original video back");
+    touched_ = std::move(touched);
     pair_ = wanted;
+    pair_number_ = tick_.pair;
+}
+
+TouchedFrames RecordedFrames::touched(const TickRecord& tick, const MotionRequest& wanted,
+                                      const TouchedFrames* before) {
+    const FramePair& pair = tick.frames;
+    // Mostly, the frame that was blended into is the next one to start from.
+    const bool goes_on =
+        before != nullptr && last_.source == pair.source && last_.to_s == pair.from_s;
+    TouchedFrames touched;
+    touched.from = goes_on ? before->to : frame(pair.source, pair.from_s);
+    touched.to = pair.to_s == pair.from_s ? touched.from : frame(pair.source, pair.to_s);
+    connect(touched.from, touched.to, wanted);
+    last_ = pair;
+    return touched;
 }
 
 void SessionReplay::refuse_tick(const std::string& before, const std::string& after) const {
@@ -83,23 +95,13 @@ void SessionReplay::refuse_tick(const std::string& before, const std::string& af
 
 void SessionReplay::run_tick(Run& run) {
     if (!tick_.surface) {
-        run.touch = run.runner.pause();
-        run.touch.proxy.contact = false;
+        run.run.pause();
+        run.left_known = false;
         return;
     }
-    const TickInput input{.pair = {&touched_->from, &touched_->to, tick_.blend},
-                          .bump = bump_.get(),
-                          .goal = tick_.goal_refused ? Vec3(NAN) : tick_.goal,
-                          .safety = {.dt_s = tick_.dt_s,
-                                     .force_enabled = parameters_->force_enabled,
-                                     .device_ready = tick_.device_ready,
-                                     .device_force_newton = tick_.own_newton,
-                                     .from_zero = tick_.from_zero,
-                                     .standstill = tick_.standstill},
-                          .releases_contact = tick_.releases_contact,
-                          .at_once = !tick_.gliding,
-                          .motion_unknown = tick_.motion_unknown};
-    run.touch = run.runner.run(input, {run.parameters, parameters_->limits});
+    run.run.run(tick_, {&touched_->from, &touched_->to, tick_.blend}, bump_.get(), run.parameters,
+                *parameters_);
+    run.left_known = !frames_.holds(run.run.read(), tick_.blend);
 }
 
 bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept {
@@ -133,7 +135,8 @@ SampleStatistics Samples::statistics() const {
     return statistics;
 }
 
-void RunComparison::add(const TickRecord& recorded, const Touch& touch, double update_us) {
+void RunComparison::add(const TickRecord& recorded, const Touch& touch, double update_us,
+                        bool left_known) {
     if (!same_bits(touch, recorded)) {
         ++differing_;
         if (!first_difference_) first_difference_ = {recorded, touch};
@@ -142,6 +145,7 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
     if (!recorded.surface) return;
     ++updates_;
     if (touch.proxy.bound_met) ++bounds_met_;
+    if (left_known) ++left_known_;
     time_us_.add(update_us);
     off_px_.add(glm::length(touch.proxy.position - recorded.proxy));
     const Vec3 lag = touch.proxy.position - touch.goal;

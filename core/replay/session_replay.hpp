@@ -13,8 +13,9 @@
 #include <vector>
 
 #include "core/haptics/touch.hpp"
-#include "core/loop/tick_runner.hpp"
+#include "core/loop/recorded_run.hpp"
 #include "core/metrics/force_variation.hpp"
+#include "core/session/felt_surface.hpp"
 #include "core/session/session.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/video/frames/frame_window.hpp"
@@ -22,23 +23,41 @@
 
 namespace dibhr {
 
-/// Reads the frames and bump maps that a session touched.
-class RecordedFrames {
+/// The two frames that a surface blends.
+struct TouchedFrames {
+    Frame from{}, to{};
+};
+
+/// Gives the surfaces that a session touched. Throws InputError for one that there is not.
+class RecordedSurfaces {
   public:
-    virtual ~RecordedFrames() = default;
+    virtual ~RecordedSurfaces() = default;
+    /// The frames of a tick with a surface, with what is wanted between them. `before`: those of
+    /// the tick before; null: none.
+    [[nodiscard]] virtual TouchedFrames touched(const TickRecord& tick, const MotionRequest& wanted,
+                                                const TouchedFrames* before) = 0;
+    /// Null: none was laid over the surface.
+    [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
+        const SessionParameters& parameters) = 0;
+    /// Whether that part of the surface last given is known, at that blend of its frames.
+    [[nodiscard]] virtual bool holds(const PixelBox& /*box*/, double /*blend*/) const {
+        return true;
+    }
+};
+
+/// Reads them frame by frame, all of each.
+class RecordedFrames : public RecordedSurfaces {
+  public:
     /// The frame at exactly this presentation time, cleaned. Throws InputError when there is none.
     [[nodiscard]] virtual Frame frame(const FrameSource& source, double media_s) = 0;
     /// Adds to `from` the motion to `to`, the next frame, as when they were touched. A frame that
     /// has its motion is left as it is.
     virtual void connect(Frame& /*from*/, const Frame& /*to*/, const MotionRequest& /*wanted*/) {}
-    /// Null: none was laid over the surface.
-    [[nodiscard]] virtual std::shared_ptr<const BumpMap> bump(
-        const SessionParameters& parameters) = 0;
-};
+    [[nodiscard]] TouchedFrames touched(const TickRecord& tick, const MotionRequest& wanted,
+                                        const TouchedFrames* before) override;
 
-/// The two frames that a surface blends.
-struct TouchedFrames {
-    Frame from{}, to{};
+  private:
+    FramePair last_{};  // given last
 };
 
 /// Makes the parameters of a run from those recorded.
@@ -51,7 +70,7 @@ class SessionReplay {
     /// A run for each change; an empty change keeps the recorded parameters. Begins with the first
     /// tick at or after `from_s`: in the middle of a session a run needs some time to reach the
     /// recorded proxy. Session and frames must outlive it.
-    SessionReplay(const Session& session, RecordedFrames& frames,
+    SessionReplay(const Session& session, RecordedSurfaces& frames,
                   std::vector<ParameterChange> changes,
                   double from_s = -std::numeric_limits<double>::infinity());
 
@@ -60,23 +79,24 @@ class SessionReplay {
     [[nodiscard]] bool next();
 
     [[nodiscard]] const TickRecord& recorded() const noexcept { return tick_; }
-    [[nodiscard]] const Touch& touch(std::size_t run) const { return runs_.at(run).touch; }
+    [[nodiscard]] const Touch& touch(std::size_t run) const { return runs_.at(run).run.touch(); }
+    /// The run's update may have read surface that is not known: see RecordedSurfaces::holds().
+    [[nodiscard]] bool left_known(std::size_t run) const { return runs_.at(run).left_known; }
     /// Null before the first tick with a surface.
     [[nodiscard]] const std::shared_ptr<const TouchedFrames>& frames() const noexcept {
         return touched_;
     }
     /// Time of the run's update; 0 without a surface.
     [[nodiscard]] double update_us(std::size_t run) const {
-        return std::chrono::duration<double, std::micro>(runs_.at(run).runner.update_time())
-            .count();
+        return std::chrono::duration<double, std::micro>(runs_.at(run).run.update_time()).count();
     }
 
   private:
     struct Run {
         ParameterChange change{};
         TouchParameters parameters{};
-        TickRunner runner{};
-        Touch touch{};  ///< the runner's; without a surface there is no contact
+        RecordedRun run{};
+        bool left_known{false};
     };
 
     void take_parameters();
@@ -85,13 +105,14 @@ class SessionReplay {
     [[noreturn]] void refuse_tick(const std::string& before, const std::string& after) const;
 
     const Session& session_;
-    RecordedFrames& frames_;
+    RecordedSurfaces& frames_;
     Session::Ticks ticks_;
     TickRecord tick_{};
     std::vector<Run> runs_{};
     const SessionParameters* parameters_{nullptr};  ///< of the tick
     std::shared_ptr<const BumpMap> bump_{};
     FramePair pair_{};
+    std::int64_t pair_number_{0};
     std::shared_ptr<const TouchedFrames> touched_{};  ///< of the pair
 };
 
@@ -117,7 +138,9 @@ class Samples {
 /// share of ticks in contact.
 class RunComparison {
   public:
-    void add(const TickRecord& recorded, const Touch& touch, double update_us);
+    /// `left_known`: see SessionReplay.
+    void add(const TickRecord& recorded, const Touch& touch, double update_us,
+             bool left_known = false);
 
     /// The update in which the run first gave other bits than recorded.
     struct Difference {
@@ -133,6 +156,9 @@ class RunComparison {
     [[nodiscard]] std::size_t updates() const noexcept { return updates_; }
     [[nodiscard]] std::size_t bounds_met() const noexcept { return bounds_met_; }
 
+    /// Updates that may have read surface that is not known.
+    [[nodiscard]] std::size_t left_known() const noexcept { return left_known_; }
+
     /// A line of the table under `comparison_heading()`.
     [[nodiscard]] std::string table_row(const std::string& name) const;
 
@@ -140,6 +166,7 @@ class RunComparison {
     std::int64_t ticks_{0};
     std::size_t updates_{0};
     std::size_t bounds_met_{0};
+    std::size_t left_known_{0};
     std::int64_t in_contact_{0};
     std::int64_t differing_{0};
     std::optional<Difference> first_difference_{};

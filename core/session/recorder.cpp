@@ -105,12 +105,12 @@ class FileHashes {
 
 struct Recorder::Implementation {
     Implementation(const std::filesystem::path& file, TickRing& ticks, const SessionFacts& facts,
-                   Heartbeat* given_heart, Now time)
+                   Heartbeat* given_heart, Now time, const RecordedSurface& surface)
         : ring(ticks),
           now(std::move(time)),
           heart(given_heart != nullptr ? *given_heart : own_heart),
           dropped_before(ticks.dropped()),
-          session(std::in_place, file, facts) {
+          session(std::in_place, file, facts, surface) {
         batch.reserve(kMostInDrain);
         status.recording = true;
         status.bytes = session->bytes();
@@ -260,10 +260,12 @@ struct Recorder::Implementation {
         session->commit();
         const std::uint64_t bytes = session->bytes();
         const std::uint64_t grown = session->bytes_recorded() - bytes_before;
+        const std::uint64_t missing_surfaces = session->missing_surfaces();
         const std::chrono::duration<double> passed = now() - begin;
         const std::lock_guard lock(mutex);
         status.rows += std::exchange(uncommitted, 0);
         status.bytes = bytes;
+        status.missing_surfaces = missing_surfaces;
         if (passed.count() > 1.0)
             status.bytes_per_minute = 60.0 * static_cast<double>(grown) / passed.count();
     }
@@ -282,6 +284,7 @@ struct Recorder::Implementation {
             session->set_fact("row_count", std::to_string(status.rows + uncommitted));
             session->set_fact("dropped_count", std::to_string(status.dropped));
             session->set_fact("ring_high_water", std::to_string(high_water));
+            session->set_fact("missing_surfaces", std::to_string(session->missing_surfaces()));
             session->set_fact("complete", "1");
             commit();
             session->merge_log();
@@ -351,8 +354,9 @@ struct Recorder::Implementation {
 };
 
 Recorder::Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
-                   Heartbeat* heart, Now now)
-    : implementation_(std::make_unique<Implementation>(file, ring, facts, heart, std::move(now))) {}
+                   Heartbeat* heart, Now now, const RecordedSurface& surface)
+    : implementation_(
+          std::make_unique<Implementation>(file, ring, facts, heart, std::move(now), surface)) {}
 
 Recorder::~Recorder() {
     implementation_.reset();
@@ -360,12 +364,14 @@ Recorder::~Recorder() {
     ::malloc_trim(0);
 }
 
-void Recorder::parameters(const SessionParameters& parameters) {
+void Recorder::parameters(const SessionParameters& parameters,
+                          std::shared_ptr<const BumpMap> bump) {
     SessionParameters known = parameters;
     known.bump.file = absolute_path(parameters.bump.file);
-    implementation_->enqueue([known = std::move(known)](Implementation& writer) {
-        writer.session->register_parameters(known);
-    });
+    implementation_->enqueue(
+        [known = std::move(known), bump = std::move(bump)](Implementation& writer) {
+            writer.session->register_parameters(known, bump);
+        });
 }
 
 void Recorder::media(std::uint32_t number, const std::filesystem::path& colour,

@@ -11,6 +11,7 @@
 
 #include "core/realtime/heartbeat.hpp"
 #include "core/realtime/now.hpp"
+#include "core/session/felt_surface.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr {
@@ -22,6 +23,8 @@ struct RecorderStatus {
     std::uint64_t high_water{0};   ///< the most ticks that waited in the ring
     std::uint64_t bytes{0};        ///< on the disk
     double bytes_per_minute{0.0};  ///< by which the file grows; 0 in the first second
+    /// Pairs of frames of which no surface is stored, as their images were not in memory any more.
+    std::uint64_t missing_surfaces{0};
     std::string failure{};  ///< a sentence when writing failed; what was written stays readable
 };
 
@@ -35,17 +38,21 @@ class Recorder {
     /// Creates the session file; throws InputError when it exists already or cannot be made.
     /// `facts` are name/value pairs kept with the session (program version, device, note,
     /// participant). `heart`, if any, beats while the recorder writes, not while it waits for the
-    /// disk; it outlives the recorder. `now`: the clock of its transactions and marks.
+    /// disk; it outlives the recorder. `now`: the clock of its transactions and marks. `surface`:
+    /// what is stored of the surface that ticks feel.
     Recorder(const std::filesystem::path& file, TickRing& ring, const SessionFacts& facts,
-             Heartbeat* heart = nullptr, Now now = std::chrono::steady_clock::now);
+             Heartbeat* heart = nullptr, Now now = std::chrono::steady_clock::now,
+             const RecordedSurface& surface = {});
     ~Recorder();  ///< as finish()
     Recorder(const Recorder&) = delete;
     Recorder& operator=(const Recorder&) = delete;
 
     // The next seven wait for no disk. Each counts for the ticks that are pushed after it.
 
-    /// Parameters that ticks may refer to from now on by their version.
-    void parameters(const SessionParameters& parameters);
+    /// Parameters that ticks may refer to from now on by their version. `bump`: their bump map, if
+    /// it is to be stored with the surface.
+    void parameters(const SessionParameters& parameters,
+                    std::shared_ptr<const BumpMap> bump = nullptr);
     /// The files that ticks may refer to from now on as media `number`; either may be empty.
     /// `depth_meaning`: see SessionSource. The files' SHA-256 is computed on a thread of its own
     /// once a tick touches them; of files that `grow`, which are still being written, after

@@ -122,7 +122,7 @@ std::string source_columns(const SessionReader& reader) {
 constexpr const char* kTickQueryBegin =
     "SELECT t.tick, t.t, t.dt_s, t.lateness_us, t.ns, t.settings, ";
 constexpr const char* kTickQueryEnd =
-    ", t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.blend, t.utc_s, t.video_s, "
+    ", t.frame, t.to_frame, q.from_s, q.to_s, q.span_s, t.pair, t.blend, t.utc_s, t.video_s, "
     "t.gx, t.gy, t.gz, t.px, t.py, t.pz, t.fx, t.fy, t.fz, t.cx, t.cy, t.cz, t.ox, t.oy, t.oz, "
     "t.moves, t.i, t.j, t.contact, t.primitive, t.buttons, t.cut, "
     "t.surface, t.ready, t.stand_in, t.restart, t.lets_go, t.refused, "
@@ -379,9 +379,9 @@ bool Session::Ticks::next(TickRecord& tick) {
     FramePair& frames = tick.frames;
     Row(query_).take(tick.tick, tick.t_s, tick.dt_s, tick.lateness_us, update_ns, tick.settings,
                      frames.source, frames.from_frame, frames.to_frame, frames.from_s, frames.to_s,
-                     frames.span_s, tick.blend, tick.utc_s, tick.video_s, tick.goal, tick.proxy,
-                     tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves, tick.i,
-                     tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
+                     frames.span_s, tick.pair, tick.blend, tick.utc_s, tick.video_s, tick.goal,
+                     tick.proxy, tick.spring_newton, tick.sent_newton, tick.own_newton, tick.moves,
+                     tick.i, tick.j, tick.contact, primitive, tick.buttons, tick.cut, tick.surface,
                      tick.device_ready, tick.mouse_fallback, tick.from_zero, tick.releases_contact,
                      tick.goal_refused, state);
     tick.catching_up = (state & 1) != 0;

@@ -142,19 +142,24 @@ std::optional<std::int64_t> off_direction(double sent, double wanted, double sho
 
 }  // namespace
 
-SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& facts) try
+SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& facts,
+                         const RecordedSurface& surface) try
     : path_(file),
       database_(made_database(file)),
       insert_tick_(database_, insertion("INTO tick_data", kTickDataColumns)),
       insert_pair_(database_, "INSERT INTO pair VALUES (?, ?, ?, ?, ?, ?, ?)"),
       insert_fact_(database_, "INSERT OR REPLACE INTO session VALUES (?, ?)"),
       place_(place_of(file)) {
+    if (surface.surfaces != nullptr && surface.how != SurfaceRecording::off)
+        surface_.emplace(database_, *surface.surfaces, surface.how);
     begin();
     for (const auto& [key, value] : machine_facts()) set_fact(key, value);
     set_fact("started", utc_text(std::time(nullptr)));
     for (const auto& [key, value] : facts) set_fact(key, value);
     set_fact("schema_version", std::to_string(kSessionSchemaVersion));
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");
+    set_fact("record-surface",
+             std::string(name_of(surface_ ? surface.how : SurfaceRecording::off)));
     set_fact("complete", "0");
     commit();
     merge_log();  // a copy without the log is still recognised as a session
@@ -180,7 +185,9 @@ void SessionFile::begin() {
 
 void SessionFile::add(const TickRecord& record) {
     if (version_ != record.settings || limits_ != record.limits) use_settings(record);
-    if (record.surface && pair_ != record.frames) add_pair(record.frames, record.tick);
+    if (record.surface && (pair_ != record.frames || (surface_ && mark_ != record.mark)))
+        add_pair(record);
+    if (surface_) surface_->add(record, parameters_, bump_.get());
     Statement& row = insert_tick_;
     row.bind(record.tick);
     add_times(record);
@@ -239,14 +246,18 @@ void SessionFile::add_forces(const TickRecord& record) {
 }
 
 void SessionFile::commit() {
+    if (surface_) surface_->flush();
     database_.execute("COMMIT");
     const Place now = place_of(path_);
     if (now == Place{}) throw DatabaseError("the file is gone from its place");
     if (now != place_) throw DatabaseError("another file is in its place");
 }
 
-void SessionFile::register_parameters(const SessionParameters& parameters) {
+void SessionFile::register_parameters(const SessionParameters& parameters,
+                                      const std::shared_ptr<const BumpMap>& bump) {
     known_parameters_[parameters.version] = parameters;
+    if (surface_ && bump && !parameters.bump.file.empty())
+        known_bumps_[parameters.bump.file] = bump;
 }
 
 void SessionFile::register_media(std::uint32_t number, const std::filesystem::path& colour,
@@ -300,6 +311,7 @@ void SessionFile::use_settings(const TickRecord& record) {
     version_ = parameters_row_ = record.settings;
     limits_ = record.limits;
     newton_per_px_.reset();
+    parameters_ = nullptr;
     const auto known = known_parameters_.find(record.settings);
     if (known == known_parameters_.end()) return;
     SessionParameters held = known->second;
@@ -318,10 +330,12 @@ void SessionFile::use_settings(const TickRecord& record) {
     if (same == written.end()) {
         held.version += std::uint64_t{written.size()} << kHeldAgainShift;
         add_parameters(held);
-        parameters_row_ = written.emplace_back(held).version;
+        parameters_ = &written.emplace_back(held);
     } else {
-        parameters_row_ = same->version;
+        parameters_ = &*same;
     }
+    parameters_row_ = parameters_->version;
+    if (surface_) use_bump(held.bump.file);
 }
 
 void SessionFile::add_parameters(SessionParameters parameters) {
@@ -334,11 +348,21 @@ void SessionFile::add_parameters(SessionParameters parameters) {
     insert.run();
 }
 
-void SessionFile::add_pair(const FramePair& frames, std::int64_t tick) {
-    const std::int64_t source = source_row(frames.source, tick);
+/// The map of that file under the next ticks; written once.
+void SessionFile::use_bump(const std::filesystem::path& file) {
+    const auto known = known_bumps_.find(file);
+    bump_ = known == known_bumps_.end() ? nullptr : known->second;
+    if (bump_) surface_->add_bump(media_row(file).value(), bump_);
+}
+
+void SessionFile::add_pair(const TickRecord& record) {
+    const FramePair& frames = record.frames;
+    const std::int64_t source = source_row(frames.source, record.tick);
     insert_pair_.run(++pairs_, source, frames.from_frame, frames.to_frame, frames.from_s,
                      frames.to_s, frames.span_s);
     pair_ = frames;
+    mark_ = record.mark;
+    if (surface_) surface_->begin(pairs_, record);
 }
 
 std::int64_t SessionFile::source_row(const FrameSource& source, std::int64_t tick) {

@@ -12,6 +12,7 @@
 
 #include "core/session/log_keeper.hpp"
 #include "core/session/session_schema.hpp"
+#include "core/session/surface_writer.hpp"
 #include "core/session/tick_record.hpp"
 #include "core/sqlite/database.hpp"
 
@@ -22,8 +23,9 @@ namespace dibhr {
 class SessionFile {
   public:
     /// Makes the file and its tables. Throws InputError, and leaves nothing behind, when that
-    /// fails; an existing file is never touched.
-    SessionFile(const std::filesystem::path& file, const SessionFacts& facts);
+    /// fails; an existing file is never touched. `surfaces`: see RecordedSurface.
+    SessionFile(const std::filesystem::path& file, const SessionFacts& facts,
+                const RecordedSurface& surface = {});
     ~SessionFile();
     SessionFile(const SessionFile&) = delete;  // the statements refer to the database beside them
     SessionFile& operator=(const SessionFile&) = delete;
@@ -35,7 +37,8 @@ class SessionFile {
     void commit();
 
     // Registered here, and written with the first tick that uses them; files by absolute paths.
-    void register_parameters(const SessionParameters& parameters);
+    void register_parameters(const SessionParameters& parameters,
+                             const std::shared_ptr<const BumpMap>& bump = nullptr);
     void register_media(std::uint32_t number, const std::filesystem::path& colour,
                         const std::filesystem::path& depth, const std::string& depth_meaning,
                         bool grows = false);
@@ -61,6 +64,10 @@ class SessionFile {
     void end_log() noexcept;
 
     [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+    /// Pairs of frames whose surface could not be stored.
+    [[nodiscard]] std::uint64_t missing_surfaces() const noexcept {
+        return surface_ ? surface_->missing() : 0;
+    }
     /// Bytes on the disk, log included.
     [[nodiscard]] std::uint64_t bytes() const;
     /// Bytes of the recorded content, in file or log.
@@ -77,7 +84,8 @@ class SessionFile {
     void try_to(const char* sql) noexcept;
     void use_settings(const TickRecord& record);
     void add_parameters(SessionParameters parameters);
-    void add_pair(const FramePair& frames, std::int64_t tick);
+    void add_pair(const TickRecord& record);
+    void use_bump(const std::filesystem::path& file);
     void add_times(const TickRecord& record);
     void add_forces(const TickRecord& record);
     [[nodiscard]] std::int64_t source_row(const FrameSource& source, std::int64_t tick);
@@ -94,23 +102,28 @@ class SessionFile {
     Place place_{};
 
     std::map<std::uint64_t, SessionParameters> known_parameters_{};
+    std::map<std::filesystem::path, std::shared_ptr<const BumpMap>> known_bumps_{};
     std::map<std::uint32_t, MediaFiles> known_media_{};
     std::map<std::filesystem::path, std::int64_t> media_rows_{};
     std::vector<std::filesystem::path> new_files_{}, growing_files_{};
     std::map<std::filesystem::path, SessionMedia> known_contents_{};  ///< of those that grew
     std::vector<FrameSource> sources_{};                              ///< by their rows, from 1
     std::optional<FramePair> pair_{};  ///< the last row of table pair
-    std::int64_t pairs_{0};            ///< and its number
+    SurfaceMark mark_{};               ///< its images in memory, where the surface is stored
+    std::optional<SurfaceWriter> surface_{};
+    std::int64_t pairs_{0};  ///< and its number
     /// The rows written for each version: one for each set of device limits to which it was
     /// lowered.
     std::map<std::uint64_t, std::vector<SessionParameters>> held_parameters_{};
-    std::optional<std::uint64_t> version_{};   ///< of the last tick
-    std::optional<DeviceLimits> limits_{};     ///< and its device limits
-    std::uint64_t parameters_row_{0};          ///< its key in table parameters
-    std::optional<double> newton_per_px_{};    ///< its spring's, where known
-    std::int64_t last_tick_{0};                ///< its number
-    std::optional<std::int64_t> last_t_ns_{};  ///< its time, if it is stored as that
-    std::unique_ptr<LogKeeper> keeper_{};      ///< until the log is merged for good
+    std::optional<std::uint64_t> version_{};        ///< of the last tick
+    std::optional<DeviceLimits> limits_{};          ///< and its device limits
+    std::uint64_t parameters_row_{0};               ///< its key in table parameters
+    const SessionParameters* parameters_{nullptr};  ///< that row, of held_parameters_; null: none
+    std::shared_ptr<const BumpMap> bump_{};         ///< its map, where the surface is stored
+    std::optional<double> newton_per_px_{};         ///< its spring's, where known
+    std::int64_t last_tick_{0};                     ///< its number
+    std::optional<std::int64_t> last_t_ns_{};       ///< its time, if it is stored as that
+    std::unique_ptr<LogKeeper> keeper_{};           ///< until the log is merged for good
 };
 
 }  // namespace dibhr

@@ -26,6 +26,13 @@ CREATE TABLE cut(code INTEGER PRIMARY KEY, name TEXT);
 CREATE TABLE tick_column(name TEXT, unit TEXT, meaning TEXT);
 CREATE TABLE touch_map(version INTEGER, kind TEXT, part INTEGER, lowest REAL, highest REAL, png BLOB,
   PRIMARY KEY(version, kind, part));
+CREATE TABLE surface(pair INTEGER, part INTEGER, highest REAL, levels INTEGER, unseen INTEGER,
+  right INTEGER, down INTEGER, PRIMARY KEY(pair, part)) WITHOUT ROWID;
+CREATE TABLE bump_map(media INTEGER PRIMARY KEY, grid INTEGER);
+CREATE TABLE grid(id INTEGER PRIMARY KEY, columns INTEGER, rows INTEGER);
+CREATE TABLE grid_tile(grid INTEGER, place INTEGER, tile INTEGER, PRIMARY KEY(grid, place))
+  WITHOUT ROWID;
+CREATE TABLE tile(id INTEGER PRIMARY KEY, code BLOB);
 )";
 
 std::string source_table() {

@@ -12,7 +12,7 @@ namespace dibhr {
 inline constexpr int kSessionApplicationId = 0x64686170;
 /// Counts changes of the tables (`PRAGMA user_version`, and `schema_version` in table session).
 /// FORMAT.md states every schema that there was, and what a change must keep.
-inline constexpr int kSessionSchemaVersion = 2;
+inline constexpr int kSessionSchemaVersion = 3;
 /// The schema that had a table `tick`, and neither parameters nor files.
 inline constexpr int kFirstSessionSchema = 1;
 

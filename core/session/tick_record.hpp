@@ -68,6 +68,16 @@ struct FramePair {
     bool operator==(const FramePair&) const = default;
 };
 
+/// The images in memory of which a tick's surface was made: identifies them while they are there.
+struct SurfaceMark {
+    const void* from{nullptr};
+    const void* to{nullptr};
+    const void* motion{nullptr};
+    const void* in_betweens{nullptr};
+
+    bool operator==(const SurfaceMark&) const = default;
+};
+
 /// The whole input of a tick, and its result. Grid space [px], newtons, seconds. A number that is
 /// not finite is recorded as infinity.
 struct TickRecord {
@@ -83,10 +93,12 @@ struct TickRecord {
     /// back: `settings` then is the version of the lowered parameters.
     std::optional<DeviceLimits> limits{};
 
-    FramePair frames{};   ///< means nothing without a surface
-    double blend{0.0};    ///< 0: from, 1: to
-    double utc_s{0.0};    ///< wall time since 1970; set by reading back
-    double video_s{0.0};  ///< presentation time of the touched surface; set by reading back
+    FramePair frames{};    ///< means nothing without a surface
+    std::int64_t pair{0};  ///< their number in the session, from 1; set by reading back
+    SurfaceMark mark{};    ///< likewise; not read back
+    double blend{0.0};     ///< 0: from, 1: to
+    double utc_s{0.0};     ///< wall time since 1970; set by reading back
+    double video_s{0.0};   ///< presentation time of the touched surface; set by reading back
 
     Vec3 goal{0.0}, proxy{0.0}, spring_newton{0.0}, sent_newton{0.0};
     Vec3 own_newton{0.0};  ///< the device's own force on the hand

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <span>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "core/replay/session_replay.hpp"
+#include "core/replay/stored_frames.hpp"
 #include "core/report/session_numbers.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/session.hpp"
@@ -32,7 +34,9 @@ Bytes sound_session() {
     test::MovingSurface surface;
     test::Exploration hand(surface);
     {
-        Recorder recorder(folder.file(), *ring, {{"note", "sound"}});
+        test::FeltMovingSurface felt(surface);
+        Recorder recorder(folder.file(), *ring, {{"note", "sound"}}, nullptr,
+                          std::chrono::steady_clock::now, {&felt});
         recorder.parameters(hand.parameters);
         recorder.media(1, "colour.mp4", "depth.mp4");
         recorder.mark("begin");
@@ -105,8 +109,7 @@ class AnyFrames final : public RecordedFrames {
     Frame frame_{test::MovingSurface{}.frame({}, 0.0)};
 };
 
-void replay(const Session& session) {
-    static AnyFrames frames;
+void replay(const Session& session, RecordedSurfaces& frames) {
     SessionReplay replay(session, frames,
                          {{}, [](TouchParameters& touch) { touch.algorithm = Algorithm::pga; }});
     RunComparison comparison;
@@ -129,7 +132,14 @@ void read_all(const std::filesystem::path& file) {
         (void)test::is_taken([&session] { session.check(); });
         (void)test::is_taken([&session] { (void)hand_ticks(session.reader()); });
         (void)test::is_taken([&session] { (void)numbers_of(session); });
-        (void)test::is_taken([&session] { replay(session); });
+        (void)test::is_taken([&session] {
+            static AnyFrames frames;
+            replay(session, frames);
+        });
+        (void)test::is_taken([&session] {
+            StoredFrames frames(session, {});
+            replay(session, frames);
+        });
     });
 }
 

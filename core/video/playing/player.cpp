@@ -70,7 +70,9 @@ struct Player::Implementation {
     TripleBuffer<FrameWindow> haptics{};
     TripleBuffer<FrameWindow> picture{};
     Heartbeat heart{}, decoding{};
-    std::function<void()> on_frames{};  ///< set before the thread starts
+    // Set before the thread starts.
+    std::function<void()> on_frames{};
+    std::function<void(const FrameWindow&)> on_window{};
 
     // Used by the player thread only.
     Playback playback{};
@@ -180,7 +182,9 @@ void Player::Implementation::run() {
 /// Publishes the same window to both readers; frees what the old windows held.
 void Player::Implementation::publish() {
     const FrameWindow window = live.is_open() ? live.window() : playback.window();
-    haptics.publish(live.is_open() ? window : playback.touchable());
+    FrameWindow touchable = live.is_open() ? window : playback.touchable();
+    if (on_window) on_window(touchable);
+    haptics.publish(std::move(touchable));
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     publish_status(window, published);
@@ -240,9 +244,10 @@ void Player::Implementation::publish_live() {
     status.decode_ms = status.clean_ms = live.clean_ms();
 }
 
-Player::Player(std::function<void()> on_frames)
+Player::Player(std::function<void()> on_frames, std::function<void(const FrameWindow&)> on_window)
     : implementation_(std::make_unique<Implementation>()) {
     implementation_->on_frames = std::move(on_frames);
+    implementation_->on_window = std::move(on_window);
     implementation_->thread = std::thread([this] { implementation_->run(); });
 }
 

@@ -52,8 +52,10 @@ struct PlaybackStatus {
 /// buffers the haptic thread reads `haptics()`, the window thread `picture()`.
 class Player final : public Transport {
   public:
-    /// `on_frames` is called on the player's thread whenever picture() has been published.
-    explicit Player(std::function<void()> on_frames = {});
+    /// On the player's thread `on_frames` is called whenever picture() has been published, and
+    /// `on_window` with each window before it is published to haptics().
+    explicit Player(std::function<void()> on_frames = {},
+                    std::function<void(const FrameWindow&)> on_window = {});
     ~Player() override;  ///< stops the thread
     Player(const Player&) = delete;
     Player& operator=(const Player&) = delete;

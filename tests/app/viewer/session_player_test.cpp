@@ -424,9 +424,10 @@ TEST_CASE("participant, note and marks are kept as they were typed, before and w
     const auto ticks = std::make_unique<TickRing>();
     CrashNote crash_note;
     Player player;
+    FeltFrames felt_frames;
     const auto state = std::make_unique<ViewerState>();
     const KeyTable& keys = state->keys;
-    TouchRecording recording(*ticks, crash_note, player,
+    TouchRecording recording(*ticks, crash_note, player, felt_frames,
                              {state->settings, state->touch, state->media});
     const auto type = [](TextField& field, const std::string& text) {
         std::strncpy(field.data(), text.c_str(), field.size() - 1);

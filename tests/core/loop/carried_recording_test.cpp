@@ -6,9 +6,12 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <memory>
+#include <vector>
 
+#include "core/loop/felt_frames.hpp"
 #include "core/loop/haptic_tick.hpp"
 #include "core/replay/session_replay.hpp"
+#include "core/replay/stored_frames.hpp"
 #include "core/session/recorder.hpp"
 #include "core/session/session.hpp"
 #include "core/sound/sound_tick.hpp"
@@ -89,6 +92,7 @@ class CarriedHand {
             window.discontinuity = discontinuity;
             if (!knows_motion)
                 for (Frame& frame : window.frames) frame.motion.reset();
+            felt.add(window);
             bench.frames.publish(window);
             const double t = ++ticks_ * kTick_s;
             bench.hand.goal = {80.0 + 20.0 * std::sin(3.0 * t), 48.0 + 15.0 * std::sin(2.0 * t),
@@ -109,6 +113,7 @@ class CarriedHand {
     }
 
     Bench bench{};
+    FeltFrames felt{};
     bool plays{true};
     bool knows_motion{true};
     std::uint64_t discontinuity{0};
@@ -129,7 +134,9 @@ TEST_CASE("a session of a hand that was carried replays to the same bits", "[car
     WanderingVideo video;
     CarriedHand hand(video);
     {
-        Recorder recorder(file, *hand.bench.ticks, {});
+        hand.felt.keep(true);
+        Recorder recorder(file, *hand.bench.ticks, {}, nullptr, std::chrono::steady_clock::now,
+                          {&hand.felt});
         recorder.media(1, "colour.mp4", "depth.mp4");
         recorder.parameters(as_recorded(hand.bench.handed));
         const auto change = [&](auto set) {
@@ -179,6 +186,23 @@ TEST_CASE("a session of a hand that was carried replays to the same bits", "[car
     CHECK(unknown >= 150);
     CHECK(unknown < 400);  // and while the last frame becomes the first again
     CHECK(session.parameters().front().touch.carry);
+
+    CHECK(session.fact("missing_surfaces") == "0");
+    StoredFrames stored(session, {});
+    std::vector<ParameterChange> changes{{}};
+    for (const Algorithm algorithm : all_algorithms())
+        changes.push_back([=](TouchParameters& p) { p.algorithm = algorithm; });
+    SessionReplay alone(session, stored, changes);
+    SessionReplay whole(session, video, changes);
+    while (alone.next() && whole.next()) {
+        CAPTURE(alone.recorded().tick);
+        REQUIRE(same_bits(alone.touch(0), alone.recorded()));
+        for (std::size_t run = 0; run < changes.size(); ++run) {
+            CAPTURE(run);
+            REQUIRE_FALSE(alone.left_known(run));
+            REQUIRE(same_bits(alone.touch(run).proxy.position, whole.touch(run).proxy.position));
+        }
+    }
 }
 
 TEST_CASE("what was recorded without carry replays with it, as a change", "[carry]") {

@@ -2,15 +2,19 @@
 // record and to replay.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "core/haptics/surface.hpp"
 #include "core/haptics/touch.hpp"
+#include "core/loop/recorded_run.hpp"
 #include "core/replay/session_replay.hpp"
+#include "core/session/felt_surface.hpp"
 #include "core/session/tick_record.hpp"
 
 namespace dibhr::test {
@@ -62,6 +66,44 @@ class MovingSurface final : public RecordedFrames {
 
   private:
     std::vector<std::shared_ptr<const DepthImage>> images_{};
+};
+
+/// The images of a MovingSurface, for a recorder.
+class FeltMovingSurface final : public FeltSurfaces {
+  public:
+    explicit FeltMovingSurface(MovingSurface& surface) : surface_(surface) {}
+
+    bool forgets{false};  ///< as if they were not in memory any more
+
+    [[nodiscard]] std::optional<FeltSurface> surface_of(const TickRecord& tick) override {
+        if (forgets) return std::nullopt;
+        const FramePair& pair = tick.frames;
+        from_ = surface_.frame(pair.source, pair.from_s);
+        to_ = surface_.frame(pair.source, pair.to_s);
+        return FeltSurface{.images = {{from_.depth, {}}, {to_.depth, {}}}, .motion = {}};
+    }
+    [[nodiscard]] std::vector<PixelBox> read_by_others(const TickRecord& tick,
+                                                       const SessionParameters& parameters,
+                                                       const BumpMap* bump) override {
+        std::vector<PixelBox> read;
+        for (const Algorithm algorithm : all_algorithms()) {
+            RecordedRun& run = runs_[static_cast<std::size_t>(algorithm)];
+            TouchParameters touch = parameters.touch;
+            touch.algorithm = algorithm;
+            if (tick.surface) {
+                run.run(tick, {&from_, &to_, tick.blend}, bump, touch, parameters);
+                read.push_back(run.read());
+            } else {
+                run.pause();
+            }
+        }
+        return read;
+    }
+
+  private:
+    MovingSurface& surface_;
+    Frame from_{}, to_{};
+    std::array<RecordedRun, 4> runs_{};
 };
 
 /// Makes ticks one after the other: the hand's motion is invented, the forces are computed.

@@ -18,7 +18,9 @@
 #include <vector>
 
 #include "core/replay/session_replay.hpp"
+#include "core/replay/stored_frames.hpp"
 #include "core/session/session.hpp"
+#include "core/session/surface_reader.hpp"
 #include "tests/core/session/exploration.hpp"
 #include "tests/core/session/session_child.hpp"
 #include "tests/core/session/session_folder.hpp"
@@ -102,6 +104,13 @@ void check_what_is_left(const Child& child, std::int64_t certain) {
     SessionReplay replay(session, surface, {{}});
     bool same = true;
     while (replay.next()) same = same && same_bits(replay.touch(0), replay.recorded());
+    CHECK(same);
+    if (!SurfaceReader(session.reader()).any()) return;
+    // And by itself: tiles and ticks agree.
+    StoredFrames stored(session, {});
+    SessionReplay alone(session, stored, {{}});
+    while (alone.next())
+        same = same && same_bits(alone.touch(0), alone.recorded()) && !alone.left_known(0);
     CHECK(same);
 }
 

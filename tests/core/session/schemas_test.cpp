@@ -172,7 +172,7 @@ TEST_CASE("a session of a schema to come is read as far as it is understood", "[
     SECTION("with nothing new") {
         REQUIRE(change(folder.file(), next));
         CHECK(contains(Session(folder.file()).warning(),
-                       "by a newer dibhr (format 3, this one reads 2)"));
+                       "by a newer dibhr (format 4, this one reads 3)"));
         CHECK(
             contains(Session(folder.file()).warning(), "no table or column of it is unknown here"));
     }

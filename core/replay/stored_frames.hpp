@@ -1,0 +1,41 @@
+// The surface that a session holds, as frames: a replay without the video.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/replay/session_materials.hpp"
+#include "core/replay/session_replay.hpp"
+#include "core/session/session.hpp"
+#include "core/session/surface_reader.hpp"
+#include "core/video/sources/media.hpp"
+
+namespace dibhr {
+
+/// Where no surface is stored the surface is as low as the lowest level, and holds() is false. One
+/// thread at a time.
+class StoredFrames final : public RecordedSurfaces {
+  public:
+    /// Throws InputError for a session that holds no surface. `session` must outlive it.
+    StoredFrames(const Session& session, const SessionMaterials::Options& options);
+
+    [[nodiscard]] TouchedFrames touched(const TickRecord& tick, const MotionRequest& wanted,
+                                        const TouchedFrames* before) override;
+    [[nodiscard]] std::shared_ptr<const BumpMap> bump(const SessionParameters& parameters) override;
+    [[nodiscard]] bool holds(const PixelBox& box, double blend) const override {
+        return surface_.holds(box, blend);
+    }
+
+    /// As far as the session knows it.
+    [[nodiscard]] MediaDescription description() const;
+
+  private:
+    [[nodiscard]] StoredSurface surface_of(std::int64_t pair);
+
+    const Session& session_;
+    SurfaceReader reader_;
+    StoredSurface surface_{};  // of the last tick
+    std::optional<SessionMaterials> materials_{};
+};
+
+}  // namespace dibhr
