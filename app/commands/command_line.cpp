@@ -57,6 +57,8 @@ constexpr std::array kCommands{
             headless<run_export>},
     Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
             headless<run_report>},
+    Command{"archive", "SESSION|STUDY... --out FOLDER",
+            "A folder to publish: data, dictionary, sums", headless<run_archive>},
     Command{"study", "check|plan|run|report|sessions PROTOCOL|FILE...",
             "Do people feel a difference? Conditions, trials, answers, statistics", run_study},
     Command{"info", "FILE...", "What a media or session file holds", headless<run_info>},

@@ -60,6 +60,9 @@ int run_replay(CLI::App& app, const Arguments& arguments);
 int run_experiment(CLI::App& app, const Arguments& arguments);
 /// Writes every tick, with the column names of the session's view `tick`.
 int run_export(CLI::App& app, const Arguments& arguments);
+/// Writes sessions and studies as a folder to publish, or checks one: prints on stderr what is
+/// wrong, and returns 1 when there is anything.
+int run_archive(CLI::App& app, const Arguments& arguments);
 /// Writes a report and prints the path of its page.
 int run_report(CLI::App& app, const Arguments& arguments);
 /// Checks a protocol, runs it with one participant, or takes sessions out of a study file.

@@ -8,33 +8,16 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
-#include "core/files/csv_table.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
-#include "core/sqlite/database.hpp"
+#include "core/sqlite/csv_rows.hpp"
 
 namespace dibhr {
 
 namespace {
 
 constexpr std::int64_t kRowsPerStep = 10000;  // of the progress bar
-
-void append_cell(std::string& text, const Statement& ticks, int column) {
-    switch (ticks.type(column)) {
-        case Statement::Type::null:
-            break;
-        case Statement::Type::integer:
-            text += std::to_string(ticks.integer(column));
-            break;
-        case Statement::Type::real:
-            append_number(text, ticks.real(column));
-            break;
-        case Statement::Type::text:
-            text += csv_cell(ticks.text(column));
-            break;
-    }
-}
 
 /// Prints when the first tick was, and how the wall clock went beside the ticks' clock.
 void print_clock(const Session& session) {
@@ -67,17 +50,10 @@ int run_export(CLI::App& app, const Arguments& arguments) {
     Statement ticks = session.reader().rows("SELECT * FROM tick ORDER BY tick");
     RowFile rows(csv, {file}, "is the session that is read; give --csv another name");
     ProgressBar bar("Exporting");
-    const auto add_row = [&](auto append) {
-        for (int column = 0; column < ticks.columns(); ++column) {
-            if (column > 0) rows.text() += ',';
-            append(column);
-        }
-        rows.text() += '\n';
-        rows.rows_done();
-    };
-    add_row([&](int column) { rows.text() += csv_cell(ticks.name(column)); });
+    append_names(rows.text(), ticks);
     for (std::int64_t done = 0; ticks.next(); ++done) {
-        add_row([&](int column) { append_cell(rows.text(), ticks, column); });
+        append_row(rows.text(), ticks);
+        rows.rows_done();
         if (done % kRowsPerStep == 0)
             bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
     }

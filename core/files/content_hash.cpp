@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/files/content_files.hpp"
 
 extern "C" {
 #include <libavutil/mem.h>
@@ -37,19 +38,6 @@ bool add_file(Sha256& sum, const std::filesystem::path& file, std::uint64_t head
     return true;
 }
 
-/// The file itself, or all files in a folder, in order, without those whose names begin with a
-/// point: file managers write them.
-std::vector<std::filesystem::path> files_of(const std::filesystem::path& place) {
-    if (!std::filesystem::is_directory(place)) return {place};
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
-        const bool hidden = entry.path().filename().string().starts_with('.');
-        if (entry.is_regular_file() && !hidden) files.push_back(entry.path());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 /// The name with a zero at its end, so that different names and contents give different bytes.
 std::vector<std::uint8_t> name_in(const std::filesystem::path& folder,
                                   const std::filesystem::path& file) {
@@ -64,7 +52,7 @@ std::optional<std::string> sum_of(const std::filesystem::path& file, std::uint64
                                   const std::atomic<bool>& stop) {
     Sha256 sum;
     const bool is_folder = std::filesystem::is_directory(file);
-    for (const std::filesystem::path& part : files_of(file)) {
+    for (const std::filesystem::path& part : content_files(file)) {
         if (is_folder) sum.add(name_in(file, part));
         if (!add_file(sum, part, head_bytes, stop)) return std::nullopt;
     }
@@ -113,11 +101,31 @@ std::optional<std::string> sha256_of_file(const std::filesystem::path& file,
     return sum_of(file, 0, stop);
 }
 
+std::vector<std::filesystem::path> content_files(const std::filesystem::path& place) {
+    if (!std::filesystem::is_directory(place)) return {place};
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(place)) {
+        const bool hidden = entry.path().filename().string().starts_with('.');
+        if (entry.is_regular_file() && !hidden) files.push_back(entry.path());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 std::uintmax_t content_bytes(const std::filesystem::path& file) {
     std::uintmax_t bytes = 0;
-    for (const std::filesystem::path& part : files_of(file))
+    for (const std::filesystem::path& part : content_files(file))
         bytes += std::filesystem::file_size(part);
     return bytes;
+}
+
+bool has_content(const std::filesystem::path& file, const FileContent& content) {
+    try {
+        return content_bytes(file) == content.bytes &&
+               sha256_of_file(file, content.head_bytes) == content.sha256;
+    } catch (const std::filesystem::filesystem_error&) {
+        return false;
+    }
 }
 
 }  // namespace dibhr

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/new_folder.hpp"
 #include "core/files/plain_text.hpp"
 
 namespace dibhr {
@@ -62,22 +63,22 @@ pid_t writer_of(const std::string& name, const std::string& begin) {
     return is_ours && end != digits + 1 ? writer : 0;
 }
 
-/// Removes the unfinished files of programs that were killed while they wrote this target. A file
-/// of another machine or container, whose process numbers mean nothing here, is locked by its
-/// writer.
-void remove_left_over(const fs::path& target) {
+/// Removes the unfinished files, or folders, of programs that were killed while they wrote this
+/// target. A file of another machine or container, whose process numbers mean nothing here, is
+/// locked by its writer.
+void remove_left_over(const fs::path& target, fs::file_type kind) {
     std::error_code failed;
     const std::string begin = target.filename().string() + kPart;
     for (const auto& entry :
          fs::directory_iterator(target.has_parent_path() ? target.parent_path() : ".", failed)) {
         const pid_t writer = writer_of(entry.path().filename().string(), begin);
         if (writer <= 0 || ::kill(writer, 0) == 0 || errno != ESRCH) continue;
-        if (entry.symlink_status(failed).type() != fs::file_type::regular) continue;
+        if (entry.symlink_status(failed).type() != kind) continue;
         const int left = ::open(entry.path().c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
         if (left < 0) continue;
         std::error_code kept;
-        const bool removed =
-            ::flock(left, LOCK_EX | LOCK_NB) == 0 && fs::remove(entry.path(), kept) && !kept;
+        const bool removed = ::flock(left, LOCK_EX | LOCK_NB) == 0 &&
+                             fs::remove_all(entry.path(), kept) > 0 && !kept;
         ::close(left);
         if (removed)
             print_warning("removed " + entry.path().string() +
@@ -142,7 +143,7 @@ OutputFile::OutputFile(const fs::path& target) : target_(target) {
     for (int links = 0; links < kMostLinks && fs::is_symlink(target_, ignored); ++links) {
         target_ = target_.parent_path() / fs::read_symlink(target_, ignored);
     }
-    remove_left_over(target_);
+    remove_left_over(target_, fs::file_type::regular);
     // Not mkostemp(), whose files only their owner may read. Another program that was killed may
     // have left a file of such a name.
     constexpr int kMostLeftOver = 1000;
@@ -228,6 +229,42 @@ void write_file(const fs::path& target, std::string_view bytes) {
     OutputFile out(target);
     out.write(bytes);
     out.commit();
+}
+
+NewFolder::NewFolder(const fs::path& target)
+    : target_(target.has_filename() ? target : target.parent_path()) {
+    std::error_code failed;
+    if (fs::exists(fs::symlink_status(target_, failed)) &&
+        !(fs::is_directory(target_, failed) && fs::is_empty(target_, failed)))
+        throw InputError(target_.string() +
+                         ": is there already, and nothing is replaced; name a folder that is new");
+    remove_left_over(target_, fs::file_type::directory);
+    for (int number = 0; temporary_.empty(); ++number) {
+        fs::path name = target_;
+        name += kPart + std::to_string(::getpid()) + "-" + std::to_string(number);
+        if (fs::create_directory(name, failed)) temporary_ = name;
+        if (failed) fail(failed.message());
+    }
+    lock_ = ::open(temporary_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    ::flock(lock_, LOCK_EX | LOCK_NB);  // as in OutputFile
+}
+
+NewFolder::~NewFolder() {
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove_all(temporary_, ignored);
+    if (lock_ >= 0) ::close(lock_);
+}
+
+void NewFolder::commit() {
+    if (!flush_folder(temporary_)) fail(std::strerror(errno));
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(std::strerror(errno));
+    temporary_.clear();
+    if (!flush_folder(target_.parent_path())) fail(std::strerror(errno));
+}
+
+void NewFolder::fail(const std::string& reason) const {
+    throw InputError(target_.string() + ": cannot be made (" + reason +
+                     "); name another folder or make room for it");
 }
 
 OutputFolder::OutputFolder(const fs::path& folder, std::vector<std::string> names)

@@ -2,13 +2,15 @@
 #include "core/replay/frames.hpp"
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 #include <utility>
 
 #include "core/error.hpp"
-#include "core/files/content_hash.hpp"
+#include "core/files/content_files.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/replay/stored_frames.hpp"
+#include "core/session/media_places.hpp"
 #include "core/sqlite/database.hpp"
 #include "core/video/cleaning/surface_version.hpp"
 #include "core/video/sources/layouts/picture_pattern.hpp"
@@ -43,15 +45,6 @@ bool has_motion(const Session& session) {
                        });
 }
 
-bool has_content(const fs::path& file, const SessionMedia& media) {
-    try {
-        return content_bytes(file) == media.bytes &&
-               sha256_of_file(file, media.head_bytes) == media.sha256;
-    } catch (const fs::filesystem_error&) {
-        return false;
-    }
-}
-
 // Size of the cache [bytes]: of a run without a window, and of a window.
 constexpr std::size_t kMostOfRun = std::size_t{512} << 20;
 constexpr std::size_t kMostOfWindow = std::size_t{256} << 20;
@@ -84,9 +77,9 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
     if (media.file.empty())
         throw InputError(session_.string() + ": does not say with which " + what +
                          " it was recorded; record it again");
-    const fs::path beside = fs::absolute(session_).parent_path() / media.file.filename();
+    const std::array<fs::path, 2> places = places_of(media, session_);
     std::optional<fs::path> found;
-    for (const fs::path& candidate : {media.file, beside}) {
+    for (const fs::path& candidate : places) {
         if (!is_media(candidate)) continue;
         if (!media.sha256.empty() && has_content(candidate, media)) return candidate;
         if (!found) found = candidate;
@@ -95,7 +88,7 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
         throw InputError(session_.string() + ": the " + what + " that it was recorded with, " +
                          media.file.string() +
                          ", is not there; put it back, or beside the session as " +
-                         beside.string());
+                         places[1].string());
     if (media.sha256.empty()) {
         warn(found->string() + " is taken for the " + what +
              " of the recording, which ended before its content was known");
@@ -104,7 +97,7 @@ fs::path SessionMediaFinder::find(const SessionMedia& media, const std::string& 
     } else {
         throw InputError(found->string() + ": has changed since " + session_.filename().string() +
                          " was recorded with it; put the original beside the session as " +
-                         beside.string() + ", or take it as it is with --any-media");
+                         places[1].string() + ", or take it as it is with --any-media");
     }
     return *found;
 }

@@ -15,6 +15,7 @@
 
 #include "core/error.hpp"
 #include "core/files/machine.hpp"
+#include "core/files/utc_text.hpp"
 #include "core/haptics/surface.hpp"
 
 namespace dibhr {
@@ -81,15 +82,6 @@ SessionFacts machine_facts() {
     return facts;
 }
 
-/// "2026-05-31T12:00:00Z"
-std::string utc_text(std::time_t moment) {
-    std::tm utc{};
-    gmtime_r(&moment, &utc);
-    std::array<char, 32> text{};
-    std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text.data();
-}
-
 std::int64_t state_of(const TickRecord& record) {
     namespace at = tick_state;
     constexpr auto kLast = static_cast<std::uint8_t>(kLastPrimitiveKind);
@@ -154,7 +146,7 @@ SessionFile::SessionFile(const std::filesystem::path& file, const SessionFacts& 
         surface_.emplace(database_, *surface.surfaces, surface.how);
     begin();
     for (const auto& [key, value] : machine_facts()) set_fact(key, value);
-    set_fact("started", utc_text(std::time(nullptr)));
+    set_fact("started", utc_text(static_cast<double>(std::time(nullptr))));
     for (const auto& [key, value] : facts) set_fact(key, value);
     set_fact("schema_version", std::to_string(kSessionSchemaVersion));
     set_fact("units", "pixels of the depth image, newtons, seconds; see table tick_column");

@@ -3,16 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <map>
 #include <utility>
 
-#include <unistd.h>
-
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/scratch_folder.hpp"
 
 namespace dibhr {
 
@@ -87,30 +85,6 @@ std::vector<Piece> pieces_of(const Session& session, std::size_t intervals) {
         pieces.push_back({mark.t_s, interval_marked(mark.tag, intervals)});
     return pieces;
 }
-
-/// A temporary folder for one session at a time; the destructor removes it.
-class ScratchFolder {
-  public:
-    ScratchFolder() {
-        std::string pattern = (fs::temp_directory_path() / "dibhr-study-XXXXXX").string();
-        if (::mkdtemp(pattern.data()) == nullptr)
-            throw InputError(pattern +
-                             ": cannot be made, and the sessions are read from there: "
-                             "set TMPDIR to a folder with room");
-        folder_ = pattern;
-    }
-    ~ScratchFolder() {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-    }
-    ScratchFolder(const ScratchFolder&) = delete;
-    ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-    [[nodiscard]] fs::path file() const { return folder_ / "trial.dibhr"; }
-
-  private:
-    fs::path folder_;
-};
 
 double weighted(double a, double of_a, double b, double of_b) noexcept {
     return of_a + of_b > 0.0 ? (a * of_a + b * of_b) / (of_a + of_b) : 0.0;
@@ -187,14 +161,15 @@ std::string motion_condition(const Block& block, const StudyInterval& interval) 
 std::vector<IntervalRow> motion_of(const Study& study,
                                    const std::function<void(double)>& progress) {
     std::vector<IntervalRow> rows;
-    const ScratchFolder scratch;
+    const ScratchFolder scratch("the sessions are read from there");
+    const fs::path trial_file = scratch.path() / "trial.dibhr";
     for (std::size_t participant = 0; participant < study.participants.size(); ++participant) {
         const StudyRecord& record = study.participants[participant];
         for (std::size_t k = 0; k < record.answered.size(); ++k) {
             const Trial& trial = record.answered[k].trial;
             if (record.session_bytes[k] == 0) continue;
-            if (!write_study_session(record.file, trial.number, scratch.file())) continue;
-            const Session session(scratch.file());
+            if (!write_study_session(record.file, trial.number, trial_file)) continue;
+            const Session session(trial_file);
             const std::vector<IntervalMotion> motion = motion_in(session, trial.intervals.size());
             const Block& block = study.protocol.blocks[static_cast<std::size_t>(trial.block)];
             for (std::size_t n = 0; n < motion.size(); ++n)

@@ -216,8 +216,9 @@ TEST_CASE("app/run takes no command for the viewer but view", "[usage]") {
 }
 
 TEST_CASE("the help of every command ends with examples of it", "[usage]") {
-    for (const std::string command : {"view", "touch", "surface", "depth", "experiment", "replay",
-                                      "export", "report", "study", "info", "devices", "bench"}) {
+    for (const std::string command :
+         {"view", "touch", "surface", "depth", "experiment", "replay", "export", "report",
+          "archive", "study", "info", "devices", "bench"}) {
         CAPTURE(command);
         const TemporaryFolder folder;
         const std::string help = run_dibhr(folder, {"help", command}).output;
