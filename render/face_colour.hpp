@@ -13,8 +13,7 @@ namespace dibhr {
 class FaceColour {
   public:
     /// `colour`: of the same view, of any size; may be null.
-    FaceColour(const ColourImage* colour, const BlendedDepth& depth)
-        : image_(colour), depth_(depth.from), elevation_(depth) {}
+    FaceColour(const ColourImage* colour, const BlendedDepth& depth);
 
     /// The mean around a pixel of the depth image; nothing where an outline is near on all sides.
     [[nodiscard]] std::optional<glm::vec3> around(int x, int y) const;
@@ -26,6 +25,9 @@ class FaceColour {
     const ColourImage* image_;
     const DepthImage& depth_;  // used for the size only
     PixelElevation elevation_;
+    int unit_;    ///< [px of the depth image]
+    int fringe_;  ///< likewise
+    float same_face_px_;
 };
 
 }  // namespace dibhr
