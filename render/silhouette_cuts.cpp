@@ -142,12 +142,18 @@ class CutFinder {
         const int right = grid_.image_i(cell.i + 1);
         const int top = grid_.image_j(cell.j);
         const int bottom = grid_.image_j(cell.j + 1);
-        for (int y = top; y <= bottom; y += unit_)
-            if (has_step_along(image_.index(0, y), 1, image_.columns, left, right)) return true;
         const auto stride = static_cast<std::size_t>(image_.columns);
-        for (int x = left; x <= right; x += unit_)
-            if (has_step_along(image_.index(x, 0), stride, image_.rows, top, bottom)) return true;
-        return false;
+        const auto in_row = [&](int y) {
+            return has_step_along(image_.index(0, y), 1, image_.columns, left, right);
+        };
+        const auto in_column = [&](int x) {
+            return has_step_along(image_.index(x, 0), stride, image_.rows, top, bottom);
+        };
+        for (int y = top; y < bottom; y += unit_)
+            if (in_row(y)) return true;
+        for (int x = left; x < right; x += unit_)
+            if (in_column(x)) return true;
+        return in_row(bottom) || in_column(right);  // an outline may touch one corner only
     }
 
     /// Whether the row or column that begins at pixel `first`, of `count` pixels, has a step

@@ -244,6 +244,32 @@ TEST_CASE("beside a step the ring of a filter that overshoots is on no face") {
         CHECK(vertex.elevation_px > 450.0F * static_cast<float>(unit));
 }
 
+TEST_CASE("no uncut cell hangs between two faces, whatever corner an outline touches") {
+    const int unit = GENERATE(1, 3, 6);
+    const int columns = 640 * unit;
+    const int rows = 80 * unit;
+    const int step = unit == 1 ? 3 : columns / 275;
+    // Boards whose corners are at every place in a cell.
+    const auto boards = [=](int x, int y) {
+        const int pitch = 8 * step + 1;
+        return x % pitch < pitch / 2 && y % pitch < pitch / 2 ? 200.0 * unit : 0.0;
+    };
+    const Cut cut(columns, rows, step, boards);
+    int hanging = 0;
+    for (int j = 0; j + 1 < cut.grid.rows(); ++j) {
+        for (int i = 0; i + 1 < cut.grid.columns(); ++i) {
+            const auto at = [&](int x, int y) {
+                return cut.elevations[static_cast<std::size_t>(y * cut.grid.columns() + x)];
+            };
+            const auto [low, high] =
+                std::minmax({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+            const auto cell = static_cast<std::size_t>(j * cut.grid.columns() + i);
+            if (high > low && !(cut.cuts.cut[cell] > 0.0F)) ++hanging;
+        }
+    }
+    CHECK(hanging == 0);
+}
+
 TEST_CASE("between two images their blend is cut") {
     const int step = GENERATE(1, 5);
     const double blend = GENERATE(0.0, 0.3, 1.0);
