@@ -1,6 +1,7 @@
 // The drawn surface between two depth images, without bumps and painted heights.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -16,6 +17,13 @@ struct BlendedDepth {
     double blend{0.0};  ///< 0: from, 1: to
     double px_per_level{1.0};
 };
+
+/// How many pixels of a picture's row are one of 640 pixels in a row: the unit of all widths and
+/// heights that are judged at outlines, so that a picture has the same ones at any size.
+[[nodiscard]] inline int outline_unit(const DepthImage& image) {
+    constexpr int kUsualColumns = 640;
+    return std::max(1, (image.columns + kUsualColumns / 2) / kUsualColumns);
+}
 
 /// The elevation of a pixel of the whole image [px].
 class PixelElevation {

@@ -9,16 +9,21 @@
 namespace dibhr {
 namespace {
 
-constexpr float kSameFaceColour_px = 10.0F;  // a larger difference is another face
-constexpr int kFewest = 4;                   // pixels; fewer are in the shade of the near face
-constexpr int kReach = 6;                    // pixels of the depth image
+// In units (outline_unit()).
+constexpr float kSameColour = 10.0F;  // a larger difference in elevation is another face
+constexpr int kReach = 6;
 constexpr int kApart = 3;
 constexpr int kFringe = 2;  // beside an outline, where the colours of both sides are mixed
+constexpr int kFewest = 4;  // samples; fewer are in the shade of the near face
 
 }  // namespace
 
 FaceColour::FaceColour(const Frame* frame, const BlendedDepth& depth)
-    : depth_(depth.from), elevation_(depth) {
+    : depth_(depth.from),
+      elevation_(depth),
+      unit_(outline_unit(depth.from)),
+      fringe_(kFringe * unit_),
+      same_face_px_(kSameColour * static_cast<float>(unit_)) {
     if (frame == nullptr || !frame->has_colour()) return;
     image_ = frame->colour.get();
     video_ = frame->video.get();
@@ -29,8 +34,9 @@ std::optional<glm::vec3> FaceColour::around(int x, int y) const {
     const float face_px = elevation_(depth_.index(x, y));
     glm::vec3 sum(0.0F);
     int count = 0;
-    for (int dy = -kReach; dy <= kReach; dy += kApart) {
-        for (int dx = -kReach; dx <= kReach; dx += kApart) {
+    const int reach = kReach * unit_;
+    for (int dy = -reach; dy <= reach; dy += kApart * unit_) {
+        for (int dx = -reach; dx <= reach; dx += kApart * unit_) {
             if (!is_inside(x + dx, y + dy, face_px)) continue;
             sum += pixel(x + dx, y + dy);
             ++count;
@@ -41,15 +47,15 @@ std::optional<glm::vec3> FaceColour::around(int x, int y) const {
 }
 
 bool FaceColour::is_inside(int x, int y, float face_px) const {
-    if (x < kFringe || y < kFringe || x + kFringe >= depth_.columns || y + kFringe >= depth_.rows)
+    if (x < fringe_ || y < fringe_ || x + fringe_ >= depth_.columns || y + fringe_ >= depth_.rows)
         return false;
     const std::size_t here = depth_.index(x, y);
     const auto on_face = [this, face_px](std::size_t pixel) {
-        return std::abs(elevation_(pixel) - face_px) <= kSameFaceColour_px;
+        return std::abs(elevation_(pixel) - face_px) <= same_face_px_;
     };
-    const std::size_t rows =
-        static_cast<std::size_t>(kFringe) * static_cast<std::size_t>(depth_.columns);
-    return on_face(here) && on_face(here - kFringe) && on_face(here + kFringe) &&
+    const auto columns = static_cast<std::size_t>(fringe_);
+    const std::size_t rows = columns * static_cast<std::size_t>(depth_.columns);
+    return on_face(here) && on_face(here - columns) && on_face(here + columns) &&
            on_face(here - rows) && on_face(here + rows);
 }
 

@@ -26,6 +26,9 @@ class FaceColour {
     const VideoPicture* video_{nullptr};
     const DepthImage& depth_;  // used for the size only
     PixelElevation elevation_;
+    int unit_;    ///< [px of the depth image]
+    int fringe_;  ///< likewise
+    float same_face_px_;
 };
 
 }  // namespace dibhr

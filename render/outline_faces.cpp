@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <optional>
 
 #include "render/face_colour.hpp"
@@ -14,7 +13,7 @@ namespace {
 
 constexpr int kMostPasses = 3;  // of vertices along an outline, that take a face from the next
 constexpr int kEndSmoothings = 2;
-constexpr float kSameEnd_px = 30.0F;
+constexpr float kSameEnd_units = 30.0F;
 
 /// Takes a value that is not known yet. Whether it did.
 template <class Value>
@@ -29,21 +28,21 @@ class FaceJoiner {
     FaceJoiner(const CutRelief& relief, Rims& rims)
         : relief_(relief),
           grid_(relief.grid),
-          image_(relief.depth.from),
-          elevation_(relief.depth),
           colour_(relief.colour, relief.depth),
+          same_end_px_(kSameEnd_units * static_cast<float>(outline_unit(relief.depth.from))),
           rims_(rims) {}
 
     std::vector<OutlineCell> run() {
         std::vector<OutlineCell> cells;
         cells.reserve(relief_.cuts.cells.size());
-        for (const std::size_t cell : relief_.cuts.cells) cells.push_back(join(rims_.place(cell)));
+        for (std::size_t k = 0; k < relief_.cuts.cells.size(); ++k)
+            cells.push_back(join(rims_.place(relief_.cuts.cells[k]), relief_.cuts.ends_px[k]));
         take_means();
         // A cell may touch one face only.
         bool more = true;
         for (int pass = 0; more && pass < kMostPasses; ++pass) {
             more = false;
-            for (const OutlineCell& cell : cells) more = complete(cell) || more;
+            for (const OutlineCell& cell : cells) more = complete(cell, rims_) || more;
         }
         smooth_ends();
         return cells;
@@ -54,43 +53,51 @@ class FaceJoiner {
     struct Ends {
         Mean<float> far{}, near{};
         Mean<glm::vec2> faces{};
+        Mean<glm::vec3> colour{};
     };
 
     /// Gives each corner of a cut cell the elevation of the face that it is not on.
-    OutlineCell join(GridPlace place) {
+    OutlineCell join(GridPlace place, glm::vec2 ends_px) {
         const std::array<GridPlace, 4> corners = corners_of(place);
-        OutlineCell cell;
-        const float middle_px = middle_of(corners);
+        OutlineCell cell{.ends_px = ends_px};
         for (std::size_t k = 0; k < 4; ++k) {
             cell.rims[k] = rims_.number(corners[k]);
-            cell.face[k] = face_at(corners[k], middle_px);
+            cell.face[k] = face_at(corners[k], 0.5F * (ends_px.x + ends_px.y));
         }
         ends_.resize(rims_.count());
-        Mean<float> far;
-        Mean<float> near;
+        // Where a high and a low step meet, it is the high one's faces that must not be missed.
+        const float rise = ends_px.y - ends_px.x;
+        const float weight = std::max(rise * rise * rise * rise, 1.0F);
+        for (std::size_t k = 0; k < 4; ++k)
+            if (cell.face[k] == Face::far) colour(rims_[cell.rims[k]]);
         for (std::size_t to = 0; to < 4; ++to) {
             Rim& corner = rims_[cell.rims[to]];
-            if (cell.face[to] == Face::far) colour(corner);
+            Ends& ends = ends_[cell.rims[to]];
+            ends.faces.add(ends_px, weight);
+            if (cell.face[to] != Face::far) ends.far.add(ends_px.x, weight);
+            if (cell.face[to] != Face::near) ends.near.add(ends_px.y, weight);
             for (std::size_t k = 0; k < 4; ++k) {
-                if (cell.face[k] == cell.face[to] || cell.face[k] == Face::between) continue;
-                const float end_px = end_of_face(corners[k], corner.at);
+                if (cell.face[k] == cell.face[to]) continue;
                 if (cell.face[k] == Face::far) {
-                    far.add(end_px);
-                    ends_[cell.rims[to]].far.add(end_px);
-                    corner.far_source = corners[k];
+                    if (const auto& behind = rims_[cell.rims[k]].own_colour)
+                        ends.colour.add(*behind, weight);
+                    corner.far_source = well_inside(corners[k], corner.at);
                     corner.outward += rims_.in_image(corners[k]) - rims_.in_image(corner.at);
-                } else {
-                    near.add(end_px);
-                    ends_[cell.rims[to]].near.add(end_px);
+                } else if (cell.face[k] == Face::near) {
                     corner.near_source = corners[k];
                 }
             }
         }
-        const auto far_px = far.value();
-        const auto near_px = near.value();
-        if (!far_px || !near_px) return cell;
-        for (const std::uint32_t rim : cell.rims) ends_[rim].faces.add({*far_px, *near_px});
         return cell;
+    }
+
+    /// The vertex beyond `source`, seen from `from`, if it is on the same face: beside an outline,
+    /// light and colour are uncertain.
+    [[nodiscard]] GridPlace well_inside(GridPlace source, GridPlace from) const {
+        const GridPlace beyond{2 * source.i - from.i, 2 * source.j - from.j};
+        if (!rims_.inside(beyond) || relief_.cuts.around[rims_.index(beyond)] > 0.0F) return source;
+        const float apart_px = std::abs(rims_.elevation_px(beyond) - rims_.elevation_px(source));
+        return apart_px < same_end_px_ ? beyond : source;
     }
 
     [[nodiscard]] Face face_at(GridPlace vertex, float middle_px) const {
@@ -101,56 +108,7 @@ class FaceJoiner {
     void colour(Rim& rim) const {
         if (rim.is_far) return;
         rim.is_far = true;
-        rim.colour = colour_.around(grid_.image_i(rim.at.i), grid_.image_j(rim.at.j));
-        rim.has_own_colour = rim.colour.has_value();
-    }
-
-    /// Half way between the highest and the lowest vertex on a face: of a cell, or, where a corner
-    /// lies between the faces, of the cells around it.
-    [[nodiscard]] float middle_of(const std::array<GridPlace, 4>& cell) const {
-        const bool blurred = std::any_of(cell.begin(), cell.end(), [this](GridPlace corner) {
-            return relief_.cuts.between[rims_.index(corner)];
-        });
-        const int more = blurred ? 1 : 0;
-        float low = std::numeric_limits<float>::max();
-        float high = std::numeric_limits<float>::lowest();
-        for (int j = cell[0].j - more; j <= cell[3].j + more; ++j) {
-            for (int i = cell[0].i - more; i <= cell[3].i + more; ++i) {
-                if (!rims_.inside({i, j}) || relief_.cuts.between[rims_.index({i, j})]) continue;
-                low = std::min(low, rims_.elevation_px({i, j}));
-                high = std::max(high, rims_.elevation_px({i, j}));
-            }
-        }
-        return 0.5F * (low + high);
-    }
-
-    /// The elevation of the face of `from` where it ends on the way to `to`: before the highest
-    /// step from pixel to pixel [px].
-    [[nodiscard]] float end_of_face(GridPlace from, GridPlace to) const {
-        const int x = grid_.image_i(from.i);
-        const int y = grid_.image_j(from.j);
-        const int dx = grid_.image_i(to.i) - x;
-        const int dy = grid_.image_j(to.j) - y;
-        const int pixels = std::max(std::abs(dx), std::abs(dy));
-        const bool straight = (dx == 0 || std::abs(dx) == pixels) &&
-                              (dy == 0 || std::abs(dy) == pixels);  // all but in the last cells
-        const auto first = static_cast<std::ptrdiff_t>(image_.index(x, y));
-        const std::ptrdiff_t stride =
-            (dx > 0) - (dx < 0) + std::ptrdiff_t{(dy > 0) - (dy < 0)} * image_.columns;
-        float end = rims_.elevation_px(from);
-        float highest = 0.0F;
-        float before = end;
-        for (int k = 1; k <= pixels; ++k) {
-            const float next =
-                elevation_(straight ? static_cast<std::size_t>(first + k * stride)
-                                    : image_.index(x + k * dx / pixels, y + k * dy / pixels));
-            if (std::abs(next - before) > highest) {
-                highest = std::abs(next - before);
-                end = before;
-            }
-            before = next;
-        }
-        return end;
+        rim.own_colour = colour_.around(grid_.image_i(rim.at.i), grid_.image_j(rim.at.j));
     }
 
     void take_means() {
@@ -158,29 +116,23 @@ class FaceJoiner {
             rims_[k].far = ends_[k].far.value();
             rims_[k].near = ends_[k].near.value();
             rims_[k].faces = ends_[k].faces.value();
+            rims_[k].colour = ends_[k].colour.value();
         }
     }
 
-    /// Takes what is not known at a corner from the other ones. Whether there was something.
-    bool complete(const OutlineCell& cell) {
+    /// Takes sources that are not known at a corner from the other ones. Whether there was one.
+    static bool complete(const OutlineCell& cell, Rims& rims) {
         bool changed = false;
         for (std::size_t k = 0; k < 4; ++k) {
-            Rim& corner = rims_[cell.rims[k]];
-            const bool wants_far = cell.face[k] != Face::far && !corner.far;
-            const bool wants_near = cell.face[k] != Face::near && !corner.near;
-            if (corner.faces && !wants_far && !wants_near) continue;
+            Rim& corner = rims[cell.rims[k]];
             for (const std::uint32_t number : cell.rims) {
-                const Rim& other = rims_[number];
-                changed = take(corner.faces, other.faces) || changed;
-                if (wants_far && take(corner.far, other.far)) {
-                    corner.far_source = other.far_source;
+                const Rim& other = rims[number];
+                if (cell.face[k] != Face::far && take(corner.far_source, other.far_source)) {
                     corner.outward = other.outward;
                     changed = true;
                 }
-                if (wants_near && take(corner.near, other.near)) {
-                    corner.near_source = other.near_source;
+                if (cell.face[k] != Face::near && take(corner.near_source, other.near_source))
                     changed = true;
-                }
             }
         }
         return changed;
@@ -194,7 +146,7 @@ class FaceJoiner {
                 if (!rim.near) continue;
                 Mean<float> mean;
                 rims_.each_around(rim.at, [&](const Rim& other) {
-                    if (other.near && std::abs(*other.near - *rim.near) < kSameEnd_px)
+                    if (other.near && std::abs(*other.near - *rim.near) < same_end_px_)
                         mean.add(*other.near);
                 });
                 rim.near = mean.value();
@@ -204,9 +156,8 @@ class FaceJoiner {
 
     const CutRelief& relief_;
     const ReliefGrid& grid_;
-    const DepthImage& image_;  // used for the size only
-    PixelElevation elevation_;
     FaceColour colour_;
+    float same_end_px_;
     Rims& rims_;
     std::vector<Ends> ends_{};  // of each rim
 };

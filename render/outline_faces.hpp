@@ -17,6 +17,7 @@ enum class Face : std::uint8_t { far, near, between };
 struct OutlineCell {
     std::array<std::uint32_t, 4> rims{};  ///< numbers
     std::array<Face, 4> face{};
+    glm::vec2 ends_px{0.0F};  ///< elevations of its far and its near face
 };
 
 /// Adds a rim for each corner of the cut cells, with the elevations of the face that the corner is

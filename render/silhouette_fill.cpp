@@ -9,6 +9,7 @@ namespace dibhr {
 namespace {
 
 constexpr int kMostRings = 100;  // of vertices under the near face: bounds the work
+constexpr int kMostSpread = 8;   // vertices along an outline, for a colour
 constexpr int kFillSmoothings = 3;
 constexpr float kLeastGap_px = 2.0F;  // between the near face and what is behind
 
@@ -29,15 +30,38 @@ Continued continued_at(const Rims& rims, GridPlace middle, int ring) {
     return {far.value(), colour.value()};
 }
 
-bool continue_at(Rims& rims, GridPlace next, int ring, GridPlace far_source) {
+bool continue_at(Rims& rims, GridPlace next, int ring, std::optional<GridPlace> far_source) {
     const Continued mean = continued_at(rims, next, ring);
     if (!mean.far || rims.elevation_px(next) - *mean.far < kLeastGap_px) return false;
     Rim& added = rims[rims.number(next)];
     added.ring = ring;
     added.far = mean.far;
-    if (!added.has_own_colour) added.colour = mean.colour;
+    added.colour = mean.colour;
     added.far_source = far_source;
     return true;
+}
+
+/// Gives rims whose far face is too narrow to have a colour that of the next ones.
+void spread_colours(Rims& rims) {
+    bool more = true;
+    for (int pass = 0; more && pass < kMostSpread; ++pass) {
+        more = false;
+        for (std::uint32_t k = 0; k < rims.count(); ++k) {
+            Rim& rim = rims[k];
+            const bool wants_own = rim.is_far && !rim.own_colour;
+            const bool wants_far = rim.far && !rim.colour;
+            if (!wants_own && !wants_far) continue;
+            more = true;
+            Mean<glm::vec3> own;
+            Mean<glm::vec3> far;
+            rims.each_around(rim.at, [&](const Rim& around) {
+                if (around.own_colour) own.add(*around.own_colour);
+                if (around.colour) far.add(*around.colour);
+            });
+            if (wants_own) rim.own_colour = own.count > 0.0F ? own.value() : far.value();
+            if (wants_far) rim.colour = far.count > 0.0F ? far.value() : own.value();
+        }
+    }
 }
 
 /// Ring by ring.
@@ -67,14 +91,13 @@ void add_rings(Rims& rims) {
     }
 }
 
-/// Evens out the fill where rings from different sides have met, and colours the vertices that
-/// have no colour of their own face.
+/// Evens out the fill where rings from different sides have met.
 void smooth(Rims& rims) {
     const std::uint32_t count = rims.count();
     for (int pass = 0; pass < kFillSmoothings; ++pass) {
         for (std::uint32_t k = 0; k < count; ++k) {
             Rim& rim = rims[pass % 2 == 0 ? k : count - 1 - k];
-            if (rim.has_own_colour) continue;
+            if (!rim.far) continue;
             const Continued around = continued_at(rims, rim.at, kMostRings + 1);
             if (around.colour) rim.colour = around.colour;
             if (rim.ring > 0 && around.far &&
@@ -87,6 +110,7 @@ void smooth(Rims& rims) {
 }  // namespace
 
 void fill_under(Rims& rims) {
+    spread_colours(rims);
     add_rings(rims);
     smooth(rims);
 }

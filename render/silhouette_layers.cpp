@@ -12,7 +12,8 @@ namespace dibhr {
 namespace {
 
 constexpr float kLargestSide = 65536.0F;
-constexpr int kOutside = -2;  // with its neighbours
+constexpr int kOutside = -2;      // with its neighbours
+constexpr float kSameEnd = 0.3F;  // of a step: ends that differ by more are of different faces
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
 
@@ -26,9 +27,10 @@ std::array<std::uint8_t, 4> bytes(const std::optional<glm::vec3>& colour) {
     return {byte(rgb.x), byte(rgb.y), byte(rgb.z), 255};
 }
 
-LayerVertex at_outline(const Rim& rim, float elevation_px, GridPlace source) {
+LayerVertex at_outline(const Rim& rim, float elevation_px, std::optional<GridPlace> source) {
     const glm::vec2 faces = rim.faces.value_or(glm::vec2(elevation_px));
-    return {vertex(rim.at), vertex(source), elevation_px, faces.x, faces.y, bytes(rim.colour)};
+    return {vertex(rim.at),   vertex(source.value_or(rim.at)), elevation_px, faces.x, faces.y,
+            bytes(rim.colour)};
 }
 
 /// Adds a vertex to a triangle; `number`, from 1, is its number if it was added before, else 0.
@@ -47,14 +49,18 @@ class LayerMesher {
 
     void add_cut_cell(const OutlineCell& cell) {
         for (const std::size_t k : kTriangles) {
-            const Rim& rim = rims_[cell.rims[k]];
             Numbers& numbers = numbers_[cell.rims[k]];
-            const bool far = cell.face[k] == Face::far;
-            const bool near = cell.face[k] == Face::near;
-            add(layers_.behind, far ? numbers.behind_on_own : numbers.behind_on_other,
-                on_face(rim, !far, rim.far, rim.far_source));
-            add(layers_.front, near ? numbers.front_on_own : numbers.front_on_other,
-                on_face(rim, !near, rim.near, rim.near_source));
+            const Rim& rim = rims_[cell.rims[k]];
+            if (cell.face[k] == Face::far)
+                add_in_cell(layers_.behind, numbers.behind_on_own, cell, on_own_face(rim));
+            else
+                add_in_cell(layers_.behind, numbers.behind_on_other, cell,
+                            at_outline(rim, rim.far.value_or(cell.ends_px.x), rim.far_source));
+            if (cell.face[k] == Face::near)
+                add_in_cell(layers_.front, numbers.front_on_own, cell, on_own_face(rim));
+            else
+                add_in_cell(layers_.front, numbers.front_on_other, cell,
+                            at_outline(rim, near_in(cell, rim), rim.near_source));
         }
     }
 
@@ -87,10 +93,33 @@ class LayerMesher {
         Seen seen{Seen::unknown};  ///< of what is behind it
     };
 
-    [[nodiscard]] LayerVertex on_face(const Rim& rim, bool elsewhere,
-                                      const std::optional<float>& face_px, GridPlace source) const {
-        if (elsewhere && face_px) return at_outline(rim, *face_px, source);
-        return at_outline(rim, rims_.elevation_px(rim.at), rim.at);
+    [[nodiscard]] LayerVertex on_own_face(const Rim& rim) const {
+        LayerVertex made = at_outline(rim, rims_.elevation_px(rim.at), rim.at);
+        if (rim.own_colour) made.fill = bytes(rim.own_colour);
+        return made;
+    }
+
+    /// Whether an end of a face around a vertex is the one in the cell, too.
+    [[nodiscard]] static bool is_same(const OutlineCell& cell, float around_px, float in_cell_px) {
+        return std::abs(around_px - in_cell_px) <= kSameEnd * (cell.ends_px.y - cell.ends_px.x);
+    }
+    /// A front that was joined to another step's would rise to it; behind, it would leave a gap.
+    [[nodiscard]] static float near_in(const OutlineCell& cell, const Rim& rim) {
+        return rim.near && is_same(cell, *rim.near, cell.ends_px.y) ? *rim.near : cell.ends_px.y;
+    }
+
+    /// Cells share a vertex, unless their steps are of different faces.
+    static void add_in_cell(SilhouetteLayer& layer, std::uint32_t& number, const OutlineCell& cell,
+                            LayerVertex made) {
+        if (is_same(cell, made.far_px, cell.ends_px.x) &&
+            is_same(cell, made.near_px, cell.ends_px.y)) {
+            add(layer, number, made);
+            return;
+        }
+        made.far_px = cell.ends_px.x;
+        made.near_px = cell.ends_px.y;
+        std::uint32_t unshared = 0;
+        add(layer, unshared, made);
     }
 
     [[nodiscard]] Numbers& numbers_at(const Rim& rim) {

@@ -10,29 +10,19 @@
 #include <optional>
 #include <vector>
 
+#include "render/outline_ramps.hpp"
 #include "render/silhouette_layers.hpp"
 
 namespace dibhr {
-
-/// A vertex of the drawn grid, or the cell to its lower right.
-struct GridPlace {
-    int i{0};
-    int j{0};
-};
-
-/// The corners of a cell: upper left, upper right, lower left, lower right.
-[[nodiscard]] inline std::array<GridPlace, 4> corners_of(GridPlace cell) {
-    return {cell, {cell.i + 1, cell.j}, {cell.i, cell.j + 1}, {cell.i + 1, cell.j + 1}};
-}
 
 template <class Value>
 struct Mean {
     Value sum{0.0F};
     float count{0.0F};
 
-    void add(const Value& value) {
-        sum += value;
-        count += 1.0F;
+    void add(const Value& value, float weight = 1.0F) {
+        sum += weight * value;
+        count += weight;
     }
     /// Nothing: no value was added.
     [[nodiscard]] std::optional<Value> value() const {
@@ -46,10 +36,10 @@ struct Rim {
     std::optional<float> far{};         ///< of the face behind, where this vertex is not on it [px]
     std::optional<float> near{};        ///< of the face in front, likewise [px]
     std::optional<glm::vec2> faces{};   ///< far and near one, where they end at the outline [px]
-    std::optional<glm::vec3> colour{};  ///< of the face behind
-    GridPlace far_source{};             ///< a vertex of the face behind
-    GridPlace near_source{};
-    bool has_own_colour{false};
+    std::optional<glm::vec3> colour{};  ///< of the face behind, where this vertex is not on it
+    std::optional<glm::vec3> own_colour{};  ///< of its own face, which is another one's far face
+    std::optional<GridPlace> far_source{};  ///< a vertex of the face behind
+    std::optional<GridPlace> near_source{};
     bool is_far{false};       ///< in a cut cell
     int ring{0};              ///< how many vertices from the outline, under the near face
     glm::vec2 outward{0.0F};  ///< from the near face

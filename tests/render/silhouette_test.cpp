@@ -25,13 +25,14 @@ struct Cut {
     SilhouetteCuts cuts{};
     SilhouetteLayers layers{};
 
-    Cut(int columns, int rows, int step, const std::function<double(int, int)>& elevation)
+    Cut(int columns, int rows, int step, const std::function<double(int, int)>& elevation,
+        const ColourImage* colour = nullptr)
         : image(depth_image(columns, rows, elevation)), grid{columns, rows, step} {
         const BlendedDepth depth{*image, *image};
         drawn_elevations(depth, grid, elevations);
         find_cuts(depth, grid, elevations, kLimit, cuts);
         const glm::vec4 eye_at_the_left(-0.5F, 0.0F, 1.0F, 0.0F);
-        build_layers({depth, grid, elevations, cuts, nullptr, eye_at_the_left}, layers);
+        build_layers({depth, grid, elevations, cuts, colour, eye_at_the_left}, layers);
     }
     [[nodiscard]] std::size_t cut_in_row(int j) const {
         const auto columns = static_cast<std::size_t>(grid.columns());
@@ -119,6 +120,154 @@ TEST_CASE("at a step the front is at the near face and what is behind at the far
         farthest = std::max(farthest, cut.grid.image_i(vertex.corner.i));
     }
     CHECK(farthest >= 20 + blur + 20);  // seen at a slope of a half, 200 px down: all of the rest
+}
+
+// A disc before a wall: its edge is a ramp of some pixels, as scaled or estimated depth has.
+class RampedDisc {
+  public:
+    static constexpr double kWall = 20.0;
+
+    RampedDisc(int columns, int ramp)
+        : unit_(std::max(1, (columns + 320) / 640)), columns_(columns), ramp_(ramp) {}
+
+    [[nodiscard]] int unit() const { return unit_; }
+    [[nodiscard]] double near_px() const { return kWall + 150.0 * unit_; }
+    [[nodiscard]] double middle() const { return 0.3 * rows(); }  ///< of the ramp, from the centre
+    [[nodiscard]] int rows() const { return columns_ / 2; }
+    [[nodiscard]] double from_centre(double x, double y) const {
+        return std::hypot(x - 0.5 * columns_, y - 0.5 * rows());
+    }
+    [[nodiscard]] double elevation(int x, int y) const {
+        const double share = 0.5 + (middle() - from_centre(x, y)) / ramp_;
+        return kWall + (near_px() - kWall) * std::clamp(share, 0.0, 1.0);
+    }
+    /// Skin before a dark wall; between them the colours are mixed.
+    [[nodiscard]] Rgb colour(int x, int y) const {
+        const double share =
+            std::clamp(0.5 + (middle() - from_centre(x, y)) / (2.0 * unit_), 0.0, 1.0);
+        return {static_cast<int>(40.0 + 200.0 * share), 40, 40};
+    }
+
+  private:
+    int unit_;
+    int columns_;
+    int ramp_;
+};
+
+TEST_CASE("a disc is cut all around whatever the picture's size and however blurred its edge") {
+    const int columns = GENERATE(640, 1280, 1920, 3840);
+    const int ramp = GENERATE(1, 2, 3, 5, 8);
+    const RampedDisc disc(columns, ramp);
+    if (ramp > 2.7 * disc.unit()) return;  // nearly a slope
+    const int step = columns == 640 ? 3 : columns / 275;
+    const auto colour =
+        colour_image(columns, disc.rows(), [&](int x, int y) { return disc.colour(x, y); });
+    const Cut cut(
+        columns, disc.rows(), step, [&](int x, int y) { return disc.elevation(x, y); },
+        colour.get());
+    CAPTURE(columns, ramp, step);
+
+    // Every ray from the centre meets a cut cell where the ramp is highest.
+    int uncut = 0;
+    constexpr int kRays = 720;
+    for (int ray = 0; ray < kRays; ++ray) {
+        const double angle = ray * 2.0 * 3.14159265358979 / kRays;
+        const int i = static_cast<int>(0.5 * columns + disc.middle() * std::cos(angle)) / step;
+        const int j = static_cast<int>(0.5 * disc.rows() + disc.middle() * std::sin(angle)) / step;
+        if (!(cut.cuts.cut[static_cast<std::size_t>(j * cut.grid.columns() + i)] > 0.0F)) ++uncut;
+    }
+    CHECK(uncut == 0);
+    // What is cut lies within a cell of the ramp.
+    int astray = 0;
+    for (const std::size_t cell : cut.cuts.cells) {
+        const double x = static_cast<double>(cell % static_cast<std::size_t>(cut.grid.columns()));
+        const double y = static_cast<double>(cell / static_cast<std::size_t>(cut.grid.columns()));
+        const double off = disc.from_centre((x + 0.5) * step, (y + 0.5) * step) - disc.middle();
+        if (std::abs(off) > 0.5 * ramp + 1.5 * step) ++astray;
+    }
+    CHECK(astray == 0);
+    // The layers are on their faces, and nothing is on the way from one to the other.
+    const double blur = 0.15 * (disc.near_px() - RampedDisc::kWall);
+    double off_near = 0.0;
+    double off_far = 0.0;
+    for (const LayerVertex& vertex : cut.layers.front.vertices)
+        off_near = std::max(off_near, std::abs(vertex.elevation_px - disc.near_px()));
+    int reddish = 0;
+    for (const LayerVertex& vertex : cut.layers.behind.vertices) {
+        off_far = std::max(off_far, std::abs(vertex.elevation_px - RampedDisc::kWall));
+        if (vertex.fill[0] > 60) ++reddish;
+    }
+    for (const LayerVertex& vertex : cut.layers.under.vertices)
+        if (vertex.fill[0] > 60) ++reddish;
+    CHECK(off_near <= blur);
+    CHECK(off_far <= blur);
+    CHECK(reddish == 0);
+    // The relief is whole up to a cell before the ramp, so the near layer ends at the outline.
+    for (const LayerVertex& vertex : cut.layers.front.vertices) {
+        CHECK(vertex.near_px - vertex.far_px >= 0.75 * (disc.near_px() - RampedDisc::kWall));
+    }
+}
+
+TEST_CASE("a ball and a steep fold are whole at any size of the picture") {
+    const int columns = GENERATE(640, 1920, 3840);
+    const int rows = columns / 2;
+    const int step = columns == 640 ? 3 : columns / 275;
+    const double unit = columns / 640.0;
+    const auto ball = [&](int x, int y) {
+        const double r = 100.0 * unit;
+        const double off = std::hypot(x - 0.5 * columns, y - 0.5 * rows);
+        return std::sqrt(std::max(r * r - off * off, 0.0));
+    };
+    const auto fold = [&](int x, int) { return x < columns / 2 ? 0.0 : 20.0 * unit; };
+    CHECK(Cut(columns, rows, step, ball).cuts.cells.empty());
+    CHECK(Cut(columns, rows, step, fold).cuts.cells.empty());
+}
+
+TEST_CASE("beside a step the ring of a filter that overshoots is on no face") {
+    const int unit = GENERATE(1, 3, 6);
+    const int columns = 640 * unit;
+    const auto ringed = [=](int x, int) {
+        const int from_edge = x - columns / 2;
+        if (from_edge < -2 * unit) return 500.0 * unit;
+        if (from_edge < 0) return 515.0 * unit;
+        return from_edge < 2 * unit ? 0.0 : 20.0 * unit;
+    };
+    const Cut cut(columns, 60 * unit, unit == 1 ? 3 : columns / 275, ringed);
+    REQUIRE_FALSE(cut.cuts.cells.empty());
+    for (const glm::vec2 ends_px : cut.cuts.ends_px) {
+        CHECK_THAT(static_cast<double>(ends_px.x), WithinAbs(20.0 * unit, 10.0 * unit));
+        CHECK_THAT(static_cast<double>(ends_px.y), WithinAbs(500.0 * unit, 10.0 * unit));
+    }
+    for (const LayerVertex& vertex : cut.layers.behind.vertices)
+        CHECK(vertex.elevation_px < 60.0F * static_cast<float>(unit));
+    for (const LayerVertex& vertex : cut.layers.front.vertices)
+        CHECK(vertex.elevation_px > 450.0F * static_cast<float>(unit));
+}
+
+TEST_CASE("no uncut cell hangs between two faces, whatever corner an outline touches") {
+    const int unit = GENERATE(1, 3, 6);
+    const int columns = 640 * unit;
+    const int rows = 80 * unit;
+    const int step = unit == 1 ? 3 : columns / 275;
+    // Boards whose corners are at every place in a cell.
+    const auto boards = [=](int x, int y) {
+        const int pitch = 8 * step + 1;
+        return x % pitch < pitch / 2 && y % pitch < pitch / 2 ? 200.0 * unit : 0.0;
+    };
+    const Cut cut(columns, rows, step, boards);
+    int hanging = 0;
+    for (int j = 0; j + 1 < cut.grid.rows(); ++j) {
+        for (int i = 0; i + 1 < cut.grid.columns(); ++i) {
+            const auto at = [&](int x, int y) {
+                return cut.elevations[static_cast<std::size_t>(y * cut.grid.columns() + x)];
+            };
+            const auto [low, high] =
+                std::minmax({at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)});
+            const auto cell = static_cast<std::size_t>(j * cut.grid.columns() + i);
+            if (high > low && !(cut.cuts.cut[cell] > 0.0F)) ++hanging;
+        }
+    }
+    CHECK(hanging == 0);
 }
 
 TEST_CASE("between two images their blend is cut") {
