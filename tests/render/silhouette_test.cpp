@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "render/silhouette_cuts.hpp"
@@ -26,13 +27,15 @@ struct Cut {
     SilhouetteLayers layers{};
 
     Cut(int columns, int rows, int step, const std::function<double(int, int)>& elevation,
-        const ColourImage* colour = nullptr)
+        std::shared_ptr<const ColourImage> colour = nullptr)
         : image(depth_image(columns, rows, elevation)), grid{columns, rows, step} {
         const BlendedDepth depth{*image, *image};
         drawn_elevations(depth, grid, elevations);
         find_cuts(depth, grid, elevations, kLimit, cuts);
         const glm::vec4 eye_at_the_left(-0.5F, 0.0F, 1.0F, 0.0F);
-        build_layers({depth, grid, elevations, cuts, colour, eye_at_the_left}, layers);
+        Frame frame;
+        frame.colour = std::move(colour);
+        build_layers({depth, grid, elevations, cuts, &frame, eye_at_the_left}, layers);
     }
     [[nodiscard]] std::size_t cut_in_row(int j) const {
         const auto columns = static_cast<std::size_t>(grid.columns());
@@ -163,8 +166,7 @@ TEST_CASE("a disc is cut all around whatever the picture's size and however blur
     const auto colour =
         colour_image(columns, disc.rows(), [&](int x, int y) { return disc.colour(x, y); });
     const Cut cut(
-        columns, disc.rows(), step, [&](int x, int y) { return disc.elevation(x, y); },
-        colour.get());
+        columns, disc.rows(), step, [&](int x, int y) { return disc.elevation(x, y); }, colour);
     CAPTURE(columns, ramp, step);
 
     // Every ray from the centre meets a cut cell where the ramp is highest.
