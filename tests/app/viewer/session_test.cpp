@@ -390,7 +390,7 @@ TEST_CASE("a session file that vanishes while it is recorded is told, and the pr
 TEST_CASE("a disk that becomes full in the midst of a recording stops neither hand nor program",
           "[session]") {
     const TemporaryFolder folder;
-    const SmallDisk disk(folder / "disk", 768);
+    const SmallDisk disk(folder / "disk", 1536);
     if (!disk.mounted()) {
         WARN("skipped: a small disk can only be mounted by root");
         CHECK_FALSE(disk.mounted());

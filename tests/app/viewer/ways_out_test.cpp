@@ -182,7 +182,7 @@ TEST_CASE(
     "[ways out]") {
     FalconScene at({.arguments = {kSlope, "--screenshot", "last.png"},
                     .records = false,
-                    .host = limited("-f 300")});
+                    .host = limited("-f 600")});
     at.press_in();
     at.viewer.act("key ctrl+r");
     at.viewer.wait_until([](const Seen& now) {
@@ -193,7 +193,7 @@ TEST_CASE(
     at.wait_for_force();
     at.desk.press("key q");
     CHECK(at.viewer.wait() == 1);
-    check_one_line(at.errors(), "the file-size limit of 307200 bytes is met");
+    check_one_line(at.errors(), "the file-size limit of 614400 bytes is met");
     CHECK(std::filesystem::exists(at.folder / "last.png"));  // of its end, after the breaking off
     check_session(at.folder, only_recording(at.folder));
 }

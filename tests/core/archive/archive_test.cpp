@@ -194,41 +194,49 @@ TEST_CASE("the check of an archive finds every fault", "[archive]") {
     REQUIRE(faults_of(archive) == kNone);
     const std::string table = "sub-P07/beh/sub-P07_task-touch_run-001_ticks.csv";
     const std::string rows = read_text(archive / table);
-    std::string expected = table;
+    const auto require_fault_of = [&archive](const std::string& file) {
+        const auto faults = faults_of(archive);
+        REQUIRE(faults.size() == 1);
+        CHECK(faults[0].starts_with(file));
+        CHECK(faults[0].find('\n') == std::string::npos);
+    };
     SECTION("a changed byte") {
         std::string changed = rows;
         changed[changed.size() / 2] = changed[changed.size() / 2] == '1' ? '2' : '1';
         write_text(archive / table, changed);
+        require_fault_of(table);
     }
     SECTION("a missing file") {
         fs::remove(archive / table);
+        require_fault_of(table);
     }
     SECTION("a file more") {
-        expected = "sub-P07/beh/more.csv";
-        write_text(archive / expected, "a\n");
+        const std::string file = "sub-P07/beh/more.csv";
+        write_text(archive / file, "a\n");
+        require_fault_of(file);
     }
     SECTION("a row less of which the manifest knows") {
         write_text(archive / table, rows.substr(0, rows.rfind('\n', rows.size() - 2) + 1));
         renew_sum(archive, table);
+        require_fault_of(table);
     }
     SECTION("a column that the dictionary does not explain") {
         write_text(archive / table, "x" + rows);
         renew_sum(archive, table);
+        require_fault_of(table);
     }
     SECTION("a participant who is not listed") {
-        expected = kParticipants;
-        write_text(archive / expected, "participant_id\n");
-        renew_sum(archive, expected);
+        const std::string file = kParticipants;
+        write_text(archive / file, "participant_id\n");
+        renew_sum(archive, file);
+        require_fault_of(file);
     }
     SECTION("a session that cannot be read") {
-        expected = "sourcedata/sub-P07/sub-P07_task-touch_run-001.dibhr";
-        write_text(archive / expected, "text");
-        renew_sum(archive, expected);
+        const std::string file = "sourcedata/sub-P07/sub-P07_task-touch_run-001.dibhr";
+        write_text(archive / file, "text");
+        renew_sum(archive, file);
+        require_fault_of(file);
     }
-    const auto faults = faults_of(archive);
-    REQUIRE(faults.size() == 1);
-    CHECK(faults[0].starts_with(expected));
-    CHECK(faults[0].find('\n') == std::string::npos);
 }
 
 TEST_CASE("an archive holds the answers of two participants and the sessions of their trials",
