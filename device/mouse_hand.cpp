@@ -21,11 +21,10 @@ constexpr double kStill_px = 0.01;        // from its anchor, a hand that rests
 constexpr double kStill_px_per_s = 0.1;   // likewise
 
 // A click.
-constexpr double kLeastFelt_s = 0.020;  // a press is felt after so long below the surface
-constexpr double kLongestTap_s = 0.5;   // a press that cannot be felt, as over a hole, ends then
-constexpr double kLongestLifting_s =
-    0.3;                                // a hand that cannot leave the surface presses again then
-constexpr double kLongestWay_s = 0.15;  // a drag to the place of a click, which a force may stop
+constexpr double kLeastFelt_s = 0.020;     // a press is felt after so long below the surface
+constexpr double kLongestTap_s = 0.5;      // a press that cannot be felt, as over a hole, ends then
+constexpr double kLongestLifting_s = 0.3;  // a hand that cannot leave the surface presses then
+constexpr double kLongestWay_s = 0.15;     // to the place of a click, which a force may stop
 
 // A climb.
 constexpr double kStopped_s = 0.010;       // a proxy that stands so long at a wall is stopped
@@ -36,9 +35,12 @@ constexpr double kLeastRise_px = 4.0;  // lower walls are texture; of slopes of 
 constexpr double kOver_px = 1.0;       // a climb ends so high above the surface
 constexpr int kMostPlaces = 64;        // looked at on the way to the goal
 
+bool is_finite(Vec2 place) noexcept {
+    return std::isfinite(place.x) && std::isfinite(place.y);
+}
+
 bool sensible(const MouseTarget& target) noexcept {
-    return std::isfinite(target.cursor_in_grid.x) && std::isfinite(target.cursor_in_grid.y) &&
-           std::isfinite(target.wheel_px);
+    return is_finite(target.cursor_in_grid) && std::isfinite(target.wheel_px);
 }
 
 /// The cursor, at most `margin_px` outside the image rectangle.
@@ -104,6 +106,7 @@ void MouseHand::take_target(const DepthSurface& surface, double dt_s) noexcept {
     const MouseTarget& newest = target_.front();
     MouseClick click;
     if (!next_click_ && clicks_.pop(click)) {
+        if (!is_finite(click.cursor_in_grid)) click = {valid_target_.cursor_in_grid, false, 0.0};
         next_click_ = click;
         const double way = glm::distance(click.cursor_in_grid, valid_target_.cursor_in_grid);
         on_the_way_s_ = way > kReached_px ? kLongestWay_s : 0.0;
@@ -134,7 +137,7 @@ bool MouseHand::may_take(const MouseClick& click, const DepthSurface& surface) c
     const bool there = on_the_way_s_ <= 0.0 ||
                        glm::distance(click.cursor_in_grid, Vec2(position_in_grid_)) <= kReached_px;
     const bool felt = felt_s_ >= kLeastFelt_s || button_s_ > kLongestTap_s;
-    return there && felt && button_s_ >= click.after_s;
+    return there && felt && button_s_ >= std::min(click.after_s, kLongestTap_s);
 }
 
 void MouseHand::forget_clicks() noexcept {

@@ -17,7 +17,7 @@ glm::vec3 vector_of(const std::array<float, 3>& numbers) {
     return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Of chroma beside luma: more than 1 where an odd side is rounded up.
+/// Of chroma beside luma: less than 1 where an odd side is rounded up.
 float scale_of(int luma, int chroma) {
     const int each = (luma + chroma - 1) / chroma;
     return chroma == 1 ? 1.0F : static_cast<float>(luma) / static_cast<float>(each * chroma);

@@ -87,7 +87,7 @@ struct GlLimits {
 /// Of the bound texture, whose edge goes on beyond it.
 void filter_texture(GLenum minify, GLenum magnify);
 
-/// Waits until all is drawn, or until `go_on`, called every 20 ms, returns false.
+/// Waits until all is drawn, or until `go_on`, called every 5 ms, returns false.
 void wait_for_drawing(const std::function<bool()>& go_on);
 
 /// Call it after each picture. Throws DeviceError if the driver was reset or is out of memory:

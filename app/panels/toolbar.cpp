@@ -1,6 +1,7 @@
 // The toolbar: what most people look for, as pictures at the left edge of the relief.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "app/panels/panels.hpp"
@@ -10,6 +11,8 @@ namespace dibhr {
 
 namespace {
 
+constexpr ImGuiWindowFlags kBehindOthers =
+    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoFocusOnAppearing;
 constexpr float kSide = 1.45F;  // of a button, as a multiple of a row's height
 
 struct Tool {
@@ -55,7 +58,7 @@ void draw_toolbar(ViewerState& state) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {pad, pad});
     ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 2.0F * style.FrameRounding);
-    ImGui::Begin("Tools", nullptr, kBareWindow | ImGuiWindowFlags_NoBringToFrontOnFocus);
+    ImGui::Begin("Tools", nullptr, kBareWindow | kBehindOthers);
     ImGui::PopStyleVar(3);
     for (const Tool& tool : tools) {
         const std::string help = tool.help + state.keys.in_brackets(tool.action);

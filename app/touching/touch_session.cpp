@@ -243,10 +243,11 @@ void TouchSession::point(const Camera::Ray& ray, const DepthBlend& shown, Pointe
     const SurfaceShape& shape = touch.shape(state_.settings.touch);
     const DepthSurface surface = shown.surface(shape, touch.bump.get());
     MouseTarget target = pointer_.target(ray, surface, use);
-    if (std::exchange(clicked_, target.pressed) != target.pressed) {
+    const bool pressed = target.pressed && target.pointing;  // beside the relief nothing is pressed
+    if (std::exchange(clicked_, pressed) != pressed) {
         const double after_s =
             std::chrono::duration<double>(at - std::exchange(clicked_at_, at)).count();
-        if (hand_.mouse->clicks().push({target.cursor_in_grid, target.pressed, after_s})) ++clicks_;
+        if (hand_.mouse->clicks().push({target.cursor_in_grid, pressed, after_s})) ++clicks_;
     }
     target.clicks = clicks_;
     hand_.mouse->target().publish(target);

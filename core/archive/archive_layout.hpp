@@ -51,7 +51,10 @@ using Manifest = std::map<std::string, std::string>;
 
 template <typename Taken>
 std::string free_name(const std::filesystem::path& wanted, const Taken& taken) {
-    std::string name = plain_name(wanted.filename().string());
+    const std::filesystem::path path = wanted.lexically_normal();
+    const std::filesystem::path last = path.has_filename() ? path : path.parent_path();
+    std::string name = plain_name(last.filename().string());
+    if (name.empty() || name == "." || name == "..") name = "unnamed";
     const std::filesystem::path first = name;
     for (int number = 2; taken(name); ++number)
         name = first.stem().string() + "-" + std::to_string(number) + first.extension().string();

@@ -44,7 +44,7 @@ calculating it.
 Sessions and studies state the folders of the computer that recorded them. In these copies the folders
 are removed, and the names of files stay; the names of sessions and studies are made from the labels. Ticks, marks and
 parameters have the bits of the original. A protocol page with folders differs from the page whose sum the study
-states. What people wrote themselves (labels, notes, marks, pages) is as they wrote it: read it before you publish.
+states. What people wrote themselves (labels, notes, marks, pages) is kept, without folders of paths: read it before you publish.
 )";
 
 std::string readme(const std::string& name, const ArchiveRequest& request,

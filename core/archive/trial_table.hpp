@@ -11,7 +11,7 @@ namespace dibhr {
 
 struct TrialTable {
     std::string rows{};  ///< CSV
-    Json dictionary{};
+    Json dictionary = Json::object();
 };
 
 /// `study`: a study file in an archive. `protocol`: its page there. `runs`: the run of each trial

@@ -31,18 +31,18 @@ Database::ErrorHandler refusal_of(const fs::path& file) {
 /// Changes each text of a column, where the table has that column.
 template <typename Change>
 void rewrite(const Database& database, const std::string& table, const std::string& column,
-             const Change& change) {
+             const Change& change, const std::string& where = "1") {
     if (database.number("SELECT count(*) FROM pragma_table_info('" + table + "') WHERE name = '" +
                         column + "'") == 0)
         return;
     const std::string quoted = '"' + column + '"';
     std::vector<std::string> texts;
     for (Statement row(database, "SELECT DISTINCT " + quoted + " FROM " + table + " WHERE " +
-                                     quoted + " LIKE '%/%'");
+                                     quoted + " LIKE '%/%' AND " + where);
          row.next();)
         texts.push_back(row.text(0));
-    Statement update(database,
-                     "UPDATE " + table + " SET " + quoted + " = ? WHERE " + quoted + " = ?");
+    Statement update(database, "UPDATE " + table + " SET " + quoted + " = ? WHERE " + quoted +
+                                   " = ? AND " + where);
     for (const std::string& text : texts) update.run(change(text), text);
 }
 
@@ -74,11 +74,26 @@ void rename_media(const Database& database,
     for (const auto& [id, name] : names) update.run(name, id);
 }
 
+/// Of a path, also a relative one, and of "goals:PATH".
+std::string file_name_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    if (slash == std::string::npos) return path;
+    const std::size_t colon = path.find(':');
+    return (colon < slash ? path.substr(0, colon + 1) : std::string()) + path.substr(slash + 1);
+}
+
+bool is_of_web(std::string_view before) {
+    return before.ends_with("http:") || before.ends_with("https:");
+}
+
 std::string values_without_folders(const std::string& text) {
     Json values = parsed_json(text);
     if (!values.is_object()) return without_folders(text);
-    for (auto& value : values)
-        if (value.is_string()) value = without_folders(value.get<std::string>());
+    for (auto& [key, value] : values.items()) {
+        if (!value.is_string()) continue;
+        const auto text_of = value.get<std::string>();
+        value = key == "bump" ? file_name_of(text_of) : without_folders(text_of);
+    }
     return json_line(values);
 }
 
@@ -92,6 +107,9 @@ std::string bytes_of(const fs::path& file) {
 std::string without_folders(std::string_view text) {
     constexpr std::string_view kBefore = " \t\n\"'`=:,;([{<|";
     constexpr std::string_view kEnd = "\n\"'`,;";
+    // The whole text is one path, in which any of these may stand.
+    if (text.starts_with('/') && text.find('\n') == std::string_view::npos)
+        return std::string(text.substr(text.rfind('/') + 1));
     std::string plain;
     std::size_t at = 0;
     for (std::size_t slash = text.find('/'); slash != std::string_view::npos;
@@ -100,6 +118,10 @@ std::string without_folders(std::string_view text) {
         const bool begins = slash == 0 || kBefore.find(text[slash - 1]) != std::string_view::npos;
         const bool goes_on = slash + 1 < text.size() && text[slash + 1] != ' ';
         if (!begins || !goes_on) continue;
+        if (is_of_web(text.substr(0, slash))) {
+            slash = std::min(text.find_first_of(" \n\"'", slash), text.size()) - 1;
+            continue;
+        }
         const std::size_t end = std::min(text.find_first_of(kEnd, slash), text.size());
         const std::size_t name = text.substr(0, end).rfind('/') + 1;
         plain += text.substr(at, slash - at);
@@ -122,6 +144,7 @@ void remove_folders(const fs::path& session,
     database.restrict_untrusted(kLongestValue_bytes);
     database.execute("BEGIN");
     rewrite(database, "session", "value", without_folders);
+    rewrite(database, "session", "value", file_name_of, "key IN ('bump', 'device')");
     rewrite(database, "source", "depth_meaning", without_folders);
     rename_media(database, name_media);
     database.execute("COMMIT; VACUUM");

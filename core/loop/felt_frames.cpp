@@ -46,6 +46,7 @@ void FeltFrames::add(const FrameWindow& window) {
         } else {
             Frame& felt = frames_.emplace_back(Felt{.frame = frame, .shown = true}).frame;
             felt.colour.reset();
+            felt.video.reset();
             felt.undilated.reset();
         }
     }
@@ -84,7 +85,8 @@ std::optional<FeltSurface> FeltFrames::surface_of(const TickRecord& tick) {
     const std::lock_guard lock(guard_);
     const auto from = std::ranges::find_if(frames_, [&](const Felt& felt) {
         const Frame& frame = felt.frame;
-        return is(frame, mark.from, tick.frames.from_s) &&
+        const auto maps = frame.maps ? frame.maps->version : 0;
+        return is(frame, mark.from, tick.frames.from_s) && maps == tick.frames.source.maps &&
                (still ||
                 (frame.motion.get() == mark.motion && frame.in_betweens.get() == mark.in_betweens));
     });

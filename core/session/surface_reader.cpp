@@ -11,6 +11,7 @@ namespace dibhr {
 namespace {
 
 // Two frames, the most in-betweens of any recording, and as many of the pair before.
+constexpr double kLeastHighest = 1e-6;  ///< of an image: what is below is no highest level
 constexpr std::size_t kMostKept = 20;
 constexpr std::size_t kMostKeptPixels = std::size_t{1} << 27;
 constexpr std::size_t kMostPixelsOfSurface = 320'000'000;  // nine parts of 8K
@@ -54,10 +55,11 @@ std::optional<StoredSurface> SurfaceReader::surface(std::int64_t pair) {
         surface.stored.push_back(std::move(read.stored));
         const DepthImage& first = *surface.felt.images.front().levels;
         const FeltImage& last = surface.felt.images.back();
-        const bool fits = last.levels->columns == first.columns &&
-                          last.levels->rows == first.rows &&
-                          last.levels->highest_level == first.highest_level &&
-                          (!last.unseen || last.unseen->size() == first.levels.size());
+        const bool fits =
+            first.highest_level >= kLeastHighest && std::isfinite(first.highest_level) &&
+            last.levels->columns == first.columns && last.levels->rows == first.rows &&
+            last.levels->highest_level == first.highest_level &&
+            (!last.unseen || last.unseen->size() == first.levels.size());
         if (!fits || surface.felt.images.size() * first.levels.size() > kMostPixelsOfSurface)
             refuse("pair " + std::to_string(pair) + " has images that make no surface");
     }
@@ -77,6 +79,8 @@ std::shared_ptr<const BumpMap> SurfaceReader::bump(const std::filesystem::path& 
     while (rows.next()) {
         if (rows.text(0) != file) continue;
         Grid read = grid(rows.integer(1));
+        const auto is_height = [](float height) { return height >= 0.0F && height <= 1.0F; };
+        if (!std::ranges::all_of(read.values, is_height)) refuse("a bump map has other heights");
         return std::make_shared<BumpMap>(BumpMap{read.columns, read.rows, std::move(read.values)});
     }
     return nullptr;

@@ -112,8 +112,8 @@ SurfaceWriter::SharedGrid SurfaceWriter::grid_of(const std::shared_ptr<const Dat
     for (const auto* const grids : {&grids_of_pair_, &grids_before_}) {
         const auto known = std::ranges::find_if(*grids, is_it);
         if (known == grids->end()) continue;
-        const SharedGrid grid = *known;  // adding to the list may move it
-        return grids_of_pair_.emplace_back(grid);
+        SharedGrid grid = *known;  // adding to the list may move it
+        return grids_of_pair_.emplace_back(std::move(grid));
     }
     auto grid = std::make_shared<Grid>();
     grid->data = data;

@@ -36,8 +36,9 @@ inline constexpr int kMostSide_px = 32000;
 
 /// The picture with square pixels: stretched along one side; `aspect`: width over height of its
 /// pixels. A level of depth is never mixed with no data, which is level 0.
-[[nodiscard]] cv::Size with_square_pixels(cv::Size size, double aspect);
 [[nodiscard]] cv::Mat with_square_pixels(const cv::Mat& picture, double aspect, PictureRole role);
+/// The size of such a picture.
+[[nodiscard]] cv::Size with_square_pixels(cv::Size size, double aspect);
 
 /// By how many levels a picture rises from pixel to pixel, CV_32F.
 [[nodiscard]] cv::Mat rise_of(const cv::Mat& picture);

@@ -226,9 +226,14 @@ std::optional<TimedPicture> VideoFile::next() {
         ahead_.pop_front();
         return first;
     }
-    if (from_ring_ == ring_.size()) ring_.keep_few(true);
+    if (from_ring_ == ring_.size()) count_played();
     if (!grab()) return std::nullopt;
     return taken();
+}
+
+/// A step back decodes some pictures forward, too: only after many of them the video plays.
+void VideoFile::count_played() {
+    if (++played_ > DecodedRing::kMostPictures) ring_.keep_few(true);
 }
 
 /// Earlier frames are not converted, and those that no other frame refers to are not decoded.
@@ -243,7 +248,7 @@ std::optional<TimedPicture> VideoFile::next_from(double earliest_s) {
     if (has_times_) decoder_.skip_non_reference_before(earliest_s);
     const std::int64_t from = index_;
     const bool decodes = from_ring_ == ring_.size();
-    if (decodes) ring_.keep_few(true);
+    if (decodes) count_played();
     const auto begin = std::chrono::steady_clock::now();
     while (grab()) {
         if (!(time_s_ < earliest_s)) {
@@ -369,6 +374,7 @@ void VideoFile::seek(double time_s) {
         skip_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, timed({}))) return;
     } else {
+        played_ = 0;
         ring_.keep_few(!near_behind);
         rewind_before(wanted_s, frames_before);
         if (run_up_to(wanted_s, {})) return;

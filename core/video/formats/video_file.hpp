@@ -58,6 +58,7 @@ class VideoFile : public PictureSource {
     TimedPicture taken();                           ///< the same with its picture, or its memory
     TimedPicture retrieve_kept(TimedPicture kept);  ///< converts the picture that the decoder keeps
     void count_skipped();
+    void count_played();
     void measure_passing(std::int64_t frames, std::chrono::duration<double> taken);
     void store_time();  ///< appends that of the frame at index_ to times_
     /// To a key frame, where the file can.
@@ -79,6 +80,7 @@ class VideoFile : public PictureSource {
     VideoDecoder decoder_;
     double pixel_aspect_{1.0};
     DecodedRing ring_{};        ///< up to the frame that was decoded last
+    std::size_t played_{0};     ///< pictures decoded one after the other since the last seek
     std::size_t from_ring_{0};  ///< place of the frame that grab() gives next; its end: none
     std::deque<TimedPicture> ahead_{};  ///< decoded already, given out next
     std::vector<double> times_{};       ///< of all frames from the first up to a gap

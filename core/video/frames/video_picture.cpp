@@ -60,7 +60,8 @@ struct RowTaker {
                 to[2 * k] = to[2 * k + 1] = from[k * channels];
         } else {
             for (std::ptrdiff_t k = 0; k < count; ++k)
-                to[k] = from[((k * step + step / 2) >> shift) * channels];
+                to[k] = from[std::min<std::ptrdiff_t>((k * step + step / 2) >> shift, columns - 1) *
+                             channels];
         }
     }
 

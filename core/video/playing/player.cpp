@@ -182,9 +182,9 @@ void Player::Implementation::run() {
 /// Publishes the same window to both readers; frees what the old windows held.
 void Player::Implementation::publish() {
     const FrameWindow window = live.is_open() ? live.window() : playback.window();
-    FrameWindow touchable = live.is_open() ? window : playback.touchable();
+    const FrameWindow touchable = live.is_open() ? window : playback.touchable();
     if (on_window) on_window(touchable);
-    haptics.publish(std::move(touchable));
+    haptics.publish(touchable);
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
     publish_status(window, published);

@@ -344,6 +344,8 @@ TEST_CASE("a path in a text becomes a name", "[archive]") {
          {"a = \"/x/y.png\"\nb = '/z/w.png'", "a = \"y.png\"\nb = 'w.png'"},
          {"3 N/mm, and/or 1 / 2", "3 N/mm, and/or 1 / 2"},
          {"see /home/me/x, then /tmp/y", "see x, then y"},
+         {"/home/o'neil/Smith, Anna/skin.png", "skin.png"},
+         {"from https://example.org/a/b and /home/me/x", "from https://example.org/a/b and x"},
          {"", ""}}));
     CHECK(without_folders(text) == plain);
 }
