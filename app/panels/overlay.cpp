@@ -117,7 +117,7 @@ std::string position_text(const ViewerState& state) {
                    : ", frame " + std::to_string(video.frame + 1));
 }
 
-/// Whether the spring asks for more than may be sent: not while the force only rises.
+/// Whether the spring force exceeds what may be sent: not while the force only rises.
 bool is_limited(const ViewerState& state) {
     constexpr double kNearly = 0.999;
     const Touch& touch = state.touch.haptic.touch;

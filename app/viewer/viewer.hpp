@@ -156,6 +156,7 @@ class Viewer {
     void take_desktop_answer();
     void move_hand(const WindowInput& input);
     void follow_pointer();
+    void use_clicks(std::span<const PointerClick> clicks, double wheel_steps);
     void use_pointer(const Pointer& now, double wheel_steps, EventTimes::Time at);
     [[nodiscard]] SceneContent prepare_scene();
     [[nodiscard]] SceneMark mark_scene(SceneContent content, glm::ivec2 viewport) const;

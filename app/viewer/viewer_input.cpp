@@ -133,16 +133,17 @@ void Viewer::perform(Action action) {
 /// All clicks since the last picture, in their order, and then the pointer as it is now.
 void Viewer::move_hand(const WindowInput& input) {
     shown_ = state_.touch.replay ? replay_.shown() : touch_.frames_now();
-    for (const PointerClick& click : input.clicks) use_pointer(click.pointer, 0.0, click.at);
-    use_pointer(window_.pointer(), input.wheel_steps, steady_clock::now());
+    use_clicks(input.clicks, input.wheel_steps);
 }
 
 /// Between two pictures: the hand follows the pointer however long a picture takes.
 void Viewer::follow_pointer() {
-    const auto clicks = window_.take_pointer();
-    if (!clicks) return;
-    for (const PointerClick& click : *clicks) use_pointer(click.pointer, 0.0, click.at);
-    use_pointer(window_.pointer(), 0.0, steady_clock::now());
+    if (const auto clicks = window_.take_pointer()) use_clicks(*clicks, 0.0);
+}
+
+void Viewer::use_clicks(std::span<const PointerClick> clicks, double wheel_steps) {
+    for (const PointerClick& click : clicks) use_pointer(click.pointer, 0.0, click.at);
+    use_pointer(window_.pointer(), wheel_steps, steady_clock::now());
 }
 
 /// `at`: when the pointer was so.

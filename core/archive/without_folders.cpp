@@ -99,7 +99,10 @@ std::string values_without_folders(const std::string& text) {
 
 std::string bytes_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    std::string bytes(std::istreambuf_iterator<char>(in), {});
+    if (!in.is_open() || in.bad())
+        throw InputError(file.string() + ": cannot be read again; check the disk");
+    return bytes;
 }
 
 }  // namespace

@@ -7,12 +7,6 @@
 
 namespace dibhr {
 
-namespace {
-
-constexpr double kNeighbours_px = 2.0;
-
-}  // namespace
-
 const Touch& RecordedRun::run(const TickRecord& tick, const DepthBlend& frames, const BumpMap* bump,
                               const TouchParameters& touch,
                               const SessionParameters& recorded) noexcept {

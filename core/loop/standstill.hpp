@@ -43,7 +43,7 @@ class StandstillWatch {
                     HeartbeatMonitor(hearts.recorder), HeartbeatMonitor(hearts.decoder)} {}
 
     /// Once a tick: whether a thread stands still. `contact`: there is a force, which goes to zero.
-    /// `harmless`: of a hand without motors, whose standstills are not told.
+    /// `harmless`: of a hand without motors, whose standstills are not reported.
     [[nodiscard]] bool poll(std::chrono::steady_clock::time_point now, bool contact,
                             bool harmless) noexcept {
         std::array<std::chrono::steady_clock::duration, kMonitors> silence{};

@@ -64,13 +64,15 @@ struct PixelBox {
     }
 };
 
+/// How far around a place its elevation and normal are read.
+inline constexpr double kNeighbours_px = 2.0;
+
 /// Holds all that an update reads that moved the proxy from `before` to `after` in so many `moves`
 /// while the goal was there, without flights that end elsewhere. Each move crosses one TRIANGLE or
 /// EDGE, so along an axis it goes one pixel at most: a way that leaves the rectangle of its ends
 /// has to come back.
 [[nodiscard]] inline PixelBox read_box(const Vec3& before, const Vec3& after, const Vec3& goal,
                                        int moves) noexcept {
-    constexpr double kNeighbours_px = 2.0;
     const auto [left, right] = std::minmax({before.x, after.x, goal.x});
     const auto [top, bottom] = std::minmax({before.y, after.y, goal.y});
     const auto detour = [moves](double begin, double end) {
