@@ -270,21 +270,28 @@ char state_of(pid_t process) noexcept {
     return name_ends != nullptr ? name_ends[2] : '\0';
 }
 
+/// Frees the place of a process that has ended.
+void free_if_ended(Forked& forked) noexcept {
+    pid_t process = forked.process;
+    if (process == 0 || process == kNotYet) return;
+    const char state = state_of(process);
+    if (state == '\0' || state == 'Z' || state == 'X') {
+        forked.process.compare_exchange_strong(process, 0);
+    }
+}
+
 /// Every forked process waits for what is to come.
 bool forked_are_quiet() noexcept {
     for (Forked& forked : page().forked) {
+        free_if_ended(forked);
         const pid_t process = forked.process;
         if (process == 0) continue;
         if (process == kNotYet) return false;
-        const char state = state_of(process);
-        if (state == '\0' || state == 'Z' || state == 'X') {
-            forked.process = 0;
-        } else if (forked.waits && forked.deadline <= page().now) {
+        if (forked.waits && forked.deadline <= page().now) {
             wake(forked.event);
             return false;
-        } else if (!forked.waits || state != 'S') {
-            return false;
         }
+        if (!forked.waits || state_of(process) != 'S') return false;
     }
     return true;
 }
@@ -590,6 +597,8 @@ void note_socket(int descriptor, const sockaddr_in& there) noexcept {
 void make_places_for_forked() noexcept {
     constexpr std::size_t kEnough = 3;
     std::size_t free = 0;
+    // Who never waits never asks whether the others are quiet, which frees places, too.
+    for (Forked& place : page().forked) free_if_ended(place);
     for (Forked& place : page().forked) {
         if (place.process != 0) continue;
         if (place.event < 0) place.event = new_event();
