@@ -11,12 +11,21 @@
 namespace dibhr::sample {
 namespace {
 
+// A light of the wall's own leaves only a faint shadow on it: the relief shows the wall from aside,
+// where a dark shadow that the hand covers straight on would look like a hole.
+constexpr float kLeastOnWall = 0.8F;
+
+Reach reach_of(const LightMap& light, Vec2 pixel, Hit hit) {
+    const Reach reach = light.at(pixel.x, pixel.y, hit.level);
+    if (hit.part != Part::Wall) return reach;
+    return {glm::mix(kLeastOnWall, 1.0F, reach.key), glm::mix(kLeastOnWall, 1.0F, reach.sky)};
+}
+
 Vec3 colour_at(const Scene& scene, const LightMap& light, Vec2 pixel, Hit hit, Vec3 shape) {
     const Vec2 place = place_of(pixel.x, pixel.y);
     const Vec3 world{place.x, place.y, hit.level};
     const Paint paint = paint_at(scene, world, hit.part, shape);
-    return developed(
-        shade(paint, glm::normalize(shape + paint.tilt), light.at(pixel.x, pixel.y, hit.level)));
+    return developed(shade(paint, glm::normalize(shape + paint.tilt), reach_of(light, pixel, hit)));
 }
 
 /// True where parts or levels change abruptly: one ray cannot stand for the whole pixel.
