@@ -122,8 +122,6 @@ void ReliefPass::draw(const SceneContent& content, const glm::mat4& clip_from_wo
         behind.behind = true;
         use_program(behind, content, clip_from_world);
         draw_layer(behind_, layers_.behind);
-        behind.under = true;
-        use_program(behind, content, clip_from_world);
         draw_layer(under_, layers_.under);
     }
 
@@ -262,7 +260,6 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
         std::string defines;
         if (variant.wall) defines += "#define WALL\n";
         if (variant.behind) defines += "#define LAYER\n#define BEHIND\n";
-        if (variant.under) defines += "#define UNDER\n";
         if (variant.front) defines += "#define LAYER\n#define FRONT\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.painted) defines += "#define PAINTED\n";

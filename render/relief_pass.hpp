@@ -41,7 +41,6 @@ class ReliefPass {
     struct Variant {
         bool wall{false};
         bool behind{false};
-        bool under{false};
         bool front{false};
         bool rough{false};
         bool painted{false};

@@ -11,8 +11,6 @@
 namespace dibhr {
 namespace {
 
-constexpr float kLargestSide = 65536.0F;
-constexpr int kOutside = -2;      // with its neighbours
 constexpr float kSameEnd = 0.3F;  // of a step: ends that differ by more are of different faces
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
@@ -83,14 +81,11 @@ class LayerMesher {
     }
 
   private:
-    enum class Seen : std::uint8_t { unknown, no, yes };
-
     /// The numbers of a rim, from 1, as a vertex of the layers behind and in front, on its own face
     /// or on the other one, and of the layer under the near face; 0: none yet.
     struct Numbers {
         std::uint32_t behind_on_own{0}, behind_on_other{0}, front_on_own{0}, front_on_other{0};
         std::uint32_t under{0};
-        Seen seen{Seen::unknown};  ///< of what is behind it
     };
 
     [[nodiscard]] LayerVertex on_own_face(const Rim& rim) const {
@@ -132,9 +127,6 @@ class LayerMesher {
         for (std::size_t k = 0; k < 4; ++k) rims[k] = rims_.known(corners[k]);
         if (relief_.cuts.cut[number] > 0.0F && !is_two_deep(rims)) return;
         const auto is_under = [](const Rim* rim) { return rim != nullptr && rim->far; };
-        if (std::none_of(rims.begin(), rims.end(),
-                         [&](const Rim* rim) { return is_under(rim) && can_be_seen(*rim); }))
-            return;
         const Rim& under = **std::find_if(rims.begin(), rims.end(), is_under);
         for (std::size_t k = 0; k < kTriangles.size(); k += 3) {
             const auto corner = [k](std::size_t n) { return kTriangles[k + n]; };
@@ -163,31 +155,6 @@ class LayerMesher {
     [[nodiscard]] static bool is_two_deep(const std::array<const Rim*, 4>& rims) {
         return std::any_of(rims.begin(), rims.end(),
                            [](const Rim* rim) { return rim->is_far && rim->far; });
-    }
-
-    /// Whether the near face leaves a part of what is behind it here to be seen.
-    [[nodiscard]] bool can_be_seen(const Rim& rim) {
-        Seen& seen = numbers_at(rim).seen;
-        if (seen == Seen::unknown) seen = is_uncovered(rim) ? Seen::yes : Seen::no;
-        return seen == Seen::yes;
-    }
-
-    [[nodiscard]] bool is_uncovered(const Rim& rim) const {
-        const glm::vec2 seen = rims_.in_image(rim.at) + rims_.shift(rim.at, *rim.far);
-        const GridPlace middle{nearest(seen.x), nearest(seen.y)};
-        const float half_way = 0.5F * (*rim.far + rims_.elevation_px(rim.at));
-        for (int j = middle.j - 1; j <= middle.j + 1; ++j) {
-            for (int i = middle.i - 1; i <= middle.i + 1; ++i) {
-                if (!rims_.inside({i, j}) || rims_.elevation_px({i, j}) < half_way) return true;
-            }
-        }
-        return false;
-    }
-
-    /// From an eye beside the surface a place may be endlessly far outside.
-    [[nodiscard]] int nearest(float image_px) const {
-        const float place = image_px / static_cast<float>(relief_.grid.step) + 0.5F;
-        return std::fabs(place) < kLargestSide ? static_cast<int>(place) : kOutside;
     }
 
     const CutRelief& relief_;

@@ -1,8 +1,8 @@
 #version 330 core
 // The relief's colour. Defines: TEXTURED (with 1: red, green and blue; 2: luma, and both chromas in one texture; 3: luma and each
 // chroma) or BY_DEPTH (else clay), WALL,
-// LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it; with UNDER:
-// where all is continued),
+// LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it: beside an
+// outline the video mixes the colours of both; BY_DEPTH it is hatched),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
@@ -63,7 +63,7 @@ vec3 of_video() {
 }
 #endif
 
-#ifdef LAYER
+#ifdef FRONT
 // The depth image [px], smoothed by a cubic B-spline, so that outlines have no corners at pixels: of 4 x 4
 // values, with four samples between two of them each.
 float smooth_depth() {
@@ -94,7 +94,7 @@ float near_share() {
 }
 #endif
 
-#ifdef UNSEEN
+#if defined(UNSEEN) || defined(BEHIND)
 const float kHatches = 110.0;  // across the picture
 const float kLine = 0.26;      // of a hatch
 
@@ -121,23 +121,21 @@ void main() {
     pixel = vec4(side * (0.45 + 0.55 * shade), 1.0);
 #else
     float alpha = 1.0;
-#if defined(UNDER)
-    float share = 1.0;  // without the samples: software would take them even in a branch
-#elif defined(LAYER)
-    float share = near_share();
-#endif
 #ifdef FRONT
+    float share = near_share();
     float soft = clamp(fwidth(share), 1e-3, 0.5);
     alpha = smoothstep(0.5 - soft, 0.5 + soft, share);
     if (alpha < 0.02) discard;
 #endif
-#if defined(TEXTURED)
+#if defined(TEXTURED) && defined(BEHIND)
+    vec3 body = continued;
+#elif defined(TEXTURED)
     vec3 body = of_video();
-#ifdef BEHIND
-    body = mix(body, continued, smoothstep(0.01, 0.12, share));
-#endif
 #elif defined(BY_DEPTH)
     vec3 body = texture(colour, vec2(clamp(lifted.z / max(relief_px, 1e-6), 0.002, 0.998), 0.5)).rgb;
+#ifdef BEHIND
+    body = not_seen(body);
+#endif
 #else
     vec3 body = kClay;
 #endif

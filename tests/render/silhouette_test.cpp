@@ -125,6 +125,22 @@ TEST_CASE("at a step the front is at the near face and what is behind at the far
     CHECK(farthest >= 20 + blur + 20);  // seen at a slope of a half, 200 px down: all of the rest
 }
 
+TEST_CASE("what is seen through a gap over a lower face is continued under the higher one") {
+    // A ray to the wall passes 14 px over the lower face at the left.
+    constexpr int kGap = 60;
+    constexpr int kHigher = 130;
+    const Cut cut(200, 12, 1, [=](int i, int) {
+        return i < kGap ? 150.0 : i < kHigher ? 20.0 : 220.0;
+    });
+    std::vector<bool> continued(200, false);
+    for (const LayerVertex& vertex : cut.layers.under.vertices)
+        if (vertex.corner.j == 6 && vertex.elevation_px < 20.5F) continued[vertex.corner.i] = true;
+    for (int i = kHigher; i < kHigher + 40; ++i) {
+        CAPTURE(i);
+        CHECK(continued[static_cast<std::size_t>(i)]);
+    }
+}
+
 // A disc before a wall: its edge is a ramp of some pixels, as scaled or estimated depth has.
 class RampedDisc {
   public:
