@@ -37,7 +37,11 @@ uniform vec3 side;  // WALL: its colour in full light
 out vec4 pixel;
 
 const vec3 kClay = vec3(0.70, 0.66, 0.61);
+#ifdef BEHIND
+const float kBackside = 1.0;  // the end of what is continued has no side that anybody knows
+#else
 const float kBackside = 0.35;  // seen from behind, as through a gap
+#endif
 
 // Where this place is in a texture of every `detail_step`-th vertex.
 vec2 in_detail(ivec2 size) {
