@@ -11,6 +11,7 @@
 namespace dibhr {
 namespace {
 
+constexpr int kFarUnder = 12;     // rings; what is continued less far is hardly marked
 constexpr float kSameEnd = 0.3F;  // of a step: ends that differ by more are of different faces
 // The two triangles of a cell by the numbers of its corners.
 constexpr std::array<std::size_t, 6> kTriangles{0, 2, 1, 1, 2, 3};
@@ -22,13 +23,16 @@ GridVertex vertex(GridPlace p) {
 std::array<std::uint8_t, 4> bytes(const std::optional<glm::vec3>& colour) {
     const glm::vec3 rgb = colour.value_or(glm::vec3(0.0F));
     const auto byte = [](float c) { return static_cast<std::uint8_t>(c + 0.5F); };
-    return {byte(rgb.x), byte(rgb.y), byte(rgb.z), 255};
+    return {byte(rgb.x), byte(rgb.y), byte(rgb.z), 0};
 }
 
 LayerVertex at_outline(const Rim& rim, float elevation_px, std::optional<GridPlace> source) {
     const glm::vec2 faces = rim.faces.value_or(glm::vec2(elevation_px));
-    return {vertex(rim.at),   vertex(source.value_or(rim.at)), elevation_px, faces.x, faces.y,
-            bytes(rim.colour)};
+    LayerVertex made{vertex(rim.at), vertex(source.value_or(rim.at)),
+                     elevation_px,   faces.x,
+                     faces.y,        bytes(rim.colour)};
+    made.fill[3] = static_cast<std::uint8_t>(255 * std::min(rim.ring, kFarUnder) / kFarUnder);
+    return made;
 }
 
 /// Adds a vertex to a triangle; `number`, from 1, is its number if it was added before, else 0.

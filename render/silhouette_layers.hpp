@@ -23,7 +23,7 @@ struct LayerVertex {
     float elevation_px{0.0F};  ///< without bumps
     float far_px{0.0F};   ///< of the faces here; a fragment nearer to far than to near is beyond
     float near_px{0.0F};  ///< the outline
-    std::array<std::uint8_t, 4> fill{};  ///< colour continued from behind; red, green, blue
+    std::array<std::uint8_t, 4> fill{};  ///< red, green, blue continued from behind; 255: far under
 };
 
 struct SilhouetteLayer {

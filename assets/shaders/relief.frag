@@ -9,7 +9,7 @@ in vec3 lifted;
 in float shade;
 #ifdef LAYER
 in vec2 faces_px;
-in vec3 continued;
+in vec4 continued;  // colour; 1: far under the near face
 uniform sampler2D detail;  // elevations as fine as can be, without bumps [px]
 #endif
 #ifdef UNSEEN
@@ -132,13 +132,13 @@ void main() {
     if (alpha < 0.02) discard;
 #endif
 #if defined(TEXTURED) && defined(BEHIND)
-    vec3 body = continued;
+    vec3 body = continued.rgb;
 #elif defined(TEXTURED)
     vec3 body = of_video();
 #elif defined(BY_DEPTH)
     vec3 body = texture(colour, vec2(clamp(lifted.z / max(relief_px, 1e-6), 0.002, 0.998), 0.5)).rgb;
 #ifdef BEHIND
-    body = not_seen(body);
+    body = mix(body, not_seen(body), continued.a);
 #endif
 #else
     vec3 body = kClay;

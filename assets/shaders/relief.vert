@@ -10,7 +10,7 @@ layout(location = 1) in uvec2 source;
 layout(location = 2) in vec3 layer_px;  // elevation without bumps; far face, near face
 layout(location = 3) in vec4 fill;
 out vec2 faces_px;  // far, near
-out vec3 continued;  // colour of the far face under the near one
+out vec4 continued;  // colour of the far face under the near one; 1: far under
 #endif
 
 uniform sampler2D elevations;  // px, without bumps and painted heights
@@ -114,7 +114,7 @@ void main() {
 #ifdef LAYER
     z += layer_px.x - texelFetch(elevations, at, 0).r;
     faces_px = layer_px.yz;
-    continued = fill.rgb;
+    continued = fill;
 #endif
     ivec2 vertex = ivec2(corner);
     here = in_image(vertex);
