@@ -2,7 +2,7 @@
 // The relief: one corner of the drawn grid, lifted by its elevation and the bump map.
 // Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
 // the relief; every second vertex is on the ground), LAYER (at a silhouette: a corner with its own elevation, in
-// the light of another vertex), SILHOUETTES (the cut cells are left out).
+// the smooth slope of another vertex), SILHOUETTES (the cut cells are left out).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
 #ifdef LAYER
@@ -54,8 +54,11 @@ float unshadowed(vec2 here) {
     return 1.0 - shadow * exp(-dot(off, off));
 }
 
-float elevation(ivec2 at) {
-    float z = texelFetch(elevations, at, 0).r - pressed_in(at);
+float smooth_elevation(ivec2 at) { return texelFetch(elevations, at, 0).r; }
+
+// By bumps and paint, less the dent. They go on over what is continued, whose smooth part is another vertex's.
+float raised(ivec2 at) {
+    float z = -pressed_in(at);
 #ifdef ROUGH
     z += roughness_px * texelFetch(bump, at, 0).r;
 #endif
@@ -80,23 +83,35 @@ float lit(vec3 normal) {
 }
 float brightness(vec3 normal) { return mix(1.0, lit(normal) / lit(vec3(0.0, 0.0, 1.0)), light); }
 
+// The neighbours of a vertex, and how far away they are [px].
+struct Reach {
+    ivec2 low, high;  // the neighbours to the upper left and to the lower right
+    vec2 to_low, to_high;
+};
+Reach reach_of(ivec2 at) {
+    Reach reach = Reach(max(at - 1, ivec2(0)), min(at + 1, drawn - 1), vec2(0.0), vec2(0.0));
+    reach.to_low = in_image(at) - in_image(reach.low);
+    reach.to_high = in_image(reach.high) - in_image(at);
+    return reach;
+}
+
 void main() {
+    ivec2 vertex = ivec2(corner);
 #ifdef LAYER
     ivec2 at = ivec2(source);
+    float z = layer_px.x + raised(vertex);
+    faces_px = layer_px.yz;
+    continued = fill;
 #else
-    ivec2 at = ivec2(corner);
+    ivec2 at = vertex;
+    float z = smooth_elevation(at) + raised(at);
 #endif
-    vec2 here = in_image(at);
-    float z = elevation(at);
+    vec2 here = in_image(vertex);
 #ifdef WALL
     bool ground = (gl_VertexID & 1) == 1;
     if (ground) z = ground_px;
     shade = ground ? 0.0 : 1.0;
 #else
-    ivec2 low = max(at - 1, ivec2(0));
-    ivec2 high = min(at + 1, drawn - 1);
-    vec2 to_low = here - in_image(low);
-    vec2 to_high = in_image(high) - here;
     bvec2 across = bvec2(false);  // to the left and to the right
     bvec2 along = bvec2(false);   // upwards and downwards
 #ifdef SILHOUETTES
@@ -105,21 +120,17 @@ void main() {
     across = equal(ivec2(cut & 5, cut & 10), ivec2(5, 10));
     along = equal(ivec2(cut & 3, cut & 12), ivec2(3, 12));
 #endif
-    float dx = slope(elevation(ivec2(low.x, at.y)), z, elevation(ivec2(high.x, at.y)),
-                     vec2(to_low.x, to_high.x), across);
-    float dy = slope(elevation(ivec2(at.x, low.y)), z, elevation(ivec2(at.x, high.y)),
-                     vec2(to_low.y, to_high.y), along);
-    shade = brightness(normalize(vec3(-dx, dy, 1.0)));
-#endif
-#ifdef LAYER
-    z += layer_px.x - texelFetch(elevations, at, 0).r;
-    faces_px = layer_px.yz;
-    continued = fill;
-#endif
-    ivec2 vertex = ivec2(corner);
-    here = in_image(vertex);
-#ifndef WALL
-    shade *= unshadowed(here);
+    Reach face = reach_of(at);
+    float middle = smooth_elevation(at);
+    float dx = slope(smooth_elevation(ivec2(face.low.x, at.y)), middle, smooth_elevation(ivec2(face.high.x, at.y)),
+                     vec2(face.to_low.x, face.to_high.x), across);
+    float dy = slope(smooth_elevation(ivec2(at.x, face.low.y)), middle, smooth_elevation(ivec2(at.x, face.high.y)),
+                     vec2(face.to_low.y, face.to_high.y), along);
+    Reach bumps = reach_of(vertex);
+    vec2 wide = bumps.to_low + bumps.to_high;
+    dx += (raised(ivec2(bumps.high.x, vertex.y)) - raised(ivec2(bumps.low.x, vertex.y))) / wide.x;
+    dy += (raised(ivec2(vertex.x, bumps.high.y)) - raised(ivec2(vertex.x, bumps.low.y))) / wide.y;
+    shade = brightness(normalize(vec3(-dx, dy, 1.0))) * unshadowed(here);
 #endif
     lifted = vec3((here + 0.5) / vec2(image), z);
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);
