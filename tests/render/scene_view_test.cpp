@@ -276,6 +276,47 @@ TEST_CASE("beside a step the far face goes on under the near one, in its own col
     CHECK(window.errors().empty());
 }
 
+TEST_CASE("a wall with bumps behind a plate looks as it does without the plate") {
+    HiddenWindow window;
+    constexpr int kColumns = 64;
+    constexpr int kRows = 48;
+    constexpr int kPlate = kColumns / 2;  // where it begins
+    constexpr double kWall = 10.0;
+    const auto grey = colour_image(kColumns, kRows, [](int, int) { return Rgb{128, 128, 128}; });
+    const auto height = [](int i, int j) { return 0.5 + 0.5 * std::sin(0.9 * i + 0.5 * j); };
+    BumpMap bump{kColumns, kRows, {}};
+    for (int j = 0; j < kRows; ++j)
+        for (int i = 0; i < kColumns; ++i) bump.heights.push_back(static_cast<float>(height(i, j)));
+    Camera camera;  // from the wall's side
+    camera.frame_relief(kColumns, kRows, 110.0);
+    const glm::ivec2 size(640, 480);
+    SceneView view;
+    const auto picture = [&](double plate) {
+        const Frame shown = frame(
+            depth_image(kColumns, kRows, [&](int i, int) { return i < kPlate ? kWall : plate; }),
+            grey);
+        SceneContent content = still(shown);
+        content.shape = {255.0, 4.0};
+        content.bump = &bump;
+        return view.capture(content, camera, size);
+    };
+    const ColourImage alone = picture(kWall);
+    const ColourImage behind = picture(110.0);
+    int least = 255;
+    int most = 0;
+    for (int i = kPlate + 2; i < kPlate + 14; ++i) {
+        for (int j = 12; j < 36; ++j) {
+            const glm::ivec2 at =
+                pixel_of(camera, {1.0 * i, 1.0 * j, kWall + 4.0 * height(i, j)}, size);
+            CAPTURE(i, j);
+            CHECK(difference(pixel(behind, at), pixel(alone, at)) < 24);
+            least = std::min(least, pixel(alone, at)[0]);
+            most = std::max(most, pixel(alone, at)[0]);
+        }
+    }
+    CHECK(most - least > 60);  // the bumps are seen
+}
+
 TEST_CASE("seen straight on, there is no gap between the two sides of a step") {
     HiddenWindow window;
     const Frame shown = frame(depth_image(6, 6, [](int i, int) { return i < 3 ? 10.0 : 210.0; }));
