@@ -155,6 +155,7 @@ ReliefPass::Variant ReliefPass::variant_for(const SceneContent& content) const {
                           content.colour != nullptr && content.colour->has_colour();
     if (textured) variant.colour_textures = textures_of(*content.colour, limits_);
     variant.by_depth = depth_colours(content.relief_style.paint) != nullptr;
+    variant.look = !content.look.is_plain() && !variant.by_depth;
     variant.silhouettes = content.relief_style.discard_silhouettes;
     variant.unseen = content.depth.nearest().unseen != nullptr;
     return variant;
@@ -263,6 +264,7 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
         if (variant.front) defines += "#define LAYER\n#define FRONT\n";
         if (variant.rough) defines += "#define ROUGH\n";
         if (variant.painted) defines += "#define PAINTED\n";
+        if (variant.look) defines += "#define LOOK\n";
         if (variant.colour_textures > 0)
             defines += "#define TEXTURED " + std::to_string(variant.colour_textures) + "\n";
         if (variant.by_depth) defines += "#define BY_DEPTH\n";
@@ -293,6 +295,8 @@ const ShaderProgram& ReliefPass::use_program(const Variant& variant, const Scene
     program->set("drawn", glm::ivec2(grid_.columns(), grid_.rows()));
     program->set("image", glm::ivec2(image.columns, image.rows));
     program->set("light", static_cast<float>(content.relief_style.light));
+    program->set("tint", glm::vec4(content.look.tint, content.look.tint_share));
+    program->set("finish", glm::vec2(content.look.gloss, content.look.fuzz));
     program->set("clip_from_world", clip_from_world);
     return *program;
 }

@@ -44,6 +44,7 @@ class ReliefPass {
         bool front{false};
         bool rough{false};
         bool painted{false};
+        bool look{false};
         int colour_textures{0};  ///< see textures_of(); 0: not in the video's colour
         bool by_depth{false};
         bool silhouettes{false};

@@ -53,6 +53,7 @@ SceneMark scene_mark(const SceneContent& content, const Camera& camera, glm::ive
                    .shape = content.shape,
                    .bump = content.bump,
                    .relief_style = content.relief_style,
+                   .look = content.look,
                    .light_wall = content.light_wall,
                    .dent = content.dent,
                    .markers = content.markers,

@@ -18,6 +18,7 @@ struct SceneMark {
     SurfaceShape shape{};
     const BumpMap* bump{nullptr};
     ReliefStyle relief_style{};
+    SurfaceLook look{};
     bool light_wall{false};
     Dent dent{};
     TouchMarkers markers{};

@@ -12,6 +12,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "render/camera.hpp"
 #include "render/relief_paint.hpp"
+#include "render/surface_look.hpp"
 
 namespace dibhr {
 
@@ -83,6 +84,7 @@ struct SceneContent {
     const BumpMap* bump{nullptr};
     std::shared_ptr<const TouchMaps> maps{};  ///< whose heights are drawn; null: none
     ReliefStyle relief_style{};
+    SurfaceLook look{};      ///< of the material; not in the colours of depth
     bool light_wall{false};  ///< behind the relief; else a dark one
     Dent dent{};
     TouchMarkers markers{};

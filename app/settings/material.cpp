@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -43,8 +46,8 @@ double highest_of(std::string_view number) {
     return touch_number(number)->highest;
 }
 
-const std::array<Property, 11>& properties() {
-    static const std::array<Property, 11> all{{
+const std::array<Property, 14>& properties() {
+    static const std::array<Property, 14> all{{
         {"width", 0.1, 1000.0, [](Material& m) -> double& { return m.width_mm; },
          "mm of the map, which repeats"},
         {"height", 0.0, 50.0, [](Material& m) -> double& { return m.height_mm; },
@@ -68,6 +71,12 @@ const std::array<Property, 11>& properties() {
          "of scraping alone"},
         {"sound-grain", 0.01, 10.0, [](Material& m) -> double& { return m.sound.grain_mm; },
          "mm between what scrapes: finer is higher"},
+        {"tint-share", 0.0, 1.0, [](Material& m) -> double& { return m.look.tint_share; },
+         "of the tint in the colour"},
+        {"gloss", 0.0, 1.0, [](Material& m) -> double& { return m.look.gloss; },
+         "of its highlights"},
+        {"fuzz", 0.0, 1.0, [](Material& m) -> double& { return m.look.fuzz; },
+         "of fibres at its edges"},
     }};
     return all;
 }
@@ -78,7 +87,7 @@ const std::array<Property, 11>& properties() {
 }
 
 std::string known_properties() {
-    std::string names = "map";
+    std::string names = "map, tint";
     for (const Property& property : properties()) names += ", " + std::string(property.name);
     return names;
 }
@@ -93,11 +102,38 @@ void take_number(const fs::path& file, const Property& property, const toml::nod
     property.in(material) = *number;
 }
 
+/// "#7a5230"; nothing for anything else.
+std::optional<glm::vec3> colour_of(std::string_view text) {
+    constexpr std::size_t kLength = 7;
+    if (text.size() != kLength || text.front() != '#') return std::nullopt;
+    unsigned rgb = 0;
+    const char* const end = text.data() + text.size();
+    if (std::from_chars(text.data() + 1, end, rgb, 16).ptr != end) return std::nullopt;
+    const auto channel = [rgb](unsigned shift) {
+        return static_cast<float>((rgb >> shift) & 255U) / 255.0F;
+    };
+    return glm::vec3(channel(16U), channel(8U), channel(0U));
+}
+
+std::string text_of(glm::vec3 colour) {
+    std::array<char, 8> text{};
+    const auto byte = [](float c) { return static_cast<unsigned>(std::lround(255.0F * c)); };
+    std::snprintf(text.data(), text.size(), "#%02x%02x%02x", byte(colour.x), byte(colour.y),
+                  byte(colour.z));
+    return text.data();
+}
+
 void take(const fs::path& file, std::string_view name, const toml::node& node, Material& material) {
     if (name == "map") {
         const auto map = node.value_exact<std::string>();
         if (!map || map->empty()) refuse(file, node, "map is not the name of a picture in quotes");
         material.map = fs::absolute(file).parent_path() / *map;
+        return;
+    }
+    if (name == "tint") {
+        const auto colour = colour_of(node.value_exact<std::string>().value_or(""));
+        if (!colour) refuse(file, node, "tint is not a colour in quotes, as \"#7a5230\"");
+        material.look.tint = *colour;
         return;
     }
     const auto& all = properties();
@@ -156,6 +192,8 @@ std::string toml_of(Material material, const fs::path& map) {
     text << "# A material of dibhr; any file like this can be named with --material or dropped on "
             "the window.\n";
     if (!map.empty()) text << "map = " << toml::value<std::string>(map.string()) << '\n';
+    if (material.look.tint_share > 0.0)
+        text << "tint = \"" << text_of(material.look.tint) << "\"  # red, green, blue\n";
     for (const Property& property : properties()) {
         text << property.name << " = " << number_text(property.in(material));
         if (!property.unit.empty()) text << "  # " << property.unit;

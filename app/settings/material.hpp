@@ -1,5 +1,5 @@
-// Materials: friction, stiffness, texture and sound of a surface, in a small TOML file beside its
-// bump map. Some come with the program, others are the user's.
+// Materials: friction, stiffness, texture, sound and look of a surface, in a small TOML file beside
+// its bump map. Some come with the program, others are the user's.
 #pragma once
 
 #include <filesystem>
@@ -11,6 +11,7 @@
 #include "core/haptics/depth_image.hpp"
 #include "core/haptics/parameters.hpp"
 #include "core/sound/touch_sound.hpp"
+#include "render/surface_look.hpp"
 
 namespace dibhr {
 
@@ -25,6 +26,7 @@ struct Material {
     double stiffness_newton_per_mm{Coupling{}.stiffness_newton_per_mm};
     double damping_newton_s_per_m{Coupling{}.damping_newton_s_per_m};
     SoundMaterial sound{};
+    SurfaceLook look{};
 };
 
 /// The name of "no material" for `--material` and the panel.

@@ -10,7 +10,6 @@
 #include "app/settings/material.hpp"
 #include "core/error.hpp"
 #include "core/haptics/surface.hpp"
-#include "core/video/depth/colour_ramp.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 
 namespace dibhr {
@@ -79,71 +78,6 @@ std::vector<Lay> lays_of(const Brush& brush, const TouchParameters& felt, const 
         {TouchMapKind::friction, everywhere(laid.friction.static_coefficient)},
         {TouchMapKind::height, material.bumps ? bumps_of(material, laid, image) : everywhere(0.0)}};
 }
-
-/// The map whose values are shown; none: show where any paint lies.
-std::optional<TouchMapKind> shown_kind(BrushLayer layer) {
-    switch (layer) {
-        case BrushLayer::stiffness:
-            return TouchMapKind::stiffness;
-        case BrushLayer::friction:
-            return TouchMapKind::friction;
-        case BrushLayer::height:
-            return TouchMapKind::height;
-        case BrushLayer::material:
-        case BrushLayer::nothing:
-            break;
-    }
-    return std::nullopt;
-}
-
-/// Colours a picture by a map's values, or with one colour where any paint lies.
-class Tint {
-  public:
-    Tint(const TouchMaps& maps, BrushLayer layer)
-        : maps_(maps), kind_(shown_kind(layer)), ramp_(colours_of(ColourRamp::viridis)) {}
-
-    [[nodiscard]] ColourImage over(const ColourImage& picture) const {
-        ColourImage tinted = picture;
-        for (const TouchMapKind kind : all_touch_map_kinds()) {
-            if (!kind_ || kind == *kind_) lay_over(maps_.of(kind), tinted);
-        }
-        return tinted;
-    }
-
-  private:
-    void lay_over(const TouchMap& map, ColourImage& picture) const {
-        if (map.empty()) return;
-        constexpr double kOfValues = 0.65;
-        constexpr double kOfAnything = 0.3;  // three maps lie on each other
-        const double most = kind_ ? kOfValues : kOfAnything;
-        std::size_t at = 0;
-        for (int j = 0; j < picture.rows; ++j) {
-            const int row = static_cast<int>(std::int64_t{j} * map.rows / picture.rows);
-            for (int i = 0; i < picture.columns; ++i, at += 3) {
-                const int column =
-                    static_cast<int>(std::int64_t{i} * map.columns / picture.columns);
-                const TouchMap::Pixel& pixel = map.at(column, row);
-                if (pixel.cover == 0) continue;
-                const double share = most * pixel.cover / TouchMap::kWhole;
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const double under = picture.rgb[at + c];
-                    picture.rgb[at + c] = static_cast<std::uint8_t>(
-                        std::lround(under + share * (colour(pixel.level, c) - under)));
-                }
-            }
-        }
-    }
-
-    [[nodiscard]] double colour(std::uint16_t level, std::size_t channel) const {
-        constexpr std::array<double, 3> kAnything{242.0, 140.0, 13.0};
-        if (!kind_) return kAnything[channel];
-        return ramp_.rgb[3 * static_cast<std::size_t>(level >> 8U) + channel];
-    }
-
-    const TouchMaps& maps_;
-    std::optional<TouchMapKind> kind_;
-    ColourImage ramp_;
-};
 
 }  // namespace
 
@@ -343,8 +277,9 @@ const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state
         tinted_of_ == frame->colour_object() && tinted_maps_ == maps && tinted_layer_ == layer;
     if (!is_same) {
         tinted_ = {};
-        tinted_.colour =
-            std::make_shared<const ColourImage>(Tint(*maps, layer).over(*frame->rgb()));
+        if (materials_.empty()) materials_ = painted_materials();
+        tinted_.colour = std::make_shared<const ColourImage>(
+            with_paint(*frame->rgb(), *maps, layer, materials_));
         tinted_of_ = frame->colour_object();
         tinted_maps_ = maps;
         tinted_layer_ = layer;

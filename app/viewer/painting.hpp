@@ -12,6 +12,7 @@
 #include "app/panels/viewer_state.hpp"
 #include "app/touching/recording.hpp"
 #include "app/viewer/map_stroke.hpp"
+#include "app/viewer/paint_tint.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/playing/player.hpp"
 
@@ -100,6 +101,7 @@ class ViewerPainting {
     BackgroundTask<Written> writing_;
     std::string failure_{};  // for the next poll()
     // What tinted_ was made of.
+    std::vector<PaintedMaterial> materials_{};
     Frame tinted_{};
     std::shared_ptr<const void> tinted_of_{};  ///< the colour
     std::shared_ptr<const TouchMaps> tinted_maps_{};

@@ -148,6 +148,7 @@ void Viewer::keep_material(const std::string& name) {
                                         state_.media.depth_columns);
         material.name = name;
         material.sound = touch.material.sound;
+        material.look = touch.material.look;
         show_notice("Kept as " + save_material(material).string());
         state_.ui.materials = material_names();
         state_.ui.fields.material = {};

@@ -3,10 +3,15 @@
 // chroma) or BY_DEPTH (else clay), WALL,
 // LAYER (at a silhouette) with FRONT (the near face, up to its outline) or BEHIND (the far face, continued under it: beside an
 // outline the video mixes the colours of both; BY_DEPTH it is hatched),
+// LOOK (of a material: its tint and shine),
 // UNSEEN (somewhere no surface was ever seen: dimmed and hatched).
 
 in vec3 lifted;
 in float shade;
+#ifdef LOOK
+in float shine;
+uniform vec4 tint;  // of the material; its share
+#endif
 #ifdef LAYER
 in vec2 faces_px;
 in vec4 continued;  // colour; 1: far under the near face
@@ -143,10 +148,18 @@ void main() {
 #else
     vec3 body = kClay;
 #endif
+#ifdef LOOK
+    vec3 dyed = tint.rgb * (0.2 + 1.3 * dot(body, vec3(0.299, 0.587, 0.114)));
+    body = mix(body, dyed, tint.a);
+#endif
 #ifdef UNSEEN
     float none = texture(unseen, in_detail(textureSize(unseen, 0))).r;
     body = mix(body, not_seen(body), smoothstep(0.3, 0.7, none));
 #endif
-    pixel = vec4(body * (gl_FrontFacing ? shade : shade * kBackside), alpha);
+    vec3 lit = body * (gl_FrontFacing ? shade : shade * kBackside);
+#ifdef LOOK
+    lit += shine;
+#endif
+    pixel = vec4(lit, alpha);
 #endif
 }

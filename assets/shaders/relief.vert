@@ -2,7 +2,7 @@
 // The relief: one corner of the drawn grid, lifted by its elevation and the bump map.
 // Defines: ROUGH (there is a bump map), PAINTED (there are painted heights), WALL (the sides that close
 // the relief; every second vertex is on the ground), LAYER (at a silhouette: a corner with its own elevation, in
-// the smooth slope of another vertex), SILHOUETTES (the cut cells are left out).
+// the smooth slope of another vertex), SILHOUETTES (the cut cells are left out), LOOK (of a material).
 
 layout(location = 0) in uvec2 corner;  // column and row in the drawn grid
 #ifdef LAYER
@@ -31,11 +31,16 @@ uniform sampler2D cut_around;  // of each drawn vertex, which cells around it ar
                                // 4: lower left, 8: lower right
 #endif
 out vec3 lifted;  // normalised place in the picture, elevation
+#ifdef LOOK
+uniform vec2 finish;  // gloss, fuzz
+out float shine;  // white light on top of the colour
+#endif
 out float shade;  // factor on the colour; on walls, height over the ground in [0, 1]
 
 const vec3 kKey = vec3(-0.46, 0.55, 0.70);  // from the upper left, towards the viewer
 const vec3 kFill = vec3(0.64, -0.10, 0.76);
 const vec3 kGloss = vec3(-0.25, 0.30, 0.92);  // half way between key and eye
+const float kGleam = 60.0;       // how small a highlight is
 const float kShadowReach = 1.3;  // of the dent's radius
 
 vec2 in_image(ivec2 at) { return vec2(min(at * grid_step, image - 1)); }
@@ -130,7 +135,14 @@ void main() {
     vec2 wide = bumps.to_low + bumps.to_high;
     dx += (raised(ivec2(bumps.high.x, vertex.y)) - raised(ivec2(bumps.low.x, vertex.y))) / wide.x;
     dy += (raised(ivec2(vertex.x, bumps.high.y)) - raised(ivec2(vertex.x, bumps.low.y))) / wide.y;
-    shade = brightness(normalize(vec3(-dx, dy, 1.0))) * unshadowed(here);
+    vec3 normal = normalize(vec3(-dx, dy, 1.0));
+    float lamp = unshadowed(here);
+    shade = brightness(normal) * lamp;
+#ifdef LOOK
+    float gleam = 0.75 * pow(max(dot(normal, normalize(kGloss)), 0.0), kGleam);
+    float halo = 0.5 * (1.0 - normal.z) * (1.0 - normal.z);
+    shine = light * lamp * (finish.x * gleam + finish.y * halo);
+#endif
 #endif
     lifted = vec3((here + 0.5) / vec2(image), z);
     vec3 world = vec3(here.x - 0.5 * float(image.x - 1), 0.5 * float(image.y - 1) - here.y, z);

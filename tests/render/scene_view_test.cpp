@@ -243,6 +243,59 @@ TEST_CASE("the light comes from the upper left, and without light there is none"
     CHECK(std::abs(brightness(8.0) - brightness(31.0)) <= 1);
 }
 
+TEST_CASE("a material tints the video and clay but not the colours of depth") {
+    const ReliefPaint paint = GENERATE(ReliefPaint::video, ReliefPaint::clay, ReliefPaint::turbo);
+    HiddenWindow window;
+    const Frame shown = frame(depth_image(40, 30, [](int i, int) { return 2.0 * i; }),
+                              colour_image(40, 30, [](int, int) {
+                                  return Rgb{128, 128, 128};
+                              }));
+    SceneContent content = still(shown);
+    content.relief_style.paint = paint;
+    const Camera camera = straight(40, 30);
+    const glm::ivec2 size(200, 150);
+    SceneView view;
+    const auto middle = [&] {
+        const ColourImage picture = view.capture(content, camera, size);
+        return pixel(picture, pixel_of(camera, {20.0, 15.0, 40.0}, size));
+    };
+    const Rgb plain = middle();
+    content.look = {{1.0F, 0.2F, 0.1F}, 0.8, 0.0, 0.0};
+    const Rgb tinted = middle();
+    if (paint == ReliefPaint::turbo) {
+        CHECK(tinted == plain);
+    } else {
+        CHECK(tinted[0] - tinted[2] > plain[0] - plain[2] + 40);
+    }
+    CHECK(window.errors().empty());
+}
+
+TEST_CASE("gloss gleams where the surface mirrors the light and fuzz where it is seen aslant") {
+    HiddenWindow window;
+    // From left to right: towards the light, flat, away from it.
+    const Frame shown = frame(
+        depth_image(60, 30, [](int i, int) { return i < 30 ? 100.0 : 100.0 + 3.0 * (i - 30); }),
+        colour_image(60, 30, [](int, int) {
+            return Rgb{90, 90, 90};
+        }));
+    SceneContent content = still(shown);
+    const Camera camera = straight(60, 30);
+    const glm::ivec2 size(300, 150);
+    SceneView view;
+    const auto brightness = [&](double x, double z) {
+        const ColourImage picture = view.capture(content, camera, size);
+        return pixel(picture, pixel_of(camera, {x, 15.0, z}, size))[1];
+    };
+    const int flat = brightness(15.0, 100.0);
+    const int steep = brightness(45.0, 145.0);
+    content.look = {.gloss = 1.0};
+    CHECK(brightness(15.0, 100.0) > flat);
+    CHECK(std::abs(brightness(45.0, 145.0) - steep) <= 2);
+    content.look = {.fuzz = 1.0};
+    CHECK(std::abs(brightness(15.0, 100.0) - flat) <= 2);
+    CHECK(brightness(45.0, 145.0) > steep + 20);
+}
+
 TEST_CASE("beside a step the far face goes on under the near one, in its own colour") {
     const int scale = GENERATE(1, 32);  // up to 2048 x 1536 pixels
     HiddenWindow window;

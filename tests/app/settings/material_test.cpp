@@ -68,6 +68,37 @@ struct OwnSettings {
 
 }  // namespace
 
+TEST_CASE("a material says what it looks like: tint and gloss and fuzz") {
+    const TemporaryFolder folder;
+    const Material plain = read_material(write_oak(folder / "plain"));
+    CHECK(plain.look.is_plain());
+    const Material oak = read_material(
+        write_oak(folder / "dark", std::string(kOak) + "tint = \"#804020\"\ntint-share = 0.5\n"
+                                                       "gloss = 0.25\nfuzz = 0.125\n"));
+    CHECK(oak.look ==
+          SurfaceLook{{128.0F / 255.0F, 64.0F / 255.0F, 32.0F / 255.0F}, 0.5, 0.25, 0.125});
+    for (const char* tint : {"804020", "#80402", "#8040201", "#80402g", "brown"}) {
+        const std::string told =
+            said_of(write_oak(folder / "bad", std::string(kOak) + "tint = \"" + tint + "\"\n"));
+        CAPTURE(tint, told);
+        CHECK(contains(told, "oak.toml:8: tint is not a colour"));
+    }
+    CHECK(contains(said_of(write_oak(folder / "loud", std::string(kOak) + "gloss = 1.5\n")),
+                   "gloss is not a number from 0 to 1"));
+}
+
+TEST_CASE("each material of the program looks like no other") {
+    std::vector<SurfaceLook> looks;
+    for (const std::string& name : material_names().shipped) {
+        const SurfaceLook look = material_named(name).look;
+        CAPTURE(name);
+        CHECK_FALSE(look.is_plain());
+        CHECK(std::find(looks.begin(), looks.end(), look) == looks.end());
+        looks.push_back(look);
+    }
+    CHECK(looks.size() == 9);
+}
+
 TEST_CASE("a material's file gives its numbers and the map beside it", "[material]") {
     const TemporaryFolder folder;
     const Material oak = read_material(write_oak(folder / "wood"));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/viewer/map_stroke.hpp"
+#include "app/viewer/paint_tint.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
@@ -71,6 +72,31 @@ glm::ivec2 middle_of_paint(const TouchMap& map) {
 }
 
 }  // namespace
+
+TEST_CASE("painted materials have their own tints and other paint is orange") {
+    const std::vector<PaintedMaterial> materials{{0.8, 0.9, {0.4F, 0.2F, 0.1F}},
+                                                 {1.1, 0.05, {0.8F, 0.9F, 1.0F}}};
+    TouchMaps maps;
+    maps.stiffness = bare_map(TouchMapKind::stiffness, 4, 1);
+    maps.friction = bare_map(TouchMapKind::friction, 4, 1);
+    const auto paint = [&](int i, double stiffness, double friction) {
+        maps.stiffness.at(i, 0) = {maps.stiffness.level_of(stiffness), 65535};
+        maps.friction.at(i, 0) = {maps.friction.level_of(friction), 65535};
+    };
+    paint(1, 0.8, 0.9);
+    paint(2, 1.1, 0.05);
+    paint(3, 0.5, 0.9);
+    const ColourImage black{8, 2, std::vector<std::uint8_t>(3 * 16, 0)};
+    const ColourImage tinted = with_paint(black, maps, BrushLayer::material, materials);
+    const auto colour = [&](int i) {
+        const std::uint8_t* rgb = &tinted.rgb[3 * static_cast<std::size_t>(2 * i)];
+        return std::vector<int>{rgb[0], rgb[1], rgb[2]};
+    };
+    CHECK(colour(0) == std::vector<int>{0, 0, 0});
+    CHECK(colour(1) == std::vector<int>{66, 33, 17});
+    CHECK(colour(2) == std::vector<int>{133, 149, 166});
+    CHECK(colour(3) == std::vector<int>{157, 91, 8});
+}
 
 TEST_CASE("a stroke lays its value whole under the middle of the brush and nothing beyond its edge",
           "[paint]") {
