@@ -259,7 +259,9 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
     frame.depth = made;
     if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
         frame.undilated = made;
-        frame.depth = std::make_shared<const DepthImage>(finger_.dilated(depth, plan.finger));
+        const std::shared_ptr<DepthImage> felt = made_.take();
+        *felt = finger_.dilated(depth, plan.finger, std::move(*felt));
+        frame.depth = felt;
     }
     frame.cleaning = {plan.steps, plan.finger};
     return frame;

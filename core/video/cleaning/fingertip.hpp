@@ -25,9 +25,10 @@ inline constexpr double kWidestExactFinger_px = 64.0;
 ///
 /// Exact but for the rounding of floats up to kWidestExactFinger_px; beyond, planes still are. The
 /// same image gives the same bits, whatever came before. Of an image that differs from the last one
-/// in a part only that part is dilated; large parts take two threads. Scratch memory is kept from
-/// image to image: that of three images with the radius more on all sides, 160 radius bytes a
-/// column, and 8 (2 radius)^2 bytes.
+/// only the tiles near changes are dilated, by a wider ball also only what it may touch; many tiles
+/// take two threads. Scratch memory is kept from image to image: that of three images with the
+/// radius more on all sides, 160 radius bytes a column of 400, and 8 (2 radius)^2 bytes; of a wider
+/// ball five images.
 class FingertipDilation {
   public:
     FingertipDilation();
@@ -38,11 +39,11 @@ class FingertipDilation {
     /// `image`: at least 2 x 2, without NaN. Returns an image of the same size and highest level,
     /// with no level lower than the original's or above its highest. Where the radius or the relief
     /// is not above 0: the original.
-    [[nodiscard]] DepthImage dilated(const DepthImage& image, const Fingertip& finger);
+    /// The memory of `buffer` is used for the result.
+    [[nodiscard]] DepthImage dilated(const DepthImage& image, const Fingertip& finger,
+                                     DepthImage buffer = {});
 
   private:
-    [[nodiscard]] DepthImage exactly_dilated(const DepthImage& image, const Fingertip& finger);
-
     struct Scratch;
     std::unique_ptr<Scratch> scratch_;
 };

@@ -50,6 +50,8 @@ struct Ball {
     float px_per_level{0.0F};
     float levels_per_px{0.0F};
 
+    bool operator==(const Ball&) const = default;
+
     /// The ball's height over its centre, at a distance from its axis [px]; 0 beyond the radius.
     [[nodiscard]] double height_px(double away_px) const {
         return std::sqrt(std::max(0.0, radius_px * radius_px - away_px * away_px));

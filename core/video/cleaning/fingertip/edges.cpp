@@ -1,5 +1,6 @@
 #include "core/video/cleaning/fingertip/edges.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -188,8 +189,8 @@ void EdgePass::prepare(const Ball& ball, const EdgeFamily& family, int most) {
     wide_.make_room(whole_flags(count));
     wide_at_.resize(whole_flags(count));
     const std::size_t lines = 2 * static_cast<std::size_t>(lines_.last) + 1;
-    levels_.resize(count * lines + kAtOnce);
-    to_.resize(count * lines + kAtOnce);
+    levels_.resize(std::max(levels_.size(), count * lines + kAtOnce));
+    to_.resize(levels_.size());
 }
 
 void EdgePass::raise(const float* before, const float* after, const float* begins,

@@ -64,11 +64,13 @@ template <typename Find, typename PairAt>
 void find_of_all(Find&& find, const float* row, int last, PairAt&& pair_at,
                  std::vector<float>& scratch, float* most) {
     if (last == 0) std::copy_n(row, scratch.size(), most);
+    const float* from = row;
     for (int n = 1; n <= last; n += 4) {
         const Pairs pairs{pair_at(n), pair_at(std::min(n + 1, last)),
                           pair_at(std::min(n + 2, last)), pair_at(std::min(n + 3, last))};
-        if (n > 1) std::copy_n(most, scratch.size(), scratch.data());
-        find(n > 1 ? scratch.data() : row, pairs, scratch.size(), most);
+        float* const to = (last - n) / 4 % 2 == 0 ? most : scratch.data();
+        find(from, pairs, scratch.size(), to);
+        from = to;
     }
 }
 
@@ -122,11 +124,11 @@ void Grounds::prepare(const PaddedImage& image, int left, int columns, const Bal
     scratch_.resize(columns_);
 }
 
-const std::uint8_t* Grounds::in_reach(int row) {
+const std::uint8_t* Grounds::in_reach(int row, const float* levels) {
     std::uint8_t* const marks = marks_.data() + (row % 2 == 0 ? 0 : columns_);
     if (around_ == 0) return marks;
     find_ground(row);
-    mark_from(ground_.row(0), slack_, image_->pixel(left_, row), columns_, marks);
+    mark_from(ground_.row(0), slack_, levels, columns_, marks);
     return marks;
 }
 

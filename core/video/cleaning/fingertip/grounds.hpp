@@ -28,7 +28,11 @@ class Grounds {
     /// For every VERTEX of those columns in a row 1 where it may be in the ball's reach, else 0:
     /// the ball touches no piece of the surface between VERTICES that are all 0. The row after the
     /// last call's, or any one first. The marks are valid until the call after the next.
-    [[nodiscard]] const std::uint8_t* in_reach(int row);
+    [[nodiscard]] const std::uint8_t* in_reach(int row) {
+        return in_reach(row, image_->pixel(left_, row));
+    }
+    /// Likewise, if the VERTICES may be as high as those levels.
+    [[nodiscard]] const std::uint8_t* in_reach(int row, const float* levels);
 
   private:
     /// Rows of levels with padding on both sides, each in place of the one that is `count` earlier.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/video/frames/vector_clones.hpp"
+#include "core/video/cleaning/fingertip/levels.hpp"
 
 namespace dibhr::fingertip {
 
@@ -12,16 +12,7 @@ namespace {
 
 constexpr int kSquare_px = 4;
 constexpr double kLeast_px = 16.0;  ///< narrower balls are bounded by the pixels around
-constexpr double kMost_px = 40.0;   ///< wider balls use this bound, too: they get no deeper
-
-/// Raises all to the others minus the fall.
-DIBHR_VECTOR_CLONES void raise_all(const float* __restrict others, float fall, std::size_t count,
-                                   float* __restrict all) {
-    for (std::size_t i = 0; i < count; ++i) {
-        const float other = others[i] - fall;
-        all[i] = other > all[i] ? other : all[i];
-    }
-}
+constexpr double kMost_px = 64.0;   ///< wider balls use this bound, too: they get no deeper
 
 float fall_levels(const Ball& ball, double x_px, double y_px) {
     const double away_px = std::hypot(x_px, y_px);

@@ -225,14 +225,15 @@ void TouchedVertices::make_room(std::size_t most) {
 }
 
 void VertexPass::prepare(const Ball& ball, int columns, int pitch) {
+    if (!(ball == ball_) || pitch != pitch_) cap_.shape(ball, pitch);
     ball_ = ball;
     columns_ = static_cast<std::size_t>(columns);
     pitch_ = pitch;
-    cap_.shape(ball, pitch);
     vertices_.make_room(whole_flags(columns_));
     wide_.make_room(whole_flags(columns_));
     wide_at_.resize(whole_flags(columns_));
     const std::size_t rows = columns_ * (2 * static_cast<std::size_t>(cap_.reach) + 1) + kAtOnce;
+    if (levels_.size() >= rows) return;
     levels_.resize(rows);
     for (std::vector<int>* of : {&falls_, &to_, &counts_}) of->resize(rows);
 }

@@ -359,7 +359,7 @@ TEST_CASE("a part of an image feels as it does in the whole, to the bit", "[fing
 
 TEST_CASE("frame after frame feels as it does alone, to the bit", "[fingertip]") {
     const unsigned kind = GENERATE(0U, 1U, 2U, 3U);
-    const double radius_px = GENERATE(0.5, 5.0, 17.0);
+    const double radius_px = GENERATE(0.5, 5.0, 17.0, 70.0);
     CAPTURE(kind, radius_px);
     std::mt19937 random(kind);
     DepthImage image = surface_of(kind, 90, 70, kind);
@@ -492,6 +492,45 @@ TEST_CASE("a very wide finger is felt nearly as exactly, and as exactly on a pla
 TEST_CASE("over a larger surface, too, a very wide finger is felt nearly as exactly",
           "[fingertip][long]") {
     require_felt_wide(rough(60, 45, 255.0, 3.0, 0.2), GENERATE(65.0, 130.0, 300.0), 3);
+}
+
+namespace {
+
+/// The definition of a very wide finger: dilated by a ball of four steps, thinned out, dilated by
+/// the rest, and no lower than between those pixels.
+DepthImage dilated_in_two_steps(const DepthImage& image, double radius_px) {
+    const int step = static_cast<int>(std::ceil(radius_px / kWidestExactFinger_px));
+    DepthImage felt = dilated(image, 4.0 * step);
+    const auto thinned = [step](int pixels) { return (pixels + step - 2) / step + 1; };
+    DepthImage coarse = image_of(
+        thinned(image.columns), thinned(image.rows), image.highest_level, [&](int i, int j) {
+            return felt.at(std::min(i * step, felt.columns - 1), std::min(j * step, felt.rows - 1));
+        });
+    coarse = dilated(coarse, (radius_px - 4.0 * step) / step, kRelief_px / step);
+    const auto share = [step](int along, int from) {
+        return static_cast<float>(along - from * step) / static_cast<float>(step);
+    };
+    for (int j = 0; j < felt.rows; ++j)
+        for (int i = 0; i < felt.columns; ++i) {
+            const int x = std::min(i / step, coarse.columns - 2);
+            const int y = std::min(j / step, coarse.rows - 2);
+            const float above = std::lerp(coarse.at(x, y), coarse.at(x + 1, y), share(i, x));
+            const float below =
+                std::lerp(coarse.at(x, y + 1), coarse.at(x + 1, y + 1), share(i, x));
+            felt.at(i, j) = std::max(felt.at(i, j), std::lerp(above, below, share(j, y)));
+        }
+    return felt;
+}
+
+}  // namespace
+
+TEST_CASE("a very wide finger leaves out only what it does not touch, to the bit", "[fingertip]") {
+    const unsigned kind = GENERATE(0U, 1U, 2U, 3U);
+    const double radius_px = GENERATE(some_of<double>({65.0, 128.5, 200.0, 500.0}, 2));
+    const auto [columns, rows] = GENERATE(std::pair{2, 2}, std::pair{361, 2}, std::pair{402, 251});
+    CAPTURE(kind, radius_px, columns, rows);
+    const DepthImage image = surface_of(kind, columns, rows, kind);
+    CHECK(dilated(image, radius_px).levels == dilated_in_two_steps(image, radius_px).levels);
 }
 
 TEST_CASE("it is exact at every pixel", "[fingertip][long]") {
