@@ -47,6 +47,8 @@ constexpr std::array kCommands{
     Command{"surface", "COLOR [DEPTH] [--time S] --out FILE",
             "The surface as it is felt: .pfm (px), .png (16 bit), .ply or .stl (mm)",
             headless<run_surface>},
+    Command{"clip", "COLOR|SESSION [--goals GOALS.csv] --out FILE",
+            "A clip whose every picture is drawn, however long it takes", headless<run_clip>},
     Command{"depth", "COLOR [--with \"COMMAND {input} {output}\"]",
             "Depth for a colour video, by an estimator you have installed", headless<run_depth>},
     Command{"experiment", "[linear|circle|human|all|sweep]",

@@ -25,6 +25,9 @@ int run_command_line(const Arguments& arguments, const PictureHook& after_pictur
 
 // For the commands.
 
+/// Exit code of a command that Ctrl+C ended.
+inline constexpr int kInterrupted = 130;
+
 /// False after a request for help, which is printed. Throws UsageError.
 [[nodiscard]] bool parse(CLI::App& app, const Arguments& arguments);
 
@@ -53,6 +56,8 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
 int run_touch(CLI::App& app, const Arguments& arguments);
 /// Writes the surface of one moment to a file. Prints its size and elevations.
 int run_surface(CLI::App& app, const Arguments& arguments);
+/// Draws a clip off line. Prints its size and length.
+int run_clip(CLI::App& app, const Arguments& arguments);
 /// Makes depth for a colour video, or lists or removes stored depth. Prints its path.
 int run_depth(CLI::App& app, const Arguments& arguments);
 /// Prints a table of all runs. 1 when a run that changes nothing does not give the recorded bits.

@@ -31,7 +31,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kLongestPatience_s = 1e6;
-constexpr int kInterrupted = 130;  ///< exit code of a program that Ctrl+C ended
 
 struct DepthOptions {
     EstimateRequest request{};  ///< without the command

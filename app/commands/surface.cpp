@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/commands/given_media.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "core/error.hpp"
@@ -34,21 +35,6 @@ struct SurfaceOptions {
     TouchRequest touch{};
     TouchParameters parameters{};
 };
-
-/// A colour and a depth file, or depth alone.
-std::unique_ptr<Media> open_given(const SurfaceOptions& options, TouchParameters& parameters) {
-    DepthRequest request = options.touch.depth_request();
-    request.paints = false;
-    std::unique_ptr<Media> media;
-    {
-        const WorkingLine line("Opening " + one_line(options.colour.string()));
-        media = open_media(options.colour, options.depth, request);
-    }
-    print_warning(media->description().notice);
-    report_doubt(media->description(), options.must_be_sure);
-    options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
-    return media;
-}
 
 /// The frame shown at `time_s` of the media and the next one, if any. The last frame is shown until
 /// the media ends; InputError for a later time.
@@ -105,7 +91,8 @@ SurfaceFormat requested_format(const fs::path& out) {
 
 void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     TouchParameters parameters = options.parameters;
-    FrameReader reader(open_given(options, parameters));
+    FrameReader reader(open_given(options.colour, options.depth, options.touch,
+                                  options.must_be_sure, false, parameters));
     reader.set_cleaning(options.touch.cleaning(parameters, reader.description()));
     reader.set_maps(options.touch.read_maps(reader.description()));
     const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();

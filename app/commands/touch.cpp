@@ -1,13 +1,12 @@
 // `dibhr touch`: reads, computes and formats block by block, so that times include nothing else and
 // memory does not grow with the goals.
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/commands/command_line.hpp"
@@ -16,7 +15,7 @@
 #include "core/files/names.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/haptics/touch.hpp"
-#include "core/loop/tick_runner.hpp"
+#include "core/loop/goal_run.hpp"
 #include "core/video/cleaning/cleaning_chain.hpp"
 #include "core/video/playing/depth_timeline.hpp"
 #include "device/goal_stream.hpp"
@@ -25,7 +24,6 @@ namespace dibhr {
 namespace {
 
 constexpr std::size_t kBlockRows = 4096;
-constexpr double kUsualTick_s = 0.001;
 
 struct TouchOptions {
     std::filesystem::path depth{};
@@ -38,76 +36,46 @@ struct TouchOptions {
     TouchParameters parameters{};
 };
 
-/// The state that updates carry from one block of goals to the next.
-class TouchRun {
-  public:
-    explicit TouchRun(const TouchOptions& options)
-        : parameters_(options.parameters),
-          depth_(opened(options, parameters_)),
-          bump_(options.touch.given.read_bumps()) {
-        const DepthImage& depth = *depth_.now().from->depth;
-        stretch(bump_, depth.columns, depth.rows, parameters_.shape.bump_size_px);
+GoalRun opened_run(const TouchOptions& options) {
+    TouchParameters parameters = options.parameters;
+    const DepthRequest request = options.touch.depth_request();
+    std::unique_ptr<Media> media;
+    {
+        const WorkingLine line("Opening " + one_line(options.depth.string()));
+        media = options.colour.empty() ? open_depth(options.depth, request)
+                                       : open_media(options.colour, options.depth, request);
     }
-
-    OutputRow update(const TimedGoal& goal) {
-        const bool started_again = depth_.advance_to(goal.t_s);
-        // Recorded goals may have equal times: such an update has the usual length.
-        const double step_s = last_t_s_ ? goal.t_s - *last_t_s_ : 0.0;
-        const TickInput input{.pair = depth_.now(),
-                              .bump = bump_.get(),
-                              .goal = goal.goal_in_grid,
-                              .safety = {.dt_s = step_s > 0.0 ? step_s : kUsualTick_s,
-                                         .from_zero = started_again || !last_t_s_}};
-        const Touch& touch = runner_.run(input, {parameters_, SafetyLimits{}});
-        last_t_s_ = goal.t_s;
-        return {goal.t_s, touch, std::chrono::nanoseconds(runner_.update_time()).count()};
-    }
-
-  private:
-    static DepthTimeline opened(const TouchOptions& options, TouchParameters& parameters) {
-        const DepthRequest request = options.touch.depth_request();
-        std::unique_ptr<Media> media;
-        {
-            const WorkingLine line("Opening " + one_line(options.depth.string()));
-            media = options.colour.empty() ? open_depth(options.depth, request)
-                                           : open_media(options.colour, options.depth, request);
-        }
-        print_warning(media->description().notice);
-        report_doubt(media->description(), options.must_be_sure);
-        const MotionRequest motion = motion_request(
-            parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
-        if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
-        options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
-        const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
-        if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&
-            options.colour.empty())
-            print_warning(shown(options.depth) +
-                          " asks for silhouettes at the colour's edges, but touch looks at no "
-                          "colour without --color: its silhouettes are those of the depth alone");
-        const bool densifies =
-            plan_of(cleaning, {}, 0, media->description().sparse_share.has_value()).steps.densify;
-        if (densifies && options.colour.empty())
-            print_warning(shown(options.depth) +
-                          " is sparse, and touch looks at no colour without --color: its edges are "
-                          "those of the depth alone");
-        std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
-        using Wanted = DepthTimeline::Wanted;
-        return {std::move(media), options.video ? Wanted::all : Wanted::first, cleaning, motion,
-                std::move(maps)};
-    }
-
-    TouchParameters parameters_;
-    DepthTimeline depth_;
-    std::shared_ptr<const BumpMap> bump_;
-    TickRunner runner_{};
-    std::optional<double> last_t_s_{};
-};
+    print_warning(media->description().notice);
+    report_doubt(media->description(), options.must_be_sure);
+    const MotionRequest motion =
+        motion_request(parameters.carry, options.touch.in_betweens.value_or(InBetweens::automatic));
+    if (options.video && motion.any()) print_warning(motion_trouble(media->description()));
+    options.touch.given.fit(media->description(), options.touch.raw_depth, parameters);
+    const CleaningOptions cleaning = options.touch.cleaning(parameters, media->description());
+    if (cleaning.preset == CleaningPreset::own && cleaning.own.colour_edges &&
+        options.colour.empty())
+        print_warning(shown(options.depth) +
+                      " asks for silhouettes at the colour's edges, but touch looks at no "
+                      "colour without --color: its silhouettes are those of the depth alone");
+    const bool densifies =
+        plan_of(cleaning, {}, 0, media->description().sparse_share.has_value()).steps.densify;
+    if (densifies && options.colour.empty())
+        print_warning(shown(options.depth) +
+                      " is sparse, and touch looks at no colour without --color: its edges are "
+                      "those of the depth alone");
+    std::shared_ptr<const TouchMaps> maps = options.touch.read_maps(media->description());
+    using Wanted = DepthTimeline::Wanted;
+    return {std::make_unique<DepthTimeline>(std::move(media),
+                                            options.video ? Wanted::all : Wanted::first, cleaning,
+                                            motion, std::move(maps)),
+            parameters, options.touch.given.read_bumps()};
+}
 
 void touch_all(const TouchOptions& options) {
     GoalReader reader(options.goals);
     std::vector<TimedGoal> goals;
     reader.next(kBlockRows, goals);  // first: most faults of the file are reported at once
-    TouchRun run(options);
+    GoalRun run = opened_run(options);
     RowFile out(options.out,
                 {options.depth, options.colour, options.goals, options.touch.given.bump_file()},
                 "is also read by this command; give --out another name");
@@ -120,7 +88,10 @@ void touch_all(const TouchOptions& options) {
         ProgressBar bar("Touching");
         do {
             rows.clear();
-            for (const TimedGoal& goal : goals) rows.push_back(run.update(goal));
+            for (const TimedGoal& goal : goals) {
+                const Touch& touch = run.update(goal.t_s, goal.goal_in_grid);
+                rows.push_back({goal.t_s, touch, run.update_time().count()});
+            }
             updates += rows.size();
             for (const OutputRow& row : rows) {
                 append_row(out.text(), row);

@@ -36,4 +36,9 @@ std::vector<TracePoint> TouchTrace::points(const DepthSurface& surface, double n
     return points;
 }
 
+void TouchTrace::mark(const DepthSurface& surface, double now_s, TouchMarkers& markers) {
+    if (markers.visible && markers.contact) add(markers.proxy, now_s);
+    markers.trace = points(surface, now_s);
+}
+
 }  // namespace dibhr

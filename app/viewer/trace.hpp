@@ -22,6 +22,9 @@ class TouchTrace {
     /// The dots that remain at `now_s`, on `surface`.
     [[nodiscard]] std::vector<TracePoint> points(const DepthSurface& surface, double now_s);
 
+    /// Adds the proxy of the markers where it is in contact, and gives them the dots.
+    void mark(const DepthSurface& surface, double now_s, TouchMarkers& markers);
+
     void clear() noexcept { dots_.clear(); }
 
   private:

@@ -503,9 +503,7 @@ SceneMark Viewer::mark_scene(SceneContent content, glm::ivec2 viewport) const {
 
 void Viewer::leave_trace(TouchMarkers& markers) {
     if (!state_.settings.relief_style.trace || !shown_.makes_surface()) return;
-    if (markers.visible && markers.contact) trace_.add(markers.proxy, now_s());
-    const DepthSurface surface = shown_.drawn_surface(state_.shape(), state_.touch.bump.get());
-    markers.trace = trace_.points(surface, now_s());
+    trace_.mark(shown_.drawn_surface(state_.shape(), state_.touch.bump.get()), now_s(), markers);
 }
 
 }  // namespace dibhr

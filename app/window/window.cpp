@@ -116,7 +116,7 @@ glm::ivec2 scaled_size(glm::ivec2 size, double requested) {
 
 }  // namespace
 
-Window::Window(const WindowSize& size, bool sync, const std::string& title)
+Window::Window(const WindowSize& size, bool sync, const std::string& title, Shown shown)
     : size_{size.width, size.height} {
     choose_display_server();
     if (glfwInit() != GLFW_TRUE)
@@ -124,6 +124,7 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title)
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
     set_display_loss_handler(display_lost_);
     if (size.times) size_ = scaled_size(size_, *size.times);
+    if (shown == Shown::never) glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     window_ = open_window(size_.x, size_.y, title);
     if (window_ == nullptr) {
         const char* reason = nullptr;

@@ -83,8 +83,12 @@ struct WindowSize {
 /// One window with a current OpenGL 3.3 core context. Belongs to the thread that made it.
 class Window {
   public:
+    /// never: only its OpenGL context is used.
+    enum class Shown { at_once, never };
+
     /// Throws DeviceError without a display or OpenGL 3.3.
-    Window(const WindowSize& size, bool sync, const std::string& title);
+    Window(const WindowSize& size, bool sync, const std::string& title,
+           Shown shown = Shown::at_once);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;

@@ -86,6 +86,8 @@ class SessionReplay {
     [[nodiscard]] const std::shared_ptr<const TouchedFrames>& frames() const noexcept {
         return touched_;
     }
+    /// Of the last tick with a surface; null: none was laid over it.
+    [[nodiscard]] const std::shared_ptr<const BumpMap>& bump() const noexcept { return bump_; }
     /// Time of the run's update; 0 without a surface.
     [[nodiscard]] double update_us(std::size_t run) const {
         return std::chrono::duration<double, std::micro>(runs_.at(run).run.update_time()).count();

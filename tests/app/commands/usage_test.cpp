@@ -177,7 +177,7 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     CHECK(help.exit_code == 0);
     CHECK(help.errors.empty());
     for (const std::string command :
-         {"view", "touch", "surface", "depth", "study", "info", "devices", "bench"}) {
+         {"view", "touch", "surface", "clip", "depth", "study", "info", "devices", "bench"}) {
         INFO(command);
         CHECK(help.output.find(command) != std::string::npos);
         const ProgramResult its_help = run_dibhr(folder, {command, "--help"});
@@ -217,7 +217,7 @@ TEST_CASE("app/run takes no command for the viewer but view", "[usage]") {
 
 TEST_CASE("the help of every command ends with examples of it", "[usage]") {
     for (const std::string command :
-         {"view", "touch", "surface", "depth", "experiment", "replay", "export", "report",
+         {"view", "touch", "surface", "clip", "depth", "experiment", "replay", "export", "report",
           "archive", "study", "info", "devices", "bench"}) {
         CAPTURE(command);
         const TemporaryFolder folder;
