@@ -5,12 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/batch/stoppable_work.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
-#include "app/window/signals.hpp"
 #include "core/archive/archive.hpp"
-#include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/report/report_sentences.hpp"
 
@@ -43,15 +42,9 @@ int check_folder(const fs::path& folder) {
 void write_folder(const ArchiveRequest& wanted) {
     ArchiveSummary summary;
     {
-        ShutdownSignals signals;
-        ProgressBar bar("Archiving");
+        StoppableWork work("Archiving", wanted.folder);
         ArchiveRequest request = wanted;
-        request.progress = [&](double share) {
-            if (signals.arrived())
-                throw InputError(request.folder.string() +
-                                 ": was not written, as it was stopped; start it again");
-            bar.show(share);
-        };
+        request.progress = [&work](double share) { work.show(share); };
         summary = write_archive(request);
     }
     for (const std::string& warning : summary.warnings) print_warning(warning);

@@ -53,11 +53,11 @@ constexpr std::array kCommands{
             "Depth for a colour video, by an estimator you have installed", headless<run_depth>},
     Command{"experiment", "[linear|circle|human|all|sweep]",
             "The paper's table, all algorithms side by side", headless<run_experiment>},
-    Command{"replay", "SESSION [--algorithm NAME]... [--csv FILE]",
+    Command{"replay", "SESSION... [--algorithm NAME]... [--csv FILE]",
             "A recording computed again with other algorithms", headless<run_replay>},
-    Command{"export", "SESSION --csv FILE", "Every tick of a session, one row",
+    Command{"export", "SESSION... --csv FILE|--out DIR", "Every tick of a session, one row",
             headless<run_export>},
-    Command{"report", "SESSION --out DIR", "Pictures: where people touched, force over time",
+    Command{"report", "SESSION... --out DIR", "Pictures: where people touched, force over time",
             headless<run_report>},
     Command{"archive", "SESSION|STUDY... --out FOLDER",
             "A folder to publish: data, dictionary, sums", headless<run_archive>},
@@ -244,10 +244,6 @@ CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::p
         .add_option_function<std::string>(
             name, [&file](const std::string& text) { file = text; }, help)
         ->type_name(type);
-}
-
-CLI::Option* add_session(CLI::App& app, std::filesystem::path& file) {
-    return add_file(app, "SESSION", file, "A recorded session", "")->required();
 }
 
 CLI::Option* add_surfaces_option(CLI::App& app, SurfacesFrom& from) {

@@ -37,7 +37,6 @@ inline constexpr int kInterrupted = 130;
 /// An option, or an argument, that names a file. `file` must outlive the parsing of `app`.
 CLI::Option* add_file(CLI::App& app, const std::string& name, std::filesystem::path& file,
                       const std::string& help, const std::string& type = "FILE");
-CLI::Option* add_session(CLI::App& app, std::filesystem::path& file);
 /// --surface-from: where a replay's surfaces come from.
 CLI::Option* add_surfaces_option(CLI::App& app, SurfacesFrom& from);
 CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);

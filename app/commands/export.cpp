@@ -6,8 +6,11 @@
 #include <optional>
 #include <string>
 
+#include "app/commands/batch/session_batch.hpp"
+#include "app/commands/batch/stoppable_work.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
+#include "app/settings/command_options.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
@@ -31,34 +34,75 @@ void print_clock(const Session& session) {
                   << " ms in " << number_text(drift->over_s, 1) << " s\n";
 }
 
-}  // namespace
-
-int run_export(CLI::App& app, const Arguments& arguments) {
-    std::filesystem::path file;
-    std::filesystem::path csv;
-    add_session(app, file);
-    add_file(app, "--csv", csv, "One row for each tick; - is standard output")->required();
-    app.footer(
-        "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
-        "\nExamples:\n"
-        "  dibhr export mine.dibhr --csv mine.csv\n"
-        "  dibhr export mine.dibhr --csv - | head");
-    if (!parse(app, arguments)) return 0;
-    const Session session(file);
-    session.check();
-    print_warning(session.warning());
+void write_ticks(const Session& session, const std::filesystem::path& csv,
+                 const WorkProgress& progress) {
     Statement ticks = session.reader().rows("SELECT * FROM tick ORDER BY tick");
-    RowFile rows(csv, {file}, "is the session that is read; give --csv another name");
-    ProgressBar bar("Exporting");
+    RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");
     append_names(rows.text(), ticks);
     for (std::int64_t done = 0; ticks.next(); ++done) {
         append_row(rows.text(), ticks);
         rows.rows_done();
         if (done % kRowsPerStep == 0)
-            bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
+            progress(static_cast<double>(done) / static_cast<double>(session.rows()));
     }
     rows.commit();
+}
+
+SessionWork export_into(const std::filesystem::path& folder, const GivenFile& file,
+                        const WorkProgress& progress) {
+    const Session session(file.file);
+    session.check();
+    SessionWork done = summary_of(session);
+    if (const std::optional<ClockDrift> drift = session.drift())
+        done.cells.push_back({"clock_drift_ms", number_text(1e3 * drift->gained_s, 3)});
+    done.warnings.push_back(session.warning());
+    done.files.push_back(file.name + ".csv");
+    write_ticks(session, folder / done.files.front(), progress);
+    return done;
+}
+
+void export_one(const std::filesystem::path& file, const std::filesystem::path& csv) {
+    const Session session(file);
+    session.check();
+    print_warning(session.warning());
+    {
+        StoppableWork work("Exporting", csv);
+        write_ticks(session, csv, [&work](double share) { work.show(share); });
+    }
     if (csv != "-") print_clock(session);
+}
+
+}  // namespace
+
+int run_export(CLI::App& app, const Arguments& arguments) {
+    BatchOptions batch;
+    std::filesystem::path csv;
+    add_sessions(app, batch, "Folder for NAME.csv of each session, and export.csv, their summary");
+    add_file(app, "--csv", csv, "One row for each tick, of one session; - is standard output");
+    app.footer(
+        "The columns of `dibhr touch` come first; table tick_column of the session explains all.\n"
+        "\nExamples:\n"
+        "  dibhr export mine.dibhr --csv mine.csv\n"
+        "  dibhr export mine.dibhr --csv - | head\n"
+        "  dibhr export recordings --out ticks");
+    if (!parse(app, arguments)) return 0;
+    if (batch.is_batch()) {
+        if (!csv.empty() || (batch.out.empty() && !batch.list))
+            throw UsageError(
+                "export writes several sessions into a folder: give --out DIR, and no --csv");
+        return run_batch(
+            app,
+            {.command = "export",
+             .title = "Exporting",
+             .work =
+                 [](const GivenFile& file, const auto& folder, const WorkProgress& progress) {
+                     return export_into(folder, file, progress);
+                 }},
+            batch);
+    }
+    if (csv.empty())
+        throw UsageError("--csv is required, or --out DIR for many (see dibhr export --help)");
+    export_one(batch.file(), csv);
     return 0;
 }
 

@@ -3,31 +3,29 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
-#include <initializer_list>
 #include <iomanip>
 #include <iostream>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "app/commands/batch/session_batch.hpp"
 #include "app/commands/command_line.hpp"
+#include "app/commands/info_session.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/settings.hpp"
 #include "core/error.hpp"
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/parameters.hpp"
 #include "core/replay/frames.hpp"
-#include "core/report/report_sentences.hpp"
 #include "core/session/session.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
-#include "device/force_devices.hpp"
 
 namespace dibhr {
 namespace {
@@ -41,73 +39,6 @@ struct InfoOptions {
     bool why{false};           ///< prints all findings
     bool must_be_sure{false};  ///< --sure
 };
-
-void print_fact(std::string_view name, std::string_view value) {
-    constexpr int kFactWidth = 17;
-    std::cout << "  " << std::left << std::setw(kFactWidth) << one_line(name) << ' '
-              << one_line(value) << '\n';
-}
-
-/// Prints the facts of these names in this order, and removes them from `facts`.
-void print_and_drop(std::initializer_list<std::string_view> names, SessionFacts& facts) {
-    for (const std::string_view name : names) {
-        const auto fact = facts.find(std::string(name));
-        if (fact == facts.end()) continue;
-        print_fact(name, fact->second);
-        facts.erase(fact);
-    }
-}
-
-/// Prints duration, ticks and marks.
-void print_extent(const Session& session) {
-    print_fact("duration", number_text(session.end_s() - session.begin_s(), 3) + " s");
-    print_fact("ticks", std::to_string(session.rows()));
-    print_fact("late ticks", std::to_string(late_ticks(session.reader())));
-    if (session.missing() > 0) print_fact("missing ticks", std::to_string(session.missing()));
-    if (const auto begin = session.utc_at(session.begin_s()))
-        print_fact("first tick", wall_time_text(*begin) + ", utc_s " + number_text(*begin, 3));
-    if (const auto drift = session.drift())
-        print_fact("wall clock gained", number_text(1e3 * drift->gained_s, 3) + " ms in " +
-                                            number_text(drift->over_s, 1) + " s");
-    for (const SessionMark& mark : session.marks()) {
-        const auto utc_s = session.utc_at(mark.t_s);
-        print_fact("mark", number_text(mark.t_s - session.begin_s(), 3) + " s  " + mark.tag +
-                               (mark.text.empty() ? "" : ": " + mark.text) +
-                               (utc_s ? "  (utc_s " + number_text(*utc_s, 3) + ")" : ""));
-    }
-}
-
-/// The most important facts first: what was touched, when and how long, with which device and which
-/// parameters.
-void describe_session(const fs::path& file) {
-    const Session session(file);
-    session.check();
-    print_warning(session.warning());
-    std::cout << one_line(file.string()) << '\n';
-    print_fact("kind", "dibhr session");
-    const HandTicks hand = hand_ticks(session.reader());
-    SessionFacts facts = facts_of_hand(session.facts(), hand, force_device_names());
-    std::set<fs::path> printed;
-    const auto print_media = [&printed](const char* what, const SessionMedia& media) {
-        if (media.file.empty() || !printed.insert(media.file).second) return;
-        print_fact(what,
-                   media.file.string() + (media.sha256.empty() ? "" : ", SHA-256 " + media.sha256));
-    };
-    for (const SessionSource& source : session.sources()) {
-        print_media("colour", source.colour);
-        print_media("depth", source.depth);
-    }
-    if (!session.sources().empty())
-        for (const char* const name : {"colour", "depth"}) facts.erase(name);
-    print_and_drop({"colour", "depth", "started", "participant", "note"}, facts);
-    print_extent(session);
-    if (const auto device = facts.find("device"); device != facts.end())
-        device->second = device_text(device->second, hand);
-    print_and_drop({"device"}, facts);
-    visit_touch_entries([&facts](const auto& entry) { print_and_drop({entry.name}, facts); });
-    print_and_drop({"bump", "material", "cleaning", "finger", "max-force", "stability"}, facts);
-    for (const auto& [name, value] : facts) print_fact(name, value);
-}
 
 void describe_partner(const fs::path& file) {
     std::string looked_for;
@@ -429,36 +360,18 @@ Json json_of(const fs::path& file, const MediaDescription& media, bool why) {
     return json;
 }
 
-/// A session's extent and facts, by their names in its file.
-Json json_of_session(const fs::path& file) {
-    const Session session(file);
-    session.check();
-    print_warning(session.warning());
-    Json json{{"path", file.string()},
-              {"form", "dibhr session"},
-              {"rows", session.rows()},
-              {"duration_s", session.end_s() - session.begin_s()},
-              {"missing_rows", session.missing()}};
-    for (const auto& [name, value] : session.facts())
-        json["facts"][utf8_text(name)] = utf8_text(value);
-    return json;
-}
-
-/// One object a line, so that a file that cannot be read does not spoil the next one's.
-void print_json(const fs::path& file, const fs::path& other, const InfoOptions& options) {
-    if (is_session_file(file)) {
-        std::cout << json_line(json_of_session(file)) << '\n';
-        return;
-    }
-    const MediaDescription media = described(file, other, options);
-    std::cout << json_line(json_of(file, media, options.why)) << '\n';
-}
-
 void describe(const fs::path& file, const fs::path& other, const InfoOptions& options) {
-    if (is_session_file(file))
-        describe_session(file);
-    else
+    if (is_session_file(file)) {
+        const Session session(file);
+        session.check();
+        print_warning(session.warning());
+        describe_session(session, options.json);
+    } else if (options.json) {
+        const MediaDescription media = described(file, other, options);
+        std::cout << json_line(json_of(file, media, options.why)) << '\n';
+    } else {
         describe_pictures(file, other, options);
+    }
 }
 
 /// The other one of two places that may be colour and depth; empty: none.
@@ -468,11 +381,32 @@ fs::path other_of(const fs::path& file, const std::vector<std::string>& files) {
     return other == file || is_session_file(other) ? fs::path() : other;
 }
 
+/// 1 when any of them cannot be read.
+int describe_all(const std::vector<std::string>& files, const InfoOptions& options) {
+    int exit_code = 0;
+    for (const fs::path file : files) {
+        try {
+            describe(file, other_of(file, files), options);
+        } catch (const Error& error) {
+            std::cout.flush();
+            print_error_line(error.what());
+            exit_code = 1;
+        }
+    }
+    return exit_code;
+}
+
+bool is_folder_of_sessions(const fs::path& place) {
+    std::error_code missing;
+    return fs::is_directory(place, missing) && holds_sought(place, sought_sessions());
+}
+
 }  // namespace
 
 int run_info(CLI::App& app, const Arguments& arguments) {
     std::vector<std::string> files;
-    app.add_option("FILE", files, "Videos, images, session files, cameras and streams")
+    app.add_option("FILE", files,
+                   "Videos, images, session files and folders of them, cameras and streams")
         ->type_name("")
         ->required();
     InfoOptions options;
@@ -483,25 +417,40 @@ int run_info(CLI::App& app, const Arguments& arguments) {
                  "it is, and where it comes from");
     add_depth_options(app, options.request.command_line);
     add_sure_option(app, options.must_be_sure);
+    BatchOptions batch;
+    add_batch_options(app, batch,
+                      "Folder that keeps what each session holds, and info.csv, a row for each");
     app.footer(
         "Of two files, one of colour and one of depth, the depth is described as they open.\n"
         "Examples:\n"
         "  dibhr info color.mp4 depth.mp4 mine.dibhr\n"
         "  dibhr info depth.png --why\n"
-        "  dibhr info scan/ --json");
+        "  dibhr info scan/ --json\n"
+        "  dibhr info recordings --out described");
     if (!parse(app, arguments)) return 0;
-    int exit_code = 0;
-    for (const fs::path file : files) {
-        try {
-            const fs::path other = other_of(file, files);
-            options.json ? print_json(file, other, options) : describe(file, other, options);
-        } catch (const Error& error) {
-            std::cout.flush();
-            print_error_line(error.what());
-            exit_code = 1;
-        }
+    const bool kept = batch.is_batch();
+    const bool folders = std::ranges::any_of(files, is_folder_of_sessions);
+    if (!kept && !folders) return describe_all(files, options);
+    std::vector<std::string> media;
+    for (const std::string& file : files) {
+        const bool session = is_folder_of_sessions(file) || is_session_file(file);
+        if (session)
+            batch.given.emplace_back(file);
+        else
+            media.push_back(file);
     }
-    return exit_code;
+    const int of_media = describe_all(media, options);
+    if (batch.given.empty()) return of_media;
+    const int of_sessions = run_batch(
+        app,
+        {.command = "info",
+         .title = "Describing",
+         .table = !options.json,
+         .work = [json = options.json](
+                     const GivenFile& file, const fs::path& /*folder*/,
+                     const WorkProgress& /*progress*/) { return describe_in_batch(file, json); }},
+        batch);
+    return std::max(of_media, of_sessions);
 }
 
 }  // namespace dibhr

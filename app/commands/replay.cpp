@@ -5,13 +5,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "app/commands/batch/session_batch.hpp"
+#include "app/commands/batch/stoppable_work.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
@@ -28,7 +32,6 @@ namespace {
 constexpr std::int64_t kTicksPerStep = 1000;  // of the progress bar
 
 struct ReplayOptions {
-    std::filesystem::path session{};
     std::vector<Algorithm> algorithms{};  ///< empty: as recorded
     TouchRequest touch{};                 ///< replaces recorded values
     bool any_media{false};                ///< also over files that have changed
@@ -113,13 +116,12 @@ SessionFramesOptions frames_options(const Session& session, const ReplayOptions&
 }
 
 void replay(const Session& session, RecordedSurfaces& surfaces, std::vector<Run>& runs,
-            const std::filesystem::path& csv) {
+            const std::filesystem::path& csv, const WorkProgress& progress) {
     std::vector<ParameterChange> changes;
     for (const Run& run : runs) changes.push_back(run.change);
     SessionReplay replay(session, surfaces, std::move(changes));
     RowFile rows(csv, {session.file()}, "is the session that is read; give --csv another name");
     rows.text() = kOutputHeader;
-    ProgressBar bar("Replaying");
     for (std::int64_t done = 0; replay.next(); ++done) {
         const TickRecord& tick = replay.recorded();
         for (std::size_t k = 0; k < runs.size(); ++k)
@@ -131,7 +133,7 @@ void replay(const Session& session, RecordedSurfaces& surfaces, std::vector<Run>
             rows.rows_done();
         }
         if (done % kTicksPerStep == 0)
-            bar.show(static_cast<double>(done) / static_cast<double>(session.rows()));
+            progress(static_cast<double>(done) / static_cast<double>(session.rows()));
     }
     rows.commit();
 }
@@ -209,41 +211,89 @@ std::string difference_of(const Session& session, const Run& run) {
     return text.str();
 }
 
-int replay_all(const ReplayOptions& options) {
-    if (!options.csv.empty() && options.algorithms.size() > 1)
-        throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
-    refuse_depth_options(options.touch);
-    const Session session(options.session);
-    session.check();
-    if (session.rows() == 0)
-        throw InputError(options.session.string() +
-                         ": holds no tick to replay; record a longer one");
-    std::vector<Run> runs = make_runs(session, options);
-    const SessionSurfaces opened =
+/// A session that was replayed.
+struct Replayed {
+    explicit Replayed(const std::filesystem::path& file) : session(file) {}
+
+    Session session;
+    std::vector<Run> runs{};
+    bool stored{false};                      ///< from the surface in the session
+    std::vector<std::string> differences{};  ///< of runs as recorded
+};
+
+/// Opens the session; its runs are yet to be computed.
+std::unique_ptr<Replayed> opened(const std::filesystem::path& file, const ReplayOptions& options) {
+    auto replayed = std::make_unique<Replayed>(file);
+    replayed->session.check();
+    if (replayed->session.rows() == 0)
+        throw InputError(file.string() + ": holds no tick to replay; record a longer one");
+    replayed->runs = make_runs(replayed->session, options);
+    return replayed;
+}
+
+/// `warn`: called with sentences before it begins; some are empty.
+void compute(Replayed& replayed, const ReplayOptions& options,
+             const std::function<void(const std::string&)>& warn, const WorkProgress& progress) {
+    const Session& session = replayed.session;
+    const SessionSurfaces from =
         open_surfaces(session, frames_options(session, options), options.surfaces);
-    print_warning(session.warning());
-    print_warning(opened.warning);
-    print_warning(roughness_warning(options.touch.given, has_bump(session, options)));
-    replay(session, *opened.surfaces, runs, options.csv);
-    if (options.csv != "-") print_table(session, runs, opened.stored);
-    int exit_code = 0;
-    for (const Run& run : runs) {
-        if (!run.as_recorded || !run.comparison.first_difference()) continue;
-        std::cout.flush();
-        print_error_line(difference_of(session, run));
-        exit_code = 1;
+    replayed.stored = from.stored;
+    warn(session.warning());
+    warn(from.warning);
+    warn(roughness_warning(options.touch.given, has_bump(session, options)));
+    replay(session, *from.surfaces, replayed.runs, options.csv, progress);
+    for (const Run& run : replayed.runs)
+        if (run.as_recorded && run.comparison.first_difference())
+            replayed.differences.push_back(difference_of(session, run));
+}
+
+int replay_one(const std::filesystem::path& file, const ReplayOptions& options) {
+    const std::unique_ptr<Replayed> replayed = opened(file, options);
+    {
+        StoppableWork work("Replaying", options.csv.empty() ? file : options.csv);
+        compute(*replayed, options, print_warning, [&work](double share) { work.show(share); });
     }
-    return exit_code;
+    if (options.csv != "-") print_table(replayed->session, replayed->runs, replayed->stored);
+    std::cout.flush();
+    for (const std::string& difference : replayed->differences) print_error_line(difference);
+    return replayed->differences.empty() ? 0 : 1;
+}
+
+/// Of each run the numbers that are the same whenever and wherever it is computed.
+SessionWork replay_in_batch(const GivenFile& file, const ReplayOptions& options,
+                            const WorkProgress& progress) {
+    const std::unique_ptr<Replayed> replayed = opened(file.file, options);
+    SessionWork done = summary_of(replayed->session);
+    compute(
+        *replayed, options,
+        [&done](const std::string& warning) { done.warnings.push_back(warning); }, progress);
+    done.failures = replayed->differences;
+    for (std::size_t k = 0; k < replayed->runs.size(); ++k) {
+        const RunComparison& run = replayed->runs[k].comparison;
+        const std::string name =
+            options.algorithms.empty() ? "recorded" : name_of(options.algorithms[k]);
+        done.cells.push_back({name + "_differs", std::to_string(run.differing()), true});
+        done.cells.push_back({name + "_updates", std::to_string(run.updates())});
+        done.cells.push_back({name + "_left", std::to_string(run.left_known())});
+        done.cells.push_back({name + "_not_caught_up", std::to_string(run.bounds_met())});
+        for (const auto& [quantity, value] : run.numbers())
+            done.cells.push_back({name + '_' + quantity, number_text(value)});
+    }
+    done.cells.push_back({"surface_from", replayed->stored ? "session" : "video"});
+    return done;
 }
 
 }  // namespace
 
 int run_replay(CLI::App& app, const Arguments& arguments) {
     ReplayOptions options;
-    add_session(app, options.session);
+    BatchOptions batch;
+    add_sessions(app, batch,
+                 "Folder that keeps each session's numbers, and replay.csv, their summary");
     add_algorithms_option(app, options.algorithms);
     add_touch_options(app, options.touch, "as recorded");
-    add_file(app, "--csv", options.csv, "Writes the rows of one run; - is standard output");
+    add_file(app, "--csv", options.csv,
+             "Writes the rows of one run of one session; - is standard output");
     app.add_flag("--any-media", options.any_media,
                  "Replays also if the video or the bump map has changed since the recording");
     add_surfaces_option(app, options.surfaces);
@@ -253,9 +303,24 @@ int run_replay(CLI::App& app, const Arguments& arguments) {
         "Examples:\n"
         "  dibhr replay mine.dibhr\n"
         "  dibhr replay mine.dibhr --algorithm dibhr --algorithm pga --friction 0.2\n"
-        "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv");
+        "  dibhr replay mine.dibhr --stiffness 1 --csv stiffer.csv\n"
+        "  dibhr replay recordings --algorithm pga --out replays");
     if (!parse(app, arguments)) return 0;
-    return replay_all(options);
+    if (!options.csv.empty() && options.algorithms.size() > 1)
+        throw UsageError("--csv writes the rows of one run: give one --algorithm with it");
+    if (!options.csv.empty() && batch.is_batch())
+        throw UsageError("--csv writes the rows of one session: give one, and no --out with it");
+    refuse_depth_options(options.touch);
+    if (!batch.is_batch()) return replay_one(batch.file(), options);
+    return run_batch(app,
+                     {.command = "replay",
+                      .title = "Replaying",
+                      .work =
+                          [&options](const GivenFile& file, const auto& /*folder*/,
+                                     const WorkProgress& progress) {
+                              return replay_in_batch(file, options, progress);
+                          }},
+                     batch);
 }
 
 }  // namespace dibhr

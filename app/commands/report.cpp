@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/batch/session_batch.hpp"
+#include "app/commands/batch/stoppable_work.hpp"
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/command_options.hpp"
@@ -49,36 +51,70 @@ RecordedPicture picture_of(const Session& session, const SessionSource& source,
     return none;
 }
 
+void write_report(const Session& session, const std::filesystem::path& folder,
+                  const std::vector<PlotFormat>& plot_formats, const WorkProgress& progress) {
+    write_session_report(session, {folder, "dibhr " DIBHR_VERSION,
+                                   [&session](const SessionSource& source, double media_s) {
+                                       return picture_of(session, source, media_s);
+                                   },
+                                   progress, plot_formats, force_device_names()});
+}
+
+/// Into a folder of the session's name.
+SessionWork report_into(const std::filesystem::path& folder, const GivenFile& file,
+                        const std::vector<PlotFormat>& plot_formats, const WorkProgress& progress) {
+    const Session session(file.file);
+    SessionWork done = summary_of(session);
+    done.warnings.push_back(session.warning());
+    write_report(session, folder / file.name, plot_formats, progress);
+    done.files.push_back(file.name + "/report.html");
+    done.cells.push_back({"report", done.files.front(), true});
+    return done;
+}
+
+void report_one(const std::filesystem::path& file, const std::filesystem::path& folder,
+                const std::vector<PlotFormat>& plot_formats) {
+    const Session session(file);
+    print_warning(session.warning());
+    {
+        StoppableWork work("reading the session", folder);
+        write_report(session, folder, plot_formats, [&work](double share) { work.show(share); });
+    }
+    std::cout << (folder / "report.html").string() << '\n';
+}
+
 }  // namespace
 
 int run_report(CLI::App& app, const Arguments& arguments) {
-    std::filesystem::path file;
-    std::filesystem::path out;  // folder
+    BatchOptions batch;
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
-    add_session(app, file);
-    add_file(app, "--out", out, "Folder for report.html, report.json and the pictures", "DIR")
-        ->required();
+    add_sessions(app, batch,
+                 "Folder for report.html, report.json and the pictures; of several sessions for "
+                 "a folder of each, and report.csv, their summary");
     add_plot_format_option(app, plot_formats);
     app.footer(
         "The folder is made if it is missing; an earlier report in it is replaced. The pictures "
         "in the page are PNG in any case.\n\n"
         "Examples:\n"
         "  dibhr report mine.dibhr --out mine-report\n"
-        "  dibhr report mine.dibhr --out mine-report --plot-format png,pdf");
+        "  dibhr report mine.dibhr --out mine-report --plot-format png,pdf\n"
+        "  dibhr report recordings --out reports");
     if (!parse(app, arguments)) return 0;
-    const Session session(file);
-    print_warning(session.warning());
-    {
-        ProgressBar bar("reading the session");
-        write_session_report(session, {out, "dibhr " DIBHR_VERSION,
-                                       [&session](const SessionSource& source, double media_s) {
-                                           return picture_of(session, source, media_s);
-                                       },
-                                       [&bar](double share) { bar.show(share); }, plot_formats,
-                                       force_device_names()});
+    if (batch.out.empty() && !batch.list)
+        throw UsageError("--out is required (see dibhr report --help)");
+    if (!are_many(batch.given) && !batch.list) {
+        report_one(batch.file(), batch.out, plot_formats);
+        return 0;
     }
-    std::cout << (out / "report.html").string() << '\n';
-    return 0;
+    return run_batch(app,
+                     {.command = "report",
+                      .title = "Reporting",
+                      .work =
+                          [&plot_formats](const GivenFile& file, const auto& folder,
+                                          const WorkProgress& progress) {
+                              return report_into(folder, file, plot_formats, progress);
+                          }},
+                     batch);
 }
 
 }  // namespace dibhr

@@ -15,6 +15,7 @@
 #include "app/commands/output.hpp"
 #include "app/commands/study_check.hpp"
 #include "app/commands/study_pilot.hpp"
+#include "app/commands/study_report.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/consent.hpp"
@@ -36,7 +37,6 @@
 #include "core/study/study_file.hpp"
 #include "core/study/study_run.hpp"
 #include "core/study_report/study_plan.hpp"
-#include "core/study_report/study_report.hpp"
 #include "core/video/frames/cleaning_options.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/picture_files.hpp"
@@ -229,42 +229,13 @@ int extract_sessions(const StudyOptions& options) {
     return 0;
 }
 
-/// The given files, and for each folder the study files in it.
-std::vector<fs::path> study_files(const std::vector<fs::path>& given) {
-    std::vector<fs::path> files;
-    for (const fs::path& one : given) {
-        std::error_code failed;
-        if (!fs::is_directory(one, failed)) {
-            files.push_back(one);
-            continue;
-        }
-        const std::size_t before = files.size();
-        for (const auto& entry : fs::directory_iterator(one, failed))
-            if (entry.path().extension() == kStudyEnding) files.push_back(entry.path());
-        if (files.size() == before)
-            throw InputError(shown(one) + ": there is no study file (*" + kStudyEnding +
-                             ") in this folder");
-        std::sort(files.begin() + static_cast<std::ptrdiff_t>(before), files.end());
-    }
-    return files;
-}
-
 int report(const StudyOptions& options) {
     if (options.out.empty())
         throw UsageError("report needs --out DIR, the folder it is written to");
-    std::vector<std::string> warnings;
-    {
-        ProgressBar bar("measuring the study");
-        StudyReportRequest request{.folder = options.out,
-                                   .program = "dibhr " DIBHR_VERSION,
-                                   .analysis = options.analysis,
-                                   .plot_formats = options.plot_formats};
-        request.analysis.progress = [&bar](double share) { bar.show(share); };
-        warnings = write_study_report(study_files(options.files), request);
-    }
-    for (const std::string& warning : warnings) print_warning(warning);
-    std::cout << (options.out / "report.html").string() << '\n';
-    return 0;
+    return report_studies(options.files, {.folder = options.out,
+                                          .program = "dibhr " DIBHR_VERSION,
+                                          .analysis = options.analysis,
+                                          .plot_formats = options.plot_formats});
 }
 
 constexpr std::array<NamedValue<Curve>, 3> kCurves{

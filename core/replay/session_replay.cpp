@@ -159,16 +159,32 @@ void RunComparison::add(const TickRecord& recorded, const Touch& touch, double u
     last_lag_ = contact ? std::optional(lag) : std::nullopt;
 }
 
+double RunComparison::contact_share() const noexcept {
+    return static_cast<double>(in_contact_) /
+           static_cast<double>(std::max<std::int64_t>(ticks_, 1));
+}
+
+std::vector<std::pair<std::string, double>> RunComparison::numbers() const {
+    const SampleStatistics off = off_px_.statistics();
+    const SampleStatistics astray = astray_deg_.statistics();
+    return {{"force_turn_deg", turn_deg_.statistics().mean},
+            {"force_turn_sd_deg", turn_deg_.sd()},
+            {"proxy_off_mean_px", off.mean},
+            {"proxy_off_max_px", off.highest},
+            {"force_off_mean_deg", astray.mean},
+            {"force_off_max_deg", astray.highest},
+            {"contact_share", contact_share()}};
+}
+
 std::string RunComparison::table_row(const std::string& name) const {
     const SampleStatistics time = time_us_.statistics();
     const SampleStatistics off = off_px_.statistics();
     const SampleStatistics astray = astray_deg_.statistics();
-    const double ticks = static_cast<double>(std::max<std::int64_t>(ticks_, 1));
     std::ostringstream text;
     text << "  " << std::left << std::setw(kNameWidth) << name;
-    for (const double value : {time.mean, time.median, time.p99, turn_deg_.statistics().mean,
-                               turn_deg_.sd(), off.mean, off.highest, astray.mean, astray.highest,
-                               100.0 * static_cast<double>(in_contact_) / ticks}) {
+    for (const double value :
+         {time.mean, time.median, time.p99, turn_deg_.statistics().mean, turn_deg_.sd(), off.mean,
+          off.highest, astray.mean, astray.highest, 100.0 * contact_share()}) {
         text << cell(value);
     }
     return text.str() + "\n";

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/touch.hpp"
@@ -161,10 +162,14 @@ class RunComparison {
     /// Updates that may have read surface that is not known.
     [[nodiscard]] std::size_t left_known() const noexcept { return left_known_; }
 
+    /// What the line below says, but for the time that it took, by name with unit.
+    [[nodiscard]] std::vector<std::pair<std::string, double>> numbers() const;
     /// A line of the table under `comparison_heading()`.
     [[nodiscard]] std::string table_row(const std::string& name) const;
 
   private:
+    [[nodiscard]] double contact_share() const noexcept;
+
     std::int64_t ticks_{0};
     std::size_t updates_{0};
     std::size_t bounds_met_{0};

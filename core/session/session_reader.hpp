@@ -58,8 +58,8 @@ class SessionReader {
     [[noreturn]] void refuse_damaged(const std::string& words) const;
 
     std::filesystem::path file_;
+    std::int64_t schema_{0};  ///< `PRAGMA user_version`; before what follows, whose errors name it
     Log log_;
-    std::int64_t schema_{0};  ///< `PRAGMA user_version`; before database_, whose errors name it
     std::string other_schema_{};
     Database database_;
 };

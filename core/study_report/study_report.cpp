@@ -172,9 +172,10 @@ std::vector<std::string> write_study_report(const std::vector<std::filesystem::p
     AnalysisSettings analysis = request.analysis;
     if (progress) analysis.progress = [&progress](double share) { progress(0.5 * share); };
     report.blocks = findings_of(report.study, analysis);
-    report.intervals = motion_of(report.study, [&progress](double share) {
-        if (progress) progress(0.5 + 0.5 * share);
-    });
+    report.intervals = request.motion ? request.motion(report.study)
+                                      : motion_of(report.study, [&progress](double share) {
+                                            if (progress) progress(0.5 + 0.5 * share);
+                                        });
     report.motion = motion_findings(report.intervals);
     const Drawing drawing{report, {folder, request.plot_formats, report.figures}};
     for (const BlockFindings& found : report.blocks) {

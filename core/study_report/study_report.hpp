@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct StudyReportRequest {
     std::string program{};
     AnalysisSettings analysis{};
     std::vector<PlotFormat> plot_formats{PlotFormat::png};
+    /// Measures all intervals, in the order of participants and trials; empty: motion_of().
+    std::function<std::vector<IntervalRow>(const Study&)> motion{};
 };
 
 /// Writes `report.html`, `report.json`, `trials.csv`, `intervals.csv` and the pictures into the

@@ -108,6 +108,30 @@ TEST_CASE("a report of a newer dibhr's study says so in one line, and on its pag
     CHECK(contains(read_text(folder / "r/report.html"), "Made by a newer dibhr: P07."));
 }
 
+TEST_CASE("a report takes studies of folders at any depth, passes a bad one over and goes on",
+          "[study report]") {
+    const TemporaryFolder folder;
+    run_shell(folder, "mkdir -p a/b && sqlite3 s.dibhr <'" DIBHR_SOURCE_DIR
+                      "/tests/data/sessions/schema_2_first.sql' && "
+                      "sqlite3 a/b/P07.dibhr-study <'" DIBHR_SOURCE_DIR
+                      "/tests/data/studies/schema_1.sql' && "
+                      "sqlite3 a/b/P07.dibhr-study \"INSERT INTO session VALUES(0, "
+                      "readfile('s.dibhr'))\" && echo no study >a/P08.dibhr-study");
+    const std::vector<std::string> words{"study", "report", "a", "--out", "r"};
+    const ProgramResult made = run_dibhr(folder, words);
+    INFO(made.errors);
+    CHECK(made.exit_code == 1);
+    CHECK(contains(made.errors, "a/P08.dibhr-study: is no study file"));
+    CHECK(made.errors.find('\n') == made.errors.size() - 1);
+    CHECK(std::filesystem::exists(folder / "r/b/P07.study.json"));
+    const std::string intervals = read_text(folder / "r/intervals.csv");
+    CHECK(split(intervals, '\n').size() > 2);
+    const auto measured = std::filesystem::last_write_time(folder / "r/b/P07.study.json");
+    CHECK(run_dibhr(folder, words).exit_code == 1);
+    CHECK(std::filesystem::last_write_time(folder / "r/b/P07.study.json") == measured);
+    CHECK(read_text(folder / "r/intervals.csv") == intervals);
+}
+
 TEST_CASE("the Python of the study's FORMAT.md reads its trials and takes its sessions out",
           "[study report]") {
     const TemporaryFolder folder;
@@ -208,7 +232,8 @@ TEST_CASE("a report and a plan say in one line what they cannot do", "[study rep
     };
     CHECK(contains(said({"report", "answers"}, 2), "--out DIR"));
     CHECK(contains(said({"report", "nothing", "--out", "r"}, 1), "nothing"));
-    CHECK(contains(said({"report", ".", "--out", "r"}, 1), "no study file"));
+    std::filesystem::create_directory(folder / "none");
+    CHECK(contains(said({"report", "none", "--out", "r"}, 1), "no study file"));
     CHECK(contains(said({"report", "study.toml", "--out", "r"}, 1), "study.toml"));
     CHECK(contains(said({"report", "answers", "answers", "--out", "r"}, 1), "give one of the two"));
     CHECK(contains(said({"report", "answers", "--out", "r", "--curve", "weibul"}, 2),
