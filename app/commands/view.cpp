@@ -267,6 +267,7 @@ bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks
         parts.media = std::move(media);
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
+        parts.guide = find_guide(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         warn(parts.media->description().notice, log);
@@ -364,6 +365,11 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
             if (times > 0) give(true);
         },
         "Touch makes no sound");
+    add_on_off_option(app, "--outlines",
+                      "The outlines of named regions, of NAME_regions.toml beside the recording, "
+                      "are felt as ridges",
+                      given.of(&Settings::outlines))
+        ->default_str("off");
     add_on_off_option(app, "--game-pad", "Game pads rumble with what is touched",
                       given.of(&Settings::game_pad))
         ->default_str("on");

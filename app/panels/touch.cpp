@@ -204,6 +204,7 @@ void draw_touch_panel(ViewerState& state) {
     draw_parameters(TouchTopic::texture, state.settings.touch);
     if (!state.touch.bump && !state.touch.replay)
         draw_dimmed("Roughness needs a bump map to be felt.");
+    draw_outlines_row(state);
     draw_sound(state);
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +

@@ -430,6 +430,7 @@ std::vector<Setting> all_settings(Settings& s) {
         list.push_back({"touch", entry.name, &entry.in(s.touch)});
     list.insert(list.end(),
                 {{"touch", "material", &s.material},
+                 {"touch", "outlines", &s.outlines},
                  {.table = "touch",
                   .name = "stability",
                   .value = &s.stability,

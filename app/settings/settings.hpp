@@ -99,6 +99,7 @@ struct Settings {
     bool panes{false};              ///< show colour and depth above the relief
     NamePattern screenshot_name{};  ///< of pictures and clips
     OpenWith open_with{OpenWith::automatic};
+    bool outlines{false};   ///< those of named regions are felt as ridges
     bool resume{false};     ///< a video begins where it was left
     bool fit_relief{true};  ///< fit the relief to each opened media
     bool fit_pitch{true};

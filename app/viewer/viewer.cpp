@@ -70,6 +70,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       browsing_(tasks),
       desktop_(tasks),
       painting_(tasks),
+      guide_(tasks),
       save_queue_(tasks),
       settings_saver_(options.in_file, options.settings, options.settings_file, save_queue_),
       start_(steady_clock::now()),
@@ -109,7 +110,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
         fit_to_media();  // before start(): a session's facts contain it
         touch_.recording().start(options.record);
     }
-    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
+    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps),
+               parts.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
 }
