@@ -1,4 +1,4 @@
-// What is told of the place under the finger: the name of its region, and its text.
+// What guides a finger: the region under it by its name and its text, and captions.
 #include <algorithm>
 #include <string>
 
@@ -39,6 +39,25 @@ float draw_region(const ViewerState& state, ImVec2 low, float widest) {
         list.AddText(font, size, {at.x, at.y + name.y + between}, ink, region.text.c_str(), nullptr,
                      wrap);
     return whole.y + 0.3F * ImGui::GetFrameHeight();
+}
+
+void draw_caption(const ViewerState& state) {
+    if (state.ui.caption.empty() || state.ui.explained) return;
+    constexpr float kLinesAboveBar = 3.6F;  // hints and notices are below
+    const std::string& text = state.ui.caption;
+    ImFont* const title = state.ui.fonts.title;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float room = display.x - panel_column_width(state);
+    const ImVec2 pad = ImGui::GetStyle().WindowPadding;
+    const float wrap = std::max(0.86F * room - 2.0F * pad.x, 1.0F);
+    const ImVec2 size = title->CalcTextSizeA(title->FontSize, wrap, wrap, text.c_str());
+    const ImVec2 low{0.5F * (room - size.x) - pad.x, display.y - bottom_bar_height(state) -
+                                                         kLinesAboveBar * ImGui::GetFrameHeight() -
+                                                         size.y - pad.y};
+    draw_ground(low, {size.x + 2.0F * pad.x, size.y + pad.y});
+    ImGui::GetBackgroundDrawList()->AddText(
+        title, title->FontSize, {low.x + pad.x, low.y + 0.5F * pad.y},
+        ImGui::GetColorU32(ImGuiCol_Text), text.c_str(), nullptr, wrap);
 }
 
 void draw_outlines_row(ViewerState& state) {

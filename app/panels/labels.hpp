@@ -22,6 +22,9 @@ float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0
             ImDrawList& list = *ImGui::GetBackgroundDrawList(),
             ImVec2 pad = ImGui::GetStyle().FramePadding);
 
+/// The caption of the shown moment, centred above the bar.
+void draw_caption(const ViewerState& state);
+
 /// The region under the finger by its name, and once the finger rests by its text. Returns the
 /// height with the gap below [px]; 0: nothing is touched that has a name.
 float draw_region(const ViewerState& state, ImVec2 low, float widest);

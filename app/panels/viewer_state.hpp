@@ -204,6 +204,7 @@ struct UiState {
     std::optional<PixelShown> under_pointer{};     ///< nothing: pressed, or outside the relief
     std::size_t regions{0};                        ///< named ones of the recording
     RegionShown region{};
+    std::string caption{};  ///< of the recording at the shown moment; empty: none
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};

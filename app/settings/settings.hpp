@@ -107,6 +107,7 @@ struct Settings {
     bool force_in_front_only{true};             ///< no force while another window is in front
     double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
     bool mute{false};                           ///< sound off
+    bool speak{false};                          ///< what is touched, and messages, are spoken
     bool game_pad{true};                        ///< game pads rumble
     AllDeviceSettings devices{};
     std::vector<OwnKeys> keys{};          ///< as written, in that order, also invalid ones

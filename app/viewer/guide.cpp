@@ -21,15 +21,28 @@ constexpr double kStays_s = 3.0;
 }  // namespace
 
 FoundGuide find_guide(const MediaDescription& media) {
-    try {
-        return {read_regions(media.depth_path, media.depth_columns, media.depth_rows), {}};
-    } catch (const std::exception& error) {
-        return {nullptr, error.what()};
-    }
+    FoundGuide found;
+    const auto attempt = [&found](const auto& step, const char* without) {
+        try {
+            step();
+        } catch (const std::exception& error) {
+            found.trouble += (found.trouble.empty() ? "" : "\n\n") + std::string(error.what()) +
+                             "\n\nThe recording is touched without " + without + ".";
+        }
+    };
+    attempt(
+        [&] {
+            found.regions = read_regions(media.depth_path, media.depth_columns, media.depth_rows);
+        },
+        "named regions");
+    attempt([&] { found.captions = read_captions(media.depth_path); }, "captions");
+    return found;
 }
 
 void ViewerGuide::begin(const FoundGuide& found, ViewerState& state) {
     regions_ = found.regions;
+    captions_ = found.captions;
+    state.ui.caption.clear();
     touched_ = nullptr;
     laid_ = {};
     versions_.clear();
@@ -38,12 +51,16 @@ void ViewerGuide::begin(const FoundGuide& found, ViewerState& state) {
     state.ui.regions = regions_ ? regions_->regions.size() : 0;
     if (found.trouble.empty()) return;
     std::string& message = state.ui.message;
-    message += (message.empty() ? "" : "\n\n") + found.trouble +
-               "\n\nThe recording is touched without named regions.";
+    message += (message.empty() ? "" : "\n\n") + found.trouble;
+}
+
+void ViewerGuide::follow(const DepthBlend& shown, double now_s, ViewerState& state) {
+    if (captions_ && shown.makes_surface())
+        state.ui.caption = captions_->at(shown.nearest().media_s);
+    if (regions_) follow_finger(shown, now_s, state);
 }
 
 void ViewerGuide::follow_finger(const DepthBlend& shown, double now_s, ViewerState& state) {
-    if (!regions_) return;
     RegionShown& region = state.ui.region;
     const Proxy& proxy = state.touch.haptic.touch.proxy;
     const bool touches = shown.makes_surface() && state.touch.haptic.touchable && proxy.contact;

@@ -1,4 +1,5 @@
-// What guides whoever touches a recording: the region under the finger, and outlines as ridges.
+// What guides whoever touches a recording: the region under the finger, outlines as ridges, and
+// captions.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +13,7 @@
 #include "app/viewer/painting.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/guide/captions.hpp"
 #include "core/video/guide/regions.hpp"
 #include "core/video/playing/player.hpp"
 
@@ -19,7 +21,8 @@ namespace dibhr {
 
 /// What lies beside a recording for that, or why it cannot be read.
 struct FoundGuide {
-    std::shared_ptr<const Regions> regions{};  ///< null: there are none
+    std::shared_ptr<const Regions> regions{};    ///< null: there are none
+    std::shared_ptr<const Captions> captions{};  ///< likewise
     std::string trouble{};
 };
 
@@ -36,13 +39,15 @@ class ViewerGuide {
     /// A session is replayed: nothing guides.
     void end(ViewerState& state) { begin({}, state); }
 
-    /// Once a turn, after the frames of this turn are known: names the region that is touched.
-    void follow_finger(const DepthBlend& shown, double now_s, ViewerState& state);
+    /// Once a turn, after the frames of this turn are known: shows the caption, and names the
+    /// region that is touched.
+    void follow(const DepthBlend& shown, double now_s, ViewerState& state);
     /// Once a turn: lays the ridges of the shown moment over what is painted, or takes them off.
     void follow_ridges(const DepthBlend& shown, const ViewerState& state, ViewerPainting& painting,
                        Player& player);
 
   private:
+    void follow_finger(const DepthBlend& shown, double now_s, ViewerState& state);
     /// What the ridges were laid over, and of which label picture they are.
     struct Ridges {
         std::shared_ptr<const TouchMaps> painted{};
@@ -58,6 +63,7 @@ class ViewerGuide {
     [[nodiscard]] std::uint32_t version_of(const Ridges& ridges, ViewerPainting& painting);
 
     std::shared_ptr<const Regions> regions_{};
+    std::shared_ptr<const Captions> captions_{};
     const Region* touched_{nullptr};  // of regions_
     glm::dvec2 rested_at_{0.0};       // where the hand did
     double rested_since_s_{0.0};

@@ -36,6 +36,7 @@
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/service_settings.hpp"
+#include "app/viewer/speaking.hpp"
 #include "app/viewer/task_group.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/gui.hpp"
@@ -212,6 +213,7 @@ class Viewer {
     void take_report();
     void show_notice(const std::string& notice);
     void log_messages();
+    void speak();
     void log_lateness(const TickSchedule& schedule);
     /// Calls `step`; shows its error in the message box.
     template <typename Step>
@@ -257,6 +259,7 @@ class Viewer {
     ViewerPanes panes_{};
     ViewerPainting painting_;
     ViewerGuide guide_;
+    ViewerSpeaking speaking_{};
     TaskQueue save_queue_;  // writes settings, file memories, recent files
     SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this turn

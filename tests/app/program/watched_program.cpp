@@ -70,6 +70,7 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.can_undo = ui.brush.can_undo;
     seen.region.set(ui.region.name);
     seen.region_text = ui.region.rests;
+    seen.caption.set(ui.caption);
     seen.regions = ui.regions;
     seen.explained = ui.explained.has_value();
     seen.explained_steps = ui.explained ? ui.explained->taken : 0;

@@ -1,15 +1,11 @@
 // Named regions in the window: shown where they are touched, their outlines felt and replayed.
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <string>
-#include <vector>
 
 #include "core/session/session.hpp"
-#include "core/video/frames/colour_image.hpp"
-#include "core/video/sources/picture_files.hpp"
-#include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/viewer/two_halves.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"
 
@@ -19,23 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kSize = "640x480";
-constexpr int kWide = 160;
-constexpr int kHigh = 120;
-/// Over the relief, which is left of the panels: in its left and in its right half.
-constexpr const char* kLeft = "mousemove 100 240";
-constexpr const char* kRight = "mousemove 240 240";
-
-/// Level 1 in the left half, 2 in the right one.
-void write_halves(const fs::path& file) {
-    ColourImage picture{kWide, kHigh, {}};
-    for (int j = 0; j < kHigh; ++j)
-        for (int i = 0; i < kWide; ++i)
-            picture.rgb.insert(picture.rgb.end(), 3,
-                               static_cast<std::uint8_t>(i < kWide / 2 ? 1 : 2));
-    write_png(picture, file);
-}
-
 /// How many versions of maps a session holds.
 int versions_of_maps(const fs::path& file) {
     const Session session(file);
@@ -44,22 +23,6 @@ int versions_of_maps(const fs::path& file) {
     for (std::uint32_t version = 1; version < kMore; ++version)
         count += session.maps_of(version).empty() ? 0 : 1;
     return count;
-}
-
-/// A level wall of which the left half is a cup, and the right half a table without a text.
-void write_cup(const TemporaryFolder& folder) {
-    write_depth_png(folder / "cup_depth.png", kWide, kHigh, 120);
-    write_text(folder / "cup_regions.toml",
-               "[[region]]\nlevel = 1\nname = \"Cup\"\ntext = \"A blue cup.\"\n"
-               "[[region]]\nlevel = 2\nname = \"Table\"\n");
-    write_halves(folder / "cup_regions.png");
-}
-
-std::vector<std::string> cup_options(std::initializer_list<const char*> more = {}) {
-    std::vector<std::string> options{"cup_depth.png", "--raw-depth", "--device", "mouse",
-                                     "--no-sync",     "--size",      kSize};
-    options.insert(options.end(), more.begin(), more.end());
-    return options;
 }
 
 }  // namespace
@@ -81,6 +44,18 @@ TEST_CASE("the region under the finger is named and its text follows when the fi
     viewer.wait_until([](const Seen& now) { return now.region.str() == "Table"; });
     viewer.act("mouseup 1");
     viewer.wait_until([](const Seen& now) { return now.region.str().empty(); });
+    desk.press("key q");
+    REQUIRE(viewer.wait() == 0);
+}
+
+TEST_CASE("captions beside a recording are shown in their time", "[guide]") {
+    const Desk desk;
+    const TemporaryFolder folder;
+    write_cup(folder);
+    write_text(folder / "cup.vtt", "WEBVTT\n\n00:00.000 --> 00:05.000\nA cup on a table\n");
+    WindowProgram viewer = desk.start_viewer(folder, cup_options());
+    viewer.wait_for_surface();
+    viewer.wait_until([](const Seen& now) { return now.caption.str() == "A cup on a table"; });
     desk.press("key q");
     REQUIRE(viewer.wait() == 0);
 }
