@@ -267,6 +267,7 @@ bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks
         parts.media = std::move(media);
         parts.memory = memory_of(*parts.media);
         parts.maps = find_maps(parts.media->description());
+        parts.guide = find_guide(parts.media->description());
         if (gives_relief(options.touch)) parts.memory.relief_px.reset();
         if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
         warn(parts.media->description().notice, log);
@@ -325,6 +326,13 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
         "--screenshot and --clip show the relief alone");
 }
 
+/// An option without a value that switches a setting on.
+template <typename Give>
+void add_flag_of(CLI::App& app, const char* name, const Give& give, const char* help) {
+    app.add_flag_function(
+        name, [give](std::int64_t times) { give(times > 0); }, help);
+}
+
 /// Options on appearance, sound, settings file and log of the window.
 void add_window_options(CLI::App& app, ViewCommand& command) {
     GivenSettings& given = command.settings;
@@ -358,12 +366,13 @@ void add_window_options(CLI::App& app, ViewCommand& command) {
         "Dialog in which files are chosen: auto (the desktop's where there is a desktop), desktop, "
         "window (the window's own, with pairs and previews)",
         given.of(&Settings::open_with));
-    app.add_flag_function(
-        "--mute",
-        [give = given.of(&Settings::mute)](std::int64_t times) {
-            if (times > 0) give(true);
-        },
-        "Touch makes no sound");
+    add_flag_of(app, "--mute", given.of(&Settings::mute), "Touch makes no sound");
+    add_flag_of(app, "--speak", given.of(&Settings::speak),
+                "Speaks what is touched, messages, captions (speech-dispatcher)");
+    add_on_off_option(app, "--outlines",
+                      "Outlines of regions (NAME_regions.toml) are felt as ridges",
+                      given.of(&Settings::outlines))
+        ->default_str("off");
     add_on_off_option(app, "--game-pad", "Game pads rumble with what is touched",
                       given.of(&Settings::game_pad))
         ->default_str("on");

@@ -1,15 +1,14 @@
-// Texts over the relief: the force in numbers, hints, short notices, the legend, the message box,
-// and the help sheet.
+// Texts over the relief: the force in numbers, hints, short notices, the legend and the message
+// box.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <memory>
-#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "app/panels/labels.hpp"
 #include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/settings/keys.hpp"
@@ -22,38 +21,6 @@
 namespace dibhr {
 
 namespace {
-
-constexpr float kGround = 0.92F;  // opacity of a label's background: texts below must not show
-
-void draw_ground(ImVec2 low, ImVec2 size, float alpha,
-                 ImDrawList& list = *ImGui::GetBackgroundDrawList()) {
-    list.AddRectFilled(low, {low.x + size.x, low.y + size.y},
-                       ImGui::GetColorU32(ImGuiCol_PopupBg, alpha), 5.0F);
-}
-
-float wrap_of(float widest, ImVec2 pad) {
-    return widest > 0.0F ? std::max(widest - 2.0F * pad.x, 1.0F) : -1.0F;
-}
-
-/// The size of a label with its background.
-ImVec2 label_size(const std::string& text, float widest = 0.0F,
-                  ImVec2 pad = ImGui::GetStyle().FramePadding) {
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, wrap_of(widest, pad));
-    return {size.x + 2.0F * pad.x, size.y + 2.0F * pad.y};
-}
-
-/// Text on a rounded background, readable over any picture, wrapped to `widest` (0: not wrapped).
-/// Returns its height.
-float label(const std::string& text, ImVec2 low, float alpha, float widest = 0.0F,
-            ImDrawList& list = *ImGui::GetBackgroundDrawList(),
-            ImVec2 pad = ImGui::GetStyle().FramePadding) {
-    const ImVec2 size = label_size(text, widest, pad);
-    draw_ground(low, size, kGround * alpha, list);
-    list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {low.x + pad.x, low.y + pad.y},
-                 ImGui::GetColorU32(ImGuiCol_Text, alpha), text.c_str(), nullptr,
-                 std::max(wrap_of(widest, pad), 0.0F));
-    return size.y;
-}
 
 /// A message centred in the upper part of the relief, as wide as there is room. Returns its lower
 /// end.
@@ -127,6 +94,9 @@ bool is_limited(const ViewerState& state) {
            glm::length(touch.sent_force_newton) > kNearly * most;
 }
 
+constexpr const char* kTouching = "Touching";
+constexpr const char* kFree = "Free";
+
 /// In words; with a device, in a replay and beside the statistics also in numbers.
 std::string touch_text(const ViewerState& state) {
     const HapticState& haptic = state.touch.haptic;
@@ -139,9 +109,9 @@ std::string touch_text(const ViewerState& state) {
         return "No force: no signal";
     if (haptic.touch.cut != SafetyCut::none)
         return std::string("No force: ") + name_of(haptic.touch.cut);
-    if (!haptic.touch.proxy.contact) return "Free";
+    if (!haptic.touch.proxy.contact) return kFree;
     const bool in_numbers = state.ui.statistics || state.touch.replay || may_touch(state.touch);
-    if (!in_numbers) return "Touching";
+    if (!in_numbers) return kTouching;
     const Vec3& f = haptic.touch.sent_force_newton;
     return formatted("Touching   %.2f N%s   (%s, %s, %s)", glm::length(f),
                      is_limited(state) ? ", limited" : "", decimal(f.x, 2).c_str(),
@@ -301,7 +271,7 @@ float draw_legend(const ViewerState& state, float margin) {
     const float unit = ImGui::CalcTextSize(legend.unit.c_str()).x;
     const float inner = std::max(bar + 0.5F * margin + legend.width, unit);
     const ImVec2 low{room - inner - 2.0F * margin, above};
-    draw_ground(low, {inner + margin, height + 3.5F * line}, kGround);
+    draw_ground(low, {inner + margin, height + 3.5F * line});
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImU32 text = ImGui::GetColorU32(ImGuiCol_Text);
     const float left = low.x + 0.5F * margin;
@@ -331,7 +301,10 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
         low.y += label(text, low, 1.0F, widest) + 0.3F * ImGui::GetFrameHeight();
     };
     if (state.touch.replay) add(replay_text(*state.touch.replay));
-    add(touch_text(state));
+    const std::string touch = touch_text(state);
+    const bool told = !state.ui.region.name.empty() && (touch == kTouching || touch == kFree);
+    if (!told) add(touch);
+    low.y += draw_region(state, low, widest);
     if (const std::string banner = banner_of(state); !banner.empty())
         low.y = draw_banner(state, banner) + 0.3F * ImGui::GetFrameHeight();
     if (state.touch.recording) {
@@ -347,124 +320,6 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
                           depth_colours(state.settings.relief_style.paint);
     if (inspects && state.ui.under_pointer && !state.ui.explained) add(pointer_text(state, widest));
     if (state.touch.catching_up) add("Catching up");
-}
-
-struct HelpRow {
-    const char* what;
-    const char* help;
-};
-
-constexpr HelpRow kMarks[] = {
-    {"Orange ring", "The goal: where the hand is"},
-    {"Blue ball", "The proxy: stays on the surface"},
-    {"Pale ball", "In a replay: the proxy as recorded"},
-    {"Smaller balls", "Side by side: the other algorithms' proxies"},
-    {"Line between", "The spring that pulls the hand"},
-    {"Blue ring, dashed line", "The proxy is catching up with a jump"},
-    {"Yellow arrow", "The force on the hand"},
-    {"Yellow ring", "The force, as a share of the most that may be sent"},
-    {"Light dots", "Where you have touched in the last seconds"},
-    {"Green rod", "The surface's normal"},
-    {"Pale cone", "The friction cone: a proxy inside it sticks"},
-};
-
-constexpr HelpRow kMouse[] = {
-    {"Move", "The hand hovers over the surface"},
-    {"Hold left", "Press in, deeper for the first second"},
-    {"Hold left + wheel", "Deeper still, less deep"},
-    {"Drag right", "Turn the view"},
-    {"Drag middle, Shift + right", "Shift the view"},
-    {"Wheel", "Nearer, farther"},
-};
-
-/// A group of rows on the help sheet.
-struct SheetGroup {
-    std::string title{};
-    std::vector<std::pair<std::string, std::string>> rows{};
-
-    /// Including the heading.
-    [[nodiscard]] std::size_t lines() const { return rows.size() + 1; }
-};
-
-SheetGroup group_of(const char* title, std::span<const HelpRow> explained) {
-    SheetGroup group{title};
-    for (const HelpRow& one : explained) group.rows.emplace_back(one.what, one.help);
-    return group;
-}
-
-std::vector<SheetGroup> sheet_of(const KeyTable& keys) {
-    std::vector<SheetGroup> groups{group_of("Mouse", kMouse)};
-    for (const KeyJob& job : key_jobs()) {
-        if (groups.back().title != job.group) groups.push_back({std::string(job.group)});
-        groups.back().rows.emplace_back(keys.names_for(job.action), job.help);
-    }
-    groups.push_back(group_of("Marks", kMarks));
-    return groups;
-}
-
-/// The number of groups in the left column, so that the higher column is as low as possible.
-std::size_t groups_at_left(std::span<const SheetGroup> groups) {
-    const auto lines = [](std::span<const SheetGroup> some) {
-        std::size_t sum = 0;
-        for (const SheetGroup& group : some) sum += group.lines();
-        return sum;
-    };
-    std::size_t best = 0;
-    std::size_t lowest = lines(groups);
-    for (std::size_t k = 1; k < groups.size(); ++k) {
-        const std::size_t height = std::max(lines(groups.first(k)), lines(groups.subspan(k)));
-        if (height < lowest) best = k;
-        lowest = std::min(lowest, height);
-    }
-    return best;
-}
-
-/// Widths of a column of the sheet [px].
-struct SheetWidths {
-    float keys{0.0F}, help{0.0F}, gap{0.0F};
-
-    [[nodiscard]] float column() const { return keys + gap + help; }
-};
-
-SheetWidths widths_of(std::span<const SheetGroup> groups) {
-    SheetWidths widths{.gap = ImGui::GetFontSize()};
-    for (const SheetGroup& group : groups) {
-        for (const auto& [what, help] : group.rows) {
-            widths.keys = std::max(widths.keys, ImGui::CalcTextSize(what.c_str()).x);
-            widths.help = std::max(widths.help, ImGui::CalcTextSize(help.c_str()).x);
-        }
-    }
-    return widths;
-}
-
-/// Text wrapped at `width`. Returns its height.
-float sheet_text(const std::string& text, ImVec2 place, float width) {
-    ImGui::SetCursorPos(place);
-    ImGui::PushTextWrapPos(place.x + width);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    return ImGui::GetItemRectSize().y;
-}
-
-/// One group below the other.
-void draw_sheet_column(const ViewerState& state, std::span<const SheetGroup> groups,
-                       const SheetWidths& widths, ImVec2 place) {
-    const float between = 0.25F * ImGui::GetFontSize();
-    const ImVec4 quiet = ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
-    for (const SheetGroup& group : groups) {
-        ImGui::PushFont(state.ui.fonts.heading);
-        place.y += sheet_text(group.title, place, widths.column()) + between;
-        ImGui::PopFont();
-        for (const auto& [what, help] : group.rows) {
-            const float keys = sheet_text(what, place, widths.keys);
-            ImGui::PushStyleColor(ImGuiCol_Text, quiet);
-            const float said =
-                sheet_text(help, {place.x + widths.keys + widths.gap, place.y}, widths.help);
-            ImGui::PopStyleColor();
-            place.y += std::max(keys, said) + between;
-        }
-        place.y += 2.0F * between;
-    }
 }
 
 /// The keys for help and panels, at the upper right, unless the text on the touch is in the way.
@@ -495,6 +350,7 @@ std::string clip_text(const ViewerState& state) {
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.ui.scale;
     draw_key_hint(state, margin);
+    draw_caption(state);
     draw_upper_left(state, margin, draw_legend(state, margin));
     if (now_s < state.ui.notice_until_s) {
         const double left_s = state.ui.notice_until_s - now_s;
@@ -560,33 +416,6 @@ void draw_message_box(ViewerState& state) {
         open = false;
     ImGui::End();
     if (!open) state.ui.message.clear();
-}
-
-void draw_help_sheet(ViewerState& state) {
-    if (!state.ui.help_open) return;
-    const ImGuiStyle& style = ImGui::GetStyle();
-    const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const std::vector<SheetGroup> sheet = sheet_of(state.keys);
-    const std::span<const SheetGroup> groups(sheet);
-    SheetWidths widths = widths_of(groups);
-    const float around = 2.0F * style.WindowPadding.x + style.ScrollbarSize;
-    const float room = display.x - around - style.WindowPadding.x;
-    const float between = 2.0F * widths.gap;
-    const bool beside = 2.0F * widths.column() + between <= room;
-    if (widths.column() > room) {
-        widths.keys = std::min(widths.keys, 0.4F * room);
-        widths.help = room - widths.keys - widths.gap;
-    }
-    const std::size_t left = beside ? groups_at_left(groups) : groups.size();
-    const float wide = widths.column() + (beside ? between + widths.column() : 0.0F);
-    ImGui::SetNextWindowPos({display.x * 0.5F, display.y * 0.5F}, ImGuiCond_Always, {0.5F, 0.5F});
-    ImGui::SetNextWindowSize({wide + around, 0.0F});
-    ImGui::Begin("Keys and mouse", &state.ui.help_open, kTitledWindow);
-    const ImVec2 begin = ImGui::GetCursorPos();
-    draw_sheet_column(state, groups.first(left), widths, begin);
-    const ImVec2 second{begin.x + widths.column() + between, begin.y};
-    draw_sheet_column(state, groups.subspan(left), widths, second);
-    ImGui::End();
 }
 
 }  // namespace dibhr

@@ -32,6 +32,8 @@ void draw_surface_panel(ViewerState& state);
 /// two significant ones.
 [[nodiscard]] int depth_digits(const DepthMeaning& meaning);
 void draw_touch_panel(ViewerState& state);
+/// Whether the outlines of named regions are felt; a row of the Touch panel where there are any.
+void draw_outlines_row(ViewerState& state);
 void draw_device_panel(ViewerState& state);
 void draw_loop_panel(ViewerState& state);
 

@@ -204,7 +204,11 @@ void draw_touch_panel(ViewerState& state) {
     draw_parameters(TouchTopic::texture, state.settings.touch);
     if (!state.touch.bump && !state.touch.replay)
         draw_dimmed("Roughness needs a bump map to be felt.");
+    draw_outlines_row(state);
     draw_sound(state);
+    flag_row("Speak", state.settings.speak, Settings{}.speak,
+             "What is touched, messages and captions are spoken, through speech-dispatcher "
+             "(--speak)");
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +
                                state.keys.in_brackets(Action::toggle_others);

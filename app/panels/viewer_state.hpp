@@ -189,12 +189,22 @@ struct ExplainedInfo {
     bool waits{false};     ///< for the replay's next tick, which is not read yet
 };
 
+/// The named region under the finger, or the last one for a moment.
+struct RegionShown {
+    std::string name{};  ///< empty: none
+    std::string text{};  ///< may be empty
+    bool rests{false};   ///< the finger rested on it: its text is shown, too
+};
+
 /// The state of the window itself.
 struct UiState {
     std::vector<UnsafeSetting> unsafe_settings{};  ///< of the settings file, to be agreed to
     MaterialNames materials{};                     ///< to choose from
     std::optional<PixelShown> under_hand{};        ///< nothing: the hand is outside the picture
     std::optional<PixelShown> under_pointer{};     ///< nothing: pressed, or outside the relief
+    std::size_t regions{0};                        ///< named ones of the recording
+    RegionShown region{};
+    std::string caption{};  ///< of the recording at the shown moment; empty: none
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};

@@ -430,6 +430,7 @@ std::vector<Setting> all_settings(Settings& s) {
         list.push_back({"touch", entry.name, &entry.in(s.touch)});
     list.insert(list.end(),
                 {{"touch", "material", &s.material},
+                 {"touch", "outlines", &s.outlines},
                  {.table = "touch",
                   .name = "stability",
                   .value = &s.stability,
@@ -448,6 +449,7 @@ std::vector<Setting> all_settings(Settings& s) {
                     Protection{WeakerWhen::higher, "Max force [N]"}});
     list.insert(list.end(), {{"sound", "volume", &s.sound_volume, 0.0, 1.0},
                              {"sound", "mute", &s.mute},
+                             {"sound", "speak", &s.speak},
                              {"sound", "game-pad", &s.game_pad}});
     // In this table for compatibility: the Falcon was once the only force device.
     list.push_back(

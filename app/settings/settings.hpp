@@ -99,6 +99,7 @@ struct Settings {
     bool panes{false};              ///< show colour and depth above the relief
     NamePattern screenshot_name{};  ///< of pictures and clips
     OpenWith open_with{OpenWith::automatic};
+    bool outlines{false};   ///< those of named regions are felt as ridges
     bool resume{false};     ///< a video begins where it was left
     bool fit_relief{true};  ///< fit the relief to each opened media
     bool fit_pitch{true};
@@ -106,6 +107,7 @@ struct Settings {
     bool force_in_front_only{true};             ///< no force while another window is in front
     double sound_volume{SoundChoice{}.volume};  ///< 0 .. 1
     bool mute{false};                           ///< sound off
+    bool speak{false};                          ///< what is touched, and messages, are spoken
     bool game_pad{true};                        ///< game pads rumble
     AllDeviceSettings devices{};
     std::vector<OwnKeys> keys{};          ///< as written, in that order, also invalid ones

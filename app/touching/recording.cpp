@@ -152,7 +152,8 @@ void TouchRecording::start(const std::filesystem::path& file) {
     crash_note_.set_recording(file);
     std::uint32_t number = 0;
     for (const KnownMedia& known : known_media_) record_media(++number, known);
-    if (!maps_.empty()) recorder_->maps(maps_version_, maps_);
+    recorded_maps_.clear();
+    for (const VersionOfMaps& known : last_maps_) record_maps(known);
     recorded_version_ = 0;
     recorded_devices_.clear();
     for (const DeviceInfo& one : state_.touch.devices)
@@ -232,9 +233,18 @@ void TouchRecording::record_parameters(const HapticSettings& settings) {
 }
 
 void TouchRecording::maps(std::uint32_t version, std::vector<SessionMap> maps) {
-    maps_version_ = version;
-    maps_ = std::move(maps);
-    if (recorder_) recorder_->maps(maps_version_, maps_);
+    if (!last_maps_.empty() && last_maps_.back().version != version) {
+        last_maps_.erase(last_maps_.begin(), last_maps_.end() - 1);
+    } else {
+        last_maps_.clear();
+    }
+    last_maps_.push_back({version, std::move(maps)});
+    if (recorder_) record_maps(last_maps_.back());
+}
+
+void TouchRecording::record_maps(const VersionOfMaps& known) {
+    if (!known.maps.empty() && recorded_maps_.insert(known.version).second)
+        recorder_->maps(known.version, known.maps);
 }
 
 std::string TouchRecording::mark(const KeyTable& keys,

@@ -7,6 +7,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -94,12 +95,18 @@ class TouchRecording {
         std::uint64_t ages_recorded{0};  ///< number of poses in the ages last recorded
         std::string id{};                ///< empty until the device was found
     };
+    /// Touch maps by their version.
+    struct VersionOfMaps {
+        std::uint32_t version{0};
+        std::vector<SessionMap> maps{};
+    };
     /// A live recording until its first frame comes.
     struct Waiting {
         std::filesystem::path file{};
         std::uint32_t number{0};
     };
 
+    void record_maps(const VersionOfMaps& known);
     void record_media(std::uint32_t number, const KnownMedia& known);
     void start_at_first_frame();
     [[nodiscard]] std::string report_end(const RecorderStatus& recorded);
@@ -122,9 +129,10 @@ class TouchRecording {
     std::optional<Waiting> waiting_{};
     std::future<RecorderStatus> finishing_{};
     std::filesystem::path finishing_file_{};
-    /// The last touch maps that were in use; a recording may begin with them.
-    std::uint32_t maps_version_{0};
-    std::vector<SessionMap> maps_{};
+    /// The last two that were in use: a recording begins with the last one, or as ticks still have
+    /// the one before.
+    std::vector<VersionOfMaps> last_maps_{};
+    std::set<std::uint32_t> recorded_maps_{};         // their versions
     std::uint64_t recorded_version_{0};               // of the last recorded parameters
     std::string participant_{}, note_{};              // as recorded
     std::vector<RecordedDevice> recorded_devices_{};  // one for each of touch.devices

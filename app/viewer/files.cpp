@@ -184,6 +184,7 @@ OpenResult try_open(const OpenRequest& request) {
             opened.media = open_request(request);
             opened.memory = memory_of(*opened.media);
             opened.maps = find_maps(opened.media->description());
+            opened.guide = find_guide(opened.media->description());
         }
         return opened;
     } catch (const DepthMissing& error) {

@@ -14,6 +14,7 @@
 #include "app/settings/consent.hpp"
 #include "app/settings/file_memory.hpp"
 #include "app/settings/settings.hpp"
+#include "app/viewer/guide.hpp"
 #include "app/viewer/painting.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/replay/session_player.hpp"
@@ -88,6 +89,7 @@ struct OpenResult {
     std::unique_ptr<Media> media{};
     FileMemory memory{};  ///< of the media
     FoundMaps maps{};     ///< likewise
+    FoundGuide guide{};   ///< likewise
     std::unique_ptr<OpenedSession> session{};
     std::string failure{};
     bool is_folder{false};    ///< the failed path is a folder of recordings

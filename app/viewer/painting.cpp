@@ -101,6 +101,8 @@ std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
     stroke_.reset();
     const bool is_same = depth_ == media.depth_path && columns_ == media.depth_columns &&
                          rows_ == media.depth_rows && refusal_.empty();
+    felt_ = maps_;
+    encoded_.clear();
     if (is_same) return maps_;
     depth_ = media.depth_path;
     columns_ = media.depth_columns;
@@ -112,6 +114,7 @@ std::shared_ptr<const TouchMaps> ViewerPainting::begin(FoundMaps found,
     maps_.reset();
     if (found.maps) maps_ = numbered(*found.maps);
     if (maps_) to_write_.push_back({depth_, maps_, false});  // for recordings
+    felt_ = maps_;
     return maps_;
 }
 
@@ -119,6 +122,7 @@ void ViewerPainting::end(ViewerState& state) {
     stroke_.reset();
     depth_.clear();
     maps_.reset();
+    felt_.reset();
     before_.clear();
     undone_.clear();
     state.ui.brush.on = false;
@@ -183,9 +187,17 @@ void ViewerPainting::replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerS
                                   Player& player) {
     maps_ = std::move(maps);
     drawn_.reset();
-    player.set_maps(maps_);
+    encoded_.clear();
+    felt_ = maps_;
+    player.set_maps(felt_);
     to_write_.push_back({depth_, maps_, !is_sample_});
     update_brush(state);
+}
+
+void ViewerPainting::feel(std::shared_ptr<const TouchMaps> maps, Player& player) {
+    felt_ = std::move(maps);
+    player.set_maps(felt_);
+    if (felt_) to_write_.push_back({depth_, felt_, false});
 }
 
 void ViewerPainting::undo(ViewerState& state, Player& player) {
@@ -211,6 +223,12 @@ void ViewerPainting::remove_all(ViewerState& state, Player& player) {
     replace_maps(nullptr, state, player);
 }
 
+/// Empty: not encoded yet.
+std::vector<SessionMap> ViewerPainting::encoded_as(std::uint32_t version) const {
+    const auto found = encoded_.find(version);
+    return found == encoded_.end() ? std::vector<SessionMap>{} : found->second;
+}
+
 /// Writes one version at a time. A recording may refer to every version; for files only the last
 /// one matters.
 void ViewerPainting::start_writing() {
@@ -220,12 +238,13 @@ void ViewerPainting::start_writing() {
     const bool is_last = std::none_of(
         to_write_.begin(), to_write_.end(),
         [&](const ToWrite& later) { return later.to_files && later.depth == next.depth; });
-    writing_.start([next, to_files = next.to_files && is_last]() -> Written {
+    writing_.start([next, to_files = next.to_files && is_last,
+                    known = encoded_as(next.maps ? next.maps->version : 0)]() -> Written {
         Written written;
         try {
             if (next.maps) {
                 written.version = next.maps->version;
-                written.encoded = encoded(*next.maps);
+                written.encoded = known.empty() ? encoded(*next.maps) : known;
             }
             if (to_files) write_touch_maps(next.maps ? *next.maps : TouchMaps{}, next.depth);
         } catch (const std::exception& error) {
@@ -238,6 +257,7 @@ void ViewerPainting::start_writing() {
 void ViewerPainting::take_written(TouchRecording& recording) {
     auto written = writing_.take();
     if (!written) return;
+    if (felt_ != maps_) encoded_[written->version] = written->encoded;
     if (written->version > 0) recording.maps(written->version, std::move(written->encoded));
     if (!written->failure.empty()) failure_ = written->failure;
 }
@@ -266,11 +286,11 @@ void ViewerPainting::finish(TouchRecording& recording, std::chrono::milliseconds
 }
 
 std::shared_ptr<const TouchMaps> ViewerPainting::drawn() const {
-    return stroke_ && drawn_ ? drawn_ : maps_;
+    return stroke_ && drawn_ ? drawn_ : felt_;
 }
 
 const Frame* ViewerPainting::tinted(const Frame* frame, const ViewerState& state) {
-    const std::shared_ptr<const TouchMaps> maps = drawn();
+    const std::shared_ptr<const TouchMaps> maps = stroke_ && drawn_ ? drawn_ : maps_;
     const BrushLayer layer = state.ui.brush.layer;
     if (!state.ui.brush.on || !maps || frame == nullptr || !frame->has_colour()) return frame;
     const bool is_same =

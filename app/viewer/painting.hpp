@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -59,7 +60,14 @@ class ViewerPainting {
     /// At the end of the program: saves the unsaved maps. Throws InputError.
     void finish(TouchRecording& recording, std::chrono::milliseconds patience = kPatience);
 
-    /// The maps to draw, with an unfinished stroke. Null: nothing is painted.
+    /// What is painted; null: nothing.
+    [[nodiscard]] const std::shared_ptr<const TouchMaps>& painted() const { return maps_; }
+    /// The number for other maps that are felt in its place.
+    [[nodiscard]] std::uint32_t new_version() { return ++versions_; }
+    /// Lays these over the recording in place of what is painted, until that changes.
+    void feel(std::shared_ptr<const TouchMaps> maps, Player& player);
+
+    /// The maps to draw, with an unfinished stroke. Null: there are none.
     [[nodiscard]] std::shared_ptr<const TouchMaps> drawn() const;
     /// The frame's colour picture with the paint over it; `frame` itself where there is none.
     [[nodiscard]] const Frame* tinted(const Frame* frame, const ViewerState& state);
@@ -78,6 +86,7 @@ class ViewerPainting {
     void end_stroke(ViewerState& state, Player& player);
     void replace_maps(std::shared_ptr<const TouchMaps> maps, ViewerState& state, Player& player);
     void update_brush(ViewerState& state) const;
+    [[nodiscard]] std::vector<SessionMap> encoded_as(std::uint32_t version) const;
     void start_writing();
     void take_written(TouchRecording& recording);
     [[nodiscard]] std::shared_ptr<const TouchMaps> numbered(TouchMaps maps);
@@ -86,7 +95,8 @@ class ViewerPainting {
     int columns_{0}, rows_{0};
     bool is_sample_{false};
     std::string refusal_{};
-    std::shared_ptr<const TouchMaps> maps_{};  // as the tick uses them; null: nothing is painted
+    std::shared_ptr<const TouchMaps> maps_{};  // null: nothing is painted
+    std::shared_ptr<const TouchMaps> felt_{};  // as the tick uses them
     std::vector<std::shared_ptr<const TouchMaps>> before_{}, undone_{};
     std::optional<MapStroke> stroke_{};
     std::shared_ptr<const TouchMaps> drawn_{};
@@ -99,7 +109,8 @@ class ViewerPainting {
     };
     std::vector<ToWrite> to_write_{};
     BackgroundTask<Written> writing_;
-    std::string failure_{};  // for the next poll()
+    std::map<std::uint32_t, std::vector<SessionMap>> encoded_{};  // of maps felt in place of maps_
+    std::string failure_{};                                       // for the next poll()
     // What tinted_ was made of.
     std::vector<PaintedMaterial> materials_{};
     Frame tinted_{};

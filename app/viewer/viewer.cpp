@@ -7,15 +7,12 @@
 #include <thread>
 #include <utility>
 
-#include "app/panels/panels.hpp"
 #include "app/panels/widgets.hpp"
 #include "app/touching/device_state.hpp"
 #include "app/touching/force_law.hpp"
 #include "app/touching/picture_time.hpp"
 #include "app/window/x_server.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/surface.hpp"
-#include "core/video/sources/picture_files.hpp"
 #include "render/drawing_threads.hpp"
 #include "render/gl_objects.hpp"
 
@@ -70,6 +67,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       browsing_(tasks),
       desktop_(tasks),
       painting_(tasks),
+      guide_(tasks),
       save_queue_(tasks),
       settings_saver_(options.in_file, options.settings, options.settings_file, save_queue_),
       start_(steady_clock::now()),
@@ -109,7 +107,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
         fit_to_media();  // before start(): a session's facts contain it
         touch_.recording().start(options.record);
     }
-    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps));
+    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps),
+               parts.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
 }
@@ -215,6 +214,7 @@ Viewer::Turn Viewer::take_turn() {
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     move_hand(input);
+    speak();  // before the picture, which may take long
     const bool drawn = draw_if_changed(input);
     carry_out_commands();
     show_recording_trouble();  // a command may have ended it
@@ -242,41 +242,6 @@ Viewer::Turn Viewer::take_turn() {
                                 .drawn = drawn});
     }
     return {input.any, drawn};
-}
-
-/// Draws relief and panels if they differ from the last picture, or a clip or screenshot needs one,
-/// and passes the picture on to these. False: nothing was drawn.
-bool Viewer::draw_if_changed(const WindowInput& input) {
-    if (input.damaged) change_.forget();
-    const bool of_relief = wants_picture(PictureOf::relief);
-    const bool of_window = wants_picture(PictureOf::window);
-    const bool wanted = of_relief || of_window;
-    if (!window_.visible() && !wanted) {
-        change_.forget();
-        return false;
-    }
-    const auto now = steady_clock::now();
-    const glm::ivec2 viewport = relief_viewport();
-    const Camera camera = camera_;  // the panels may move it for the next picture
-    const SceneContent content = prepare_scene();
-    const SceneMark scene = mark_scene(content, viewport);
-    const PanelChanges panels{input.any, gui_.in_use(), video_runs()};
-    if (!change_.may_differ(scene, panels, now) && !wanted) return false;
-    ColourImage picture;
-    // What is drawn after `read` is on the screen, but not in saved pictures.
-    const std::function<void()> read = [&] {
-        if (of_window) picture = read_framebuffer(window_.framebuffer_size());
-    };
-    lay_out_panels(input.keys, read);
-    if (!change_.take({scene, gui_.content()}, now) && !wanted) return false;
-    scene_.draw(content, camera, viewport);
-    follow_pointer();
-    if (of_relief) deliver_picture(PictureOf::relief, read_framebuffer(viewport));
-    beat();
-    gui_.draw();
-    if (of_window) deliver_picture(PictureOf::window, std::move(picture));
-    beat();
-    return true;
 }
 
 /// A video that nobody can see, feel or record waits until the window is visible again.
@@ -342,54 +307,6 @@ void Viewer::show_recording_trouble() {
                             state_.keys.in_brackets(Action::toggle_force) + ".";
 }
 
-/// Lays out all panels, for Gui::draw(). `drawn` must exist until then: it is called when all is
-/// drawn that saved pictures contain.
-void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::function<void()>& drawn) {
-    gui_.begin(pressed);
-    panes_.show(shown_, state_);
-    draw_panes(state_);
-    const glm::ivec2 viewport = relief_viewport();
-    const glm::dmat4 clip_from_grid =
-        camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y);
-    draw_ruler(state_, clip_from_grid);
-    draw_brush(state_, clip_from_grid);
-    if (state_.settings.panels_visible) draw_panel_column(state_, transport());
-    draw_bottom_bar(state_, transport());
-    draw_toolbar(state_);
-    const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
-    if (state_.ui.touched) fade(hint_alpha_);
-    if (pressed_deeper_) fade(wheel_hint_alpha_);
-    const bool mouse_touches = shown_.makes_surface() && !state_.touch.replay && touch_.by_mouse();
-    if (mouse_touches && state_.ui.message.empty() && !state_.ui.explained && !state_.ui.ruler &&
-        !state_.ui.brush.on && !state_.ui.depth_question) {
-        draw_hint(state_, Hint::touch, hint_alpha_);
-        const bool may_press_deeper =
-            hint_alpha_ <= 0.0F && state_.touch.haptic.touch.proxy.contact;
-        if (may_press_deeper) draw_hint(state_, Hint::press_deeper, wheel_hint_alpha_);
-    }
-    draw_overlay(state_, now_s());
-    draw_nothing_open(state_);
-    draw_explained();
-    draw_unsafe_settings(state_);
-    draw_depth_offer(state_);
-    asking_.draw_reliefs(shown_, touch_.media_number(), state_, scene_);
-    draw_depth_question(state_);
-    draw_open_dialog(state_);
-    draw_help_sheet(state_);
-    draw_message_box(state_);
-    draw_over_pictures(state_, drawn);
-    gui_.end();
-}
-
-void Viewer::draw_explained() {
-    explaining_.advance(shown_, state_, camera_, now_s());
-    if (!state_.ui.explained) return;
-    const glm::ivec2 viewport = relief_viewport();
-    const DepthSurface surface = shown_.surface(state_.shape(), state_.touch.bump.get());
-    draw_explanation(state_, surface,
-                     camera_.clip_from_grid(static_cast<double>(viewport.x) / viewport.y));
-}
-
 void Viewer::publish() {
     state_.touch.depth_in_question = state_.ui.depth_question.has_value();
     if (!state_.touch.replay) fit_to_media();
@@ -410,42 +327,19 @@ void Viewer::keep_settings() {
         drop_changed(state_.ui.unsafe_settings, state_.settings);
 }
 
-bool Viewer::wants_picture(PictureOf of) const {
-    return screenshots_.wants(of) ||
-           (shown_.makes_surface() && clip_.wants(of, steady_clock::now()));
-}
-
-/// Passes a picture to screenshot and clip where they need it.
-void Viewer::deliver_picture(PictureOf of, ColourImage picture) {
-    const auto now = steady_clock::now();
-    if (screenshots_.wants(of)) screenshots_.save(of, picture, picture_name(state_));
-    if (shown_.makes_surface() && clip_.wants(of, now)) clip_.add(std::move(picture), now);
-}
-
-void Viewer::write_last_picture() {
-    if (options_.screenshot.empty()) return;
-    // Draw again: after a swap the content of the buffer is undefined.
-    const glm::ivec2 relief = relief_viewport();
-    const SceneContent content = prepare_scene();
-    const bool whole = options_.pictures_of == PictureOf::window;
-    const std::function<void()> nothing = [] {};
-    if (whole) lay_out_panels({}, nothing);
-    scene_.draw(content, camera_, relief);
-    if (whole) gui_.draw();
-    write_png(read_framebuffer(whole ? window_.framebuffer_size() : relief), options_.screenshot);
-}
-
-/// For a screenshot requested in the last picture.
-void Viewer::take_last_screenshot() {
-    if (screenshots_.wants(PictureOf::window) || screenshots_.wants(PictureOf::relief))
-        static_cast<void>(draw_if_changed({}));
-}
-
 /// Logs new messages and device banners, wherever they were set.
 void Viewer::log_messages() {
     log_.append_if_changed("message", state_.ui.message);
     log_.append_if_changed("device", device_banner(state_.settings, state_.touch));
     attempt([this] { log_.write(); });
+}
+
+void Viewer::speak() {
+    const Spoken now = spoken_of(state_, now_s());
+    if (const auto trouble = speaking_.follow(now, state_.settings.speak)) {
+        print_warning(*trouble);
+        show_notice(*trouble);
+    }
 }
 
 void Viewer::log_lateness(const TickSchedule& schedule) {
@@ -485,13 +379,6 @@ bool Viewer::played_to_the_end() const {
     if (at.playing || at.looping) return false;
     if (state_.touch.replay) return at.now_s >= at.last_s();
     return state_.media.playback.ended && !state_.media.still;
-}
-
-glm::ivec2 Viewer::relief_viewport() const {
-    glm::ivec2 size = window_.framebuffer_size();
-    size.x -= static_cast<int>(panel_column_width(state_));
-    size.y -= static_cast<int>(panes_height(state_));
-    return glm::max(size, glm::ivec2(1));
 }
 
 }  // namespace dibhr

@@ -27,6 +27,7 @@
 #include "app/viewer/estimating.hpp"
 #include "app/viewer/explaining.hpp"
 #include "app/viewer/files.hpp"
+#include "app/viewer/guide.hpp"
 #include "app/viewer/input.hpp"
 #include "app/viewer/message_log.hpp"
 #include "app/viewer/painting.hpp"
@@ -35,6 +36,7 @@
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/service_settings.hpp"
+#include "app/viewer/speaking.hpp"
 #include "app/viewer/task_group.hpp"
 #include "app/viewer/trace.hpp"
 #include "app/window/gui.hpp"
@@ -91,6 +93,7 @@ struct ViewerParts {
     std::unique_ptr<Media> media{};
     FileMemory memory{};                       ///< of the media
     FoundMaps maps{};                          ///< likewise
+    FoundGuide guide{};                        ///< likewise
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     std::string trouble{};                     ///< why there is neither media nor session
     bool lacks_depth{false};                   ///< the trouble is that the file has colour only
@@ -170,7 +173,7 @@ class Viewer {
     void keep_settings();
     void answer_unsafe_settings(bool agreed);
     void show_media(std::unique_ptr<Media> media, const OpenRequest& request,
-                    const FileMemory& memory, FoundMaps maps);
+                    const FileMemory& memory, FoundMaps maps, const FoundGuide& guide);
     void keep_memory();
     void apply_memory(const FileMemory& memory, const OpenRequest& request);
     void forget_relief();
@@ -210,6 +213,7 @@ class Viewer {
     void take_report();
     void show_notice(const std::string& notice);
     void log_messages();
+    void speak();
     void log_lateness(const TickSchedule& schedule);
     /// Calls `step`; shows its error in the message box.
     template <typename Step>
@@ -254,6 +258,8 @@ class Viewer {
     DesktopDialog desktop_;
     ViewerPanes panes_{};
     ViewerPainting painting_;
+    ViewerGuide guide_;
+    ViewerSpeaking speaking_{};
     TaskQueue save_queue_;  // writes settings, file memories, recent files
     SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this turn

@@ -1,8 +1,6 @@
-// The viewer's media: opening and showing a video or session, the files saved beside it, and the
-// scene.
+// The viewer's media: opening and showing a video or session, and the files saved beside it.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <exception>
 #include <filesystem>
 #include <memory>
@@ -12,11 +10,9 @@
 #include "app/panels/widgets.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/recent_files.hpp"
-#include "app/touching/scene.hpp"
 #include "app/viewer/viewer.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
-#include "core/haptics/surface.hpp"
 #include "core/video/live/live_name.hpp"
 #include "core/video/playing/live_status.hpp"
 #include "core/video/sources/kept_choices.hpp"
@@ -54,28 +50,6 @@ const std::filesystem::path& depth_file(const MediaDescription& media) {
     return media.depth_path.empty() ? media.colour_path : media.depth_path;
 }
 
-/// The frames of a video that is drawn at its own rate, and of a slow one moments between them.
-DepthBlend in_steps(DepthBlend shown, double speed) {
-    constexpr double kLongest_s = 0.05;
-    const double lasts_s = (shown.to->time_s - shown.from->time_s) / speed;
-    const double steps = std::max(1.0, std::floor(lasts_s / kLongest_s));
-    shown.blend = std::min(std::floor(shown.blend * steps), steps - 1.0) / steps;
-    return shown;
-}
-
-/// The pixel at a place in grid space; nothing beside the picture.
-std::optional<PixelShown> pixel_at(Vec3 place, const ViewerState& state, const DepthBlend& shown) {
-    if (!shown.makes_surface()) return {};
-    const DepthImage& depth = *shown.with_in_betweens().from->drawn();
-    const int i = static_cast<int>(std::lround(place.x));
-    const int j = static_cast<int>(std::lround(place.y));
-    if (i < 0 || j < 0 || i >= depth.columns || j >= depth.rows) return {};
-    const DepthSurface surface = shown.drawn_surface(state.shape(), state.touch.bump.get());
-    const auto& unseen = shown.with_in_betweens().nearest().unseen;
-    return PixelShown{i, j, depth.at(i, j) / depth.highest_level, surface.elevation_at(i, j),
-                      unseen && (*unseen)[depth.index(i, j)] != 0};
-}
-
 }  // namespace
 
 void Viewer::take_opened() {
@@ -83,7 +57,7 @@ void Viewer::take_opened() {
         if (opened->media || opened->session) estimating_.withdraw_offer(state_);
         if (opened->media)
             show_media(std::move(opened->media), opened->request, opened->memory,
-                       std::move(opened->maps));
+                       std::move(opened->maps), opened->guide);
         if (opened->session) replay_session(std::move(opened->session));
         if (opened->is_folder) {
             browsing_.show(opened->request.colour, state_);
@@ -143,7 +117,7 @@ void Viewer::take_desktop_answer() {
 }
 
 void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request,
-                        const FileMemory& memory, FoundMaps maps) {
+                        const FileMemory& memory, FoundMaps maps, const FoundGuide& guide) {
     explaining_.end(state_, camera_);
     // A recording's video would lack these frames: end it. A waiting one goes on below.
     const bool live = media->description().live;
@@ -188,6 +162,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
                 "A live source cannot be painted on: there is no file to keep the paint beside"};
     touch_.play(std::move(media),
                 painting_.begin(std::move(maps), now, remembered_file(now).empty()));
+    guide_.begin(guide, state_);
     if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
     if (request.at_s > 0.0) touch_.player().seek(request.at_s);
     if (request.paused) touch_.player().pause();
@@ -260,6 +235,7 @@ void Viewer::replay_session(std::unique_ptr<OpenedSession> session) {
         if (!warning.empty()) show_notice(capitalised(warning));
     explaining_.end(state_, camera_);
     painting_.end(state_);
+    guide_.end(state_);
     keep_memory();
     remembered_.clear();
     state_.ui.depth_question.reset();
@@ -462,48 +438,6 @@ void Viewer::frame_relief() {
     explaining_.keep_camera();
     camera_.frame_relief(state_.media.depth_columns, state_.media.depth_rows,
                          state_.settings.touch.shape.relief_px);
-}
-
-/// The relief of this turn; valid during it.
-SceneContent Viewer::prepare_scene() {
-    camera_.set_projection(state_.settings.straight_view ? Camera::Projection::straight
-                                                         : Camera::Projection::perspective);
-    state_.ui.under_hand = pixel_at(state_.touch.haptic.touch.goal, state_, shown_);
-    state_.ui.under_pointer.reset();
-    if (pointed_at_) state_.ui.under_pointer = pixel_at(*pointed_at_, state_, shown_);
-    if (state_.ui.ruler) {
-        state_.ui.ruler->ends.clear();
-        for (const Vec3& place : state_.ui.ruler->places)
-            if (const auto end = pixel_at(place, state_, shown_))
-                state_.ui.ruler->ends.push_back(*end);
-    }
-    SceneContent content = scene_content(state_.settings, state_.touch, shown_);
-    if (state_.ui.explained) {  // hide the markers of the touch
-        content.markers.visible = false;
-        content.dent = {};
-    }
-    if (!state_.touch.replay) content.maps = painting_.drawn();
-    if (state_.ui.brush.on) {
-        content.relief_style.paint = ReliefPaint::video;
-        content.colour = painting_.tinted(content.colour, state_);
-        content.markers.visible = false;  // the mouse paints and does not touch
-    }
-    leave_trace(content.markers);
-    return content;
-}
-
-/// Software draws a video that runs once a frame, not more often for a hand that moves meanwhile.
-SceneMark Viewer::mark_scene(SceneContent content, glm::ivec2 viewport) const {
-    const bool by_frame = software_ && video_runs() && shown_.makes_surface();
-    if (by_frame) content.depth = in_steps(shown_, state_.media.playback.speed);
-    SceneMark mark = scene_mark(content, camera_, viewport);
-    return by_frame ? change_.with_drawn_hand(std::move(mark), std::chrono::steady_clock::now())
-                    : mark;
-}
-
-void Viewer::leave_trace(TouchMarkers& markers) {
-    if (!state_.settings.relief_style.trace || !shown_.makes_surface()) return;
-    trace_.mark(shown_.drawn_surface(state_.shape(), state_.touch.bump.get()), now_s(), markers);
 }
 
 }  // namespace dibhr

@@ -160,13 +160,15 @@ ImFont* load_font(int weight, float height_px) {
 
 Fonts load_fonts(float scale) {
     Fonts fonts{load_font(FC_WEIGHT_REGULAR, kTextHeight_px * scale),
-                load_font(FC_WEIGHT_BOLD, kTextHeight_px * scale)};
+                load_font(FC_WEIGHT_BOLD, kTextHeight_px * scale),
+                load_font(FC_WEIGHT_BOLD, 1.5F * kTextHeight_px * scale)};
     if (fonts.text == nullptr) {
         ImFontConfig sharp;
         sharp.SizePixels = 13.0F * scale;
         fonts.text = ImGui::GetIO().Fonts->AddFontDefault(&sharp);
     }
     if (fonts.heading == nullptr) fonts.heading = fonts.text;
+    if (fonts.title == nullptr) fonts.title = fonts.heading;
     return fonts;
 }
 

@@ -16,6 +16,7 @@ namespace dibhr {
 struct Fonts {
     ImFont* text{nullptr};
     ImFont* heading{nullptr};
+    ImFont* title{nullptr};  ///< half as large again
 };
 
 /// How the panels are drawn.

@@ -1,4 +1,4 @@
-// make_sample: renders the built-in sample or one frame of it as PNG.
+// make_sample: renders the built-in sample, one frame of it as PNG, or the labels of its regions.
 #include <algorithm>
 #include <csignal>
 #include <cstdint>
@@ -14,6 +14,7 @@
 
 #include "assets/sample/encode.hpp"
 #include "assets/sample/picture.hpp"
+#include "assets/sample/regions.hpp"
 #include "core/error.hpp"
 #include "core/video/sources/picture_files.hpp"
 
@@ -23,7 +24,8 @@ using dibhr::sample::Picture;
 
 constexpr auto kUsage =
     "usage: make_sample DIR            color.mp4 and depth.mp4\n"
-    "       make_sample --frame N DIR  color-N.png and depth-N.png\n";
+    "       make_sample --frame N DIR  color-N.png and depth-N.png\n"
+    "       make_sample --regions DIR  depth_regions.png\n";
 
 void write_png(const std::filesystem::path& file, int columns, int rows, int type,
                std::vector<std::uint8_t> bytes) {
@@ -63,6 +65,19 @@ void make_frame(int frame, const std::filesystem::path& folder) {
               sample::rounded(picture.level));
 }
 
+/// The label pictures one below the other.
+void make_regions(const std::filesystem::path& folder) {
+    namespace sample = dibhr::sample;
+    std::vector<std::uint8_t> all;
+    for (int k = 0; k < sample::kLabelPictures; ++k) {
+        const std::vector<std::uint8_t> labels = sample::labels_of(sample::frame_of_labels(k));
+        all.insert(all.end(), labels.begin(), labels.end());
+    }
+    constexpr int kWide = sample::kColumns / sample::kLabelStep;
+    constexpr int kHigh = sample::kRows / sample::kLabelStep * sample::kLabelPictures;
+    write_png(folder / "depth_regions.png", kWide, kHigh, CV_8UC1, std::move(all));
+}
+
 bool is_number(const std::string& word) {
     return !word.empty() && word.size() < 7 &&
            word.find_first_not_of("0123456789") == std::string::npos;
@@ -72,6 +87,8 @@ bool is_number(const std::string& word) {
 bool make(const std::vector<std::string>& words) {
     if (words.size() == 1 && !words[0].starts_with("-")) {
         make_video(words[0]);
+    } else if (words.size() == 2 && words[0] == "--regions") {
+        make_regions(words[1]);
     } else if (words.size() == 3 && words[0] == "--frame" && is_number(words[1])) {
         make_frame(std::stoi(words[1]), words[2]);
     } else {

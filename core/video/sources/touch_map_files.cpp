@@ -22,6 +22,7 @@
 #include "core/video/formats/file_bytes.hpp"
 #include "core/video/formats/libraries.hpp"
 #include "core/video/modules/picture_codecs.hpp"
+#include "core/video/sources/beside_recording.hpp"
 #include "core/video/sources/readers.hpp"
 
 namespace dibhr {
@@ -36,32 +37,8 @@ std::string ending_of(TouchMapKind kind) {
     return std::string("_") + name_of(kind) + ".png";
 }
 
-/// "cup" of cup_depth.mp4, "depth" of depth.mp4, "take" of the folder take/.
-std::string recording_name(const fs::path& depth) {
-    const fs::path place = depth.has_filename() ? depth : depth.parent_path();
-    std::string stem = is_folder(place) ? place.filename().string() : place.stem().string();
-    const std::string small = lower_case(stem);
-    constexpr std::string_view kWord = "depth";
-    const std::size_t at = small.rfind(kWord);
-    if (at == std::string::npos) return stem;
-    std::string name = stem;
-    name.erase(at, kWord.size());
-    const auto is_joint = [](char c) { return c == '_' || c == '-' || c == '.' || c == ' '; };
-    while (!name.empty() && is_joint(name.back())) name.pop_back();
-    while (!name.empty() && is_joint(name.front())) name.erase(0, 1);
-    return name.empty() ? stem : name;
-}
-
-/// Of path/cup_depth.mp4: path/cup_depth with that ending if it exists, else path/cup with it.
-fs::path beside(const fs::path& depth, const std::string& ending) {
-    const fs::path place = depth.has_filename() ? depth : depth.parent_path();
-    const fs::path name = is_folder(place) ? place.filename() : place.stem();
-    const fs::path whole = place.parent_path() / (name.string() + ending);
-    return is_file(whole) ? whole : place.parent_path() / (recording_name(depth) + ending);
-}
-
 fs::path limits_file(const fs::path& depth) {
-    return beside(depth, "_maps.toml");
+    return beside_recording(depth, "_maps.toml");
 }
 
 using AllLimits = std::map<TouchMapKind, MapLimits>;
@@ -155,11 +132,12 @@ void write_limits(const TouchMaps& maps, const fs::path& file) {
 }  // namespace
 
 fs::path touch_map_file(const fs::path& depth, TouchMapKind kind) {
-    return beside(depth, ending_of(kind));
+    return beside_recording(depth, ending_of(kind));
 }
 
 bool names_touch_map(const fs::path& file) {
     const std::string name = lower_case(file.filename().string());
+    if (name.ends_with("_regions.png")) return is_file(fs::path(file).replace_extension(".toml"));
     for (const TouchMapKind kind : all_touch_map_kinds()) {
         const std::string ending = ending_of(kind);
         if (!name.ends_with(ending) || name.size() == ending.size()) continue;

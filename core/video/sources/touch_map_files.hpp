@@ -9,14 +9,13 @@
 
 namespace dibhr {
 
-/// The file of the map of that kind, beside the depth of a recording: "cup_depth.mp4" has
-/// cup_stiffness.png, cup_friction.png, cup_height.png. An existing file with the whole name,
-/// "cup_depth_stiffness.png", comes first.
+/// The file of the map of that kind, as beside_recording() has it: "cup_depth.mp4" has
+/// cup_stiffness.png, cup_friction.png, cup_height.png.
 [[nodiscard]] std::filesystem::path touch_map_file(const std::filesystem::path& depth,
                                                    TouchMapKind kind);
 
-/// Whether the file's name is that of a map and not of a recording: of stiffness or friction, or of
-/// height where a file with the limits of maps is beside it.
+/// Whether the file's name is that of a map and not of a recording: of stiffness or friction, of
+/// height where a file with the limits of maps is beside it, or of regions where their names are.
 [[nodiscard]] bool names_touch_map(const std::filesystem::path& file);
 
 /// The maps beside a recording whose depth has columns x rows, ready to be used; null: none. Levels

@@ -62,6 +62,10 @@ struct Seen {
     bool ruler{false};
     int ruler_points{0};
     bool brush{false}, painted{false}, can_undo{false};
+    SeenText region{};        ///< the named region under the finger
+    bool region_text{false};  ///< with its text
+    SeenText caption{};
+    std::uint64_t regions{0};  ///< named ones of the recording
     bool as_recorded{false};
     bool explained{false};
     std::uint64_t explained_steps{0};  ///< taken

@@ -68,6 +68,10 @@ void see_ui(const UiState& ui, Seen& seen) {
     seen.brush = ui.brush.on;
     seen.painted = ui.brush.has_paint;
     seen.can_undo = ui.brush.can_undo;
+    seen.region.set(ui.region.name);
+    seen.region_text = ui.region.rests;
+    seen.caption.set(ui.caption);
+    seen.regions = ui.regions;
     seen.explained = ui.explained.has_value();
     seen.explained_steps = ui.explained ? ui.explained->taken : 0;
     seen.unsafe_settings = ui.unsafe_settings.size();

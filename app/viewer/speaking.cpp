@@ -1,0 +1,40 @@
+// Chooses what is said of what has changed.
+#include "app/viewer/speaking.hpp"
+
+#include <array>
+
+namespace dibhr {
+
+std::string news_of(const Spoken& now, const Spoken& before) {
+    constexpr std::array kByWeight{&Spoken::message, &Spoken::notice, &Spoken::focus,
+                                   &Spoken::region,  &Spoken::text,   &Spoken::caption};
+    for (const auto part : kByWeight)
+        if (now.*part != before.*part && !(now.*part).empty()) return now.*part;
+    return {};
+}
+
+Spoken spoken_of(const ViewerState& state, double now_s) {
+    const UiState& ui = state.ui;
+    Spoken spoken{.message = ui.message, .region = ui.region.name, .caption = ui.caption};
+    if (now_s < ui.notice_until_s && !ui.notice_shows_position) spoken.notice = ui.notice;
+    if (ui.region.rests) spoken.text = ui.region.text;
+    return spoken;
+}
+
+std::optional<std::string> ViewerSpeaking::follow(const Spoken& now, bool on) {
+    if (!on) {
+        speaker_.reset();
+        last_ = now;
+        return std::nullopt;
+    }
+    if (!speaker_) speaker_ = std::make_unique<Speaker>();
+    if (const std::string news = news_of(now, last_); !news.empty()) speaker_->say(said_ = news);
+    last_ = now;
+    return speaker_->take_trouble();
+}
+
+void ViewerSpeaking::repeat() {
+    if (speaker_) speaker_->say(said_);
+}
+
+}  // namespace dibhr

@@ -1,0 +1,180 @@
+// Checks the table and the label pictures against each other and against the depth.
+#include "core/video/guide/regions_file.hpp"
+
+#include <toml++/toml.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <opencv2/core.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/error.hpp"
+#include "core/files/names.hpp"
+#include "core/files/plain_text.hpp"
+#include "core/files/text_file.hpp"
+#include "core/video/sources/beside_recording.hpp"
+#include "core/video/sources/readers.hpp"
+
+namespace dibhr {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::size_t kMostNameLetters = 60;
+constexpr std::size_t kMostTextLetters = 600;
+constexpr double kMostPictures_per_s = 1000.0;
+/// A label picture may be so much wider or higher than the depth.
+constexpr double kAspectTolerance = 0.03;
+
+/// A pixel of a label picture: its level, or its colour as 0xRRGGBB.
+using Mark = std::uint32_t;
+
+/// The regions of the table, and what marks the pixels of each.
+struct Table {
+    Regions regions{};
+    std::map<Mark, std::uint8_t> labels{};  ///< of levels
+    std::map<Mark, std::uint8_t> colours{};
+};
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+    throw InputError(shown(file) + ": " + what);
+}
+
+std::optional<Mark> colour_in(std::string_view text) {
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    if (text.size() != 7 || text.front() != '#') return std::nullopt;
+    Mark mark = 0;
+    for (const char c : lower_case(std::string(text.substr(1)))) {
+        const std::size_t digit = kDigits.find(c);
+        if (digit == std::string_view::npos) return std::nullopt;
+        mark = mark * 16 + static_cast<Mark>(digit);
+    }
+    return mark;
+}
+
+void take_region(const toml::table& said, const fs::path& file, Table& table) {
+    std::vector<Region>& regions = table.regions.regions;
+    const std::string name = one_line(said["name"].value_or(std::string()), kMostNameLetters);
+    const std::string text = one_line(said["text"].value_or(std::string()), kMostTextLetters);
+    const std::string which = name.empty() ? "region " + std::to_string(regions.size() + 1)
+                                           : "the region " + in_quotes(name);
+    if (name.empty()) refuse(file, which + " has no name; give it one");
+    const auto level = said["level"].value<std::int64_t>();
+    const auto colour = colour_in(said["colour"].value_or(std::string_view()));
+    const bool level_fits = level && *level > 0 && *level <= 65535;
+    if (!level_fits && !colour)
+        refuse(file, which +
+                         " has neither a level from 1 to 65535 nor a colour like \"#d08030\"; give "
+                         "it the one it has in the picture");
+    const auto label = static_cast<std::uint8_t>(regions.size() + 1);
+    const bool is_new = colour ? table.colours.emplace(*colour, label).second
+                               : table.labels.emplace(static_cast<Mark>(*level), label).second;
+    if (!is_new) refuse(file, which + " has the level or colour of another; give each its own");
+    regions.push_back({name, text});
+}
+
+Table table_of(const fs::path& file) try {
+    const auto text = small_text_in(file);
+    if (!text) refuse(file, "cannot be read as text of up to 1 MB; make it readable");
+    const toml::table said = toml::parse(*text, file.string());
+    Table table;
+    const toml::array* const list = said["region"].as_array();
+    if (list == nullptr || list->empty() || list->size() > Regions::kMost)
+        refuse(file, "has no region, or more than 255; write [[region]], name and level for each");
+    for (const toml::node& node : *list) {
+        const toml::table* const region = node.as_table();
+        if (region == nullptr) refuse(file, "region is no table; write [[region]] for each");
+        take_region(*region, file, table);
+    }
+    const auto pictures = said["labels"]["pictures"].value_or(std::int64_t{1});
+    const double rate = said["labels"]["per-second"].value_or(0.0);
+    if (pictures < 1 || pictures > 100'000 || !(rate >= 0.0 && rate <= kMostPictures_per_s) ||
+        (pictures > 1 && !(rate > 0.0)))
+        refuse(file,
+               "labels.pictures is not 1 to 100000, or per-second not above 0; say how many label "
+               "pictures stand one below the other, and how many of them a second");
+    table.regions.pictures = static_cast<int>(pictures);
+    table.regions.pictures_per_s = rate;
+    return table;
+} catch (const toml::parse_error& error) {
+    refuse(file, "line " + std::to_string(error.source().begin.line) + " cannot be understood (" +
+                     one_line(error.description(), 200) + "); correct or remove it");
+}
+
+/// Pixels as marks: a level of one channel, or a colour. Alpha counts as none below half.
+class Labels {
+  public:
+    Labels(const cv::Mat& picture, const Table& table) : picture_(picture), table_(table) {}
+
+    [[nodiscard]] std::uint8_t at(int j, int i) const {
+        const int channels = picture_.channels();
+        if (channels == 1) return of_level(channel(j, i, 0));
+        if (channels == 4 && channel(j, i, 3) < half()) return 0;
+        const std::array<Mark, 3> bgr{channel(j, i, 0), channel(j, i, 1), channel(j, i, 2)};
+        const auto found = table_.colours.find((bgr[2] << 16U) | (bgr[1] << 8U) | bgr[0]);
+        if (found != table_.colours.end()) return found->second;
+        return bgr[0] == bgr[1] && bgr[1] == bgr[2] ? of_level(bgr[0]) : std::uint8_t{0};
+    }
+
+  private:
+    [[nodiscard]] Mark channel(int j, int i, int c) const {
+        const int at = i * picture_.channels() + c;
+        return picture_.depth() == CV_8U ? Mark{picture_.ptr<std::uint8_t>(j)[at]}
+                                         : Mark{picture_.ptr<std::uint16_t>(j)[at]};
+    }
+    [[nodiscard]] Mark half() const { return picture_.depth() == CV_8U ? 128 : 32768; }
+    [[nodiscard]] std::uint8_t of_level(Mark level) const {
+        const auto found = table_.labels.find(level);
+        if (found != table_.labels.end()) return found->second;
+        const auto grey = table_.colours.find(level * 0x010101U);  // "#141414" of a grey picture
+        return grey == table_.colours.end() || level > 255 ? std::uint8_t{0} : grey->second;
+    }
+
+    const cv::Mat& picture_;
+    const Table& table_;
+};
+
+/// Throws InputError for a picture that does not fit the depth.
+void require_fit(const cv::Mat& picture, const Table& table, const fs::path& file, int columns,
+                 int rows) {
+    const int pictures = table.regions.pictures;
+    const bool has_marks = picture.depth() == CV_8U || picture.depth() == CV_16U;
+    if (picture.empty() || !has_marks || picture.channels() == 2)
+        refuse(file, "a label picture has 8 or 16 bits a pixel; save it as such a PNG");
+    if (picture.rows % pictures != 0)
+        refuse(file, "its " + std::to_string(picture.rows) + " rows are not " +
+                         std::to_string(pictures) + " pictures; correct labels.pictures");
+    const double aspect = static_cast<double>(picture.cols) * pictures / picture.rows;
+    if (std::abs(aspect * rows / columns - 1.0) > kAspectTolerance)
+        refuse(file, "a label picture must be as wide to its height as the depth, " +
+                         std::to_string(columns) + " x " + std::to_string(rows) +
+                         "; save it in that shape");
+}
+
+}  // namespace
+
+std::shared_ptr<const Regions> read_regions(const fs::path& depth, int columns, int rows) {
+    if (depth.empty()) return nullptr;
+    const fs::path names = beside_recording(depth, "_regions.toml");
+    if (!is_file(names)) return nullptr;
+    const fs::path file = fs::path(names).replace_extension(".png");
+    if (!is_file(file)) refuse(file, "is missing; " + shown(names) + " names its regions");
+    Table table = table_of(names);
+    const cv::Mat picture = read_still(file, PictureRole::depth).picture;
+    require_fit(picture, table, file, columns, rows);
+    Regions& regions = table.regions;
+    regions.columns = picture.cols;
+    regions.rows = picture.rows / regions.pictures;
+    regions.labels.reserve(picture.total());
+    const Labels labels(picture, table);
+    for (int j = 0; j < picture.rows; ++j)
+        for (int i = 0; i < picture.cols; ++i) regions.labels.push_back(labels.at(j, i));
+    return std::make_shared<const Regions>(std::move(regions));
+}
+
+}  // namespace dibhr

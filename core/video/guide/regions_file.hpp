@@ -1,0 +1,17 @@
+// Reads the regions of a recording: label pictures and a table of names, beside its depth.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "core/video/guide/regions.hpp"
+
+namespace dibhr {
+
+/// The regions of NAME_regions.toml, with the label pictures NAME_regions.png, beside a recording
+/// whose depth has columns x rows; null: there is no such table. Throws InputError: which file, and
+/// what to do.
+[[nodiscard]] std::shared_ptr<const Regions> read_regions(const std::filesystem::path& depth,
+                                                          int columns, int rows);
+
+}  // namespace dibhr
