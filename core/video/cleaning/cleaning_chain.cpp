@@ -231,8 +231,8 @@ DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* con
     return temporal_.filtered(frames, now, noise);
 }
 
-Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frames, std::size_t now,
-                                  const CleaningPlan& plan, Frame frame) {
+SettledDepth CleaningChain::settle(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                                   const CleaningPlan& plan) {
     const SingleFrameDepth& here = *frames[now];
     const bool steady = plan.steps.steady && frames.size() > 1;
     const std::shared_ptr<DepthImage> made =
@@ -254,14 +254,19 @@ Frame CleaningChain::finish_frame(std::span<const SingleFrameDepth* const> frame
             noise_.smooth(depth, plan.noise);
         if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth, unseen);
     }
-    if (!unseen.empty())
-        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen));
-    frame.depth = made;
-    if (is_touchable(depth) && plan.finger.radius_px > 0.0) {
-        frame.undilated = made;
-        const std::shared_ptr<DepthImage> felt = made_.take();
-        *felt = finger_.dilated(depth, plan.finger, std::move(*felt));
-        frame.depth = felt;
+    if (unseen.empty()) return {made, nullptr, plan};
+    return {made, std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen)), plan};
+}
+
+Frame CleaningChain::felt(const SettledDepth& settled, Frame frame) {
+    const CleaningPlan& plan = settled.plan;
+    frame.depth = settled.depth;
+    frame.unseen = settled.unseen;
+    if (is_touchable(*frame.depth) && plan.finger.radius_px > 0.0) {
+        frame.undilated = settled.depth;
+        const std::shared_ptr<DepthImage> made = made_.take();
+        *made = finger_.dilated(*settled.depth, plan.finger, std::move(*made));
+        frame.depth = made;
     }
     frame.cleaning = {plan.steps, plan.finger};
     return frame;

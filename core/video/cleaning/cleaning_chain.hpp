@@ -3,9 +3,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -50,6 +52,13 @@ struct CleaningPlan {
     bool operator==(const CleaningPlan&) const = default;
 };
 
+/// Depth after all steps but the fingertip.
+struct SettledDepth {
+    std::shared_ptr<const DepthImage> depth{};
+    std::shared_ptr<const std::vector<std::uint8_t>> unseen{};  ///< as of a Frame
+    CleaningPlan plan{};
+};
+
 /// `automatic` does not take all steps for larger images: most machines have no time for them.
 inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 
@@ -86,10 +95,10 @@ inline constexpr std::size_t kMostPixelsForSensor = 1'000'000;
 /// raw".
 [[nodiscard]] std::string in_words(const CleaningOptions& options, const CleaningPlan& plan);
 
-/// Cleans frames in two parts: clean_frame() needs one frame only, finish_frame() those before and
-/// after it, too. Steps that are off change no level, but no data (NaN) becomes level 0, the
-/// farthest. The same frames give the same bits. Each part has its own scratch memory: one thread
-/// at a time may call clean_frame(), and the same or another one finish_frame().
+/// Cleans frames in three parts: clean_frame() needs one frame only, settle() those before and
+/// after it, too, and felt() is the fingertip. Steps that are off change no level, but no data
+/// (NaN) becomes level 0, the farthest. The same frames give the same bits. Each part has its own
+/// scratch memory: one thread at a time may call each, the same or another one.
 class CleaningChain {
   public:
     /// Sparse depth, spikes, holes and silhouettes of one frame. `held`: the last levels of pixels
@@ -99,11 +108,20 @@ class CleaningChain {
                                                const ColourImage* colour = nullptr);
 
     /// The other steps for frame `now` of `frames`, which follow each other in time (one frame is
-    /// enough). Returns `frame` with its depth and cleaning set.
-    [[nodiscard]] Frame finish_frame(std::span<const SingleFrameDepth* const> frames,
-                                     std::size_t now, const CleaningPlan& plan, Frame frame = {});
+    /// enough).
+    [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,
+                                      std::size_t now, const CleaningPlan& plan);
 
-    /// Both parts for a frame without frames before or after it.
+    /// Returns `frame` with its depth and cleaning set.
+    [[nodiscard]] Frame felt(const SettledDepth& settled, Frame frame = {});
+
+    /// settle() and felt().
+    [[nodiscard]] Frame finish_frame(std::span<const SingleFrameDepth* const> frames,
+                                     std::size_t now, const CleaningPlan& plan, Frame frame = {}) {
+        return felt(settle(frames, now, plan), std::move(frame));
+    }
+
+    /// All parts for a frame without frames before or after it.
     [[nodiscard]] Frame clean_and_finish(DepthImage image, const CleaningPlan& plan,
                                          std::span<const HeldLevel> held = {});
 

@@ -20,6 +20,8 @@ inline constexpr std::size_t kGroupInTime = 4;
     return a.columns == b.columns && a.rows == b.rows && a.highest_level == b.highest_level;
 }
 
+struct SettledDepth;  // cleaning_chain.hpp
+
 /// Depth cleaned by CleaningChain::clean_frame.
 struct SingleFrameDepth {
     DepthImage depth{};                  ///< no NaN

@@ -19,7 +19,17 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     // By its time: after some jumps the index is an estimate.
     single_frame.number = std::llround(raw.media_s / interval_s_);
     raw.single_frame = std::make_shared<const SingleFrameDepth>(std::move(single_frame));
+    if (plan.finger.radius_px > 0.0 && !plan.steps.steady) {
+        const SingleFrameDepth* const alone = raw.single_frame.get();
+        raw.settled = std::make_shared<const SettledDepth>(settle({&alone, 1}, 0, plan));
+    }
     raw.single_frame_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
+}
+
+SettledDepth FrameAssembly::settle(std::span<const SingleFrameDepth* const> frames, std::size_t now,
+                                   const CleaningPlan& plan) {
+    const std::lock_guard lock(settling_mutex_);
+    return chain_.settle(frames, now, plan);
 }
 
 Frame FrameAssembly::without_depth(RawFrame& raw) const {
@@ -35,8 +45,10 @@ Frame FrameAssembly::without_depth(RawFrame& raw) const {
 
 Frame FrameAssembly::finish_frame(const Frame& without_depth,
                                   std::span<const SingleFrameDepth* const> single_frame,
-                                  std::size_t now) {
-    Frame frame = chain_.finish_frame(single_frame, now, plan_, without_depth);
+                                  std::size_t now, const SettledDepth* settled) {
+    const bool is_settled = settled != nullptr && settled->plan == plan_;
+    Frame frame =
+        chain_.felt(is_settled ? *settled : settle(single_frame, now, plan_), without_depth);
     frame.maps = maps_;
     return frame;
 }
@@ -44,7 +56,7 @@ Frame FrameAssembly::finish_frame(const Frame& without_depth,
 Frame FrameAssembly::finish_single_frame(RawFrame raw) {
     if (!raw.single_frame) clean_frame(raw, plan_);
     const SingleFrameDepth* const single_frame = raw.single_frame.get();
-    Frame frame = finish_frame(without_depth(raw), {&single_frame, 1}, 0);
+    Frame frame = finish_frame(without_depth(raw), {&single_frame, 1}, 0, raw.settled.get());
     frame.cleaning.steps.steady = false;
     return frame;
 }

@@ -38,15 +38,17 @@ class FrameAssembly {
     void set_motion(const MotionRequest& wanted) { wanted_ = wanted; }
     [[nodiscard]] const MotionRequest& motion() const { return wanted_; }
 
-    /// Does the cleaning that needs no other frame. Moves the depth into `raw.single_frame`. Any
-    /// thread.
+    /// Does the cleaning that needs no other frame. Moves the depth into `raw.single_frame`. Before
+    /// a fingertip, which takes as long, also `raw.settled`, so that the next frame is cleaned
+    /// while one is dilated. Any thread.
     void clean_frame(RawFrame& raw, const CleaningPlan& plan);
     /// The frame without its depth. Moves the colour out of `raw`.
     [[nodiscard]] Frame without_depth(RawFrame& raw) const;
     /// Adds the depth of frame number `now` of the span, whose frames are in order of time.
+    /// `settled`: of that frame; null, or of another plan: not used.
     [[nodiscard]] Frame finish_frame(const Frame& without_depth,
                                      std::span<const SingleFrameDepth* const> single_frame,
-                                     std::size_t now);
+                                     std::size_t now, const SettledDepth* settled = nullptr);
     /// Cleans a frame completely, without its neighbours in time.
     [[nodiscard]] Frame finish_single_frame(RawFrame raw);
 
@@ -63,8 +65,12 @@ class FrameAssembly {
     [[nodiscard]] const MotionThrottle& throttle() const { return throttle_; }
 
   private:
+    [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,
+                                      std::size_t now, const CleaningPlan& plan);
+
     Now now_;
     std::mutex single_frame_mutex_{};  ///< guards the chain's cleaning of single frames
+    std::mutex settling_mutex_{};      ///< and what follows it
     CleaningChain chain_{};
     CleaningPlan plan_{};
     std::shared_ptr<const TouchMaps> maps_{};

@@ -333,7 +333,8 @@ Frame FrameReader::cleaned(double media_s) {
         frames.reserve(neighbours.frames.size());
         for (const auto& single_frame : neighbours.frames) frames.push_back(single_frame.get());
         Kept& kept = *find(media_s);
-        kept.frame = assembly_.finish_frame(kept.frame, frames, neighbours.now);
+        const auto settled = std::exchange(kept.raw.settled, nullptr);
+        kept.frame = assembly_.finish_frame(kept.frame, frames, neighbours.now, settled.get());
         cost_.finish_ms = 1000.0 * seconds_since(begin);
         cost_.clean_ms += cost_.finish_ms;
         cost_.cleaned = now_();

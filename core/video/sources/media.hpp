@@ -27,7 +27,8 @@ struct RawFrame {
     std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by HeldLevelsMedia
     /// Depth cleaned ahead of time from `depth` and `held`, which then are empty; by DecodedAhead.
     std::shared_ptr<const SingleFrameDepth> single_frame{};
-    double single_frame_ms{0.0};  ///< how long that took
+    std::shared_ptr<const SettledDepth> settled{};  ///< likewise; null: not done
+    double single_frame_ms{0.0};                    ///< how long that took
     ColourImage colour{};
     /// The colour as a video's decoder made it, after Media::share_video(); `colour` is empty then.
     std::shared_ptr<const VideoPicture> video{};

@@ -231,6 +231,33 @@ TEST_CASE("a frame is the same bits whether those before it were passed over or 
     }
 }
 
+TEST_CASE("a fingertip feels the same bits whether a frame was cleaned ahead or not", "[reader]") {
+    const auto preset =
+        GENERATE(CleaningPreset::gentle, CleaningPreset::automatic, CleaningPreset::sensor);
+    const CleaningOptions cleaning{.preset = preset, .finger = {3.0, 80.0}};
+    const CleaningOptions wider{.preset = preset, .finger = {5.0, 80.0}};
+    const std::vector<DepthImage> frames = shaken_frames(24);
+    FrameReader played(std::make_unique<KeyedMedia>(frames));
+    FrameReader sought(std::make_unique<KeyedMedia>(frames));
+    played.set_cleaning(cleaning);
+    sought.set_cleaning(cleaning);
+    REQUIRE(played.at(0.0));
+    for (int k = 1; k < 20; ++k) {
+        CAPTURE(k);
+        if (k == 10) {  // frames that wait may be cleaned for the narrower one
+            played.set_cleaning(wider);
+            sought.set_cleaning(wider);
+        }
+        const auto next = played.after(frame_s(k - 1));
+        const auto alone = sought.at(frame_s(k));
+        REQUIRE(next);
+        REQUIRE(alone);
+        CHECK(next->depth->levels == alone->depth->levels);
+        CHECK(next->undilated->levels == alone->undilated->levels);
+        CHECK(next->cleaning == alone->cleaning);
+    }
+}
+
 TEST_CASE("what is passed over while it plays is not made, and a step is one frame all the same",
           "[reader]") {
     const auto frames = shaken_frames(400);
