@@ -14,7 +14,7 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kMostKept = std::size_t{1} << 20;
+constexpr std::size_t kMostKept = std::size_t{1} << 16;  // half a megabyte, of over a minute
 constexpr int kNameWidth = 14;
 constexpr int kCellWidth = 10;
 

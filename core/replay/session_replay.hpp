@@ -122,7 +122,7 @@ class SessionReplay {
 /// Whether an update gave what was recorded, bit by bit.
 [[nodiscard]] bool same_bits(const Touch& touch, const TickRecord& recorded) noexcept;
 
-/// Any number of samples: beyond a million, only every second, fourth, ... is kept for quantiles.
+/// Any number of samples: beyond 65,536, only every second, fourth, ... is kept for quantiles.
 class Samples {
   public:
     void add(double value);
