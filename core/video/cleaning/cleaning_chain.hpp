@@ -102,6 +102,9 @@ class CleaningChain {
     /// enough). Returns `frame` with its depth and cleaning set.
     [[nodiscard]] Frame finish_frame(std::span<const SingleFrameDepth* const> frames,
                                      std::size_t now, const CleaningPlan& plan, Frame frame = {});
+    /// The same of one frame alone, in its own memory.
+    [[nodiscard]] Frame finish_frame(SingleFrameDepth&& alone, const CleaningPlan& plan,
+                                     Frame frame = {});
 
     /// Both parts for a frame without frames before or after it.
     [[nodiscard]] Frame clean_and_finish(DepthImage image, const CleaningPlan& plan,
@@ -110,6 +113,9 @@ class CleaningChain {
   private:
     [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                               std::size_t now, const DepthNoise& noise);
+    [[nodiscard]] Frame finished(const std::shared_ptr<DepthImage>& made,
+                                 const SingleFrameDepth& of, bool steady, const CleaningPlan& plan,
+                                 Frame frame);
     void densify(DepthImage& image, const ColourImage* colour);
     /// The held levels of pixels that still have no data.
     [[nodiscard]] std::span<const HeldLevel> in_holes(std::span<const HeldLevel> held,

@@ -19,6 +19,7 @@ extern "C" {
 #include <new>
 #include <opencv2/core.hpp>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -79,6 +80,17 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
         require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
 }
 
+/// Each thread holds a picture or more: of large ones fewer than there are processors. 0: one more.
+int threads_for(const AVCodecParameters& coded) {
+    constexpr std::int64_t kLarge = 4'000'000;             // pixels
+    constexpr std::int64_t kMostAtOnce = 4 * 3840 * 2160;  // pixels
+    const std::int64_t pixels = std::int64_t{coded.width} * coded.height;
+    if (pixels <= kLarge) return 0;
+    const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+    return static_cast<int>(
+        std::clamp<std::int64_t>(processors, 2, std::max<std::int64_t>(kMostAtOnce / pixels, 2)));
+}
+
 /// Whether it has the first bytes of MP4 and QuickTime, Matroska, or AVI.
 bool begins_as_video(std::string_view head) {
     return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp") ||
@@ -95,7 +107,7 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packe
     bool opened = decoder_ != nullptr;
     if (opened) {
         opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
-        decoder_->thread_count = 0;  // as many as there are cores
+        decoder_->thread_count = threads_for(*packets_.stream()->codecpar);
         decoder_->max_pixels = kMostPixels;
         opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
     }

@@ -18,7 +18,7 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     SingleFrameDepth single_frame = chain_.clean_frame(std::move(raw.depth), plan, held, colour);
     // By its time: after some jumps the index is an estimate.
     single_frame.number = std::llround(raw.media_s / interval_s_);
-    raw.single_frame = std::make_shared<const SingleFrameDepth>(std::move(single_frame));
+    raw.single_frame = std::make_shared<SingleFrameDepth>(std::move(single_frame));
     raw.single_frame_ms = std::chrono::duration<double, std::milli>(now_() - begin).count();
 }
 
@@ -41,10 +41,15 @@ Frame FrameAssembly::finish_frame(const Frame& without_depth,
     return frame;
 }
 
+Frame FrameAssembly::finish_frame(const Frame& without_depth, SingleFrameDepth&& alone) {
+    Frame frame = chain_.finish_frame(std::move(alone), plan_, without_depth);
+    frame.maps = maps_;
+    return frame;
+}
+
 Frame FrameAssembly::finish_single_frame(RawFrame raw) {
     if (!raw.single_frame) clean_frame(raw, plan_);
-    const SingleFrameDepth* const single_frame = raw.single_frame.get();
-    Frame frame = finish_frame(without_depth(raw), {&single_frame, 1}, 0);
+    Frame frame = finish_frame(without_depth(raw), std::move(*raw.single_frame));
     frame.cleaning.steps.steady = false;
     return frame;
 }

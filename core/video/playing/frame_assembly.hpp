@@ -47,6 +47,8 @@ class FrameAssembly {
     [[nodiscard]] Frame finish_frame(const Frame& without_depth,
                                      std::span<const SingleFrameDepth* const> single_frame,
                                      std::size_t now);
+    /// The same of a frame alone, in its own memory.
+    [[nodiscard]] Frame finish_frame(const Frame& without_depth, SingleFrameDepth&& alone);
     /// Cleans a frame completely, without its neighbours in time.
     [[nodiscard]] Frame finish_single_frame(RawFrame raw);
 

@@ -179,7 +179,7 @@ void Player::Implementation::run() {
     heart.set_idle();
 }
 
-/// Publishes the same window to both readers; frees what the old windows held.
+/// Publishes the same window to both readers; frees at once what the old windows held.
 void Player::Implementation::publish() {
     const FrameWindow window = live.is_open() ? live.window() : playback.window();
     const FrameWindow touchable = live.is_open() ? window : playback.touchable();
@@ -187,6 +187,8 @@ void Player::Implementation::publish() {
     haptics.publish(touchable);
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
+    haptics.back() = {};
+    picture.back() = {};
     publish_status(window, published);
     if (on_frames) on_frames();
 }

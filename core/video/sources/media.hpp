@@ -26,7 +26,7 @@ struct RawFrame {
     DepthImage depth{};
     std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by HeldLevelsMedia
     /// Depth cleaned ahead of time from `depth` and `held`, which then are empty; by DecodedAhead.
-    std::shared_ptr<const SingleFrameDepth> single_frame{};
+    std::shared_ptr<SingleFrameDepth> single_frame{};
     double single_frame_ms{0.0};  ///< how long that took
     ColourImage colour{};
     /// The colour as a video's decoder made it, after Media::share_video(); `colour` is empty then.
