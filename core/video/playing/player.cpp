@@ -217,6 +217,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     status.dropped = playback.dropped_in_words();
     status.cleaning = playback.cleaning_in_words();
     status.steps = playback.steps();
+    status.decoders = playback.description().decoders;
     const FrameCost& cost = playback.cost();
     status.decode_ms = cost.decode_ms + cost.clean_ms;
     status.clean_ms = cost.clean_ms;
@@ -243,6 +244,7 @@ void Player::Implementation::publish_live() {
     status.dropped.clear();
     status.cleaning = live.cleaning_in_words();
     status.steps = live.steps();
+    status.decoders.clear();
     status.decode_ms = status.clean_ms = live.clean_ms();
 }
 
