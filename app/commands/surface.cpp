@@ -134,6 +134,7 @@ int run_surface(CLI::App& app, const Arguments& arguments) {
         ->default_str("0");
     add_shape_options(app, options.touch);
     add_sure_option(app, options.must_be_sure);
+    add_decoder_option(app, options.touch.decoder);
     app.footer(
         "Examples:\n"
         "  dibhr surface color.mp4 depth.mp4 --time 2.5 --out hand.ply\n"

@@ -134,6 +134,7 @@ int run_touch(CLI::App& app, const Arguments& arguments) {
              "FILE");
     add_touch_options(app, options.touch);
     add_sure_option(app, options.must_be_sure);
+    add_decoder_option(app, options.touch.decoder);
     add_in_betweens_option(app, options.touch);
     app.footer(
         "Examples:\n"

@@ -398,6 +398,7 @@ void add_view_options(CLI::App& app, ViewCommand& command) {
     add_surfaces_option(app, options.surfaces);
     add_touch_options(app, options.touch);
     add_sure_option(app, options.must_be_sure);
+    add_decoder_option(app, options.touch.decoder);
     add_in_betweens_option(app, options.touch);
     add_on_off_option(app, "--stability",
                       "on: damps as much as the device needs, and takes out the energy that "

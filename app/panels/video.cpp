@@ -122,6 +122,9 @@ void draw_playback(const ViewerState& state, Transport& player) {
     add_tooltip("Start again at the end", state.keys, Action::toggle_loop);
     fact_row("Time", clock_text(playback.media_s) + " of " + clock_text(playback.duration_s));
     draw_frame(playback);
+    if (!playback.decoders.empty())
+        fact_row("Decoded by", capitalised(clause_by_line(playback.decoders)),
+                 "What decodes the videos: a device, or this machine's processors (--decoder)");
     speed_row(playback.speed, player);
 }
 

@@ -313,6 +313,7 @@ void GivenParameters::fit(const MediaDescription& media, bool raw,
 DepthRequest TouchRequest::depth_request() const {
     DepthRequest request = raw_depth ? DepthRequest{} : usual_depth_request();
     request.command_line = depth;
+    request.decoder = decoder;
     if (raw_depth) {  // raw depth is never cleaned
         request.command_line.cleaning.reset();
         request.command_line.finger_mm.reset();
@@ -401,6 +402,13 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
     return app.add_option_function<std::string>(name, check, help)
         ->type_name(CLI::detail::join(names, "|"))
         ->default_str(names.front());
+}
+
+void add_decoder_option(CLI::App& app, Decoder& decoder) {
+    add_words_option<Decoder>(app, "--decoder",
+                              "What decodes videos: auto (a device of this machine that gives the "
+                              "same pictures), software",
+                              [&decoder](Decoder chosen) { decoder = chosen; });
 }
 
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch) {

@@ -67,6 +67,7 @@ struct TouchRequest {
     std::optional<CleaningPreset> preset{};   ///< --cleaning
     std::optional<double> finger_mm{};        ///< --finger
     std::optional<InBetweens> in_betweens{};  ///< --in-betweens
+    Decoder decoder{Decoder::automatic};      ///< --decoder
     DepthStatement depth{};                   ///< --near, --depth-unit and so on
     std::optional<bool> maps{};               ///< --maps
 
@@ -121,6 +122,9 @@ CLI::Option* add_words_option(CLI::App& app, const std::string& name, const std:
 /// The option of an entry of touch_numbers(): its name, range and default.
 CLI::Option* add_touch_option(CLI::App& app, const TouchNumber& number, const std::string& help,
                               const std::function<void(double)>& take);
+
+/// --decoder auto|software. `decoder` must outlive the parsing of `app`.
+void add_decoder_option(CLI::App& app, Decoder& decoder);
 
 /// --in-betweens auto|on|off. `touch` must outlive the parsing of `app`.
 void add_in_betweens_option(CLI::App& app, TouchRequest& touch);

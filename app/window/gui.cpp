@@ -240,6 +240,7 @@ void Gui::apply(const GuiStyle& gui_style) {
 
 void Gui::begin(std::span<const KeyPress> pressed) {
     ImGui_ImplOpenGL3_NewFrame();
+    ImGui::GetIO().Fonts->ClearTexData();  // OpenGL has its own: 10 MB
     ImGui_ImplGlfw_NewFrame();
 #if IMGUI_VERSION_NUM < 18700
     // This ImGui polls the keys: it would miss a key released again since the last picture.

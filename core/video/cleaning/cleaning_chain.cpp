@@ -214,9 +214,7 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
 
 Frame CleaningChain::clean_and_finish(DepthImage image, const CleaningPlan& plan,
                                       std::span<const HeldLevel> held) {
-    const SingleFrameDepth single_frame = clean_frame(std::move(image), plan, held);
-    const SingleFrameDepth* const frames = &single_frame;
-    return finish_frame({&frames, 1}, 0, plan);
+    return finish_frame(clean_frame(std::move(image), plan, held), plan);
 }
 
 DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* const> frames,
@@ -237,12 +235,22 @@ SettledDepth CleaningChain::settle(std::span<const SingleFrameDepth* const> fram
     const bool steady = plan.steps.steady && frames.size() > 1;
     const std::shared_ptr<DepthImage> made =
         here.depth.levels.size() > kLarge ? std::make_shared<DepthImage>() : made_.take();
-    DepthImage& depth = *made;
     if (steady)
-        depth = filtered_in_time(frames, now, plan.noise);
+        *made = filtered_in_time(frames, now, plan.noise);
     else
-        depth = here.depth;
-    std::vector<std::uint8_t> unseen = here.unseen;
+        *made = here.depth;
+    return smoothed(made, here, steady, plan);
+}
+
+SettledDepth CleaningChain::settle(SingleFrameDepth&& alone, const CleaningPlan& plan) {
+    return smoothed(std::make_shared<DepthImage>(std::move(alone.depth)), alone, false, plan);
+}
+
+/// The steps after the filter in time, of the depth in `made`.
+SettledDepth CleaningChain::smoothed(std::shared_ptr<DepthImage> made, const SingleFrameDepth& of,
+                                     bool steady, const CleaningPlan& plan) {
+    DepthImage& depth = *made;
+    std::vector<std::uint8_t> unseen = of.unseen;
     if (is_touchable(depth)) {
         if (plan.steps.smooth_steps && is_eight_bit(depth))
             steps_.smooth(depth);
@@ -252,7 +260,7 @@ SettledDepth CleaningChain::settle(std::span<const SingleFrameDepth* const> fram
             noise_.smooth(depth, plan.noise, temporal_.evidence());
         else if (plan.steps.smooth_noise)
             noise_.smooth(depth, plan.noise);
-        if (plan.steps.smooth_outlines) outlines_.smooth(depth, here.teeth, unseen);
+        if (plan.steps.smooth_outlines) outlines_.smooth(depth, of.teeth, unseen);
     }
     if (unseen.empty()) return {made, nullptr, plan};
     return {made, std::make_shared<const std::vector<std::uint8_t>>(std::move(unseen)), plan};

@@ -111,6 +111,8 @@ class CleaningChain {
     /// enough).
     [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,
                                       std::size_t now, const CleaningPlan& plan);
+    /// The same of one frame alone, in its own memory.
+    [[nodiscard]] SettledDepth settle(SingleFrameDepth&& alone, const CleaningPlan& plan);
 
     /// Returns `frame` with its depth and cleaning set.
     [[nodiscard]] Frame felt(const SettledDepth& settled, Frame frame = {});
@@ -128,6 +130,9 @@ class CleaningChain {
   private:
     [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                               std::size_t now, const DepthNoise& noise);
+    [[nodiscard]] SettledDepth smoothed(std::shared_ptr<DepthImage> made,
+                                        const SingleFrameDepth& of, bool steady,
+                                        const CleaningPlan& plan);
     void densify(DepthImage& image, const ColourImage* colour);
     /// The held levels of pixels that still have no data.
     [[nodiscard]] std::span<const HeldLevel> in_holes(std::span<const HeldLevel> held,

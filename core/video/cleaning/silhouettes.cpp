@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <new>
 #include <opencv2/core/matx.hpp>
 #include <optional>
 
@@ -297,14 +299,16 @@ void SilhouetteSharpener::sharpen(DepthImage& image, const ColourImage* colour,
 
 /// Clears the marks of the picture before: of its pixels, which are few.
 void SilhouetteSharpener::forget(std::size_t pixels) {
-    if (votes_number_.size() == pixels) {
+    if (sides_.size() == pixels + kReadBeyond) {
         for (const Votes& votes : votes_) {
             votes_number_[votes.pixel] = 0;
             sides_[votes.pixel] = 0;
         }
         for (const std::uint32_t pixel : steep_) sides_[pixel] = 0;
     } else {
-        votes_number_.assign(pixels, 0);
+        votes_number_.reset(
+            static_cast<std::uint32_t*>(std::calloc(pixels, sizeof(std::uint32_t))));
+        if (!votes_number_) throw std::bad_alloc();
         sides_.assign(pixels + kReadBeyond, 0);
     }
     votes_.clear();

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
+#include <memory>
 #include <vector>
 
 #include "core/haptics/depth_image.hpp"
@@ -77,8 +79,12 @@ class SilhouetteSharpener {
     [[nodiscard]] static float within(const DepthImage& image, float recorded,
                                       float level) noexcept;
 
-    std::vector<std::uint32_t> votes_number_{};  ///< place in votes_, from 1; 0: not on a ramp
-    std::vector<std::uint8_t> sides_{};          ///< SideOfPixel of each; kReadBeyond more
+    struct Free {
+        void operator()(void* memory) const noexcept { std::free(memory); }
+    };
+    /// Place in votes_ of each pixel, from 1; 0: not on a ramp. Memory without ramps stays unused.
+    std::unique_ptr<std::uint32_t[], Free> votes_number_{};
+    std::vector<std::uint8_t> sides_{};  ///< SideOfPixel of each; kReadBeyond more
     std::vector<Votes> votes_{};
     std::vector<FoundRamp> ramps_{};
     std::vector<std::uint32_t> steep_{};  ///< pixels that may be on a ramp

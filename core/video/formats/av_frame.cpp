@@ -125,6 +125,46 @@ cv::Mat stretched_bytes(const cv::Mat& levels) {
     return whole;
 }
 
+template <typename Sample>
+void copy_planes(const AVFrame& pairs, AVFrame& planes, int shift) {
+    const auto row_of = [](const AVFrame& frame, std::size_t plane, int row) {
+        return reinterpret_cast<Sample*>(frame.data[plane] +
+                                         std::ptrdiff_t{frame.linesize[plane]} * row);
+    };
+    const auto level = [shift](Sample sample) { return static_cast<Sample>(sample >> shift); };
+    for (int j = 0; j < pairs.height; ++j)
+        std::transform(row_of(pairs, 0, j), row_of(pairs, 0, j) + pairs.width, row_of(planes, 0, j),
+                       level);
+    for (int j = 0; j < (pairs.height + 1) / 2; ++j) {
+        const Sample* const from = row_of(pairs, 1, j);
+        Sample* const blue = row_of(planes, 1, j);
+        Sample* const red = row_of(planes, 2, j);
+        for (int i = 0; i < (pairs.width + 1) / 2; ++i) {
+            blue[i] = level(from[2 * i]);
+            red[i] = level(from[2 * i + 1]);
+        }
+    }
+}
+
+/// A device's picture, whose chroma lies in pairs, in the form in which the processors decode it:
+/// swscale converts other forms to slightly other colours. Null: it is no such picture.
+AvOwned<AVFrame> with_planes(const AVFrame& frame) {
+    const bool is_deep = frame.format == AV_PIX_FMT_P010;
+    if (frame.format != AV_PIX_FMT_NV12 && !is_deep) return nullptr;
+    const bool is_whole = frame.color_range == AVCOL_RANGE_JPEG;
+    AvOwned<AVFrame> planes = new_frame();
+    allocate_buffer(*planes,
+                    is_deep    ? AV_PIX_FMT_YUV420P10
+                    : is_whole ? AV_PIX_FMT_YUVJ420P
+                               : AV_PIX_FMT_YUV420P,
+                    frame.width, frame.height);
+    if (is_deep)
+        copy_planes<std::uint16_t>(frame, *planes, 6);
+    else
+        copy_planes<std::uint8_t>(frame, *planes, 0);
+    return planes;
+}
+
 }  // namespace
 
 std::string name_of_codec(int id) {
@@ -202,7 +242,9 @@ cv::Mat FramePictures::levels(const AVFrame& frame) {
     return levels;
 }
 
-cv::Mat FramePictures::converted(const AVFrame& frame, int pixel_format, int type) {
+cv::Mat FramePictures::converted(const AVFrame& of, int pixel_format, int type) {
+    const AvOwned<AVFrame> unpaired = with_planes(of);
+    const AVFrame& frame = unpaired ? *unpaired : of;
     scaler_.reset(sws_getCachedContext(scaler_.release(), frame.width, frame.height,
                                        static_cast<AVPixelFormat>(frame.format), frame.width,
                                        frame.height, static_cast<AVPixelFormat>(pixel_format),

@@ -23,7 +23,7 @@ class DecodedRing {
   public:
     static constexpr std::size_t kMostPictures = 32;
     static constexpr std::size_t kMostBytes = std::size_t{96} << 20;  ///< seven pictures of 4K
-    static constexpr std::size_t kFewBytes = std::size_t{24} << 20;
+    static constexpr std::size_t kFewBytes = std::size_t{8} << 20;
 
     /// Adds the picture that follows the newest one, and drops the oldest beyond the bounds.
     void add(const AVFrame& frame, double time_s, std::int64_t index);
@@ -48,7 +48,7 @@ class DecodedRing {
   private:
     std::deque<DecodedPicture> pictures_{};
     std::size_t bytes_{0};
-    bool few_{false};
+    bool few_{true};
 };
 
 }  // namespace dibhr

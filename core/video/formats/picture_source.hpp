@@ -61,7 +61,8 @@ struct SourceFacts {
     int bits{8};      ///< of a level: the highest is 2^bits - 1; kRealBits: real numbers
     int channels{3};  ///< 1: grey
     std::string codec{};
-    double start_s{0.0};  ///< by the clock of its file; NaN: not comparable with other files
+    std::string decoder{};  ///< a device, or why it is none; empty: the processors, as usual
+    double start_s{0.0};    ///< by the clock of its file; NaN: not comparable with other files
     double duration_s{0.0};
     double frames_per_s{0.0};
     std::int64_t frames{0};
@@ -103,6 +104,9 @@ class PictureSource {
     virtual void seek_near(double time_s) { seek(time_s); }
     /// From the next picture on those of a colour video may come as its decoder made them.
     virtual void share_video() {}
+    /// From the first picture on a device may decode, where this machine has one, and the picture
+    /// is large enough to gain. Before the first picture is taken.
+    virtual void decode_by_device() {}
     /// Reads at most `most` pictures, so that the facts become exact. For a source that is not read
     /// otherwise.
     virtual void count_frames(std::int64_t /*most*/) {}

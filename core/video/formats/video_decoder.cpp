@@ -19,6 +19,7 @@ extern "C" {
 #include <new>
 #include <opencv2/core.hpp>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -29,7 +30,9 @@ namespace dibhr {
 
 namespace {
 
-constexpr int kMostFailures = 4096;  ///< failed packets in a row that count as the end
+constexpr double kReordered_s = 1.0;  ///< no picture is decoded so much earlier than it is shown
+constexpr int kCompared = 8;          ///< pictures: those of each type are among them
+constexpr int kMostFailures = 4096;   ///< failed packets in a row that count as the end
 
 std::string text_of_tag(std::uint32_t tag) {
     std::string text;
@@ -79,25 +82,37 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
         require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
 }
 
+/// Each thread holds a picture or more: of large ones fewer than there are processors. 0: one more.
+int threads_for(const AVCodecParameters& coded) {
+    constexpr std::int64_t kLarge = 4'000'000;             // pixels
+    constexpr std::int64_t kMostAtOnce = 4 * 3840 * 2160;  // pixels
+    const std::int64_t pixels = std::int64_t{coded.width} * coded.height;
+    if (pixels <= kLarge) return 0;
+    const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
+    return static_cast<int>(
+        std::clamp<std::int64_t>(processors, 2, std::max<std::int64_t>(kMostAtOnce / pixels, 2)));
+}
+
 /// Whether it has the first bytes of MP4 and QuickTime, Matroska, or AVI.
 bool begins_as_video(std::string_view head) {
     return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp") ||
            head.starts_with("\x1a\x45\xdf\xa3") || head.starts_with("RIFF");
 }
 
+bool are_same(const cv::Mat& a, const cv::Mat& b) {
+    return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
 }  // namespace
 
-VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packets_(file, track) {
-    const AVCodec* const codec =
-        packets_.is_open() ? avcodec_find_decoder(packets_.stream()->codecpar->codec_id) : nullptr;
-    if (codec != nullptr) require_plausible_frames(file, *packets_.stream()->codecpar);
-    if (codec != nullptr) decoder_.reset(avcodec_alloc_context3(codec));
-    bool opened = decoder_ != nullptr;
-    if (opened) {
-        opened = avcodec_parameters_to_context(decoder_.get(), packets_.stream()->codecpar) >= 0;
-        decoder_->thread_count = 0;  // as many as there are cores
-        decoder_->max_pixels = kMostPixels;
-        opened = opened && avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track,
+                           std::shared_ptr<DecodingDevice> device)
+    : file_(file), track_(track), packets_(file, track), device_(std::move(device)) {
+    if (packets_.is_open()) require_plausible_frames(file, *packets_.stream()->codecpar);
+    bool opened = open();
+    if (!opened && device_) {
+        device_.reset();
+        opened = open();
     }
     if (!opened)
         throw InputError(shown(file) + " cannot be opened as a video: " +
@@ -109,6 +124,23 @@ VideoDecoder::VideoDecoder(const std::filesystem::path& file, int track) : packe
     marks_non_reference_ = codec_marks_non_reference(*packets_.stream()->codecpar);
 }
 
+/// A new decoder, in the device if there is one. False: there is none for the track.
+bool VideoDecoder::open() {
+    if (!packets_.is_open()) return false;
+    const AVCodecParameters& coded = *packets_.stream()->codecpar;
+    const AVCodec* const codec = avcodec_find_decoder(coded.codec_id);
+    decoder_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
+    if (!decoder_ || avcodec_parameters_to_context(decoder_.get(), &coded) < 0) return false;
+    decoder_->thread_count = device_ ? 1 : threads_for(coded);
+    decoder_->max_pixels = kMostPixels;
+    if (device_) device_->take(*decoder_);
+    return avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
+}
+
+int VideoDecoder::codec_id() const noexcept {
+    return packets_.stream()->codecpar->codec_id;
+}
+
 std::string VideoDecoder::codec() const {
     const AVCodecParameters& coded = *packets_.stream()->codecpar;
     const std::string tag = text_of_tag(coded.codec_tag);
@@ -117,21 +149,51 @@ std::string VideoDecoder::codec() const {
 
 bool VideoDecoder::decode() {
     for (int failures = 0; failures < kMostFailures;) {
-        const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
+        const int given = receive();
+        if (given == 0 && time_s() <= again_to_s_) {
+            update_skipped(time_s());
+            continue;
+        }
         if (given == 0) {
             ++decoded_;
-            update_skipped(time_s());
+            last_s_ = time_s();
+            update_skipped(last_s_);
             return true;
         }
         if (given == AVERROR_EOF || (given == AVERROR(EAGAIN) && drained_)) break;
-        if (given != AVERROR(EAGAIN)) {
+        const bool failed = given != AVERROR(EAGAIN) || !send(next_packet());
+        if (failed && device_)
+            leave_device();
+        else if (failed)
             ++failures;
-            continue;
-        }
-        if (!send(next_packet())) ++failures;
     }
     update_skipped(std::numeric_limits<double>::infinity());
     return false;
+}
+
+/// As avcodec_receive_frame(). In a device a picture with errors is a failure, too.
+int VideoDecoder::receive() {
+    const int given = avcodec_receive_frame(decoder_.get(), frame_.get());
+    if (given != 0 || !device_) return given;
+    AvOwned<AVFrame> fetched =
+        frame_->decode_error_flags == 0 ? device_->fetched(*frame_) : AvOwned<AVFrame>();
+    if (!fetched) return AVERROR_EXTERNAL;
+    frame_ = std::move(fetched);
+    return 0;
+}
+
+/// Goes back to a key frame before the next picture. Throws InputError: the file is gone.
+void VideoDecoder::leave_device() {
+    const double from_s = last_s_ > kNever_s ? last_s_ - kReordered_s : jumped_to_s_;
+    if (!(from_s > kNever_s) || !packets_.jump(from_s)) packets_ = VideoPackets(file_, track_);
+    decoder_.reset();
+    device_.reset();
+    again_to_s_ = last_s_;
+    packets_left_ = most_packets_;
+    may_be_skipped_s_.clear();
+    drained_ = false;
+    if (!open())
+        throw InputError(shown(file_) + " cannot be read any more: copy or record it again");
 }
 
 const AVPacket* VideoDecoder::next_packet() {
@@ -142,7 +204,8 @@ const AVPacket* VideoDecoder::next_packet() {
 
 /// Skipped pictures are identified by their time: only shown pictures with a time may be skipped.
 bool VideoDecoder::may_skip(const AVPacket& packet) const noexcept {
-    return packets_.seconds(packet.pts) < skip_before_s_ &&
+    const double time_s = packets_.seconds(packet.pts);
+    return time_s < skip_before_s_ && time_s > again_to_s_ &&
            (packet.flags & (AV_PKT_FLAG_CORRUPT | AV_PKT_FLAG_DISCARD)) == 0;
 }
 
@@ -164,8 +227,10 @@ void VideoDecoder::update_skipped(double until_s) {
 }
 
 bool VideoDecoder::jump(double time_s, int most_packets) {
-    packets_left_ = most_packets;
     if (!packets_.jump(time_s)) return false;
+    most_packets_ = packets_left_ = most_packets;
+    jumped_to_s_ = time_s;
+    last_s_ = again_to_s_ = kNever_s;
     avcodec_flush_buffers(decoder_.get());
     drained_ = false;
     skip_before_s_ = kNever_s;
@@ -206,6 +271,21 @@ cv::Mat VideoDecoder::levels() {
 
 std::shared_ptr<const VideoPicture> VideoDecoder::shared(double aspect) {
     return sharer_.picture(*frame_, quarter_turns_, aspect);
+}
+
+bool decodes_alike(const std::filesystem::path& file, int track,
+                   const std::shared_ptr<DecodingDevice>& device) {
+    VideoDecoder own(file, track);
+    VideoDecoder in_device(file, track, device);
+    for (int k = 0; k < kCompared; ++k) {
+        const bool given = own.decode();
+        if (in_device.decode() != given || in_device.device() == nullptr) return false;
+        if (!given) break;
+        if (!(own.time_s() == in_device.time_s()) || !are_same(own.levels(), in_device.levels()))
+            return false;
+        if (k == 0 && !are_same(own.colour(), in_device.colour())) return false;
+    }
+    return true;
 }
 
 }  // namespace dibhr

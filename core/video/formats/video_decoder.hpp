@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/av/decoding_device.hpp"
 #include "core/av/objects.hpp"
 #include "core/video/formats/av_frame.hpp"
 #include "core/video/formats/shared_frame.hpp"
@@ -23,12 +24,19 @@ namespace dibhr {
 /// Gives pictures rotated as the file states.
 class VideoDecoder {
   public:
-    /// Decodes nothing yet. Throws InputError: cut off, of an unknown kind, no video.
-    VideoDecoder(const std::filesystem::path& file, int track);
+    /// Decodes nothing yet. With a device decodes in that, until that fails: then this machine's
+    /// processors decode again from the last key frame, and no picture is lost. Throws InputError:
+    /// cut off, of an unknown kind, no video.
+    VideoDecoder(const std::filesystem::path& file, int track,
+                 std::shared_ptr<DecodingDevice> device = nullptr);
 
     [[nodiscard]] const VideoPackets& packets() const noexcept { return packets_; }
     /// The name of the codec: the container's tag, else the usual name.
     [[nodiscard]] std::string codec() const;
+    [[nodiscard]] int codec_id() const noexcept;  ///< an AVCodecID
+
+    /// Null: the processors decode.
+    [[nodiscard]] const DecodingDevice* device() const noexcept { return device_.get(); }
 
     /// The next picture; false at the end. Ignores packets that cannot be decoded.
     bool decode();
@@ -72,18 +80,26 @@ class VideoDecoder {
   private:
     static constexpr double kNever_s = -std::numeric_limits<double>::infinity();
 
+    [[nodiscard]] bool open();
+    int receive();
+    void leave_device();
     [[nodiscard]] bool may_skip(const AVPacket& packet) const noexcept;
     bool send(const AVPacket* packet);
     void update_skipped(double until_s);
     const AVPacket* next_packet();
 
+    std::filesystem::path file_;
+    int track_;
     VideoPackets packets_;
+    std::shared_ptr<DecodingDevice> device_;
     AvOwned<AVCodecContext> decoder_{};
     AvOwned<AVFrame> frame_{new_frame()}, kept_{new_frame()};
     FramePictures pictures_{};
     FrameSharer sharer_{};
-    int quarter_turns_{0};  // clockwise
-    int packets_left_{kAllPackets};
+    int quarter_turns_{0};                             // clockwise
+    double jumped_to_s_{kNever_s}, last_s_{kNever_s};  // the last jump; the last picture since
+    double again_to_s_{kNever_s};                      // pictures up to then were given before
+    int most_packets_{kAllPackets}, packets_left_{kAllPackets};
     bool drained_{false};
     bool marks_non_reference_{false};  // whether the codec marks packets as non-reference
     double skip_before_s_{kNever_s};
@@ -91,5 +107,10 @@ class VideoDecoder {
     std::set<double> may_be_skipped_s_{};  // sent to the decoder, not decoded yet
     std::vector<double> skipped_s_{};
 };
+
+/// Whether the device decodes the first pictures to the levels and times that the processors do,
+/// and the first one to the colours.
+[[nodiscard]] bool decodes_alike(const std::filesystem::path& file, int track,
+                                 const std::shared_ptr<DecodingDevice>& device);
 
 }  // namespace dibhr

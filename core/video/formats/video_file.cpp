@@ -33,10 +33,9 @@ constexpr double kNearAhead_s = 1.0;   ///< up to here decoding forward is as qu
 constexpr double kNearBehind_s = 2.0;  ///< a seek back by less is a step: more may follow
 constexpr double kFewFrames = 3.0;     ///< directly before the wanted frame none is skipped
 constexpr double kAllFrames = 1e9;
-constexpr double kMostSampled = 1e8;  ///< pixels decoded for samples: a third of a second
-constexpr double kLarge = 1e6;        ///< pixels; of larger pictures the key frames are enough
-constexpr double kHalf = 0.5;         ///< of the pictures of an H.264 video may be non-reference
-constexpr double kLongest_s = 1e6;    ///< bounds a seek into a file of unknown length
+constexpr int kSmallPixels = 1280 * 720;  ///< up to here the processors are quick enough
+constexpr double kHalf = 0.5;       ///< of the pictures of an H.264 video may be non-reference
+constexpr double kLongest_s = 1e6;  ///< bounds a seek into a file of unknown length
 
 }  // namespace
 
@@ -73,7 +72,7 @@ void VideoFile::read_live_recording() {
 void VideoFile::reopen() {
     ring_.clear();
     from_ring_ = 0;
-    decoder_ = VideoDecoder(facts_.file, track_);
+    decoder_ = VideoDecoder(facts_.file, track_, device_);
     index_ = -1;
     time_s_ = 0.0;
     grabbed_ = false;
@@ -133,6 +132,7 @@ bool VideoFile::grab() {
     }
     const auto begin = std::chrono::steady_clock::now();
     ended_ = !decoder_.decode();
+    if (device_ && decoder_.device() == nullptr) report_device();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
     if (!jumped_) count_skipped();
     if (ended_) {
@@ -421,82 +421,27 @@ void VideoFile::seek_near(double time_s) {
     ahead_.push_back(taken());
 }
 
-void VideoFile::count_frames(std::int64_t most) {
-    for (std::int64_t read = 0; read < most && grab(); ++read) {
+void VideoFile::decode_by_device() {
+    if (facts_.columns * facts_.rows <= kSmallPixels) return;
+    decode_in(open_decoding_device(decoder_.codec_id()));
+}
+
+void VideoFile::decode_in(std::shared_ptr<DecodingDevice> device) {
+    if (!device) return;
+    facts_.decoder = device->name();
+    if (!decodes_alike(facts_.file, track_, device)) {
+        facts_.decoder = "the processors, as " + facts_.decoder + " cannot decode it to the same";
+        return;
     }
+    device_ = std::move(device);
+    ahead_.clear();
+    reopen();
 }
 
-std::vector<cv::Mat> VideoFile::samples(int most) {
-    std::vector<cv::Mat> pictures;
-    const double pixels = static_cast<double>(facts_.columns) * facts_.rows;
-    const double frames = kMostSampled / pixels;
-    if (!ahead_.empty() && !ahead_.front().video) pictures.push_back(ahead_.front().picture);
-    if (most <= static_cast<int>(pictures.size())) return pictures;
-    if (static_cast<double>(facts_.frames) <= frames)
-        sample_evenly(most, pictures);
-    else if (has_times_)
-        sample_by_jumps(most, static_cast<int>(frames / most), pictures);
-    seek(0.0);
-    return pictures;
-}
-
-cv::Mat VideoFile::first_in_colour() {
-    if (ring_.size() == 0 || ring_.picture(0).index != 0) return {};
-    decoder_.keep();
-    decoder_.show_again(*ring_.picture(0).frame);
-    const cv::Mat picture = decoder_.colour();
-    decoder_.swap_kept();
-    return with_square_pixels(picture, pixel_aspect_, PictureRole::colour);
-}
-
-/// A file without any times has the times that grab() gives: one interval after the other.
-std::vector<double> VideoFile::picture_times_s() const {
-    std::vector<double> times_s = packet_times_s(facts_.file, track_);
-    const auto unknown = std::count_if(times_s.begin(), times_s.end(),
-                                       [](double time_s) { return std::isnan(time_s); });
-    if (std::cmp_equal(unknown, times_s.size())) {
-        for (std::size_t k = 0; k < times_s.size(); ++k)
-            times_s[k] = static_cast<double>(k) * interval_s_;
-    } else if (unknown > 0) {
-        return {};
-    }
-    std::sort(times_s.begin(), times_s.end());
-    if (!times_s.empty()) times_s.front() = std::max(times_s.front(), 0.0);
-    return is_rising(times_s) ? times_s : std::vector<double>{};
-}
-
-void VideoFile::sample_evenly(int most, std::vector<cv::Mat>& pictures) {
-    const std::int64_t step = facts_.frames / most + 1;
-    while (grab())
-        if (index_ % step == 0) pictures.push_back(retrieve());
-}
-
-void VideoFile::sample_by_jumps(int most, int frames_each, std::vector<cv::Mat>& pictures) {
-    std::vector<double> wanted_s;
-    for (int k = 1; k < most; ++k) wanted_s.push_back(facts_.duration_s * k / most);
-    for (std::size_t at = 0; at < wanted_s.size(); ++at) {
-        if (!grab_sample(wanted_s, at, frames_each)) break;
-        if (!ended_) pictures.push_back(retrieve());
-    }
-}
-
-/// False where the file cannot jump.
-bool VideoFile::grab_sample(const std::vector<double>& wanted_s, std::size_t at, int frames_each) {
-    // Where key frames are far apart, decode on instead of decoding the same key frame again.
-    const auto key_s = decoder_.packets().key_frame_s(wanted_s[at]);
-    const bool jumps = !key_s || *key_s > time_s_;
-    const bool is_large = static_cast<double>(facts_.columns) * facts_.rows > kLarge;
-    const bool goes_on =
-        at + 1 < wanted_s.size() && decoder_.packets().key_frame_s(wanted_s[at + 1]) == key_s;
-    if (jumps && is_large && !goes_on) {
-        if (!jump(wanted_s[at], 1)) return false;
-        if (grab()) return true;
-    }
-    if (jumps && !jump(wanted_s[at])) return false;
-    const int frames = jumps && is_large ? 0 : frames_each;
-    for (int n = 0; n <= frames && grab(); ++n) {
-    }
-    return true;
+void VideoFile::report_device() {
+    facts_.decoder =
+        "the processors, as " + device_->name() + " failed at " + number_text(time_s_, 1) + " s";
+    device_.reset();
 }
 
 }  // namespace dibhr

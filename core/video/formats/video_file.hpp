@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <deque>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,9 @@ class VideoFile : public PictureSource {
     void seek(double time_s) override;
     void seek_near(double time_s) override;
     void share_video() override;
+    void decode_by_device() override;
+    /// From the first picture on decodes in that device, if it gives the same pictures; null: none.
+    void decode_in(std::shared_ptr<DecodingDevice> device);
     /// How many pictures were decoded since the file was opened last.
     [[nodiscard]] std::int64_t decoded() const noexcept { return decoder_.decoded(); }
 
@@ -52,6 +56,7 @@ class VideoFile : public PictureSource {
     void read_azure_kinect();
     void read_live_recording();
     void detect_early_end();
+    void report_device();
     bool grab();         ///< decodes one frame: its time and index; false at the end
     cv::Mat retrieve();  ///< the picture of the grabbed frame
     [[nodiscard]] TimedPicture timed(cv::Mat picture) const;  ///< of the grabbed frame
@@ -78,6 +83,7 @@ class VideoFile : public PictureSource {
     bool shares_video_{false};
     bool keeps_levels_{false};  ///< levels have fewer bits than the file; do not scale them
     VideoDecoder decoder_;
+    std::shared_ptr<DecodingDevice> device_{};  ///< null: the processors decode
     double pixel_aspect_{1.0};
     DecodedRing ring_{};        ///< up to the frame that was decoded last
     std::size_t played_{0};     ///< pictures decoded one after the other since the last seek

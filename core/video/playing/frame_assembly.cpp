@@ -18,7 +18,7 @@ void FrameAssembly::clean_frame(RawFrame& raw, const CleaningPlan& plan) {
     SingleFrameDepth single_frame = chain_.clean_frame(std::move(raw.depth), plan, held, colour);
     // By its time: after some jumps the index is an estimate.
     single_frame.number = std::llround(raw.media_s / interval_s_);
-    raw.single_frame = std::make_shared<const SingleFrameDepth>(std::move(single_frame));
+    raw.single_frame = std::make_shared<SingleFrameDepth>(std::move(single_frame));
     if (plan.finger.radius_px > 0.0 && !plan.steps.steady) {
         const SingleFrameDepth* const alone = raw.single_frame.get();
         raw.settled = std::make_shared<const SettledDepth>(settle({&alone, 1}, 0, plan));
@@ -47,16 +47,25 @@ Frame FrameAssembly::finish_frame(const Frame& without_depth,
                                   std::span<const SingleFrameDepth* const> single_frame,
                                   std::size_t now, const SettledDepth* settled) {
     const bool is_settled = settled != nullptr && settled->plan == plan_;
-    Frame frame =
-        chain_.felt(is_settled ? *settled : settle(single_frame, now, plan_), without_depth);
+    return felt(is_settled ? *settled : settle(single_frame, now, plan_), without_depth);
+}
+
+Frame FrameAssembly::finish_frame(const Frame& without_depth, SingleFrameDepth&& alone) {
+    const std::lock_guard lock(settling_mutex_);
+    const SettledDepth settled = chain_.settle(std::move(alone), plan_);
+    return felt(settled, without_depth);
+}
+
+Frame FrameAssembly::felt(const SettledDepth& settled, const Frame& without_depth) {
+    Frame frame = chain_.felt(settled, without_depth);
     frame.maps = maps_;
     return frame;
 }
 
 Frame FrameAssembly::finish_single_frame(RawFrame raw) {
     if (!raw.single_frame) clean_frame(raw, plan_);
-    const SingleFrameDepth* const single_frame = raw.single_frame.get();
-    Frame frame = finish_frame(without_depth(raw), {&single_frame, 1}, 0, raw.settled.get());
+    Frame frame = raw.settled ? felt(*raw.settled, without_depth(raw))
+                              : finish_frame(without_depth(raw), std::move(*raw.single_frame));
     frame.cleaning.steps.steady = false;
     return frame;
 }

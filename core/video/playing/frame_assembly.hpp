@@ -49,6 +49,8 @@ class FrameAssembly {
     [[nodiscard]] Frame finish_frame(const Frame& without_depth,
                                      std::span<const SingleFrameDepth* const> single_frame,
                                      std::size_t now, const SettledDepth* settled = nullptr);
+    /// The same of a frame alone, in its own memory.
+    [[nodiscard]] Frame finish_frame(const Frame& without_depth, SingleFrameDepth&& alone);
     /// Cleans a frame completely, without its neighbours in time.
     [[nodiscard]] Frame finish_single_frame(RawFrame raw);
 
@@ -67,6 +69,7 @@ class FrameAssembly {
   private:
     [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,
                                       std::size_t now, const CleaningPlan& plan);
+    [[nodiscard]] Frame felt(const SettledDepth& settled, const Frame& without_depth);
 
     Now now_;
     std::mutex single_frame_mutex_{};  ///< guards the chain's cleaning of single frames

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdlib>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -20,10 +19,6 @@ namespace dibhr {
 
 namespace {
 
-constexpr std::size_t kMostKept = 48;
-constexpr std::size_t kMostBytes = std::size_t{48} << 20;  ///< beside what cleaning needs
-/// Frames read at once to step back: all that clean the frame before.
-constexpr auto kMostReadBack = static_cast<double>(kReachInTime + 1);
 /// Farther frames do not clean this one: all that could at 30 frames/s are nearer.
 constexpr double kReach_s = 0.55;
 constexpr double kUnknownInterval_s = 1.0 / 25.0;
@@ -38,21 +33,9 @@ double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
 
-/// About as many frames as fit into memory beside the wanted one and the next.
-double frames_read_back(const MediaDescription& description) {
-    const double depth = 1.0 * description.depth_columns * description.depth_rows;
-    const double colour = 1.0 * description.colour_columns * description.colour_rows;
-    const double bytes = depth * sizeof(float) + 3.0 * colour;
-    return std::clamp(std::floor(kMostBytes / bytes) - 2.0, 1.0, kMostReadBack);
-}
-
 std::unique_ptr<Media> with_shared_video(std::unique_ptr<Media> media) {
     media->share_video();
     return media;
-}
-
-std::size_t bytes_of(const DepthImage& depth) {
-    return depth.levels.size() * sizeof(float);
 }
 
 }  // namespace
@@ -70,23 +53,6 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
 
 double FrameReader::seconds_since(std::chrono::steady_clock::time_point begin) const {
     return std::chrono::duration<double>(now_() - begin).count();
-}
-
-std::size_t FrameReader::Kept::bytes() const {
-    std::size_t bytes = frame.colour_bytes();
-    bytes += bytes_of(raw.depth) + raw.held.size() * sizeof(HeldLevel);
-    if (const SingleFrameDepth* single_frame = raw.single_frame.get(); single_frame != nullptr)
-        bytes += bytes_of(single_frame->depth) + single_frame->filled.size() +
-                 single_frame->unseen.size();
-    if (frame.depth) bytes += bytes_of(*frame.depth);
-    if (frame.undilated) bytes += bytes_of(*frame.undilated);
-    return bytes;
-}
-
-void FrameReader::Kept::forget_cleaned() {
-    frame.depth.reset();
-    frame.unseen.reset();
-    frame.undilated.reset();
 }
 
 FrameReader::Kept* FrameReader::find(double media_s) {
@@ -165,43 +131,6 @@ std::size_t FrameReader::reach() const {
     if (!plan().steps.steady) return 0;
     // Farther frames of large pictures need more memory than most machines have.
     return plan().noise.per_frame_scale || is_large() ? kNearInTime : kReachInTime;
-}
-
-/// Makes room for one more frame. Keeps all that the wanted frame and the next one depend on. Of
-/// other cleaned frames keeps only the result; removes frames farthest from the wanted one first.
-void FrameReader::evict() {
-    const auto stays = static_cast<std::ptrdiff_t>(reach() + 1);
-    // Of large pictures fewer: another cleaning reads them again.
-    const auto raw_stays = is_large() ? stays - 1 : stays;
-    const auto wanted = kept_.lower_bound(wanted_s_);
-    auto before = std::distance(kept_.begin(), wanted);
-    auto after = std::distance(wanted, kept_.end());
-    std::ptrdiff_t away = -before;
-    std::size_t bytes = 0;
-    for (auto& [media_s, kept] : kept_) {
-        if (kept.is_cleaned() && std::abs(away) > raw_stays) kept.raw = {};
-        ++away;
-        bytes += kept.bytes();
-    }
-    while (bytes > kMostBytes || kept_.size() > kMostKept) {
-        const double before_s = before > stays ? wanted_s_ - kept_.begin()->first : 0.0;
-        const double after_s = after > stays + 1 ? kept_.rbegin()->first - wanted_s_ : 0.0;
-        if (!(std::max(before_s, after_s) > 0.0)) break;
-        const auto farthest = before_s > after_s ? kept_.begin() : std::prev(kept_.end());
-        (before_s > after_s ? before : after) -= 1;
-        bytes -= farthest->second.bytes();
-        kept_.erase(farthest);
-    }
-    // Of earlier frames than the one before only the raw depth is needed, to clean others.
-    for (auto at = kept_.begin(); at != wanted && std::next(at) != wanted; ++at) {
-        if (bytes <= kMostBytes) return;
-        Kept& kept = at->second;
-        bytes -= kept.bytes();
-        kept.frame.colour.reset();
-        kept.frame.video.reset();
-        kept.forget_cleaned();
-        bytes += kept.bytes();
-    }
 }
 
 void FrameReader::jump_to(double media_s) {
@@ -292,7 +221,7 @@ void FrameReader::make_plan() {
     media_.prepare_with([this, plan](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
 }
 
-const std::shared_ptr<const SingleFrameDepth>& FrameReader::single_frame_of(Kept& kept) {
+std::shared_ptr<const SingleFrameDepth> FrameReader::single_frame_of(Kept& kept) {
     if (!kept.raw.single_frame) assembly_.clean_frame(kept.raw, plan());
     cost_.clean_ms += std::exchange(kept.raw.single_frame_ms, 0.0);
     return kept.raw.single_frame;
@@ -334,7 +263,13 @@ Frame FrameReader::cleaned(double media_s) {
         for (const auto& single_frame : neighbours.frames) frames.push_back(single_frame.get());
         Kept& kept = *find(media_s);
         const auto settled = std::exchange(kept.raw.settled, nullptr);
-        kept.frame = assembly_.finish_frame(kept.frame, frames, neighbours.now, settled.get());
+        // Of large pictures nothing is kept twice: another cleaning reads them again.
+        const bool once = is_large() && !plan().steps.steady;
+        RawFrame spent = once ? std::exchange(kept.raw, {}) : RawFrame{};
+        kept.frame =
+            once && !settled
+                ? assembly_.finish_frame(kept.frame, std::move(*spent.single_frame))
+                : assembly_.finish_frame(kept.frame, frames, neighbours.now, settled.get());
         cost_.finish_ms = 1000.0 * seconds_since(begin);
         cost_.clean_ms += cost_.finish_ms;
         cost_.cleaned = now_();
@@ -392,8 +327,7 @@ FrameReader::Kept* FrameReader::previous_of(double media_s, Needs needs) {
         Kept* previous = here->previous_s ? find(*here->previous_s) : nullptr;
         if (previous != nullptr && previous->has(needs)) return previous;
     }
-    const double frames =
-        std::max(frames_read_back(description()), static_cast<double>(reach() + 1));
+    const double frames = std::max(frames_read_back(), static_cast<double>(reach() + 1));
     double back_s = frames * interval_s(description());
     for (;; back_s *= 2.0) {
         const double from_s = std::max(0.0, media_s - back_s);

@@ -154,7 +154,7 @@ class FrameReader {
     Kept* read(const Pace& pace = {});
     void update_timing(const RawFrame& raw, std::int64_t frames, double waited_s);
     Kept* keep(RawFrame raw);
-    const std::shared_ptr<const SingleFrameDepth>& single_frame_of(Kept& kept);
+    std::shared_ptr<const SingleFrameDepth> single_frame_of(Kept& kept);
     Kept* kept_after(const Kept& kept, Needs needs);
     Kept* next_of(double media_s, Needs needs);  ///< after the one at exactly media_s; null: end
     Kept* neighbour_after(double media_s);
@@ -166,6 +166,7 @@ class FrameReader {
     const Kept* next_wanted(double media_s, const Pace& pace);
     void prefetch_after_kept(double media_s);
     void evict();
+    [[nodiscard]] double frames_read_back() const;
     [[nodiscard]] std::size_t reach() const;
     [[nodiscard]] bool is_large() const {
         return description().depth_pixels() > kMostPixelsForSensor;

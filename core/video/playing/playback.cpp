@@ -19,7 +19,8 @@ constexpr double kNewestWeight = 0.2;  ///< the weight of the newest frame in th
 constexpr std::chrono::seconds kShownFor{3};  ///< so long the status says that the clock waited
 constexpr double kMostBehind_s = 1.0;         ///< beyond this the clock waits
 constexpr double kLeastLoad = 0.4, kMostLoad = 2.0;
-constexpr unsigned kFewProcessors = 2;  ///< none is free beside drawing in software
+constexpr std::size_t kLarge = 4'000'000;  ///< pixels
+constexpr unsigned kFewProcessors = 2;     ///< none is free beside drawing in software
 
 }  // namespace
 
@@ -264,7 +265,10 @@ bool Playback::advance(Time now) {
 
 bool Playback::needs_frame() const {
     if (!is_open()) return false;
-    return seek_target_s_ || (!complete_ && frames_.size() < FrameWindow::kFrames);
+    // Of large pictures the shown frame, the next one, and one that is ready.
+    const bool large = description().depth_pixels() > kLarge;
+    const std::size_t most = large ? FrameWindow::kFrames - 1 : FrameWindow::kFrames;
+    return seek_target_s_ || (!complete_ && frames_.size() < most);
 }
 
 bool Playback::read_ahead(Time now) {

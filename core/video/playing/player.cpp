@@ -179,7 +179,7 @@ void Player::Implementation::run() {
     heart.set_idle();
 }
 
-/// Publishes the same window to both readers; frees what the old windows held.
+/// Publishes the same window to both readers; frees at once what the old windows held.
 void Player::Implementation::publish() {
     const FrameWindow window = live.is_open() ? live.window() : playback.window();
     const FrameWindow touchable = live.is_open() ? window : playback.touchable();
@@ -187,6 +187,8 @@ void Player::Implementation::publish() {
     haptics.publish(touchable);
     const Time published = std::chrono::steady_clock::now();
     picture.publish(window);
+    haptics.back() = {};
+    picture.back() = {};
     publish_status(window, published);
     if (on_frames) on_frames();
 }
@@ -215,6 +217,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     status.dropped = playback.dropped_in_words();
     status.cleaning = playback.cleaning_in_words();
     status.steps = playback.steps();
+    status.decoders = playback.description().decoders;
     const FrameCost& cost = playback.cost();
     status.decode_ms = cost.decode_ms + cost.clean_ms;
     status.clean_ms = cost.clean_ms;
@@ -241,6 +244,7 @@ void Player::Implementation::publish_live() {
     status.dropped.clear();
     status.cleaning = live.cleaning_in_words();
     status.steps = live.steps();
+    status.decoders.clear();
     status.decode_ms = status.clean_ms = live.clean_ms();
 }
 

@@ -39,6 +39,7 @@ struct PlaybackStatus {
     double clean_ms{0.0};
     double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it
     std::string cleaning{};            ///< the cleaning as a sentence
+    std::string decoders{};            ///< MediaDescription::decoders
     CleaningSteps steps{};             ///< the same as steps, none of them left out
     std::optional<LiveStatus> live{};  ///< nothing: read from files
     std::string failure{};  ///< a sentence when a read failed or the file is shorter; else empty

@@ -271,8 +271,10 @@ std::unique_ptr<Media> open_media(const fs::path& colour, const fs::path& depth,
     return opened(asked, [&](const DepthRequest& request, const std::string& notice) {
         const DepthStatement statement =
             statement_for(depth_of_pair(colour, depth), colour, request);
-        return media_of(sources_of(colour, depth, statement, request), statement, request, true,
-                        notice);
+        auto media = media_of(sources_of(colour, depth, statement, request), statement, request,
+                              true, notice);
+        if (request.decoder == Decoder::automatic) media->decode_by_device();
+        return media;
     });
 }
 
@@ -282,7 +284,9 @@ std::unique_ptr<Media> open_depth(const fs::path& place, const DepthRequest& ask
         const DepthStatement statement = statement_for(depth, place, request);
         Sources sources = sources_of({}, place, statement, request);
         sources.colour.reset();
-        return media_of(std::move(sources), statement, request, false, notice);
+        auto media = media_of(std::move(sources), statement, request, false, notice);
+        if (request.decoder == Decoder::automatic) media->decode_by_device();
+        return media;
     });
 }
 

@@ -1,6 +1,7 @@
 // Opens a colour and a depth video or image, and pairs their frames by presentation time.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/haptics/enum_names.hpp"
 #include "core/video/cleaning/depth_noise.hpp"
 #include "core/video/cleaning/holes/depth_memory.hpp"
 #include "core/video/cleaning/single_frame_depth.hpp"
@@ -26,7 +28,7 @@ struct RawFrame {
     DepthImage depth{};
     std::vector<HeldLevel> held{};  ///< last levels of pixels without data; by HeldLevelsMedia
     /// Depth cleaned ahead of time from `depth` and `held`, which then are empty; by DecodedAhead.
-    std::shared_ptr<const SingleFrameDepth> single_frame{};
+    std::shared_ptr<SingleFrameDepth> single_frame{};
     std::shared_ptr<const SettledDepth> settled{};  ///< likewise; null: not done
     double single_frame_ms{0.0};                    ///< how long that took
     ColourImage colour{};
@@ -46,6 +48,17 @@ class DepthMissing : public InputError {
     using InputError::InputError;
 };
 
+/// What decodes videos: a device where that gives the same pictures, or always the processors.
+enum class Decoder : std::uint8_t { automatic, software };
+
+inline constexpr std::array<NamedValue<Decoder>, 2> kDecoderNames{
+    {{Decoder::automatic, "auto", "Auto"}, {Decoder::software, "software", "Software"}}};
+static_assert(has_all_in_order(kDecoderNames, Decoder::software));
+
+[[nodiscard]] constexpr const auto& name_table(Decoder) noexcept {
+    return kDecoderNames;
+}
+
 /// The statements on depth that come with a request to open.
 struct DepthRequest {
     /// Open facts are read from sidecars and the files' metadata, else guessed from their content.
@@ -60,6 +73,7 @@ struct DepthRequest {
     DepthStatement recorded{};   ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
     std::shared_ptr<LiveFeed> live{};
+    Decoder decoder{Decoder::automatic};
     bool paints{true};  ///< depth alone is shown in colours of its own
 };
 
@@ -76,6 +90,7 @@ struct MediaDescription {
     int colour_columns{0}, colour_rows{0};
     int depth_columns{0}, depth_rows{0};
     std::string colour_codec{}, depth_codec{};
+    std::string decoders{};   ///< devices that decode, or why they do not; empty: the processors
     int depth_bits{8};        ///< of a level; 32: real numbers
     int levels_used{0};       ///< different levels in the sample pictures (`dibhr info`)
     double holes_share{0.0};  ///< share of their pixels without data, in [0, 1] (`dibhr info`)

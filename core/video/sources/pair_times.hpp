@@ -49,6 +49,7 @@ class RetimedPictures : public PictureSource {
     void seek(double time_s) override;
     void seek_near(double time_s) override;
     void share_video() override { source_->share_video(); }
+    void decode_by_device() override { source_->decode_by_device(); }
     void count_frames(std::int64_t most) override;
     std::vector<cv::Mat> samples(int most) override { return source_->samples(most); }
     [[nodiscard]] std::vector<double> picture_times_s() const override;

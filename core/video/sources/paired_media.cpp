@@ -167,6 +167,7 @@ std::optional<RawFrame> PairedMedia::next_from(double earliest_s) {
 std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken) {
     describe_time(depth_->facts(), description_);
     report_trouble(depth_->facts());
+    report_decoders();
     if (!taken) return std::nullopt;
     keep_size(taken->picture);
     RawFrame frame;
@@ -300,6 +301,23 @@ void PairedMedia::apply_true_shape(RawFrame& frame, const cv::Mat& colour) {
 /// Where nothing moves or resamples the colour.
 void PairedMedia::share_video() {
     if (colour_ && !cameras_ && !shape_ && registration_ == Registration{}) colour_->share_video();
+}
+
+void PairedMedia::decode_by_device() {
+    depth_->decode_by_device();
+    if (colour_) colour_->decode_by_device();
+    report_decoders();
+}
+
+void PairedMedia::report_decoders() {
+    const auto words = [](const std::string& decoder) {
+        return decoder.empty() ? std::string("the processors") : decoder;
+    };
+    const std::string& depth = depth_->facts().decoder;
+    const std::string& colour = colour_ ? colour_->facts().decoder : depth;
+    if (depth.empty() && colour.empty()) return;
+    description_.decoders =
+        depth == colour ? depth : "colour by " + words(colour) + "; depth by " + words(depth);
 }
 
 void PairedMedia::seek(double media_s) {

@@ -30,6 +30,7 @@ class ColourTrack {
 
     [[nodiscard]] const SourceFacts& facts() const { return source_->facts(); }
     void share_video() { source_->share_video(); }
+    void decode_by_device() { source_->decode_by_device(); }
     void forget() { placed_ = is_near_ = false; }
     /// Goes to a picture near the depth's time that is quick to decode; returns its own time in
     /// that of the depth. If another picture is nearer to the next depth frame, that one is read.
@@ -70,6 +71,9 @@ class PairedMedia : public Media {
     /// Reads at most `most` more frames of depth, so that the description becomes exact.
     void count_frames(std::int64_t most);
 
+    /// Before the first frame is taken: devices may decode it, and the description says which.
+    void decode_by_device();
+
     /// Adds a sentence to the description's notice, once.
     void add_notice(const std::string& sentence);
     /// Stored in the description; the notice says what becomes of the pixels that are not seen.
@@ -92,6 +96,7 @@ class PairedMedia : public Media {
     [[nodiscard]] cv::Mat in_mm(const DepthImage& depth) const;
     void apply_true_shape(RawFrame& frame, const cv::Mat& colour);
     void report_trouble(const SourceFacts& facts);
+    void report_decoders();
     void keep_size(cv::Mat& picture) const;
 
     std::unique_ptr<PictureSource> depth_;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <random>
+#include <utility>
 
 #include "tests/support/catch.hpp"
 
@@ -93,6 +94,20 @@ TEST_CASE("the same image always gives the same bits", "[cleaning]") {
     (void)used.clean_and_finish(hostile(3), plan);
     CHECK(used.clean_and_finish(image, plan).depth->levels ==
           CleaningChain().clean_and_finish(image, plan).depth->levels);
+}
+
+TEST_CASE("a frame finished in its own memory has the bits of one that is copied", "[cleaning]") {
+    const CleaningSteps steps = GENERATE(kRawSteps, kGentleSteps, kSensorSteps);
+    const CleaningPlan plan{steps, {}, {.constant = 0.01F}};
+    CleaningChain chain;
+    const SingleFrameDepth cleaned = chain.clean_frame(hostile(3), plan);
+    const SingleFrameDepth* const frames = &cleaned;
+    const Frame copied = chain.finish_frame({&frames, 1}, 0, plan);
+    SingleFrameDepth alone = cleaned;
+    const Frame own = chain.finish_frame(std::move(alone), plan);
+    CHECK(own.depth->levels == copied.depth->levels);
+    CHECK((own.unseen == nullptr) == (copied.unseen == nullptr));
+    CHECK((own.unseen == nullptr || *own.unseen == *copied.unseen));
 }
 
 TEST_CASE("smoothing keeps every pixel within half a level, in range, and the farthest farthest",
