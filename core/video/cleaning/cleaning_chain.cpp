@@ -214,7 +214,7 @@ SingleFrameDepth CleaningChain::clean_frame(DepthImage image, const CleaningPlan
 
 Frame CleaningChain::clean_and_finish(DepthImage image, const CleaningPlan& plan,
                                       std::span<const HeldLevel> held) {
-    return finish_frame(clean_frame(std::move(image), plan, held), plan);
+    return felt(settle(clean_frame(std::move(image), plan, held), plan));
 }
 
 DepthImage CleaningChain::filtered_in_time(std::span<const SingleFrameDepth* const> frames,

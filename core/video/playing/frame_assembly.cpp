@@ -64,8 +64,9 @@ Frame FrameAssembly::felt(const SettledDepth& settled, const Frame& without_dept
 
 Frame FrameAssembly::finish_single_frame(RawFrame raw) {
     if (!raw.single_frame) clean_frame(raw, plan_);
-    Frame frame = raw.settled ? felt(*raw.settled, without_depth(raw))
-                              : finish_frame(without_depth(raw), std::move(*raw.single_frame));
+    const bool is_settled = raw.settled && raw.settled->plan == plan_;
+    Frame frame = is_settled ? felt(*raw.settled, without_depth(raw))
+                             : finish_frame(without_depth(raw), std::move(*raw.single_frame));
     frame.cleaning.steps.steady = false;
     return frame;
 }

@@ -104,7 +104,7 @@ TEST_CASE("a frame finished in its own memory has the bits of one that is copied
     const SingleFrameDepth* const frames = &cleaned;
     const Frame copied = chain.finish_frame({&frames, 1}, 0, plan);
     SingleFrameDepth alone = cleaned;
-    const Frame own = chain.finish_frame(std::move(alone), plan);
+    const Frame own = chain.felt(chain.settle(std::move(alone), plan));
     CHECK(own.depth->levels == copied.depth->levels);
     CHECK((own.unseen == nullptr) == (copied.unseen == nullptr));
     CHECK((own.unseen == nullptr || *own.unseen == *copied.unseen));
