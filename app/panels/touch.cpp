@@ -163,6 +163,14 @@ void draw_sound(ViewerState& state) {
     add_tooltip("Touch makes no sound", state.keys, Action::toggle_sound);
 }
 
+/// Not in a replay, which has no sound rows either.
+void draw_speech(ViewerState& state) {
+    if (state.touch.replay) return;
+    flag_row("Speak", state.settings.speak, Settings{}.speak,
+             "What is touched, messages and captions are spoken, through speech-dispatcher "
+             "(--speak)");
+}
+
 std::string pads_text(const PadInfo& pads, bool coils_move) {
     if (pads.state == PadInfo::State::no_session)
         return "not looked for: no desktop session has been started";
@@ -206,9 +214,7 @@ void draw_touch_panel(ViewerState& state) {
         draw_dimmed("Roughness needs a bump map to be felt.");
     draw_outlines_row(state);
     draw_sound(state);
-    flag_row("Speak", state.settings.speak, Settings{}.speak,
-             "What is touched, messages and captions are spoken, through speech-dispatcher "
-             "(--speak)");
+    draw_speech(state);
     draw_game_pad(state);
     const std::string others = "Where the proxies of the other algorithms are, for the same goal" +
                                state.keys.in_brackets(Action::toggle_others);
