@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer/map_stroke.hpp"
-#include "app/viewer/paint_tint.hpp"
+#include "app/viewer/painting/map_stroke.hpp"
+#include "app/viewer/painting/paint_tint.hpp"
 #include "core/video/sources/touch_map_files.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/desk.hpp"

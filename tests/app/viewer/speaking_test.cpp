@@ -1,5 +1,5 @@
 // What the window says, written down by a stand-in of speech-dispatcher's library.
-#include "app/viewer/speaking.hpp"
+#include "app/viewer/guide/speaking.hpp"
 
 #include <algorithm>
 #include <string>

@@ -1,5 +1,5 @@
 // A stroke is a row of dabs; each dab changes the pixels under it.
-#include "app/viewer/map_stroke.hpp"
+#include "app/viewer/painting/map_stroke.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Chooses what is said of what has changed.
-#include "app/viewer/speaking.hpp"
+#include "app/viewer/guide/speaking.hpp"
 
 #include <array>
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "app/panels/viewer_state.hpp"
-#include "app/viewer/painting.hpp"
+#include "app/viewer/painting/painting.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/guide/captions.hpp"

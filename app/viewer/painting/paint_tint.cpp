@@ -1,5 +1,5 @@
 // Shows in colour what the brush has painted.
-#include "app/viewer/paint_tint.hpp"
+#include "app/viewer/painting/paint_tint.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Looks up the region under the proxy, and changes the ridges with the label pictures.
-#include "app/viewer/guide.hpp"
+#include "app/viewer/guide/guide.hpp"
 
 #include <exception>
 #include <glm/geometric.hpp>

@@ -12,8 +12,8 @@
 
 #include "app/panels/viewer_state.hpp"
 #include "app/touching/recording.hpp"
-#include "app/viewer/map_stroke.hpp"
-#include "app/viewer/paint_tint.hpp"
+#include "app/viewer/painting/map_stroke.hpp"
+#include "app/viewer/painting/paint_tint.hpp"
 #include "app/viewer/task_group.hpp"
 #include "core/video/playing/player.hpp"
 

@@ -1,5 +1,5 @@
 // Strokes, undo and redo, and passing the maps to player, files and recording.
-#include "app/viewer/painting.hpp"
+#include "app/viewer/painting/painting.hpp"
 
 #include <algorithm>
 #include <chrono>
