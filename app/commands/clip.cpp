@@ -246,6 +246,7 @@ int run_clip(CLI::App& app, const Arguments& arguments) {
         throw UsageError("--end " + short_text(*options.end_s) + " is not after --start " +
                          short_text(options.start_s) + ": give a later one");
     if (options.size) options.look.size_px = {options.size->first, options.size->second};
+    if (options.touch.given.material) options.look.surface = options.touch.given.material->look;
     print_warning(roughness_warning(options.touch.given, !options.touch.given.bump_file().empty()));
     return make_clip(options);
 }

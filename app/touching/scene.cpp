@@ -77,7 +77,6 @@ SceneContent scene_content(const Settings& settings, const TouchState& touch,
     content.shape = touch.shape(settings.touch);
     content.bump = touch.bump.get();
     content.relief_style = settings.relief_style;
-    content.look = touch.material.look;
     content.light_wall = settings.theme == Theme::light;
     if (!shown.makes_surface()) return content;
     content.depth = shown.with_in_betweens();

@@ -103,6 +103,7 @@ DepthBlend SessionMotion::shown() const {
 
 ClipPainter::ClipPainter(const ClipLook& look, int columns, int rows, double relief_px)
     : size_px_(look.size_px),
+      surface_(look.surface),
       settings_{.theme = look.theme},
       window_({kSmallestWindow, kSmallestWindow}, false, "dibhr", Window::Shown::never) {
     camera_.set_projection(look.straight ? Camera::Projection::straight
@@ -117,6 +118,7 @@ ColourImage ClipPainter::picture(const ClipMotion& motion, double shown_s) {
     const DepthBlend shown = motion.shown();
     const TouchState& touch = motion.touch();
     SceneContent content = scene_content(settings_, touch, shown);
+    content.look = surface_;
     if (shown.makes_surface())
         trace_.mark(shown.drawn_surface(content.shape, content.bump), shown_s, content.markers);
     ColourImage picture = scene_.capture(content, camera_, size_px_);

@@ -100,6 +100,7 @@ struct ClipLook {
     Theme theme{Theme::dark};
     bool straight{false};
     std::optional<Camera::View> view{};  ///< nothing: the whole relief
+    SurfaceLook surface{};               ///< of the material
 };
 
 /// Draws what the window shows, without panels, in a hidden window.
@@ -113,6 +114,7 @@ class ClipPainter {
 
   private:
     glm::ivec2 size_px_;
+    SurfaceLook surface_;
     Settings settings_{};
     Window window_;
     SceneView scene_{};

@@ -56,6 +56,7 @@ SceneContent Viewer::prepare_scene() {
                 state_.ui.ruler->ends.push_back(*end);
     }
     SceneContent content = scene_content(state_.settings, state_.touch, shown_);
+    content.look = state_.touch.material.look;
     if (state_.ui.explained) {  // hide the markers of the touch
         content.markers.visible = false;
         content.dent = {};

@@ -27,8 +27,8 @@ class DecodedRing {
 
     /// Adds the picture that follows the newest one, and drops the oldest beyond the bounds.
     void add(const AVFrame& frame, double time_s, std::int64_t index);
-    /// From the next picture on keeps kFewBytes of them, as while playing nobody steps back, or
-    /// kMostBytes, as after a step back more may follow.
+    /// From the next picture on keeps kFewBytes of them and at least the newest, as while playing
+    /// nobody steps back, or kMostBytes, as after a step back more may follow. At first few.
     void keep_few(bool few) noexcept { few_ = few; }
     /// Before a picture that does not follow the newest one.
     void clear() noexcept;
