@@ -75,6 +75,7 @@ struct Seen {
     std::uint64_t depth_reliefs{0};    ///< of them drawn
     bool depth_for_folder{false};      ///< the answer holds for other files, too
     bool depth_offered{false};
+    bool depth_in_work{false};                  ///< it is being made
     bool depth_made{false};                     ///< while something else was opened
     float pointed_column{-1}, pointed_row{-1};  ///< the pixel under the pointer; -1: beside
     SeenText message{};                         ///< of the box

@@ -82,6 +82,7 @@ void see_ui(const UiState& ui, Seen& seen) {
         seen.depth_for_folder = ui.depth_question->for_folder;
     }
     seen.depth_offered = ui.depth_offer.has_value();
+    seen.depth_in_work = ui.depth_offer && ui.depth_offer->progress;
     seen.depth_made = ui.depth_offer && !ui.depth_offer->depth.empty();
     if (ui.under_pointer) {
         seen.pointed_column = static_cast<float>(ui.under_pointer->column);

@@ -97,6 +97,8 @@ TEST_CASE(
     viewer.act(kCancel);
     REQUIRE(eventually([&] { return !home.runs(); }, kPatience));
     CHECK(home.keeps("000003.png"));
+    viewer.wait_until([](const Seen& now) { return !now.depth_in_work; });
+    viewer.wait_for_turn();  // the button is drawn again
     viewer.act(kMake);
     REQUIRE(eventually([&] { return home.runs(); }, kPatience));
     // The open file is touched meanwhile.
