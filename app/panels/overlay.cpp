@@ -349,7 +349,7 @@ std::string clip_text(const ViewerState& state) {
 
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.ui.scale;
-    draw_key_hint(state, margin);
+    if (!state.ui.kiosk) draw_key_hint(state, margin);
     draw_caption(state);
     draw_upper_left(state, margin, draw_legend(state, margin));
     if (now_s < state.ui.notice_until_s) {

@@ -126,6 +126,9 @@ void draw_depth_question(ViewerState& state);
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 
+/// The large buttons of a kiosk, above the lower edge of the window.
+void draw_kiosk(ViewerState& state);
+
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);
 void draw_message_box(ViewerState& state);

@@ -265,6 +265,7 @@ void draw_replay_bar(ViewerState& state, Transport& replay) {
 bool bar_is_visible(const ViewerState& state) {
     constexpr float kNear = 2.5F;  // of its height
     if (state.settings.panels_visible) return true;
+    if (state.ui.kiosk) return false;
     const ImGuiIO& io = ImGui::GetIO();
     const bool touches = io.MouseDown[ImGuiMouseButton_Left] && !io.WantCaptureMouse;
     const float from_below = io.DisplaySize.y - io.MousePos.y;

@@ -210,10 +210,11 @@ Viewer::Turn Viewer::take_turn() {
     poll();
     hold_unseen_video();
     take_keys(input);
-    take_dropped(input.dropped);
+    if (!options_.kiosk) take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     move_hand(input);
+    follow_kiosk(input);
     speak();  // before the picture, which may take long
     const bool drawn = draw_if_changed(input);
     carry_out_commands();
@@ -368,8 +369,8 @@ double Viewer::now_s() const {
 }
 
 bool Viewer::over() {
-    return shutdown_.requested() || window_.close_requested() ||
-           (options_.seconds && now_s() >= *options_.seconds) ||
+    const bool closed = window_.close_requested() && (!options_.kiosk || kiosk_left_);
+    return shutdown_.requested() || closed || (options_.seconds && now_s() >= *options_.seconds) ||
            (!options_.clip.empty() && played_to_the_end());
 }
 
