@@ -45,6 +45,8 @@ void add_kiosk_options(CLI::App& app, std::optional<KioskOptions>& kiosk) {
 void apply_kiosk(ViewOptions& options, Settings& settings) {
     if (!options.kiosk) return;
     options.full_screen = true;
+    options.stays = !options.kiosk->next.empty();  // to open the next one
+    options.unsafe_settings.clear();               // no visitor agrees to them
     settings.panels_visible = false;
     settings.panes = false;
     settings.max_force_newton *= KioskOptions::kForceShare;

@@ -126,8 +126,10 @@ void draw_depth_question(ViewerState& state);
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 
-/// The large buttons of a kiosk, above the lower edge of the window.
+/// The large buttons of a kiosk, in place of the bar under the relief.
 void draw_kiosk(ViewerState& state);
+/// From the lower edge of the window to above them [px]; 0: there is none.
+[[nodiscard]] float kiosk_height(const ViewerState& state);
 
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);

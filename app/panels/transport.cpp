@@ -265,7 +265,6 @@ void draw_replay_bar(ViewerState& state, Transport& replay) {
 bool bar_is_visible(const ViewerState& state) {
     constexpr float kNear = 2.5F;  // of its height
     if (state.settings.panels_visible) return true;
-    if (state.ui.kiosk) return false;
     const ImGuiIO& io = ImGui::GetIO();
     const bool touches = io.MouseDown[ImGuiMouseButton_Left] && !io.WantCaptureMouse;
     const float from_below = io.DisplaySize.y - io.MousePos.y;
@@ -287,6 +286,7 @@ void draw_force_switch_only(ViewerState& state) {
 }  // namespace
 
 float bottom_bar_height(const ViewerState& state) {
+    if (state.ui.kiosk) return kiosk_height(state);
     const ImGuiStyle& style = ImGui::GetStyle();
     const bool has_line = !state.touch.replay && state.media.meaning;
     const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
@@ -294,6 +294,7 @@ float bottom_bar_height(const ViewerState& state) {
 }
 
 void draw_bottom_bar(ViewerState& state, Transport& transport) {
+    if (state.ui.kiosk) return draw_kiosk(state);
     const bool wanted = bar_is_visible(state);
     if (state.touch.replay) {
         if (wanted) draw_replay_bar(state, transport);

@@ -133,7 +133,6 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     if (state_.settings.panels_visible) draw_panel_column(state_, transport());
     draw_bottom_bar(state_, transport());
     draw_toolbar(state_);
-    draw_kiosk(state_);
     const auto fade = [](float& alpha) { alpha = std::max(0.0F, alpha - 0.03F); };
     if (state_.ui.touched) fade(hint_alpha_);
     if (pressed_deeper_) fade(wheel_hint_alpha_);
