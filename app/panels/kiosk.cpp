@@ -1,6 +1,5 @@
 // The buttons of a kiosk, large enough for every hand.
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "app/panels/panels.hpp"
