@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "app/commands/command_line.hpp"
+#include "app/commands/kiosk.hpp"
 #include "app/commands/output.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
@@ -130,6 +131,7 @@ void add_playing_options(CLI::App& app, ViewCommand& command) {
         ->default_str("off");
     app.add_flag("--pause", options.open.paused, "Begins paused");
     app.add_flag("--full-screen", options.full_screen, "Fills the screen");
+    add_kiosk_options(app, options.kiosk);
 }
 
 /// Whether the command line sets the relief, which then replaces the remembered one.
@@ -326,13 +328,6 @@ void add_file_options(CLI::App& app, ViewOptions& options) {
         "--screenshot and --clip show the relief alone");
 }
 
-/// An option without a value that switches a setting on.
-template <typename Give>
-void add_flag_of(CLI::App& app, const char* name, const Give& give, const char* help) {
-    app.add_flag_function(
-        name, [give](std::int64_t times) { give(times > 0); }, help);
-}
-
 /// Options on appearance, sound, settings file and log of the window.
 void add_window_options(CLI::App& app, ViewCommand& command) {
     GivenSettings& given = command.settings;
@@ -448,6 +443,7 @@ void combine_settings(ViewCommand& command, ViewerParts& parts, MessageLog& log)
     if (command.size) std::tie(settings.width, settings.height) = *command.size;
     apply_surface_options(options.touch, settings);
     drop_changed(options.unsafe_settings, settings);  // by the command line
+    apply_kiosk(options, settings);
 }
 
 /// Opens the named files, and runs the window until it is closed.

@@ -63,6 +63,7 @@ struct ReadFolder {
 struct CompleteTyped {
     std::string typed{};  ///< in the Open dialog
 };
+enum class KioskCommand { next, say_again };
 struct MakeReport {
     std::filesystem::path session{};
 };
@@ -73,7 +74,7 @@ using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
                  LoadBump, UseMaterial, KeepMaterial, UseFirmware, AgreeToDevice,
                  AnswerUnsafeSettings, AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded,
-                 LeaveReplay, ReadFolder, CompleteTyped, MakeReport>;
+                 LeaveReplay, ReadFolder, CompleteTyped, KioskCommand, MakeReport>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

@@ -111,7 +111,7 @@ std::string touch_text(const ViewerState& state) {
         return std::string("No force: ") + name_of(haptic.touch.cut);
     if (!haptic.touch.proxy.contact) return kFree;
     const bool in_numbers = state.ui.statistics || state.touch.replay || may_touch(state.touch);
-    if (!in_numbers) return kTouching;
+    if (!in_numbers || state.ui.kiosk) return kTouching;
     const Vec3& f = haptic.touch.sent_force_newton;
     return formatted("Touching   %.2f N%s   (%s, %s, %s)", glm::length(f),
                      is_limited(state) ? ", limited" : "", decimal(f.x, 2).c_str(),
@@ -302,8 +302,8 @@ void draw_upper_left(const ViewerState& state, float margin, float right) {
     };
     if (state.touch.replay) add(replay_text(*state.touch.replay));
     const std::string touch = touch_text(state);
-    const bool told = !state.ui.region.name.empty() && (touch == kTouching || touch == kFree);
-    if (!told) add(touch);
+    const bool as_usual = touch == kTouching || touch == kFree;
+    if (!as_usual || (state.ui.region.name.empty() && !state.ui.kiosk)) add(touch);
     low.y += draw_region(state, low, widest);
     if (const std::string banner = banner_of(state); !banner.empty())
         low.y = draw_banner(state, banner) + 0.3F * ImGui::GetFrameHeight();
@@ -349,7 +349,7 @@ std::string clip_text(const ViewerState& state) {
 
 void draw_overlay(const ViewerState& state, double now_s) {
     const float margin = 12.0F * state.ui.scale;
-    draw_key_hint(state, margin);
+    if (!state.ui.kiosk) draw_key_hint(state, margin);
     draw_caption(state);
     draw_upper_left(state, margin, draw_legend(state, margin));
     if (now_s < state.ui.notice_until_s) {

@@ -126,6 +126,11 @@ void draw_depth_question(ViewerState& state);
 /// The window's own dialog for opening files.
 void draw_open_dialog(ViewerState& state);
 
+/// The large buttons of a kiosk, in place of the bar under the relief.
+void draw_kiosk(ViewerState& state);
+/// From the lower edge of the window to above them [px]; 0: there is none.
+[[nodiscard]] float kiosk_height(const ViewerState& state);
+
 /// The help sheet and the message box, on top of everything.
 void draw_help_sheet(ViewerState& state);
 void draw_message_box(ViewerState& state);

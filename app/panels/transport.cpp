@@ -286,6 +286,7 @@ void draw_force_switch_only(ViewerState& state) {
 }  // namespace
 
 float bottom_bar_height(const ViewerState& state) {
+    if (state.ui.kiosk) return kiosk_height(state);
     const ImGuiStyle& style = ImGui::GetStyle();
     const bool has_line = !state.touch.replay && state.media.meaning;
     const float line = has_line ? ImGui::GetTextLineHeight() + style.ItemSpacing.y : 0.0F;
@@ -293,6 +294,7 @@ float bottom_bar_height(const ViewerState& state) {
 }
 
 void draw_bottom_bar(ViewerState& state, Transport& transport) {
+    if (state.ui.kiosk) return draw_kiosk(state);
     const bool wanted = bar_is_visible(state);
     if (state.touch.replay) {
         if (wanted) draw_replay_bar(state, transport);

@@ -196,6 +196,12 @@ struct RegionShown {
     bool rests{false};   ///< the finger rested on it: its text is shown, too
 };
 
+/// The window stands where visitors touch it: no panels, two large buttons.
+struct KioskShown {
+    bool has_next{false};    ///< there are several recordings
+    bool can_repeat{false};  ///< what was spoken can be said again
+};
+
 /// The state of the window itself.
 struct UiState {
     std::vector<UnsafeSetting> unsafe_settings{};  ///< of the settings file, to be agreed to
@@ -204,7 +210,8 @@ struct UiState {
     std::optional<PixelShown> under_pointer{};     ///< nothing: pressed, or outside the relief
     std::size_t regions{0};                        ///< named ones of the recording
     RegionShown region{};
-    std::string caption{};  ///< of the recording at the shown moment; empty: none
+    std::optional<KioskShown> kiosk{};  ///< nothing: the window is as usual
+    std::string caption{};              ///< of the recording at the shown moment; empty: none
     PanesShown panes{};
     std::optional<Ruler> ruler{};  ///< nothing: off
     Brush brush{};

@@ -36,6 +36,15 @@ void apply_play_options(const ViewOptions& options, double begin_s, Transport& p
     if (options.looping) player.set_looping(*options.looping);
 }
 
+float text_scale(const ViewOptions& options, float scale) {
+    return options.kiosk ? KioskOptions::kTextTimes * scale : scale;
+}
+
+std::optional<KioskShown> kiosk_shown(const ViewOptions& options) {
+    if (!options.kiosk) return std::nullopt;
+    return KioskShown{!options.kiosk->next.empty(), options.settings.speak};
+}
+
 /// The saved or requested size; else the default, which grows with the text.
 WindowSize requested_size(const ViewOptions& options) {
     const Settings& settings = options.settings;
@@ -54,12 +63,13 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       shutdown_(shutdown),
       log_(log),
       window_(requested_size(options), options.sync, "dibhr"),
-      gui_(window_, {window_.scale(options.settings.ui_scale), options.settings.theme}),
+      gui_(window_,
+           {text_scale(options, window_.scale(options.settings.ui_scale)), options.settings.theme}),
       software_(read_limits().software),
       pace_(least_picture_time(options.sync, software_)),
       state_{.settings = options.settings,
              .keys = KeyTable(options.settings.keys),
-             .ui = {.unsafe_settings = options.unsafe_settings}},
+             .ui = {.unsafe_settings = options.unsafe_settings, .kiosk = kiosk_shown(options)}},
       service_settings_(tasks),
       opening_(tasks),
       clip_(tasks, shutdown.crash_note()),
@@ -96,6 +106,10 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
         return;
     }
     if (!parts.media) {
+        if (options.kiosk) {
+            pass_over_in_kiosk();
+            return;
+        }
         const bool offered = parts.lacks_depth && estimating_.offer(options.open.colour, state_);
         if (!offered)
             state_.ui.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(parts.trouble);
@@ -197,7 +211,7 @@ void Viewer::save_all(const std::atomic<bool>& at_once, const Try& try_to) {
 /// Once a turn: the window may have moved to a display of another scale.
 void Viewer::apply_style() {
     const Settings& settings = state_.settings;
-    gui_.apply({window_.scale(settings.ui_scale), settings.theme});
+    gui_.apply({text_scale(options_, window_.scale(settings.ui_scale)), settings.theme});
     state_.ui.fonts = gui_.fonts();
     state_.ui.scale = gui_.scale();
 }
@@ -210,10 +224,11 @@ Viewer::Turn Viewer::take_turn() {
     poll();
     hold_unseen_video();
     take_keys(input);
-    take_dropped(input.dropped);
+    if (!options_.kiosk) take_dropped(input.dropped);
     state_.ui.window_width = static_cast<float>(window_.framebuffer_size().x);
     state_.ui.window_height = static_cast<float>(window_.framebuffer_size().y);
     move_hand(input);
+    follow_kiosk(input);
     speak();  // before the picture, which may take long
     const bool drawn = draw_if_changed(input);
     carry_out_commands();
@@ -292,6 +307,8 @@ void Viewer::poll_touch() {
     service_settings_.update(state_.settings, state_.touch.devices);
     for (const DeviceButtonPress& press : touch_.take_presses()) {
         const std::optional<Action> action = entry_of(button_jobs(), press.action).perform;
+        const bool writes_file = action == Action::record || action == Action::take_screenshot;
+        if (options_.kiosk && writes_file) continue;  // visitors would fill the disk
         for (std::uint32_t k = 0; action && k < press.times; ++k) perform(*action);
     }
     state_.ui.touched = state_.ui.touched || state_.touch.haptic.touch.proxy.contact;
@@ -338,7 +355,10 @@ void Viewer::speak() {
     const Spoken now = spoken_of(state_, now_s());
     if (const auto trouble = speaking_.follow(now, state_.settings.speak)) {
         print_warning(*trouble);
-        show_notice(*trouble);
+        if (state_.ui.kiosk)
+            state_.ui.kiosk->can_repeat = false;
+        else
+            show_notice(*trouble);
     }
 }
 
@@ -368,8 +388,8 @@ double Viewer::now_s() const {
 }
 
 bool Viewer::over() {
-    return shutdown_.requested() || window_.close_requested() ||
-           (options_.seconds && now_s() >= *options_.seconds) ||
+    const bool closed = window_.close_requested() && (!options_.kiosk || kiosk_left_);
+    return shutdown_.requested() || closed || (options_.seconds && now_s() >= *options_.seconds) ||
            (!options_.clip.empty() && played_to_the_end());
 }
 

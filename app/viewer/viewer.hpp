@@ -51,6 +51,15 @@
 
 namespace dibhr {
 
+/// Of a window for visitors.
+struct KioskOptions {
+    static constexpr double kForceShare = 0.4;  ///< of the force limit that is sent
+    static constexpr float kTextTimes = 1.6F;   ///< larger than usual: read while standing
+
+    std::vector<std::filesystem::path> next{};  ///< recordings after the first one
+    double return_s{60.0};                      ///< without touch: back to the start
+};
+
 /// The options of `dibhr view`.
 struct ViewOptions {
     OpenRequest open{};                ///< its colour may be a session; empty: the built-in sample
@@ -67,6 +76,7 @@ struct ViewOptions {
     std::optional<double> end_s{};             ///< end of playing, from the media's begin
     bool start_given{false};                   ///< by --start: the saved position is not used
     bool full_screen{false};
+    std::optional<KioskOptions> kiosk{};
     bool stays{false};       ///< also where the named files cannot be opened
     bool size_given{false};  ///< by --size: the window has exactly this size
     bool any_media{false};   ///< replay: also over files that have changed
@@ -148,6 +158,12 @@ class Viewer {
     void take_opened();
     void follow_live();
     void take_keys(const WindowInput& input);
+    void take_kiosk_keys(const WindowInput& input);
+    void follow_kiosk(const WindowInput& input);
+    void show_in_kiosk(std::size_t number);
+    void show_next_in_kiosk();
+    void pass_over_in_kiosk();
+    void perform_in_kiosk(KioskCommand command);
     void take_dialog_key(const KeyPress& press);
     [[nodiscard]] std::optional<Answer> perform_with_files(Action action);
     [[nodiscard]] std::optional<Answer> perform_with_view(Action action);
@@ -264,7 +280,11 @@ class Viewer {
     SettingsSaver settings_saver_;
     DepthBlend shown_{};  // the frames of this turn
     PictureChange change_{};
-    bool video_held_{false};  // by hold_unseen_video()
+    bool video_held_{false};       // by hold_unseen_video()
+    std::size_t kiosk_at_{0};      // the recording that was asked for last; 0: the first one
+    std::size_t kiosk_passed_{0};  // recordings one after the other that could not be opened
+    double kiosk_used_s_{0.0};     // when somebody last touched
+    bool kiosk_left_{false};       // by its key chord
     float hint_alpha_{1.0F};
     float wheel_hint_alpha_{1.0F};
     bool pressed_deeper_{false};  // the wheel was used so at least once

@@ -42,6 +42,7 @@ void Viewer::carry_out_commands() {
         },
         [this](const ReadFolder& wanted) { browsing_.go_to(wanted.folder, state_.ui.dialog); },
         [this](const CompleteTyped& line) { browsing_.complete(line.typed, state_.ui.dialog); },
+        [this](KioskCommand command) { perform_in_kiosk(command); },
         [this](const MakeReport& report) { make_report(report.session); }};
     for (const WindowCommand& command : state_.commands.take()) std::visit(carry_out, command);
 }

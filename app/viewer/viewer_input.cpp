@@ -13,6 +13,7 @@ namespace dibhr {
 using std::chrono::steady_clock;
 
 void Viewer::take_keys(const WindowInput& input) {
+    if (options_.kiosk) return take_kiosk_keys(input);
     // With the dialog open keys are text, even before its field has the keyboard; with a question
     // on the depth they answer; with a list open they are the list's.
     const bool in_list = gui_.list_is_open();

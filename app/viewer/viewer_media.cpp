@@ -54,12 +54,19 @@ const std::filesystem::path& depth_file(const MediaDescription& media) {
 
 void Viewer::take_opened() {
     if (auto opened = opening_.take()) {
-        if (opened->media || opened->session) estimating_.withdraw_offer(state_);
+        if (opened->media || opened->session) {
+            estimating_.withdraw_offer(state_);
+            kiosk_passed_ = 0;
+        }
         if (opened->media)
             show_media(std::move(opened->media), opened->request, opened->memory,
                        std::move(opened->maps), opened->guide);
         if (opened->session) replay_session(std::move(opened->session));
-        if (opened->is_folder) {
+        if (options_.kiosk && !opened->failure.empty()) {
+            print_error_line(opened->failure);
+            log_.append("warning", opened->failure);
+            pass_over_in_kiosk();
+        } else if (opened->is_folder) {
             browsing_.show(opened->request.colour, state_);
         } else if (opened->lacks_depth && estimating_.offer(opened->request.colour, state_)) {
             fill_depth_fields(state_);
@@ -166,7 +173,7 @@ void Viewer::show_media(std::unique_ptr<Media> media, const OpenRequest& request
     if (!waits.empty()) attempt([&] { touch_.recording().start_live(waits); });
     if (request.at_s > 0.0) touch_.player().seek(request.at_s);
     if (request.paused) touch_.player().pause();
-    if (!request.chosen) apply_memory(memory, request);
+    if (!request.chosen && !options_.kiosk) apply_memory(memory, request);
     if (touch_.runs()) return;
     fit_to_media();
     heart_.beat();

@@ -7,6 +7,7 @@
 
 #include "app/sound/speaker.hpp"
 #include "tests/app/program/desk.hpp"
+#include "tests/app/viewer/speech_bench.hpp"
 #include "tests/app/viewer/two_halves.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/environment_variable.hpp"
@@ -21,27 +22,9 @@ namespace {
 
 const std::string kLibrary = std::string(STAND_IN_SPEECH) + "/libspeechd.so.2";
 
-/// The calls so far, without their times: "open dibhr", "cancel ", "say Cup".
-std::vector<std::string> calls_in(const fs::path& file) {
-    std::vector<std::string> calls;
-    if (!fs::exists(file)) return calls;
-    for (const std::string& line : split(read_text(file), '\n'))
-        if (!line.empty()) calls.push_back(line.substr(line.find(' ') + 1));
-    return calls;
-}
-
 bool has_call(const fs::path& file, const std::string& call) {
     const auto calls = calls_in(file);
     return std::ranges::find(calls, call) != calls.end();
-}
-
-/// Runs the program with the stand-in as the system's library.
-std::vector<std::string> with_stand_in(const TemporaryFolder& folder,
-                                       const std::vector<std::string>& more = {}) {
-    std::vector<std::string> host{"env", std::string("LD_LIBRARY_PATH=") + STAND_IN_SPEECH,
-                                  "DIBHR_SPOKEN=" + (folder / "spoken").string()};
-    host.insert(host.end(), more.begin(), more.end());
-    return host;
 }
 
 }  // namespace
