@@ -66,6 +66,7 @@ struct CompleteTyped {
 struct MakeReport {
     std::filesystem::path session{};
 };
+struct PrepareRecording {};  ///< the shown one; or cancels it
 
 /// An Action does the same as its key, and also the work that a key defers until after the picture.
 /// A DepthStatement is a person's statement on the open depth.
@@ -73,7 +74,7 @@ using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
                  LoadBump, UseMaterial, KeepMaterial, UseFirmware, AgreeToDevice,
                  AnswerUnsafeSettings, AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded,
-                 LeaveReplay, ReadFolder, CompleteTyped, MakeReport>;
+                 LeaveReplay, ReadFolder, CompleteTyped, MakeReport, PrepareRecording>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

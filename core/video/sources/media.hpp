@@ -69,6 +69,8 @@ struct DepthRequest {
     /// The folder of earlier choices, a file for each media, which complete `panel`, and for each
     /// folder of media. Empty: not used.
     std::filesystem::path kept_in{};
+    /// The cache of prepared surfaces (playing/prepared_cache.hpp). Empty: not used.
+    std::filesystem::path prepared_in{};
     bool panel_is_whole{false};  ///< earlier choices for this media do not complete `panel`
     DepthStatement recorded{};   ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
@@ -108,7 +110,8 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was read
     bool frames_exact{false};  ///< the end was read: frames and duration are exact
     bool still{false};
-    std::string times_from{};         ///< what decides them (TimesFrom); empty: a still
+    std::filesystem::path prepared_in{};  ///< as requested
+    std::string times_from{};             ///< what decides them (TimesFrom); empty: a still
     std::string timing{};             ///< the same for people: "those of 'rgb.mp4', frame by frame"
     double colour_frames_per_s{0.0};  ///< of a colour file of its own; 0: a still, or not known
     double colour_duration_s{0.0};    ///< likewise

@@ -84,6 +84,7 @@ class PairedMedia : public Media {
         description_.conclusion = std::move(conclusion);
     }
     void set_panel_statement(const DepthStatement& panel) { description_.panel = panel; }
+    void set_prepared_in(const std::filesystem::path& cache) { description_.prepared_in = cache; }
 
   private:
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
