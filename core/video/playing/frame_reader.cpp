@@ -200,8 +200,9 @@ bool FrameReader::needs_measuring() const {
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
-    const bool was_prepared = prepared_.found();
     prepared_.look(description(), options_);
+    media_.leave_out_depth(prepared_.times());
+    const bool cleaned = std::exchange(cleans_, !prepared_.found());
     if (!prepared_.found() && needs_measuring()) {
         media_.prepare_with(nullptr);
         const auto begin = now_();
@@ -216,8 +217,7 @@ void FrameReader::make_plan() {
                                               description().sparse_share.has_value(), felt_);
     CleaningPlan plan = whole_plan_;
     if (!prepared_.found()) plan.steps = degraded(plan.steps, degradation_);
-    if (was_prepared != prepared_.found() ||
-        !same_single_frame_steps(plan.steps, this->plan().steps)) {
+    if (cleaned != cleans_ || !same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
     }
@@ -444,6 +444,8 @@ std::optional<Frame> FrameReader::first_picture() {
         kMeasuring_s_a_pixel * static_cast<double>(description().depth_pixels());
     const bool is_quick = description().still || measuring_s < kQuickJump_s;
     if (is_quick || planned_ || !needs_measuring()) return std::nullopt;
+    prepared_.look(description(), options_);
+    if (prepared_.found()) return std::nullopt;
     jump_to(0.0);
     return decoded_alone();
 }
@@ -462,7 +464,12 @@ std::optional<Frame> FrameReader::decoded_alone() {
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;
-    return assembly_.finish_single_frame(std::move(*raw));
+    if (!prepared_.found()) return assembly_.finish_single_frame(std::move(*raw));
+    Frame frame = assembly_.without_depth(*raw);
+    planned_ = prepared_.fill(frame);
+    if (!planned_) return std::nullopt;
+    frame.maps = assembly_.maps();
+    return frame;
 }
 
 double FrameReader::last_interval_s(double media_s) {

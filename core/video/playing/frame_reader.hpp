@@ -133,7 +133,7 @@ class FrameReader {
         [[nodiscard]] bool is_cleaned() const { return frame.depth != nullptr; }
         void forget_cleaned();
         [[nodiscard]] bool can_be_cleaned() const {
-            return raw.single_frame || !raw.depth.levels.empty();
+            return raw.single_frame || !raw.depth.levels.empty() || raw.depth_left_out;
         }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
@@ -196,6 +196,7 @@ class FrameReader {
     CleaningPlan whole_plan_{};
     std::size_t degradation_{0};
     PreparedFrames prepared_{};
+    bool cleans_{true};                   ///< the plan is for cleaning, not for a prepared surface
     std::optional<DepthNoise> noise_{};   ///< of the clip, measured when first needed
     std::optional<FeltCleaning> felt_{};  ///< what felt best on its first frames
     bool tried_{false};                   ///< felt_ is known, or that nothing tells

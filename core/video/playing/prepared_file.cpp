@@ -1,4 +1,4 @@
-// Images in bands of rows, each band as it differs from its neighbours or from the frame before.
+// Images in bands of rows, each band as it differs from its neighbours or from an earlier frame.
 #include "core/video/playing/prepared_file.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace dibhr {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'d', 'i', 'b', 'h', 'r', 'P', '0', '1'};
-constexpr std::size_t kFramesToKey = 8;  // a jump reads so many at most
+constexpr std::size_t kFramesToKey = 8;
 constexpr int kBandRows = 64;
 constexpr int kLargestSide = 1 << 16;
 
@@ -79,18 +79,20 @@ CleaningSteps steps_of(std::uint32_t bits) {
     return steps;
 }
 
-PreparedImage prepared(const std::shared_ptr<const DepthImage>& image) {
-    if (!image) return {};
-    return {image->columns, image->rows, image->highest_level, image->levels};
-}
-
-bool same_form(const PreparedImage& a, const PreparedImage& b) noexcept {
-    return a.columns == b.columns && a.rows == b.rows;
+/// As an image of zeros and ones; null: all was seen.
+std::shared_ptr<const DepthImage> unseen_of(const Frame& frame) {
+    if (!frame.unseen) return nullptr;
+    auto image = std::make_shared<DepthImage>();
+    image->columns = frame.depth->columns;
+    image->rows = frame.depth->rows;
+    image->highest_level = 1.0;
+    image->levels.assign(frame.unseen->begin(), frame.unseen->end());
+    return image;
 }
 
 /// Calls visit(begin, end) for the numbers of each band.
 template <typename Visit>
-void visit_bands(const PreparedImage& image, const Visit& visit) {
+void visit_bands(const DepthImage& image, const Visit& visit) {
     const auto columns = static_cast<std::size_t>(image.columns);
     for (int row = 0; row < image.rows; row += kBandRows) {
         const int end = std::min(row + kBandRows, image.rows);
@@ -100,31 +102,31 @@ void visit_bands(const PreparedImage& image, const Visit& visit) {
 
 }  // namespace
 
-void PreparedWriter::put_image(PreparedImage image, PreparedImage& before, bool key) {
-    append(bytes_, bytes_of(ImageHead{image.columns, image.rows, image.highest_level}));
-    const bool follows = !key && same_form(image, before);
-    visit_bands(image, [&](std::size_t begin, std::size_t end) {
-        const auto part = [&](const PreparedImage& of) {
-            return std::span(of.values).subspan(begin, end - begin);
+void PreparedWriter::put_image(const DepthImage* image, const DepthImage* key) {
+    if (image == nullptr) return append(bytes_, bytes_of(ImageHead{}));
+    append(bytes_, bytes_of(ImageHead{image->columns, image->rows, image->highest_level}));
+    const bool follows =
+        key != nullptr && key->columns == image->columns && key->rows == image->rows;
+    visit_bands(*image, [&](std::size_t begin, std::size_t end) {
+        const auto part = [&](const DepthImage& of) {
+            return std::span(of.levels).subspan(begin, end - begin);
         };
-        const auto packed = packer_.pack(part(image), static_cast<std::size_t>(image.columns),
-                                         follows ? part(before) : std::span<const float>());
+        const auto packed = packer_.pack(part(*image), static_cast<std::size_t>(image->columns),
+                                         follows ? part(*key) : std::span<const float>());
         append(bytes_, bytes_of(static_cast<std::uint32_t>(packed.size())));
         append(bytes_, packed);
     });
-    before = std::move(image);
 }
 
 void PreparedWriter::add(const Frame& frame) {
     const bool key = index_.size() % kFramesToKey == 0;
+    if (key) key_ = {};
     bytes_.clear();
-    put_image(prepared(frame.depth), last_.depth, key);
-    put_image(prepared(frame.undilated), last_.undilated, key);
-    PreparedImage unseen;
-    if (frame.unseen)
-        unseen = {frame.depth->columns, frame.depth->rows, 1.0,
-                  std::vector<float>(frame.unseen->begin(), frame.unseen->end())};
-    put_image(std::move(unseen), last_.unseen, key);
+    PreparedImages images{frame.depth, frame.undilated, unseen_of(frame)};
+    put_image(images.depth.get(), key_.depth.get());
+    put_image(images.undilated.get(), key_.undilated.get());
+    put_image(images.unseen.get(), key_.unseen.get());
+    if (key) key_ = std::move(images);
     file_.write(as_text(bytes_));
     index_.push_back({.media_s = frame.media_s,
                       .offset = offset_,
@@ -167,9 +169,13 @@ PreparedReader::PreparedReader(std::filesystem::path file, const Fingertip& fing
         sum_of({reinterpret_cast<const std::uint8_t*>(index_.data()), index_bytes}) !=
             trailer.index_sum)
         refuse();
+    std::vector<double> times;
+    for (const PreparedEntry& entry : index_) times.push_back(entry.media_s);
+    times_ = std::make_shared<const std::vector<double>>(std::move(times));
 }
 
-void PreparedReader::take_image(std::span<const std::uint8_t>& rest, PreparedImage& image) {
+std::shared_ptr<const DepthImage> PreparedReader::take_image(std::span<const std::uint8_t>& rest,
+                                                             const DepthImage* key) {
     const auto take = [&](void* to, std::size_t bytes) {
         if (rest.size() < bytes) refuse();
         std::memcpy(to, rest.data(), bytes);
@@ -179,23 +185,27 @@ void PreparedReader::take_image(std::span<const std::uint8_t>& rest, PreparedIma
     take(&head, sizeof head);
     if (std::min(head.columns, head.rows) < 0 || std::max(head.columns, head.rows) > kLargestSide)
         refuse();
-    image.columns = head.columns;
-    image.rows = head.rows;
-    image.highest_level = head.highest_level;
-    image.values.resize(static_cast<std::size_t>(head.columns) *
-                        static_cast<std::size_t>(head.rows));
-    visit_bands(image, [&](std::size_t begin, std::size_t end) {
+    if (head.columns == 0 || head.rows == 0) return nullptr;
+    const std::shared_ptr<DepthImage> image = made_.take();
+    image->columns = head.columns;
+    image->rows = head.rows;
+    image->highest_level = head.highest_level;
+    if (key != nullptr) image->levels = key->levels;
+    image->levels.resize(static_cast<std::size_t>(head.columns) *
+                         static_cast<std::size_t>(head.rows));
+    visit_bands(*image, [&](std::size_t begin, std::size_t end) {
         std::uint32_t bytes = 0;
         take(&bytes, sizeof bytes);
         if (rest.size() < bytes ||
-            !unpacker_.unpack(rest.first(bytes), static_cast<std::size_t>(image.columns),
-                              std::span(image.values).subspan(begin, end - begin)))
+            !unpacker_.unpack(rest.first(bytes), static_cast<std::size_t>(image->columns),
+                              std::span(image->levels).subspan(begin, end - begin)))
             refuse();
         rest = rest.subspan(bytes);
     });
+    return image;
 }
 
-void PreparedReader::read(std::size_t entry) {
+PreparedImages PreparedReader::read(std::size_t entry, const PreparedImages& key) {
     const PreparedEntry& at = index_[entry];
     bytes_.resize(at.bytes);
     if (std::fseek(file_.get(), static_cast<long>(at.offset), SEEK_SET) != 0 ||
@@ -203,40 +213,31 @@ void PreparedReader::read(std::size_t entry) {
         sum_of(bytes_) != at.sum)
         refuse();
     std::span<const std::uint8_t> rest = bytes_;
-    for (PreparedImage* const image : {&now_.depth, &now_.undilated, &now_.unseen})
-        take_image(rest, *image);
-    read_ = entry;
-}
-
-std::shared_ptr<const DepthImage> PreparedReader::image_of(const PreparedImage& prepared) {
-    if (prepared.values.empty()) return nullptr;
-    const std::shared_ptr<DepthImage> image = made_.take();
-    image->columns = prepared.columns;
-    image->rows = prepared.rows;
-    image->highest_level = prepared.highest_level;
-    image->levels = prepared.values;
-    return image;
+    PreparedImages images;
+    images.depth = take_image(rest, key.depth.get());
+    images.undilated = take_image(rest, key.undilated.get());
+    images.unseen = take_image(rest, key.unseen.get());
+    return images;
 }
 
 bool PreparedReader::fill(Frame& frame) {
     const auto found = std::ranges::lower_bound(index_, frame.media_s, {}, &PreparedEntry::media_s);
     if (found == index_.end() || found->media_s != frame.media_s) return false;
     const auto entry = static_cast<std::size_t>(found - index_.begin());
-    if (read_ != entry) {
-        std::size_t from = entry;
-        const std::optional<std::size_t> before = std::exchange(read_, std::nullopt);
-        while (index_[from].key == 0 && !(before && from == *before + 1)) {
-            if (from == 0) refuse();
-            --from;
-        }
-        for (; from <= entry; ++from) read(from);
+    std::size_t key = entry;
+    while (index_[key].key == 0 && key > 0) --key;
+    if (read_ != key) {
+        read_.reset();
+        key_ = read(key, {});
+        read_ = key;
     }
-    frame.depth = image_of(now_.depth);
-    frame.undilated = image_of(now_.undilated);
+    const PreparedImages images = key == entry ? key_ : read(entry, key_);
+    frame.depth = images.depth;
+    frame.undilated = images.undilated;
     frame.unseen.reset();
-    if (!now_.unseen.values.empty())
-        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(now_.unseen.values.begin(),
-                                                                         now_.unseen.values.end());
+    if (images.unseen)
+        frame.unseen = std::make_shared<const std::vector<std::uint8_t>>(
+            images.unseen->levels.begin(), images.unseen->levels.end());
     frame.cleaning = {steps_of(found->steps), finger_};
     return frame.depth != nullptr;
 }

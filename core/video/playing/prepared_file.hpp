@@ -17,17 +17,9 @@
 
 namespace dibhr {
 
-/// An image of a prepared frame: its numbers, row by row. No columns: there is none.
-struct PreparedImage {
-    int columns{0};
-    int rows{0};
-    double highest_level{0.0};
-    std::vector<float> values{};
-};
-
-/// The images of a frame.
+/// The images of a frame; null: there is none.
 struct PreparedImages {
-    PreparedImage depth{}, undilated{}, unseen{};
+    std::shared_ptr<const DepthImage> depth{}, undilated{}, unseen{};
 };
 
 /// Where a frame is in the file.
@@ -37,7 +29,7 @@ struct PreparedEntry {
     std::uint64_t bytes{0};
     std::uint64_t sum{0};    ///< of these bytes
     std::uint32_t steps{0};  ///< of its cleaning, a bit each in the order of visit_steps()
-    std::uint32_t key{0};    ///< 1: it needs no frame before it
+    std::uint32_t key{0};    ///< 1: it stands alone; others need the last one that does
 };
 
 /// Writes the frames in their order.
@@ -51,17 +43,17 @@ class PreparedWriter {
     void finish();
 
   private:
-    void put_image(PreparedImage image, PreparedImage& before, bool key);
+    void put_image(const DepthImage* image, const DepthImage* key);
 
     OutputFile file_;
     FloatPacker packer_{};
-    PreparedImages last_{};
+    PreparedImages key_{};  ///< of the last frame that stands alone
     std::vector<PreparedEntry> index_{};
     std::vector<std::uint8_t> bytes_{};
     std::uint64_t offset_{0};
 };
 
-/// Reads them in any order; the following one is the quickest. One thread at a time.
+/// Reads them in any order. One thread at a time.
 class PreparedReader {
   public:
     /// `finger`: of the cleaning of all frames. Throws InputError when the file cannot be read, is
@@ -71,11 +63,13 @@ class PreparedReader {
     /// Sets depth, what was never seen, and cleaning of the frame at exactly frame.media_s. False:
     /// there is no frame of that time. Throws InputError where the file is damaged.
     [[nodiscard]] bool fill(Frame& frame);
+    /// Of all frames, rising [s].
+    [[nodiscard]] const std::shared_ptr<const std::vector<double>>& times() const { return times_; }
 
   private:
-    void read(std::size_t entry);
-    void take_image(std::span<const std::uint8_t>& rest, PreparedImage& image);
-    [[nodiscard]] std::shared_ptr<const DepthImage> image_of(const PreparedImage& prepared);
+    [[nodiscard]] PreparedImages read(std::size_t entry, const PreparedImages& key);
+    [[nodiscard]] std::shared_ptr<const DepthImage> take_image(std::span<const std::uint8_t>& rest,
+                                                               const DepthImage* key);
     [[noreturn]] void refuse() const;
 
     struct Close {
@@ -85,8 +79,9 @@ class PreparedReader {
     Fingertip finger_;
     std::unique_ptr<std::FILE, Close> file_;
     std::vector<PreparedEntry> index_{};
+    std::shared_ptr<const std::vector<double>> times_{};
     FloatUnpacker unpacker_{};
-    PreparedImages now_{};
+    PreparedImages key_{};
     std::optional<std::size_t> read_{};  ///< the entry whose images these are
     std::vector<std::uint8_t> bytes_{};
     ObjectPool<DepthImage> made_{};

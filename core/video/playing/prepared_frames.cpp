@@ -11,8 +11,9 @@ void PreparedFrames::turn_off() noexcept {
 }
 
 void PreparedFrames::look(const MediaDescription& media, const CleaningOptions& cleaning) {
+    if (!on_ || looked_for_ == cleaning) return;
+    looked_for_ = cleaning;
     surface_.reset();
-    if (!on_) return;
     try {
         surface_ = find_prepared(media, cleaning);
     } catch (const InputError& error) {

@@ -40,7 +40,11 @@ struct RawFrame {
     std::int64_t index{0};
     bool never_has_holes{false};  ///< no frame of this media has a pixel without data
     double skipping_s{0.0};       ///< mean time to skip a frame; 0: as long as reading it
+    bool depth_left_out{false};   ///< after Media::leave_out_depth()
 };
+
+/// The times of all frames of a media, rising [s]; null: not known.
+using FrameTimes = std::shared_ptr<const std::vector<double>>;
 
 /// Thrown for colour with no depth in it or beside it.
 class DepthMissing : public InputError {
@@ -172,6 +176,10 @@ class Media {
     virtual void seek_depth(double media_s) { seek(media_s); }
     /// From the next frame on the colour of a video may come as its decoder made it.
     virtual void share_video() {}
+    /// The reader has the depth of all frames, which have these times: from the next seek on frames
+    /// come without it, and it is not decoded, unless the colour depends on it. Null: frames come
+    /// with depth.
+    virtual void leave_out_depth(const FrameTimes& /*times*/) {}
     /// The feed of a live source: next() waits for its frames, and seek() does nothing. Null: read
     /// from files.
     [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }

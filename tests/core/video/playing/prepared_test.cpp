@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/error.hpp"
 #include "core/video/playing/frame_reader.hpp"
 #include "core/video/playing/prepared_cache.hpp"
 #include "tests/core/video/clips.hpp"
@@ -123,7 +124,86 @@ TEST_CASE("a prepared recording has the bits of one that is cleaned while it pla
         check_same(pair.prepared.before(1.1), pair.cleaned.before(1.1));
         check_same(pair.prepared.before(1.0), pair.cleaned.before(1.0));
     }
+    SECTION("frames that are left out") {
+        for (const double earliest_s : {0.45, 0.55, 1.25, 1.85, 5.0}) {
+            auto a = pair.prepared.at(0.1);
+            auto b = pair.cleaned.at(0.1);
+            for (int k = 0; k < 2; ++k) {  // the decoder goes ahead after two in a row
+                a = pair.prepared.after(a->media_s);
+                b = pair.cleaned.after(b->media_s);
+            }
+            check_same(pair.prepared.after(a->media_s, {.earliest_s = earliest_s}),
+                       pair.cleaned.after(b->media_s, {.earliest_s = earliest_s}));
+        }
+    }
     CHECK(pair.prepared.prepared().trouble().empty());
+}
+
+TEST_CASE("frames whose depth is known come with their colour and no depth", "[prepared]") {
+    const TemporaryFolder folder;
+    put_film(folder);
+    const auto whole = opened(folder, false);
+    const auto known = opened(folder, false);
+    std::vector<double> times;
+    for (auto frame = whole->next(); frame; frame = whole->next()) times.push_back(frame->media_s);
+    REQUIRE(times.size() == kFrames);
+    known->leave_out_depth(std::make_shared<const std::vector<double>>(times));
+    const auto check_next = [&] {
+        const auto a = known->next();
+        const auto b = whole->next();
+        REQUIRE(a.has_value() == b.has_value());
+        if (!a) return;
+        CHECK(a->media_s == b->media_s);
+        CHECK(a->index == b->index);
+        CHECK(a->colour.rgb == b->colour.rgb);
+        CHECK_FALSE(a->colour.rgb.empty());
+        CHECK(a->depth_left_out);
+        CHECK(a->depth.levels.empty());
+    };
+    for (const double media_s : {0.0, 1.7, 0.31, 1.2, 9.0}) {
+        known->seek(media_s);
+        whole->seek(media_s);
+        for (int k = 0; k < 5; ++k) check_next();
+    }
+    SECTION("until the depth is wanted again") {
+        known->leave_out_depth(nullptr);
+        known->seek(0.5);
+        const auto frame = known->next();
+        REQUIRE(frame);
+        CHECK_FALSE(frame->depth.levels.empty());
+    }
+}
+
+TEST_CASE("depth that the colour is painted from is not left out", "[prepared]") {
+    const TemporaryFolder folder;
+    put_film(folder);
+    const auto painted = open_media({}, folder / "film_depth.mkv");
+    painted->leave_out_depth(std::make_shared<const std::vector<double>>(1, 0.0));
+    painted->seek(0.0);
+    const auto frame = painted->next();
+    REQUIRE(frame);
+    CHECK_FALSE(frame->depth_left_out);
+    CHECK_FALSE(frame->depth.levels.empty());
+}
+
+TEST_CASE("a prepared frame needs at most one other", "[prepared]") {
+    const TemporaryFolder folder;
+    put_film(folder);
+    const fs::path kept = prepared(folder, by(CleaningPreset::gentle)).folder;
+    spoil(kept);
+    PreparedReader reader(kept / "surface", {});
+    std::size_t damaged = 0;
+    for (const double media_s : *reader.times()) {
+        Frame frame{.media_s = media_s};
+        try {
+            const bool filled = reader.fill(frame);
+            CHECK(filled);
+        } catch (const InputError&) {
+            ++damaged;
+        }
+    }
+    CHECK(damaged > 0);
+    CHECK(damaged <= 2);  // the bytes may be of two neighbours
 }
 
 TEST_CASE("a prepared surface is found for its content and its cleaning only", "[prepared]") {
