@@ -56,10 +56,10 @@ std::uint32_t word_of(float value, std::uint8_t kind) noexcept {
 /// median of JPEG-LS).
 std::uint32_t plane_through(std::uint32_t left, std::uint32_t above,
                             std::uint32_t corner) noexcept {
-    const auto [least, most] = std::minmax(left, above);
-    if (corner >= most) return least;
-    if (corner <= least) return most;
-    return left + above - corner;
+    const std::int64_t least = std::min(left, above);
+    const std::int64_t most = std::max(left, above);
+    // No branches: which case it is cannot be predicted.
+    return static_cast<std::uint32_t>(std::clamp(least + most - corner, least, most));
 }
 
 /// Calls take(k, word) for each word in order, with what its neighbours before it let expect: where
@@ -84,6 +84,41 @@ std::uint32_t folded(std::uint32_t difference, std::uint32_t mask) noexcept {
 
 std::uint32_t unfolded(std::uint32_t word) noexcept {
     return (word & 1U) != 0 ? ~(word >> 1U) : word >> 1U;
+}
+
+/// The words of unfolded differences, whose bytes lie in planes.
+template <std::uint8_t kKind>
+void join_planes(const std::vector<std::uint8_t>& planes, std::vector<std::uint32_t>& words) {
+    const std::size_t count = words.size();
+    for (std::size_t k = 0; k < count; ++k) {
+        std::uint32_t word = planes[k] | std::uint32_t{planes[count + k]} << 8U;
+        if constexpr (planes_of(kKind) == 4)
+            word |= std::uint32_t{planes[2 * count + k]} << 16U |
+                    std::uint32_t{planes[3 * count + k]} << 24U;
+        words[k] = unfolded(word);
+    }
+}
+
+/// A loop for each kind, in which the compiler takes several numbers at once.
+template <std::uint8_t kKind>
+void add_expected(std::vector<std::uint32_t>& words, std::size_t columns, std::span<float> values) {
+    constexpr std::uint32_t kMask = mask_of(kKind);
+    if constexpr ((kKind & kBefore) != 0)
+        for (std::size_t k = 0; k < words.size(); ++k)
+            words[k] = (word_of(values[k], kKind) + words[k]) & kMask;
+    else
+        visit_expected(words, columns, [&words](std::size_t k, std::uint32_t expected) {
+            words[k] = (expected + words[k]) & kMask;
+        });
+    for (std::size_t k = 0; k < words.size(); ++k)
+        values[k] = (kKind & kFloats) != 0 ? float_of(words[k]) : static_cast<float>(words[k]);
+}
+
+template <std::uint8_t kKind>
+void take_values(const std::vector<std::uint8_t>& planes, std::vector<std::uint32_t>& words,
+                 std::size_t columns, std::span<float> values) {
+    join_planes<kKind>(planes, words);
+    add_expected<kKind>(words, columns, values);
 }
 
 /// About how many bits the words take.
@@ -154,25 +189,25 @@ bool FloatUnpacker::unpack(std::span<const std::uint8_t> bytes, std::size_t colu
                            std::span<float> values) {
     if (bytes.empty() || bytes[0] > (kFloats | kBefore)) return false;
     const std::uint8_t kind = bytes[0];
-    const std::uint32_t mask = mask_of(kind);
     const std::size_t count = values.size();
     planes_.resize(planes_of(kind) * count);
     if (ZSTD_decompressDCtx(context_.get(), planes_.data(), planes_.size(), bytes.data() + 1,
                             bytes.size() - 1) != planes_.size())
         return false;
-    words_.assign(count, 0);
-    for (std::size_t plane = 0; plane < planes_of(kind); ++plane)
-        for (std::size_t k = 0; k < count; ++k)
-            words_[k] |= std::uint32_t{planes_[plane * count + k]} << (8U * plane);
-    const auto add = [&](std::size_t k, std::uint32_t expected) {
-        words_[k] = (expected + unfolded(words_[k])) & mask;
-    };
-    if ((kind & kBefore) != 0)
-        for (std::size_t k = 0; k < count; ++k) add(k, word_of(values[k], kind));
-    else
-        visit_expected(words_, columns, add);
-    for (std::size_t k = 0; k < count; ++k)
-        values[k] = (kind & kFloats) != 0 ? float_of(words_[k]) : static_cast<float>(words_[k]);
+    words_.resize(count);
+    switch (kind) {
+        case 0:
+            take_values<0>(planes_, words_, columns, values);
+            break;
+        case kFloats:
+            take_values<kFloats>(planes_, words_, columns, values);
+            break;
+        case kBefore:
+            take_values<kBefore>(planes_, words_, columns, values);
+            break;
+        default:
+            take_values<kFloats | kBefore>(planes_, words_, columns, values);
+    }
     return true;
 }
 
