@@ -159,7 +159,9 @@ int make_clip(const ClipOptions& options) {
     refuse_overwriting(options.out, scene.files,
                        "is also read by this command; give --out another name");
     const std::int64_t pictures = count_pictures(options, scene);
-    if (!draw_clip(options, scene, pictures)) {
+    const bool whole = draw_clip(options, scene, pictures);
+    print_warning(scene.motion->trouble());
+    if (!whole) {
         print_error_line("cancelled: " + options.out.string() + " was not written");
         return kInterrupted;
     }

@@ -49,6 +49,8 @@ constexpr std::array kCommands{
             headless<run_surface>},
     Command{"clip", "COLOR|SESSION [--goals GOALS.csv] --out FILE",
             "A clip whose every picture is drawn, however long it takes", headless<run_clip>},
+    Command{"prepare", "RECORDING... [--list] [--empty]",
+            "Cleans once, off line, and keeps it for playing at full rate", headless<run_prepare>},
     Command{"depth", "COLOR [--with \"COMMAND {input} {output}\"]",
             "Depth for a colour video, by an estimator you have installed", headless<run_depth>},
     Command{"experiment", "[linear|circle|human|all|sweep]",

@@ -57,6 +57,8 @@ int run_touch(CLI::App& app, const Arguments& arguments);
 int run_surface(CLI::App& app, const Arguments& arguments);
 /// Draws a clip off line. Prints its size and length.
 int run_clip(CLI::App& app, const Arguments& arguments);
+/// Prepares recordings, or lists or removes what is kept of them. Prints a line for each.
+int run_prepare(CLI::App& app, const Arguments& arguments);
 /// Makes depth for a colour video, or lists or removes stored depth. Prints its path.
 int run_depth(CLI::App& app, const Arguments& arguments);
 /// Prints a table of all runs. 1 when a run that changes nothing does not give the recorded bits.

@@ -104,10 +104,6 @@ std::optional<DepthEstimate> run_estimator(const EstimateRequest& request) {
     return made.get();
 }
 
-std::string megabytes_text(std::uintmax_t bytes) {
-    return short_text(static_cast<double>(bytes) / 1e6, 3) + " MB";
-}
-
 std::string summary_line(const KeptEstimate& kept) {
     const EstimateRecord& record = kept.record;
     if (record.command.empty())

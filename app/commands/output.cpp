@@ -53,6 +53,10 @@ std::string bounds_met_text(std::size_t bounds_met, std::size_t updates) {
            " updates ended before the proxy had caught up with its goal";
 }
 
+std::string megabytes_text(std::uintmax_t bytes) {
+    return short_text(static_cast<double>(bytes) / 1e6, 3) + " MB";
+}
+
 std::string size_text(int columns, int rows) {
     return std::to_string(columns) + "x" + std::to_string(rows);
 }

@@ -34,6 +34,9 @@ void append_row(std::string& text, const OutputRow& row);
 /// "3 of 10 updates ended before the proxy had caught up with its goal"
 [[nodiscard]] std::string bounds_met_text(std::size_t bounds_met, std::size_t updates);
 
+/// "12.5 MB".
+[[nodiscard]] std::string megabytes_text(std::uintmax_t bytes);
+
 /// "720x486".
 [[nodiscard]] std::string size_text(int columns, int rows);
 

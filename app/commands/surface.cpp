@@ -97,6 +97,7 @@ void write_felt_surface(const SurfaceOptions& options, SurfaceFormat format) {
     reader.set_maps(options.touch.read_maps(reader.description()));
     const std::shared_ptr<const BumpMap> bump = options.touch.given.read_bumps();
     const std::vector<Frame> frames = frames_around(reader, options.time_s);
+    print_warning(reader.prepared().trouble());
     const DepthBlend blend = depth_at(frames, options.time_s);
     const std::shared_ptr<const ColourImage> colour = blend.colour_frame().rgb();
     const ExportedSurface exported{blend.surface(parameters.shape, bump.get()),

@@ -102,6 +102,7 @@ void touch_all(const TouchOptions& options) {
         } while (reader.next(kBlockRows, goals));
         out.commit();
     }
+    print_warning(run.trouble());
     if (bounds_met > 0) print_error_line(bounds_met_text(bounds_met, updates));
 }
 

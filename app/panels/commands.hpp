@@ -67,6 +67,7 @@ enum class KioskCommand { next, say_again };
 struct MakeReport {
     std::filesystem::path session{};
 };
+struct PrepareRecording {};  ///< the shown one; or cancels it
 
 /// An Action does the same as its key, and also the work that a key defers until after the picture.
 /// A DepthStatement is a person's statement on the open depth.
@@ -74,7 +75,8 @@ using WindowCommand =
     std::variant<Action, OpenRequest, DepthStatement, DepthOfferCommand, TypedFile, SaveSidecar,
                  LoadBump, UseMaterial, KeepMaterial, UseFirmware, AgreeToDevice,
                  AnswerUnsafeSettings, AnswerDepth, RemovePaint, MarkMoment, ReplayAsRecorded,
-                 LeaveReplay, ReadFolder, CompleteTyped, KioskCommand, MakeReport>;
+                 LeaveReplay, ReadFolder, CompleteTyped, KioskCommand, MakeReport,
+                 PrepareRecording>;
 
 /// A visitor of lambdas.
 template <typename... Visit>

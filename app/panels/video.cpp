@@ -154,6 +154,25 @@ void draw_live(const ViewerState& state, Transport& player) {
     if (!live.signal && !live.trouble.empty()) draw_dimmed(capitalised(live.trouble));
 }
 
+/// A surface that was cleaned before, or the button to do so.
+void draw_prepared(ViewerState& state) {
+    const PlaybackStatus& playback = state.media.playback;
+    if (state.ui.preparing) {
+        ImGui::ProgressBar(static_cast<float>(*state.ui.preparing), {-button_width("Cancel"), 0.0F},
+                           "Preparing");
+        ImGui::SameLine();
+        if (ImGui::Button("Cancel##preparing")) state.commands.push(PrepareRecording{});
+    } else if (playback.prepared) {
+        draw_dimmed("Prepared: its cleaned surface is kept");
+        add_tooltip("Nothing is cleaned while it plays; dibhr prepare --list has all that is kept");
+    } else if (playback.open && !playback.live && !state.media.still && !state.media.opening) {
+        if (ImGui::Button("Prepare")) state.commands.push(PrepareRecording{});
+        add_tooltip(
+            "Cleans the whole recording once and keeps its surface, so that it plays at its own "
+            "rate, also on a slow machine; it feels the same");
+    }
+}
+
 /// If a person switches a step, the preset becomes `own`, with the other steps as they are now.
 void draw_cleaning(ViewerState& state) {
     CleaningOptions& cleaning = state.settings.cleaning;
@@ -178,6 +197,7 @@ void draw_cleaning(ViewerState& state) {
                 "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
                 false, unless_chosen.c_str()},
                state.settings.finger_mm);
+    if (!state.touch.replay) draw_prepared(state);
     if (!subsection("Cleaning steps")) return;
     const bool own = cleaning.preset == CleaningPreset::own;
     CleaningSteps steps = own ? cleaning.own : state.media.playback.steps;

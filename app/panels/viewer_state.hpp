@@ -218,6 +218,7 @@ struct UiState {
     std::optional<ExplainedInfo> explained{};
     bool statistics{false};                         ///< shown over the relief
     std::optional<ClipInfo> clip{};                 ///< nothing: no clip is made
+    std::optional<double> preparing{};              ///< the share that is done; nothing: none is
     std::optional<DepthOffer> depth_offer{};        ///< nothing: no video lacks depth
     std::optional<DepthQuestion> depth_question{};  ///< nothing: the depth is sure, or answered
     std::optional<StripHistory> paused_strips{};    ///< the values of paused charts

@@ -358,8 +358,13 @@ fs::path depth_choices_path() {
     return settings_path().parent_path() / "depth";
 }
 
+fs::path prepared_cache_path() {
+    return program_folder("XDG_CACHE_HOME", ".cache") / "prepared";
+}
+
 DepthRequest usual_depth_request() {
-    return {.find_out = true, .kept_in = depth_choices_path()};
+    return {
+        .find_out = true, .kept_in = depth_choices_path(), .prepared_in = prepared_cache_path()};
 }
 
 Settings load_settings(const fs::path& file, std::vector<std::string>& warnings) {

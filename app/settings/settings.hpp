@@ -120,6 +120,12 @@ struct Settings {
 /// The folder depth/ beside it: the panel's depth choices of each file.
 [[nodiscard]] std::filesystem::path depth_choices_path();
 
+/// $XDG_CACHE_HOME/dibhr/prepared, or ~/.cache/dibhr/prepared: the surfaces that dibhr prepare
+/// keeps.
+[[nodiscard]] std::filesystem::path prepared_cache_path();
+/// The most that they take together; those used longest ago go first.
+inline constexpr std::uintmax_t kMostPreparedBytes = 20'000'000'000;
+
 /// Unknown facts of depth are guessed; saved choices of the panel apply.
 [[nodiscard]] DepthRequest usual_depth_request();
 

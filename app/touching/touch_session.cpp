@@ -28,7 +28,8 @@ std::string text_of(const Standstill& last) {
            " s: the force was off";
 }
 
-/// Cleaning of the settings; raw while the key *Depth as recorded* is held.
+}  // namespace
+
 CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& media) {
     if (media.as_recorded) return {.preset = CleaningPreset::raw};
     CleaningOptions cleaning = cleaning_on(media, settings.cleaning);
@@ -36,8 +37,6 @@ CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& medi
     if (radius_mm > 0.0) cleaning.finger = fingertip_of(radius_mm, settings.touch);
     return cleaning;
 }
-
-}  // namespace
 
 TouchSession::TouchSession(HandDevice hand, const TouchConnections& connections,
                            const TouchStateRefs& state)

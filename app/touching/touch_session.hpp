@@ -40,6 +40,9 @@ struct TouchConnections {
     std::function<void()> on_frames{};
 };
 
+/// Cleaning of the settings; raw while the key *Depth as recorded* is held.
+[[nodiscard]] CleaningOptions wanted_cleaning(const Settings& settings, const MediaState& media);
+
 /// For the window's thread only. Force is sent only between start() and stop().
 class TouchSession {
   public:

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/settings/command_options.hpp"
@@ -32,6 +33,9 @@ class ClipMotion {
     /// The surface of that time; valid until the next call.
     [[nodiscard]] virtual DepthBlend shown() const = 0;
 
+    /// A sentence for people on what could not be read as it should; empty: nothing.
+    [[nodiscard]] virtual std::string trouble() const { return {}; }
+
     /// The last tick, and the parameters that it was computed with.
     [[nodiscard]] const TouchState& touch() const noexcept { return touch_; }
     [[nodiscard]] const TouchParameters& parameters() const noexcept { return parameters_; }
@@ -55,6 +59,7 @@ class GoalMotion final : public ClipMotion {
 
     void advance_to(double t_s) override;
     [[nodiscard]] DepthBlend shown() const override { return run_.frames(); }
+    [[nodiscard]] std::string trouble() const override { return run_.trouble(); }
     /// When all goals were touched once; 0 without goals.
     [[nodiscard]] double goals_end_s() const noexcept;
 

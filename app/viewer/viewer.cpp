@@ -74,6 +74,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       opening_(tasks),
       clip_(tasks, shutdown.crash_note()),
       estimating_(tasks),
+      preparing_(tasks),
       browsing_(tasks),
       desktop_(tasks),
       painting_(tasks),
@@ -159,6 +160,7 @@ void Viewer::close_without_display() {
     state_.ui.message.clear();
     touch_.stop();
     estimating_.end();
+    preparing_.end();
     const std::atomic<bool> at_once{true};
     save_all(at_once, [this](const char*, const auto& step) { attempt(step); });
     touch_.close_device();
@@ -179,6 +181,7 @@ void Viewer::finish() {
     try_to("taking the force off", [this] {
         if (const auto schedule = touch_.stop()) log_lateness(*schedule);
         estimating_.end();
+        preparing_.end();
     });
     try_to("writing the last picture", [this] { write_last_picture(); });
     try_to("writing the last picture", [this] { take_last_screenshot(); });
@@ -295,6 +298,7 @@ void Viewer::poll() {
     });
     attempt([this] { painting_.poll(state_, touch_.recording()); });
     take_report();
+    take_prepared();
     if (const auto made = estimating_.poll(state_)) open(*made);
 }
 

@@ -34,6 +34,7 @@
 #include "app/viewer/painting/painting.hpp"
 #include "app/viewer/panes.hpp"
 #include "app/viewer/picture_change.hpp"
+#include "app/viewer/preparing.hpp"
 #include "app/viewer/replay.hpp"
 #include "app/viewer/reporting.hpp"
 #include "app/viewer/service_settings.hpp"
@@ -227,6 +228,7 @@ class Viewer {
     void open(const OpenRequest& request);
     void make_report(const std::filesystem::path& session);
     void take_report();
+    void take_prepared();
     void show_notice(const std::string& notice);
     void log_messages();
     void speak();
@@ -266,6 +268,7 @@ class Viewer {
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;
+    ViewerPreparing preparing_;
     ViewerAsking asking_{};
     std::optional<TurnedDepth> turned_{};  // by the last press of the key
     Reporting reporting_{};

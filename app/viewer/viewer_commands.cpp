@@ -43,7 +43,8 @@ void Viewer::carry_out_commands() {
         [this](const ReadFolder& wanted) { browsing_.go_to(wanted.folder, state_.ui.dialog); },
         [this](const CompleteTyped& line) { browsing_.complete(line.typed, state_.ui.dialog); },
         [this](KioskCommand command) { perform_in_kiosk(command); },
-        [this](const MakeReport& report) { make_report(report.session); }};
+        [this](const MakeReport& report) { make_report(report.session); },
+        [this](PrepareRecording) { preparing_.begin_or_cancel(state_); }};
     for (const WindowCommand& command : state_.commands.take()) std::visit(carry_out, command);
 }
 
@@ -162,6 +163,20 @@ void Viewer::make_report(const std::filesystem::path& session) {
         const bool begun = reporting_.start(std::filesystem::absolute(session));
         show_notice(begun ? "Making the report" : "Still making the last report");
     });
+}
+
+/// The prepared recording is opened again, to play from its surface.
+void Viewer::take_prepared() {
+    const auto end = preparing_.poll(state_);
+    if (!end) return;
+    if (!end->failure.empty()) {
+        state_.ui.message = end->failure;
+    } else if (!end->made) {
+        show_notice("Cancelled: nothing is kept");
+    } else {
+        show_notice("Prepared: plays at its own rate from now on");
+        if (preparing_.shows_prepared(state_)) open_again(state_.media.opened.request.panel);
+    }
 }
 
 void Viewer::take_report() {

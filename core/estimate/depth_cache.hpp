@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/estimate/colour_frames.hpp"
+#include "core/files/cache_folder.hpp"
 #include "core/video/depth/depth_meaning.hpp"
 
 namespace dibhr {
@@ -30,28 +31,24 @@ class EstimateFolder {
     /// that fails, or another program has the lock.
     EstimateFolder(const std::filesystem::path& cache, const std::string& colour_sha256,
                    const std::string& command);
-    ~EstimateFolder();
-    EstimateFolder(const EstimateFolder&) = delete;
-    EstimateFolder& operator=(const EstimateFolder&) = delete;
 
-    [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-    [[nodiscard]] std::filesystem::path frames() const { return path_ / "frames"; }
-    [[nodiscard]] std::filesystem::path output() const { return path_ / "output"; }
+    [[nodiscard]] const std::filesystem::path& path() const noexcept { return folder_.path(); }
+    [[nodiscard]] std::filesystem::path frames() const { return path() / "frames"; }
+    [[nodiscard]] std::filesystem::path output() const { return path() / "output"; }
     /// The file with the estimator's output of the last run.
-    [[nodiscard]] std::filesystem::path said() const { return path_ / "said.txt"; }
+    [[nodiscard]] std::filesystem::path said() const { return path() / "said.txt"; }
 
     /// Nothing: no valid record.
     [[nodiscard]] std::optional<EstimateRecord> record() const;
     /// Writes the record, whole or not at all. Throws InputError.
     void keep(const EstimateRecord& record) const;
     /// Removes all files but the lock.
-    void empty() const;
+    void empty() const { folder_.empty(); }
     /// Removes the files that only the estimator needed.
     void remove_work_files() const;
 
   private:
-    std::filesystem::path path_;
-    int lock_{-1};
+    CacheFolder folder_;
 };
 
 /// An estimation in the cache: a row of `dibhr depth --list`.

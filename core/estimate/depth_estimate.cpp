@@ -16,6 +16,7 @@
 #include "core/estimate/estimator_command.hpp"
 #include "core/estimate/estimator_output.hpp"
 #include "core/estimate/printed_progress.hpp"
+#include "core/files/cache_folder.hpp"
 #include "core/files/content_hash.hpp"
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"

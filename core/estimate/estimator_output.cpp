@@ -202,16 +202,6 @@ WholeOutputs whole_outputs(const fs::path& folder) {
     return whole;
 }
 
-std::uintmax_t bytes_in(const fs::path& folder) {
-    std::uintmax_t bytes = 0;
-    for (const fs::path& file : files_in(folder)) {
-        std::error_code gone;
-        const std::uintmax_t size = fs::file_size(file, gone);
-        if (!gone) bytes += size;
-    }
-    return bytes;
-}
-
 std::unique_ptr<PictureSource> DepthOutput::open() const {
     if (!row_.empty()) return std::make_unique<RowOfOutputs>(row_);
     return open_picture_source(file_, PictureRole::depth);

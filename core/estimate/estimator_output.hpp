@@ -30,9 +30,6 @@ struct WholeOutputs {
 /// estimators count anew in each run.
 [[nodiscard]] WholeOutputs whole_outputs(const std::filesystem::path& folder);
 
-/// All bytes in the folder, which grow while the estimator writes.
-[[nodiscard]] std::uintmax_t bytes_in(const std::filesystem::path& folder);
-
 /// One form in which the depth may be there: a row of pictures or a file.
 class DepthOutput {
   public:

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/haptics/parameters.hpp"
 #include "core/haptics/surface.hpp"
@@ -28,6 +29,8 @@ class GoalRun {
     /// Of the last call; valid until the next one.
     [[nodiscard]] DepthBlend frames() const noexcept { return depth_->now(); }
     [[nodiscard]] const std::shared_ptr<const BumpMap>& bump() const noexcept { return bump_; }
+    /// See DepthTimeline.
+    [[nodiscard]] const std::string& trouble() const { return depth_->trouble(); }
     /// How long the last update took.
     [[nodiscard]] std::chrono::nanoseconds update_time() const noexcept {
         return runner_.update_time();

@@ -4,13 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
-struct ZSTD_CCtx_s;
-struct ZSTD_DCtx_s;
+#include "core/files/float_code.hpp"
 
 namespace dibhr {
 
@@ -21,35 +18,30 @@ inline constexpr std::size_t kTilePixels = std::size_t{kTileSide} * kTileSide;
 /// Row-major.
 using Tile = std::array<float, kTilePixels>;
 
-/// Packs tiles, every bit of every float. One thread at a time.
+/// Packs tiles. One thread at a time.
 class TilePacker {
   public:
-    TilePacker();  ///< throws std::bad_alloc
-
     /// The same tile gives the same bytes. Valid until the next call.
-    [[nodiscard]] std::span<const std::uint8_t> pack(const Tile& tile);
+    [[nodiscard]] std::span<const std::uint8_t> pack(const Tile& tile) {
+        return packer_.pack(tile, kTileSide);
+    }
 
   private:
-    struct Free {
-        void operator()(ZSTD_CCtx_s* context) const noexcept;
-    };
-    std::unique_ptr<ZSTD_CCtx_s, Free> context_;
-    std::vector<std::uint8_t> bytes_{};
+    FloatPacker packer_{};
 };
 
 /// Unpacks them. One thread at a time.
 class TileUnpacker {
   public:
-    TileUnpacker();  ///< throws std::bad_alloc
-
     /// Nothing: the bytes are no tile's.
-    [[nodiscard]] std::optional<Tile> unpack(std::span<const std::uint8_t> bytes);
+    [[nodiscard]] std::optional<Tile> unpack(std::span<const std::uint8_t> bytes) {
+        Tile tile{};
+        if (needs_before(bytes) || !unpacker_.unpack(bytes, kTileSide, tile)) return std::nullopt;
+        return tile;
+    }
 
   private:
-    struct Free {
-        void operator()(ZSTD_DCtx_s* context) const noexcept;
-    };
-    std::unique_ptr<ZSTD_DCtx_s, Free> context_;
+    FloatUnpacker unpacker_{};
 };
 
 }  // namespace dibhr

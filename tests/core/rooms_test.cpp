@@ -190,7 +190,7 @@ const std::vector<Ownership> kOwnerships{
     {"zip.h", {"core/video/formats/"}},
     {"tiffio.h", {"core/video/modules/"}},
     {"expat.h", {"core/video/formats/xmp.cpp"}},
-    {"zstd.h", {"core/session/tile_code", "core/video/formats/"}},
+    {"zstd.h", {"core/files/float_code", "core/video/formats/"}},
     {"lz4frame.h", {"core/video/formats/"}},
     {"cairo", {"core/plot/"}},
     {"pango/", {"core/plot/"}},

@@ -108,6 +108,11 @@ void DecodedAhead::seek_depth(double media_s) {
     jump({media_s, Jump::depth}, Begins::when_read);
 }
 
+void DecodedAhead::leave_out_depth(const FrameTimes& times) {
+    const std::lock_guard lock(mutex_);
+    leave_out_ = times;
+}
+
 void DecodedAhead::jump(Target target, Begins begins) {
     {
         const std::lock_guard lock(mutex_);
@@ -151,10 +156,13 @@ bool DecodedAhead::has_room() const {
            (decoded_.size() < kMostAhead && bytes_ + decoded_.back().bytes <= kMostBytes);
 }
 
-DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, double from_s) {
+DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target,
+                                           const std::optional<FrameTimes>& leave_out,
+                                           double from_s) {
     Decoded decoded;
     const auto begin = now_();
     try {
+        if (leave_out) media_->leave_out_depth(*leave_out);
         if (target && target->jump == Jump::exact) media_->seek(target->media_s);
         if (target && target->jump == Jump::near) media_->seek_near(target->media_s);
         if (target && target->jump == Jump::depth) media_->seek_depth(target->media_s);
@@ -179,9 +187,10 @@ DecodedAhead::Decoded DecodedAhead::decode(const std::optional<Target>& target, 
 
 void DecodedAhead::decode_one(std::unique_lock<std::mutex>& lock) {
     const std::optional<Target> target = std::exchange(target_, std::nullopt);
+    const auto leave_out = target ? std::exchange(leave_out_, std::nullopt) : std::nullopt;
     const double from_s = from_s_;
     lock.unlock();
-    Decoded decoded = decode(target, from_s);
+    Decoded decoded = decode(target, leave_out, from_s);
     lock.lock();
     if (target_) return;  // a jump was requested meanwhile
     ended_ = !decoded.frame;

@@ -52,6 +52,7 @@ class DecodedAhead : public Media {
     void seek(double media_s) override;
     void seek_near(double media_s) override;
     void seek_depth(double media_s) override;
+    void leave_out_depth(const FrameTimes& times) override;
     /// As seek(), but decoding begins at once, since the following frames will be read soon.
     void decode_from(double media_s);
 
@@ -89,7 +90,8 @@ class DecodedAhead : public Media {
     [[nodiscard]] Decoded* unprepared();
     void decode_one(std::unique_lock<std::mutex>& lock);
     void prepare(Decoded& waiting, std::unique_lock<std::mutex>& lock);
-    [[nodiscard]] Decoded decode(const std::optional<Target>& target, double from_s);
+    [[nodiscard]] Decoded decode(const std::optional<Target>& target,
+                                 const std::optional<FrameTimes>& leave_out, double from_s);
 
     // Used by the decoding thread only.
     std::unique_ptr<Media> media_;
@@ -107,11 +109,12 @@ class DecodedAhead : public Media {
     std::condition_variable wake_decoder_{}, wake_reader_{};
     std::deque<Decoded> decoded_{};
     std::shared_ptr<const Preparation> preparation_{};
-    std::size_t bytes_{0};              ///< of all in `decoded_`
-    std::size_t consecutive_reads_{0};  ///< since the last jump; decode_from() sets it
-    double from_s_{0.0};                ///< earlier frames are skipped
-    double spacing_s_{0.0};             ///< one frame of so much media time is made; 0: all
-    std::optional<Target> target_{};    ///< where to decode next; nothing: the following frame
+    std::size_t bytes_{0};                   ///< of all in `decoded_`
+    std::size_t consecutive_reads_{0};       ///< since the last jump; decode_from() sets it
+    double from_s_{0.0};                     ///< earlier frames are skipped
+    double spacing_s_{0.0};                  ///< one frame of so much media time is made; 0: all
+    std::optional<FrameTimes> leave_out_{};  ///< for the next jump; nothing: as it was
+    std::optional<Target> target_{};         ///< where to decode next; nothing: the following frame
     bool reader_waits_{false};
     bool ended_{false};  ///< at the end, or the next frame failed: decode only on request
     bool stopping_{false};

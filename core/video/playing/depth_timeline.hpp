@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/haptics/surface.hpp"
@@ -35,6 +36,8 @@ class DepthTimeline {
 
     /// The surface at that time; valid until the next advance_to().
     [[nodiscard]] DepthBlend now() const noexcept { return depth_at(frames_, now_s_); }
+    /// A sentence where a prepared surface was damaged; else empty.
+    [[nodiscard]] const std::string& trouble() const { return reader_.prepared().trouble(); }
 
   private:
     bool add(std::optional<Frame> frame);

@@ -31,6 +31,7 @@ class FrameAssembly {
     void set_plan(const CleaningPlan& plan) { plan_ = plan; }
     [[nodiscard]] const CleaningPlan& plan() const { return plan_; }
     void set_maps(std::shared_ptr<const TouchMaps> maps) { maps_ = std::move(maps); }
+    [[nodiscard]] const std::shared_ptr<const TouchMaps>& maps() const { return maps_; }
     void set_number(std::uint32_t number) { number_ = number; }
     [[nodiscard]] std::uint32_t number() const { return number_; }
     /// From frame to frame, by which frames are numbered.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "core/files/plain_text.hpp"
 #include "core/realtime/moving_mean.hpp"
 #include "core/video/playing/cleaning_degradation.hpp"
 #include "core/video/playing/clip_trial.hpp"
@@ -104,7 +105,7 @@ void FrameReader::update_timing(const RawFrame& raw, std::int64_t frames, double
     waited_s_ += waited_s;
     cost_.decode_ms = 1000.0 * waited_s;
     const auto count = static_cast<double>(frames);
-    const bool only_decoded = raw.skipping_s > 0.0 && !plan().steps.steady;
+    const bool only_decoded = raw.skipping_s > 0.0 && !filters_in_time();
     const double skipping_s = only_decoded ? raw.skipping_s : waited_s / count;
     decoding_s_ = moving_mean(decoding_s_, skipping_s);
     if (!only_decoded)
@@ -116,7 +117,8 @@ void FrameReader::update_timing(const RawFrame& raw, std::int64_t frames, double
 FrameReader::Kept* FrameReader::keep(RawFrame raw) {
     evict();
     Kept& kept = kept_[raw.media_s];
-    if (need_colour(plan().steps) && !raw.single_frame && !kept.can_be_cleaned())
+    if (need_colour(plan().steps) && !prepared_.found() && !raw.single_frame &&
+        !kept.can_be_cleaned())
         assembly_.clean_frame(raw, plan());
     // The frame is new, or its colour was dropped to save memory.
     if (!kept.frame.colour_object()) kept.frame = assembly_.without_depth(raw);
@@ -128,7 +130,7 @@ FrameReader::Kept* FrameReader::keep(RawFrame raw) {
 }
 
 std::size_t FrameReader::reach() const {
-    if (!plan().steps.steady) return 0;
+    if (!filters_in_time()) return 0;
     // Farther frames of large pictures need more memory than most machines have.
     return plan().noise.per_frame_scale || is_large() ? kNearInTime : kReachInTime;
 }
@@ -198,7 +200,10 @@ bool FrameReader::needs_measuring() const {
 void FrameReader::make_plan() {
     if (planned_) return;
     if (!noise_) noise_ = description().noise;
-    if (needs_measuring()) {
+    prepared_.look(description(), options_);
+    media_.leave_out_depth(prepared_.times());
+    const bool cleaned = std::exchange(cleans_, !prepared_.found());
+    if (!prepared_.found() && needs_measuring()) {
         media_.prepare_with(nullptr);
         const auto begin = now_();
         jump_to(0.0);
@@ -206,11 +211,13 @@ void FrameReader::make_plan() {
         jump_to(0.0);
         extra_s_ += seconds_since(begin);
     }
-    whole_plan_ = plan_of(options_, noise_.value_or(DepthNoise{}), description().depth_pixels(),
-                          description().sparse_share.has_value(), felt_);
+    whole_plan_ = prepared_.found() ? prepared_.plan()
+                                    : plan_of(options_, noise_.value_or(DepthNoise{}),
+                                              description().depth_pixels(),
+                                              description().sparse_share.has_value(), felt_);
     CleaningPlan plan = whole_plan_;
-    plan.steps = degraded(plan.steps, degradation_);
-    if (!same_single_frame_steps(plan.steps, this->plan().steps)) {
+    if (!prepared_.found()) plan.steps = degraded(plan.steps, degradation_);
+    if (cleaned != cleans_ || !same_single_frame_steps(plan.steps, this->plan().steps)) {
         kept_.clear();
         jump_to(0.0);
     }
@@ -218,6 +225,7 @@ void FrameReader::make_plan() {
     std::erase_if(kept_, [](const auto& kept) { return !kept.second.can_be_cleaned(); });
     assembly_.set_plan(plan);
     planned_ = true;
+    if (prepared_.found()) return media_.prepare_with(nullptr);
     media_.prepare_with([this, plan](RawFrame& raw) { assembly_.clean_frame(raw, plan); });
 }
 
@@ -252,10 +260,32 @@ FrameReader::Neighbours FrameReader::neighbours(double media_s) {
     return neighbours;
 }
 
+/// Sets the prepared depth of a kept frame. False: the frame is to be cleaned.
+bool FrameReader::fill_prepared(double media_s) {
+    if (!prepared_.found()) return false;
+    const auto begin = now_();
+    Frame& frame = find(media_s)->frame;
+    if (prepared_.fill(frame)) {
+        frame.maps = assembly_.maps();
+        cost_.clean_ms = cost_.finish_ms = 1000.0 * seconds_since(begin);
+        cost_.cleaned = now_();
+        return true;
+    }
+    planned_ = false;
+    make_plan();
+    for (jump_to(media_s); read() != nullptr && position_->media_s < media_s;) {
+    }
+    if (find(media_s) == nullptr)
+        throw InputError(description().depth_path.string() + " cannot be read again at " +
+                         short_text(media_s) + " s: open it again");
+    return false;
+}
+
 Frame FrameReader::cleaned(double media_s) {
     wanted_s_ = media_s;
     if (!find(media_s)->is_cleaned()) {
         cost_.clean_ms = 0.0;
+        if (fill_prepared(media_s)) return find(media_s)->frame;
         const Neighbours neighbours = this->neighbours(media_s);
         const auto begin = now_();
         std::vector<const SingleFrameDepth*> frames;
@@ -367,7 +397,7 @@ const FrameReader::Kept* FrameReader::next_wanted(double media_s, const Pace& pa
     const bool passes = pace.earliest_s > media_s || pace.spacing_s > 0.0;
     const Kept* const here = find(media_s);
     const bool is_kept = here != nullptr && kept_after(*here, Needs::surface) != nullptr;
-    if (plan().steps.steady || !passes || is_kept || !decoder_is_after(media_s))
+    if (filters_in_time() || !passes || is_kept || !decoder_is_after(media_s))
         return next_of(media_s, Needs::surface);
     return here != nullptr && here->last ? nullptr : read(pace);
 }
@@ -414,6 +444,8 @@ std::optional<Frame> FrameReader::first_picture() {
         kMeasuring_s_a_pixel * static_cast<double>(description().depth_pixels());
     const bool is_quick = description().still || measuring_s < kQuickJump_s;
     if (is_quick || planned_ || !needs_measuring()) return std::nullopt;
+    prepared_.look(description(), options_);
+    if (prepared_.found()) return std::nullopt;
     jump_to(0.0);
     return decoded_alone();
 }
@@ -432,7 +464,12 @@ std::optional<Frame> FrameReader::decoded_alone() {
     at_beginning_ = false;
     std::optional<RawFrame> raw = media_.next();
     if (!raw) return std::nullopt;
-    return assembly_.finish_single_frame(std::move(*raw));
+    if (!prepared_.found()) return assembly_.finish_single_frame(std::move(*raw));
+    Frame frame = assembly_.without_depth(*raw);
+    planned_ = prepared_.fill(frame);
+    if (!planned_) return std::nullopt;
+    frame.maps = assembly_.maps();
+    return frame;
 }
 
 double FrameReader::last_interval_s(double media_s) {
@@ -448,7 +485,7 @@ void FrameReader::set_cleaning(const CleaningOptions& options) {
 }
 
 void FrameReader::set_degradation(std::size_t level) {
-    if (level == degradation_) return;
+    if (prepared_.found() || level == degradation_) return;
     degradation_ = level;
     planned_ = false;
 }

@@ -14,6 +14,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/playing/decoded_ahead.hpp"
 #include "core/video/playing/frame_assembly.hpp"
+#include "core/video/playing/prepared_frames.hpp"
 #include "core/video/sources/media.hpp"
 
 namespace dibhr {
@@ -83,6 +84,13 @@ class FrameReader {
     void set_degradation(std::size_t level);
     [[nodiscard]] std::size_t degradation() const { return degradation_; }
 
+    /// Frames are cleaned, also where their surface is prepared.
+    void use_no_prepared() { prepared_.turn_off(); }
+    /// The prepared surface, if there is one for this cleaning.
+    [[nodiscard]] const PreparedFrames& prepared() const { return prepared_; }
+    /// Whether each frame is cleaned with those around it.
+    [[nodiscard]] bool filters_in_time() const { return plan().steps.steady && !prepared_.found(); }
+
     /// Frames carry these maps from now on; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 
@@ -125,7 +133,7 @@ class FrameReader {
         [[nodiscard]] bool is_cleaned() const { return frame.depth != nullptr; }
         void forget_cleaned();
         [[nodiscard]] bool can_be_cleaned() const {
-            return raw.single_frame || !raw.depth.levels.empty();
+            return raw.single_frame || !raw.depth.levels.empty() || raw.depth_left_out;
         }
         [[nodiscard]] bool has(Needs needs) const {
             if (needs == Needs::depth) return can_be_cleaned();
@@ -177,6 +185,7 @@ class FrameReader {
     [[nodiscard]] bool needs_measuring() const;
     std::optional<Frame> decoded_alone();
     Neighbours neighbours(double media_s);
+    bool fill_prepared(double media_s);
     Frame cleaned(double media_s);  ///< of a kept frame at exactly that time
     [[nodiscard]] double seconds_since(std::chrono::steady_clock::time_point begin) const;
 
@@ -186,6 +195,8 @@ class FrameReader {
     CleaningOptions options_{};
     CleaningPlan whole_plan_{};
     std::size_t degradation_{0};
+    PreparedFrames prepared_{};
+    bool cleans_{true};                   ///< the plan is for cleaning, not for a prepared surface
     std::optional<DepthNoise> noise_{};   ///< of the clip, measured when first needed
     std::optional<FeltCleaning> felt_{};  ///< what felt best on its first frames
     bool tried_{false};                   ///< felt_ is known, or that nothing tells

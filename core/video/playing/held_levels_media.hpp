@@ -27,6 +27,7 @@ class HeldLevelsMedia : public Media {
     void seek_depth(double media_s) override { place(media_s, Content::depth); }
     /// That frame has no held levels.
     void seek_near(double media_s) override;
+    void leave_out_depth(const FrameTimes& times) override { media_->leave_out_depth(times); }
 
   private:
     enum class Content { all, depth };

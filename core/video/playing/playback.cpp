@@ -400,7 +400,7 @@ void Playback::on_frame_read(Time now) {
     const bool starts = std::exchange(starts_, false);
     if (playing_ && frames_.size() == 2) place_late_frame(starts, now);
     update_plan(now);
-    if (playing_ && cleaning_.preset == CleaningPreset::automatic &&
+    if (playing_ && cleaning_.preset == CleaningPreset::automatic && !prepared().found() &&
         degradation_.update(steps(), costs(), interval_s(), speed_))
         apply_degradation();
 }

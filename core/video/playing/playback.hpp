@@ -91,6 +91,7 @@ class Playback {
     [[nodiscard]] const std::optional<MediaPart>& part() const { return part_; }
     [[nodiscard]] double speed() const { return speed_; }
     [[nodiscard]] const MediaDescription& description() const { return reader_->description(); }
+    [[nodiscard]] const PreparedFrames& prepared() const { return reader_->prepared(); }
     [[nodiscard]] const FrameCost& cost() const { return reader_->cost(); }
     /// The cleaning of the depth with nothing left out, as a sentence and as steps.
     [[nodiscard]] std::string cleaning_in_words() const {
@@ -104,7 +105,7 @@ class Playback {
     bool read_next(Time now);
     [[nodiscard]] Pace pace(Time now) const;
     [[nodiscard]] double earliest_in_time_s(Time now) const;
-    [[nodiscard]] bool filters_in_time() const { return reader_->plan().steps.steady; }
+    [[nodiscard]] bool filters_in_time() const { return reader_->filters_in_time(); }
     [[nodiscard]] FrameCosts measured_costs() const;
     [[nodiscard]] FrameCosts costs() const;
     void add_cost(double took_s, double waited_s);

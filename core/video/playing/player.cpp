@@ -204,6 +204,8 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     if (live.is_open()) return publish_live();
     if (!playback.is_open()) return;
     if (failure.empty()) status.failure = playback.description().trouble;
+    if (status.failure.empty()) status.failure = playback.prepared().trouble();
+    status.prepared = playback.prepared().found();
     status.open = true;
     status.playing = playback.playing();
     status.looping = playback.looping();

@@ -38,6 +38,7 @@ struct PlaybackStatus {
     double decode_ms{0.0};     ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it
+    bool prepared{false};              ///< its surface was cleaned before, and is read
     std::string cleaning{};            ///< the cleaning as a sentence
     std::string decoders{};            ///< MediaDescription::decoders
     CleaningSteps steps{};             ///< the same as steps, none of them left out

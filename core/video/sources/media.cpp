@@ -95,6 +95,7 @@ std::unique_ptr<PairedMedia> media_of(Sources sources, const DepthStatement& sta
     if (sparse_share) media->set_sparse(*sparse_share);
     media->add_notice(notice);
     media->set_panel_statement(request.panel);
+    media->set_prepared_in(request.prepared_in);
     media->set_live_feed(std::move(sources.live));
     return media;
 }

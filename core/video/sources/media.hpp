@@ -40,7 +40,11 @@ struct RawFrame {
     std::int64_t index{0};
     bool never_has_holes{false};  ///< no frame of this media has a pixel without data
     double skipping_s{0.0};       ///< mean time to skip a frame; 0: as long as reading it
+    bool depth_left_out{false};   ///< after Media::leave_out_depth()
 };
+
+/// The times of all frames of a media, rising [s]; null: not known.
+using FrameTimes = std::shared_ptr<const std::vector<double>>;
 
 /// Thrown for colour with no depth in it or beside it.
 class DepthMissing : public InputError {
@@ -69,6 +73,8 @@ struct DepthRequest {
     /// The folder of earlier choices, a file for each media, which complete `panel`, and for each
     /// folder of media. Empty: not used.
     std::filesystem::path kept_in{};
+    /// The cache of prepared surfaces (playing/prepared_cache.hpp). Empty: not used.
+    std::filesystem::path prepared_in{};
     bool panel_is_whole{false};  ///< earlier choices for this media do not complete `panel`
     DepthStatement recorded{};   ///< of a session; beats all others
     /// Open already for the same live places; null: opens them.
@@ -108,7 +114,8 @@ struct MediaDescription {
     std::int64_t frames{0};    ///< an estimate until the end was read
     bool frames_exact{false};  ///< the end was read: frames and duration are exact
     bool still{false};
-    std::string times_from{};         ///< what decides them (TimesFrom); empty: a still
+    std::filesystem::path prepared_in{};  ///< as requested
+    std::string times_from{};             ///< what decides them (TimesFrom); empty: a still
     std::string timing{};             ///< the same for people: "those of 'rgb.mp4', frame by frame"
     double colour_frames_per_s{0.0};  ///< of a colour file of its own; 0: a still, or not known
     double colour_duration_s{0.0};    ///< likewise
@@ -169,6 +176,10 @@ class Media {
     virtual void seek_depth(double media_s) { seek(media_s); }
     /// From the next frame on the colour of a video may come as its decoder made it.
     virtual void share_video() {}
+    /// The reader has the depth of all frames, which have these times: from the next seek on frames
+    /// come without it, and it is not decoded, unless the colour depends on it. Null: frames come
+    /// with depth.
+    virtual void leave_out_depth(const FrameTimes& /*times*/) {}
     /// The feed of a live source: next() waits for its frames, and seek() does nothing. Null: read
     /// from files.
     [[nodiscard]] virtual std::shared_ptr<LiveFeed> live() const { return nullptr; }

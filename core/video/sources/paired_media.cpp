@@ -157,11 +157,32 @@ PairedMedia::PairedMedia(std::unique_ptr<PictureSource> depth,
 }
 
 std::optional<RawFrame> PairedMedia::next() {
-    return frame_of(depth_->next());
+    return known_ ? colour_at_known(0.0) : frame_of(depth_->next());
 }
 
 std::optional<RawFrame> PairedMedia::next_from(double earliest_s) {
-    return frame_of(depth_->next_from(earliest_s));
+    return known_ ? colour_at_known(earliest_s) : frame_of(depth_->next_from(earliest_s));
+}
+
+/// The frame at the next known time that is not before `earliest_s`, or at the last one.
+std::optional<RawFrame> PairedMedia::colour_at_known(double earliest_s) {
+    const std::vector<double>& times = *known_;
+    while (next_known_ + 1 < times.size() && times[next_known_] < earliest_s) ++next_known_;
+    if (!(next_known_ < times.size())) return std::nullopt;
+    RawFrame frame;
+    frame.media_s = times[next_known_];
+    frame.index = static_cast<std::int64_t>(next_known_++);
+    frame.colour_of_view = colour_of_view_;
+    frame.never_has_holes = frame.depth_left_out = true;
+    report_decoders();
+    if (!colour_) return frame;
+    const TimedPicture taken = colour_->shown_at(frame.media_s);
+    report_trouble(colour_->facts());
+    frame.skipping_s = colour_->decoding_s();
+    frame.video = taken.video;
+    if (!frame.video)
+        frame.colour = colour_of(apply_registration(taken.picture, registration_, size_));
+    return frame;
 }
 
 std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken) {
@@ -320,9 +341,21 @@ void PairedMedia::report_decoders() {
         depth == colour ? depth : "colour by " + words(colour) + "; depth by " + words(depth);
 }
 
+/// Where the colour is drawn, moved or calibrated by the depth, that is decoded all the same.
+void PairedMedia::leave_out_depth(const FrameTimes& times) {
+    known_ = painted_ || cameras_ || shape_ ? nullptr : times;
+}
+
+void PairedMedia::seek_frame(double media_s) {
+    if (!known_) return depth_->seek(media_s);
+    const auto after = std::ranges::upper_bound(*known_, media_s + kTimeTolerance_s);
+    next_known_ =
+        static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - known_->begin(), 1) - 1);
+}
+
 void PairedMedia::seek(double media_s) {
     depth_alone_ = false;
-    depth_->seek(media_s);
+    seek_frame(media_s);
     if (colour_) colour_->forget();
 }
 
@@ -334,7 +367,8 @@ void PairedMedia::seek_depth(double media_s) {
 void PairedMedia::seek_near(double media_s) {
     depth_alone_ = false;
     // The colour first, as its pictures mostly take longest.
-    depth_->seek_near(colour_ ? colour_->go_near(media_s) : media_s);
+    const double near_s = colour_ ? colour_->go_near(media_s) : media_s;
+    known_ ? seek_frame(near_s) : depth_->seek_near(near_s);
 }
 
 void PairedMedia::count_frames(std::int64_t most) {

@@ -66,6 +66,7 @@ class PairedMedia : public Media {
     void seek_near(double media_s) override;
     void seek_depth(double media_s) override;
     void share_video() override;
+    void leave_out_depth(const FrameTimes& times) override;
     [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
     /// Reads at most `most` more frames of depth, so that the description becomes exact.
@@ -84,9 +85,12 @@ class PairedMedia : public Media {
         description_.conclusion = std::move(conclusion);
     }
     void set_panel_statement(const DepthStatement& panel) { description_.panel = panel; }
+    void set_prepared_in(const std::filesystem::path& cache) { description_.prepared_in = cache; }
 
   private:
     std::optional<RawFrame> frame_of(std::optional<TimedPicture> taken);
+    void seek_frame(double media_s);
+    [[nodiscard]] std::optional<RawFrame> colour_at_known(double earliest_s);
     void take_range();
     void take_camera();
     void take_times(const PairTimes& times, const SourceFacts* colour);
@@ -111,6 +115,8 @@ class PairedMedia : public Media {
     std::string camera_trouble_{};  ///< why the stated camera is left out; empty: it is not
     bool painted_;
     bool depth_alone_{false};     ///< frames need no colour, until the next seek
+    FrameTimes known_{};          ///< frames come without depth; null: they come with it
+    std::size_t next_known_{0};   ///< of these times
     bool colour_of_view_{false};  ///< as far as known
     MediaDescription description_{};
     std::shared_ptr<LiveFeed> live_{};

@@ -176,8 +176,8 @@ TEST_CASE("help and version answer on standard output", "[usage]") {
     const ProgramResult help = run_dibhr(folder, {"--help"});
     CHECK(help.exit_code == 0);
     CHECK(help.errors.empty());
-    for (const std::string command :
-         {"view", "touch", "surface", "clip", "depth", "study", "info", "devices", "bench"}) {
+    for (const std::string command : {"view", "touch", "surface", "clip", "prepare", "depth",
+                                      "study", "info", "devices", "bench"}) {
         INFO(command);
         CHECK(help.output.find(command) != std::string::npos);
         const ProgramResult its_help = run_dibhr(folder, {command, "--help"});
