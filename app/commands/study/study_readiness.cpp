@@ -1,5 +1,5 @@
 // Checks device, clock and stability before a study.
-#include "app/commands/study_check.hpp"
+#include "app/commands/study/study_check.hpp"
 
 #include <chrono>
 #include <cstddef>

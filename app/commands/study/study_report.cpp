@@ -1,5 +1,5 @@
 // Measures participants in processes of their own, and reports on all.
-#include "app/commands/study_report.hpp"
+#include "app/commands/study/study_report.hpp"
 
 #include <algorithm>
 #include <iostream>

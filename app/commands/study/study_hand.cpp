@@ -1,5 +1,5 @@
 // Runs the ticks of the modelled hand and records them.
-#include "app/commands/study_hand.hpp"
+#include "app/commands/study/study_hand.hpp"
 
 #include <algorithm>
 #include <chrono>

@@ -1,5 +1,5 @@
 // Steps through a study with simulated answers.
-#include "app/commands/study_pilot.hpp"
+#include "app/commands/study/study_pilot.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "app/commands/output.hpp"
-#include "app/commands/study_hand.hpp"
+#include "app/commands/study/study_hand.hpp"
 #include "core/error.hpp"
 #include "core/files/plain_text.hpp"
 #include "core/files/spelling.hpp"

@@ -1,5 +1,5 @@
 // Prints the summary of a study.
-#include "app/commands/study_check.hpp"
+#include "app/commands/study/study_check.hpp"
 
 #include <algorithm>
 #include <cmath>

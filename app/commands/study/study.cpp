@@ -13,9 +13,9 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/commands/output.hpp"
-#include "app/commands/study_check.hpp"
-#include "app/commands/study_pilot.hpp"
-#include "app/commands/study_report.hpp"
+#include "app/commands/study/study_check.hpp"
+#include "app/commands/study/study_pilot.hpp"
+#include "app/commands/study/study_report.hpp"
 #include "app/settings/assets_path.hpp"
 #include "app/settings/command_options.hpp"
 #include "app/settings/consent.hpp"
