@@ -13,7 +13,7 @@
 #include "core/metrics/force_variation.hpp"
 #include "core/session/session.hpp"
 #include "core/study/study_file.hpp"
-#include "tests/app/commands/study/study_page.hpp"
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"

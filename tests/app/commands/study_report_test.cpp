@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/files/json.hpp"
-#include "tests/app/commands/study/study_page.hpp"
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/text.hpp"

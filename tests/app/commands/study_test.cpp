@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/study/study_file.hpp"
-#include "tests/app/commands/study/study_page.hpp"
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/support/catch.hpp"
 #include "tests/support/some_of.hpp"

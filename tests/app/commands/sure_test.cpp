@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/app/commands/study/study_page.hpp"
+#include "tests/app/commands/study_page.hpp"
 #include "tests/app/program/command_program.hpp"
 #include "tests/app/program/recorded_session.hpp"
 #include "tests/support/catch.hpp"
