@@ -197,8 +197,9 @@ void draw_cleaning(ViewerState& state) {
                 "Radius of the ball that touches; 0: a point, or as a sidecar says (--finger)",
                 false, unless_chosen.c_str()},
                state.settings.finger_mm);
-    if (!state.touch.replay) draw_prepared(state);
+    if (state.ui.preparing) draw_prepared(state);
     if (!subsection("Cleaning steps")) return;
+    if (!state.touch.replay && !state.ui.preparing) draw_prepared(state);
     const bool own = cleaning.preset == CleaningPreset::own;
     CleaningSteps steps = own ? cleaning.own : state.media.playback.steps;
     const CleaningSteps standard = own ? kSensorSteps : steps;
