@@ -16,8 +16,8 @@ namespace {
 
 /// An outline is a step of more than this part of the range.
 constexpr float kStepOfOutline = 0.05F;
-constexpr int kReach_px = 2;  ///< of the pixels that decide a side
-constexpr int kSide_px = 2 * kReach_px + 1;
+constexpr int kSideReach_px = 2;  ///< of the pixels that decide a side
+constexpr int kSide_px = 2 * kSideReach_px + 1;
 /// By their distance along rows and columns the 5 x 5 pixels around weigh this, as a Gaussian of
 /// 1.2 px.
 constexpr float kOneAway = 0.70664828F, kTwoAway = 0.24935221F;
@@ -26,9 +26,9 @@ constexpr std::array<float, kSide_px> kWeights{kTwoAway, kOneAway, 1.0F, kOneAwa
 constexpr float kTwoSides = 0.4F;
 constexpr float kOnSide = 0.5F;  ///< nearer to the middle a pixel is on neither side
 
-constexpr int kSpur_px = 2;      ///< a line one pixel wide loses this at its ends
-constexpr int kChunk = 320;      ///< pixels of a row that are checked together
-constexpr int kMostPasses = 64;  ///< over the teeth that are left
+constexpr int kSpur_px = 2;          ///< a line one pixel wide loses this at its ends
+constexpr int kCheckedAtOnce = 320;  ///< pixels of a row that are checked together
+constexpr int kMostPasses = 64;      ///< over the teeth that are left
 
 float step_of(const DepthImage& image) {
     return kStepOfOutline * static_cast<float>(image.highest_level);
@@ -128,11 +128,11 @@ using Mark = void (*)(const Rows& rows, float step, int begin, int end, std::uin
 /// visit(pixel) for each pixel that `mark` marks, in order, but those on the border.
 template <typename Visit>
 void each_marked(const DepthImage& image, Mark mark, float step, const Visit& visit) {
-    std::array<std::uint8_t, kChunk> marks{};
+    std::array<std::uint8_t, kCheckedAtOnce> marks{};
     for (int j = 1; j + 1 < image.rows; ++j) {
         const Rows rows = rows_at(image, j);
-        for (int begin = 1; begin < image.columns - 1; begin += kChunk) {
-            const int count = std::min(kChunk, image.columns - 1 - begin);
+        for (int begin = 1; begin < image.columns - 1; begin += kCheckedAtOnce) {
+            const int count = std::min(kCheckedAtOnce, image.columns - 1 - begin);
             mark({rows.above + begin, rows.row + begin, rows.below + begin}, step, 0, count,
                  marks.data());
             const auto begin_of = static_cast<std::uint32_t>(image.index(begin, j));
@@ -250,13 +250,13 @@ class Sides {
         float low = *at_;
         float high = *at_;
         float sum = 0.0F;
-        for (int y = -kReach_px; y <= kReach_px; ++y)
-            for (int x = -kReach_px; x <= kReach_px; ++x) {
+        for (int y = -kSideReach_px; y <= kSideReach_px; ++y)
+            for (int x = -kSideReach_px; x <= kSideReach_px; ++x) {
                 const float level = at_[y * columns_ + x];
                 low = std::min(low, level);
                 high = std::max(high, level);
-                sum += kWeights[static_cast<std::size_t>(x + kReach_px)] *
-                       kWeights[static_cast<std::size_t>(y + kReach_px)] * of(x, y);
+                sum += kWeights[static_cast<std::size_t>(x + kSideReach_px)] *
+                       kWeights[static_cast<std::size_t>(y + kSideReach_px)] * of(x, y);
             }
         return step_.height < kTwoSides * (high - low) ? 0.0F : sum;
     }
@@ -268,7 +268,7 @@ class Sides {
     /// Mean level of the nearest pixels on a side. `unseen`: the mark of this one; null: all were
     /// seen.
     [[nodiscard]] std::optional<Level> level(bool high, const std::uint8_t* unseen) const {
-        for (int reach = 1; reach <= kReach_px; ++reach) {
+        for (int reach = 1; reach <= kSideReach_px; ++reach) {
             float sum = 0.0F;
             int count = 0;
             int marks = 0;
@@ -296,7 +296,7 @@ class Sides {
 std::optional<Sides::Level> turned_level(const DepthImage& image, std::uint32_t pixel,
                                          const Step& step, std::span<const std::uint8_t> unseen) {
     const auto is_inside = [](int at, int count) {
-        return at >= kReach_px && at < count - kReach_px;
+        return at >= kSideReach_px && at < count - kSideReach_px;
     };
     if (!is_inside(static_cast<int>(pixel) % image.columns, image.columns) ||
         !is_inside(static_cast<int>(pixel) / image.columns, image.rows))
@@ -325,7 +325,7 @@ void OutlineSmoother::smooth(DepthImage& image, std::size_t recorded_teeth,
     keep_teeth(image, step);
     for (int k = 0; k < kMostPasses && !pixels_.empty() && teeth_ > recorded_teeth; ++k)
         take_teeth(image, step, 1, unseen);
-    for (int reach = 1; reach <= kReach_px && teeth_ > recorded_teeth; ++reach) {
+    for (int reach = 1; reach <= kSideReach_px && teeth_ > recorded_teeth; ++reach) {
         find_steps(image, step);
         keep_teeth(image, step);
         for (const std::uint32_t pixel : pixels_)

@@ -140,8 +140,9 @@ void copy_planes(const AVFrame& pairs, AVFrame& planes, int shift) {
         Sample* const blue = row_of(planes, 1, j);
         Sample* const red = row_of(planes, 2, j);
         for (int i = 0; i < (pairs.width + 1) / 2; ++i) {
-            blue[i] = level(from[2 * i]);
-            red[i] = level(from[2 * i + 1]);
+            const Sample* const pair = from + std::ptrdiff_t{2} * i;
+            blue[i] = level(pair[0]);
+            red[i] = level(pair[1]);
         }
     }
 }

@@ -84,8 +84,8 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
 
 /// Each thread holds a picture or more: of large ones fewer than there are processors. 0: one more.
 int threads_for(const AVCodecParameters& coded) {
-    constexpr std::int64_t kLarge = 4'000'000;             // pixels
-    constexpr std::int64_t kMostAtOnce = 4 * 3840 * 2160;  // pixels
+    constexpr std::int64_t kLarge = 4'000'000;                           // pixels
+    constexpr std::int64_t kMostAtOnce = std::int64_t{4} * 3840 * 2160;  // pixels
     const std::int64_t pixels = std::int64_t{coded.width} * coded.height;
     if (pixels <= kLarge) return 0;
     const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
