@@ -19,7 +19,6 @@ extern "C" {
 #include <new>
 #include <opencv2/core.hpp>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include "core/error.hpp"
@@ -82,17 +81,6 @@ void require_plausible_frames(const std::filesystem::path& file, const AVCodecPa
         require_plausible_size(file, coded.width, coded.height, (bits + 7) / 8);
 }
 
-/// Each thread holds a picture or more: of large ones fewer than there are processors. 0: one more.
-int threads_for(const AVCodecParameters& coded) {
-    constexpr std::int64_t kLarge = 4'000'000;                           // pixels
-    constexpr std::int64_t kMostAtOnce = std::int64_t{4} * 3840 * 2160;  // pixels
-    const std::int64_t pixels = std::int64_t{coded.width} * coded.height;
-    if (pixels <= kLarge) return 0;
-    const auto processors = static_cast<std::int64_t>(std::thread::hardware_concurrency());
-    return static_cast<int>(
-        std::clamp<std::int64_t>(processors, 2, std::max<std::int64_t>(kMostAtOnce / pixels, 2)));
-}
-
 /// Whether it has the first bytes of MP4 and QuickTime, Matroska, or AVI.
 bool begins_as_video(std::string_view head) {
     return head.substr(std::min<std::size_t>(4, head.size())).starts_with("ftyp") ||
@@ -131,7 +119,7 @@ bool VideoDecoder::open() {
     const AVCodec* const codec = avcodec_find_decoder(coded.codec_id);
     decoder_.reset(codec == nullptr ? nullptr : avcodec_alloc_context3(codec));
     if (!decoder_ || avcodec_parameters_to_context(decoder_.get(), &coded) < 0) return false;
-    decoder_->thread_count = device_ ? 1 : threads_for(coded);
+    decoder_->thread_count = device_ ? 1 : 0;  // 0: one more than there are processors
     decoder_->max_pixels = kMostPixels;
     if (device_) device_->take(*decoder_);
     return avcodec_open2(decoder_.get(), codec, nullptr) >= 0;
