@@ -207,11 +207,7 @@ void add_time_options(CLI::App& app, ClipOptions& options) {
                       "the session or the video, of which goals and video repeat",
                       [&options](double seconds) { options.end_s = seconds; })
         ->type_name("S");
-    add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed,
-                      "Speed, as a multiple of the speed of the video",
-                      [&options](double speed) { options.speed = speed; })
-        ->type_name("X")
-        ->default_str("1");
+    add_speed_option(app, [&options](double speed) { options.speed = speed; });
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "core/files/spelling.hpp"
 #include "core/files/terminal.hpp"
 #include "core/haptics/enum_names.hpp"
+#include "core/video/frames/frame_window.hpp"
 #include "device/hand_device.hpp"
 
 namespace dibhr {
@@ -267,6 +268,13 @@ CLI::Option* add_size_option(CLI::App& app, std::optional<std::pair<int, int>>& 
         .add_option_function<std::string>(
             "--size", [&size](const std::string& text) { size = parse_size(text); }, help)
         ->type_name("WxH");
+}
+
+CLI::Option* add_speed_option(CLI::App& app, const std::function<void(double)>& set) {
+    return add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed,
+                             "Speed, as a multiple of the speed of the video", set)
+        ->type_name("X")
+        ->default_str("1");
 }
 
 CLI::Option* add_device_option(CLI::App& app, std::string& device) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -43,6 +44,8 @@ CLI::Option* add_firmware(CLI::App& app, std::filesystem::path& file);
 /// --size WxH.
 CLI::Option* add_size_option(CLI::App& app, std::optional<std::pair<int, int>>& size,
                              const std::string& help);
+/// --speed X.
+CLI::Option* add_speed_option(CLI::App& app, const std::function<void(double)>& set);
 /// --device: a name that make_hand_device() accepts.
 CLI::Option* add_device_option(CLI::App& app, std::string& device);
 

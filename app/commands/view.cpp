@@ -117,11 +117,7 @@ void add_playing_options(CLI::App& app, ViewCommand& command) {
                       "Ends, or begins again at --start, so many seconds after the start",
                       [&options](double seconds) { options.end_s = seconds; })
         ->type_name("S");
-    add_number_option(app, "--speed", kSlowestSpeed, kFastestSpeed,
-                      "Speed, as a multiple of the speed of the video",
-                      [&options](double speed) { options.speed = speed; })
-        ->type_name("X")
-        ->default_str("1");
+    add_speed_option(app, [&options](double speed) { options.speed = speed; });
     add_on_off_option(app, "--loop",
                       "Starts again at the end; a session stops there unless this is given",
                       options.looping)

@@ -1,9 +1,10 @@
 // A stand-in for libspeechd, loaded by its name in place of it: writes a line for each call into
 // the file that DIBHR_SPOKEN names, each with the steady clock's seconds.
+#include <unistd.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <thread>
 
 namespace {
 
@@ -32,8 +33,7 @@ void* spd_open(const char* client, const char* /*connection*/, const char* /*use
 /// DIBHR_SPEECH_HANGS set: it never returns.
 int spd_say(void* /*connection*/, int /*priority*/, const char* text) {
     write_line("say", text);
-    while (std::getenv("DIBHR_SPEECH_HANGS") != nullptr)
-        std::this_thread::sleep_for(std::chrono::seconds(1));
+    while (std::getenv("DIBHR_SPEECH_HANGS") != nullptr) ::pause();
     return 1;
 }
 
