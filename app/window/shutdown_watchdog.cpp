@@ -17,14 +17,12 @@ bool ShutdownRequests::is_repeated(Time now) noexcept {
     return false;
 }
 
-std::optional<std::chrono::milliseconds> ShutdownRequests::time_left(Time now) const noexcept {
-    using std::chrono::milliseconds;
-    if (!first_) return std::nullopt;
-    return std::max(std::chrono::ceil<milliseconds>(*first_ + kShutdownTimeout - now),
-                    milliseconds(0));
+bool ShutdownRequests::is_hung(Time now, Time::duration silence) const noexcept {
+    return first_ && (silence >= kLongestSilence || now - *first_ >= kLongestShutdown);
 }
 
 ShutdownWatchdog::ShutdownWatchdog(CrashNote& crash_note) : crash_note_(crash_note) {
+    heart_.count_computing_as_beat();
     thread_ = std::thread([this] { run(); });
 }
 
@@ -41,26 +39,26 @@ void ShutdownWatchdog::watch_display(int connection) {
 
 void ShutdownWatchdog::run() {
     using Clock = std::chrono::steady_clock;
+    constexpr int kCheck_ms = 20;
     pthread_setname_np(pthread_self(), "dibhr-signals");
     ShutdownRequests requests;
+    HeartbeatMonitor monitor(&heart_);
     bool again = false;
     while (!again) {
-        int timeout_ms = -1;
-        if (const auto left = requests.time_left(Clock::now())) {
-            if (left->count() == 0) break;
-            timeout_ms = static_cast<int>(left->count());
-        }
+        const auto now = Clock::now();
+        if (requests.is_hung(now, monitor.silence(now))) break;
         int display = display_;
         std::array<pollfd, 3> ready{{{wake_.descriptor(), POLLIN, 0},
                                      {signals_.descriptor(), POLLIN, 0},
                                      {display, POLLRDHUP, 0}}};
-        poll(ready.data(), ready.size(), timeout_ms);
+        poll(ready.data(), ready.size(), requests.any() ? kCheck_ms : -1);
         if (stopping_) return;
         if (ready[0].revents != 0) wake_.clear();
         // Unless watch_display() has replaced the display meanwhile.
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;
         if (!signals_.arrived()) continue;
+        if (!requests.any()) heart_.beat();
         again = requests.is_repeated(Clock::now());
         without_force_ = true;
         requested_ = true;

@@ -9,6 +9,7 @@
 
 #include "app/window/crash_note.hpp"
 #include "app/window/signals.hpp"
+#include "core/realtime/heartbeat.hpp"
 #include "core/realtime/wake.hpp"
 
 namespace dibhr {
@@ -18,24 +19,30 @@ class ShutdownRequests {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// Less than a second, together with the last tick, the last transaction and the crash note.
-    static constexpr std::chrono::milliseconds kShutdownTimeout{600};
+    /// How long the window's thread may be silent after the first request, neither computing nor
+    /// waiting for threads that do: with the last tick, the last transaction and the crash note
+    /// less than a second.
+    static constexpr std::chrono::milliseconds kLongestSilence{600};
+    /// How long the program may take in all: a busy machine closes a large video in seconds.
+    static constexpr std::chrono::seconds kLongestShutdown{5};
     /// A terminal that closes, or `timeout`, sends two signals for one request.
     static constexpr std::chrono::milliseconds kRepeatWindow{200};
 
     /// To be called at each signal. True: it is a second request.
     [[nodiscard]] bool is_repeated(Time now) noexcept;
-    /// The rest of kShutdownTimeout after the first request, at least 0; no value: no request yet.
-    [[nodiscard]] std::optional<std::chrono::milliseconds> time_left(Time now) const noexcept;
+    [[nodiscard]] bool any() const noexcept { return first_.has_value(); }
+    /// Whether the program hangs: after a request, when the window's thread has been silent for
+    /// `silence`.
+    [[nodiscard]] bool is_hung(Time now, Time::duration silence) const noexcept;
 
   private:
     std::optional<Time> first_{};
 };
 
 /// During its life a thread of its own takes SIGINT, SIGTERM, SIGHUP and SIGQUIT as requests to
-/// shut down. If the program still runs after ShutdownRequests::kShutdownTimeout, or at a second
-/// request, the thread prints the crash note and exits with status 1. Ctrl+Z is blocked. Construct
-/// it before any thread starts.
+/// shut down. If the program then hangs, or at a second request, the thread prints the crash note
+/// and exits with status 1. Ctrl+Z is blocked. Construct it in the window's thread before any
+/// other starts.
 class ShutdownWatchdog {
   public:
     /// `crash_note` must outlive it. Throws DeviceError when the system has no descriptor left.
@@ -58,6 +65,7 @@ class ShutdownWatchdog {
 
     CrashNote& crash_note_;
     ShutdownSignals signals_{};
+    Heartbeat heart_{};  // of the window's thread, from the first request on
     std::atomic<bool> requested_{false};
     std::atomic<bool> without_force_{false};
     std::atomic<bool> stopping_{false};
