@@ -105,9 +105,11 @@ StudyWindow::~StudyWindow() {
 void StudyWindow::lead() {
     shutdown_.crash_note().set_activity("leading a study");
     while (!over()) {
+        shutdown_.begin_turn();
         show_one_picture();
         pace_.wait([] {});
     }
+    shutdown_.end_loop();
     surface_.stop();
     if (run_.step() == StudyStep::finished) file_.finish();
 }

@@ -17,8 +17,14 @@ bool ShutdownRequests::is_repeated(Time now) noexcept {
     return false;
 }
 
-bool ShutdownRequests::is_hung(Time now, Time::duration silence) const noexcept {
-    return first_ && (silence >= kLongestSilence || now - *first_ >= kLongestShutdown);
+bool ShutdownRequests::is_hung(Time now, Time::duration turn,
+                               Time::duration silence) const noexcept {
+    if (!first_) return false;
+    const auto waited = now - *first_;
+    if (waited >= kLongestPatience) return true;
+    if (turn > Time::duration::zero())
+        return waited >= std::max<Time::duration>(kPatience, 2 * turn);
+    return silence >= kPatience;
 }
 
 ShutdownWatchdog::ShutdownWatchdog(CrashNote& crash_note) : crash_note_(crash_note) {
@@ -37,6 +43,12 @@ void ShutdownWatchdog::watch_display(int connection) {
     wake_.signal();
 }
 
+void ShutdownWatchdog::begin_turn() noexcept {
+    const auto now = ShutdownRequests::Time::clock::now();
+    if (turn_began_) turn_ = std::max(now - *turn_began_, turn_.load() - turn_.load() / 8);
+    turn_began_ = now;
+}
+
 void ShutdownWatchdog::run() {
     using Clock = std::chrono::steady_clock;
     constexpr int kCheck_ms = 20;
@@ -46,7 +58,7 @@ void ShutdownWatchdog::run() {
     bool again = false;
     while (!again) {
         const auto now = Clock::now();
-        if (requests.is_hung(now, monitor.silence(now))) break;
+        if (requests.is_hung(now, turn_, monitor.silence(now))) break;
         int display = display_;
         std::array<pollfd, 3> ready{{{wake_.descriptor(), POLLIN, 0},
                                      {signals_.descriptor(), POLLIN, 0},

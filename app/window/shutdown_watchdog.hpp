@@ -19,21 +19,21 @@ class ShutdownRequests {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// How long the window's thread may be silent after the first request, neither computing nor
-    /// waiting for threads that do: with the last tick, the last transaction and the crash note
-    /// less than a second.
-    static constexpr std::chrono::milliseconds kLongestSilence{600};
-    /// How long the program may take in all: a busy machine closes a large video in seconds.
-    static constexpr std::chrono::seconds kLongestShutdown{5};
+    /// With the last tick, the last transaction and the crash note less than a second.
+    static constexpr std::chrono::milliseconds kPatience{600};
+    /// A busy machine takes seconds to draw a picture, or to close a large video.
+    static constexpr std::chrono::seconds kLongestPatience{5};
     /// A terminal that closes, or `timeout`, sends two signals for one request.
     static constexpr std::chrono::milliseconds kRepeatWindow{200};
 
     /// To be called at each signal. True: it is a second request.
     [[nodiscard]] bool is_repeated(Time now) noexcept;
     [[nodiscard]] bool any() const noexcept { return first_.has_value(); }
-    /// Whether the program hangs: after a request, when the window's thread has been silent for
-    /// `silence`.
-    [[nodiscard]] bool is_hung(Time now, Time::duration silence) const noexcept;
+    /// Whether the program hangs, after a request. In the window's loop, whose turns take up to
+    /// `turn`: after two turns, at least kPatience. Outside the loop: when the window's thread
+    /// has neither computed nor waited for threads that compute for `silence`.
+    [[nodiscard]] bool is_hung(Time now, Time::duration turn,
+                               Time::duration silence) const noexcept;
 
   private:
     std::optional<Time> first_{};
@@ -59,6 +59,10 @@ class ShutdownWatchdog {
     /// `connection`: the display server's socket, watched from now on; -1: none.
     void watch_display(int connection);
     [[nodiscard]] CrashNote& crash_note() noexcept { return crash_note_; }
+    /// For the window's thread: at each turn of its loop, which ends once requested() is true; and
+    /// after the loop.
+    void begin_turn() noexcept;
+    void end_loop() noexcept { turn_ = ShutdownRequests::Time::duration::zero(); }
 
   private:
     void run();
@@ -70,6 +74,9 @@ class ShutdownWatchdog {
     std::atomic<bool> without_force_{false};
     std::atomic<bool> stopping_{false};
     std::atomic<int> display_{-1};
+    /// How long turns of the window's loop take, the last ones more than others; 0: outside it.
+    std::atomic<ShutdownRequests::Time::duration> turn_{};
+    std::optional<ShutdownRequests::Time> turn_began_{};
     Wake wake_{};  // when one of the two above has changed
     std::thread thread_{};
 };

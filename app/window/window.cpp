@@ -124,7 +124,7 @@ Window::Window(const WindowSize& size, bool sync, const std::string& title, Show
             "no display: set DISPLAY, or unset it and use ./app/run, which makes a virtual one");
     set_display_loss_handler(display_lost_);
     if (size.times) size_ = scaled_size(size_, *size.times);
-    if (shown == Shown::never) glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
+    if (shown == Shown::later) glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     window_ = open_window(size_.x, size_.y, title);
     if (window_ == nullptr) {
         const char* reason = nullptr;
@@ -210,6 +210,10 @@ void Window::exit_without_display() {
     print_error_line("the display went away: start dibhr again when it is back");
     // Without destructors and exit() handlers: a driver's would use the display.
     _exit(EXIT_FAILURE);
+}
+
+void Window::show() {
+    glfwShowWindow(window_);
 }
 
 bool Window::close_requested() const {

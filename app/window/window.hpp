@@ -83,8 +83,8 @@ struct WindowSize {
 /// One window with a current OpenGL 3.3 core context. Belongs to the thread that made it.
 class Window {
   public:
-    /// never: only its OpenGL context is used.
-    enum class Shown { at_once, never };
+    /// later: by show(), or never, where only its OpenGL context is used.
+    enum class Shown { at_once, later };
 
     /// Throws DeviceError without a display or OpenGL 3.3.
     Window(const WindowSize& size, bool sync, const std::string& title,
@@ -97,6 +97,7 @@ class Window {
     /// status 1. It must not use the window.
     void on_display_loss(std::function<void()> act) { on_display_loss_ = std::move(act); }
 
+    void show();
     [[nodiscard]] bool close_requested() const;
     void close();
 

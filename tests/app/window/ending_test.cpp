@@ -148,18 +148,22 @@ TEST_CASE("two signals within 200 ms are one request to end; a later one is anot
 }
 
 TEST_CASE(
-    "after a request a program hangs that is silent for 600 ms, or works for longer than 5 s, "
-    "which no other request renews",
+    "after a request a window hangs that stays in its loop for 600 ms and two turns, or outside it "
+    "is silent for 600 ms, and in any case after 5 s, which no other request renews",
     "[ending]") {
     const ShutdownRequests::Time begin{};
     ShutdownRequests requests;
-    CHECK_FALSE(requests.is_hung(begin, 700ms));
+    CHECK_FALSE(requests.is_hung(begin, 0ms, 700ms));
     (void)requests.is_repeated(begin);
-    CHECK_FALSE(requests.is_hung(begin + 1s, 599ms));
-    CHECK(requests.is_hung(begin + 1s, 600ms));
+    CHECK_FALSE(requests.is_hung(begin + 1s, 0ms, 599ms));
+    CHECK(requests.is_hung(begin + 1s, 0ms, 600ms));
+    CHECK_FALSE(requests.is_hung(begin + 599ms, 50ms, 700ms));
+    CHECK(requests.is_hung(begin + 600ms, 50ms, 0ms));
+    CHECK_FALSE(requests.is_hung(begin + 799ms, 400ms, 0ms));
+    CHECK(requests.is_hung(begin + 800ms, 400ms, 0ms));
     (void)requests.is_repeated(begin + 150ms);
-    CHECK_FALSE(requests.is_hung(begin + 4999ms, 0ms));
-    CHECK(requests.is_hung(begin + 5s, 0ms));
+    CHECK_FALSE(requests.is_hung(begin + 4999ms, 3s, 0ms));
+    CHECK(requests.is_hung(begin + 5s, 3s, 0ms));
 }
 
 TEST_CASE("a signal asks for the end and takes the force off, whichever of the four it is",
