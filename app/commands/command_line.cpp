@@ -221,6 +221,18 @@ std::string unknown_option(const CLI::App& app, const Arguments& arguments) {
     return {};
 }
 
+/// The words for which the command has no place. Empty: there are none.
+std::string words_too_many(const CLI::App& app) {
+    std::vector<std::string> words = app.remaining();
+    if (words.empty()) return {};
+    for (std::string& word : words) word = in_quotes(word);
+    std::vector<std::string> places;
+    for (const CLI::Option* const option : app.get_options())
+        if (option->get_positional()) places.push_back(option->get_name(true));
+    return "no place for " + listed(words) + ": this command takes " +
+           (places.empty() ? "no files" : listed(places, " ")) + ", and options";
+}
+
 }  // namespace
 
 std::string command_suggestion(const std::string& word) {
@@ -235,9 +247,10 @@ bool parse(CLI::App& app, const Arguments& arguments) {
         std::cout << with_bold_headings(app.help());
         return false;
     } catch (const CLI::ParseError& error) {
-        const std::string unknown = unknown_option(app, arguments);
-        throw UsageError((unknown.empty() ? error.what() : unknown) + " (see " + app.get_name() +
-                         " --help)");
+        std::string problem = unknown_option(app, arguments);
+        if (problem.empty()) problem = words_too_many(app);
+        if (problem.empty()) problem = error.what();
+        throw UsageError(problem + " (see " + app.get_name() + " --help)");
     }
 }
 

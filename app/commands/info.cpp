@@ -57,9 +57,10 @@ std::string form_of(const MediaDescription& media) {
 }
 
 std::string levels_text(const MediaDescription& media) {
-    const std::string used = std::to_string(media.levels_used) + " levels used";
-    return media.has_real_numbers() ? "real numbers, " + used
-                                    : std::to_string(media.depth_bits) + " bits, " + used;
+    std::string used = std::to_string(media.levels_used) + " levels used";
+    if (media.has_real_numbers()) return "real numbers, " + used;
+    if (media.levels_used > 1 << media.depth_bits) used += ", some between whole numbers";
+    return std::to_string(media.depth_bits) + " bits, " + used;
 }
 
 std::string list_text(const std::vector<std::string>& words) {

@@ -10,6 +10,7 @@
 
 #include "app/settings/settings.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
 #include "core/video/sources/picture_files.hpp"
 #include "core/video/sources/sidecar.hpp"
 #include "core/video/sources/touch_map_files.hpp"
@@ -37,11 +38,15 @@ std::string placeholder_of(const TouchNumber& option) {
 }
 
 template <typename Values>
-std::string names_of(const Values& values) {
-    std::string names;
-    for (const auto value : values)
-        names += (names.empty() ? "" : ", ") + std::string(name_of(value));
+std::vector<std::string> names_of(const Values& values) {
+    std::vector<std::string> names;
+    for (const auto value : values) names.emplace_back(name_of(value));
     return names;
+}
+
+[[noreturn]] void refuse_word(const std::string& option, const std::string& word,
+                              const std::vector<std::string>& names) {
+    throw CLI::ValidationError(option, "'" + word + "' " + none_of(word, names));
 }
 
 /// Throws CLI::ValidationError.
@@ -50,7 +55,7 @@ auto parse_value(const std::string& name, const Values& values, const char* opti
     for (const auto value : values) {
         if (name == name_of(value)) return value;
     }
-    throw CLI::ValidationError(option, "'" + name + "' is none of " + names_of(values));
+    refuse_word(option, name, names_of(values));
 }
 
 constexpr std::string_view kAutomatic = "auto";
@@ -81,8 +86,8 @@ void add_word_option(CLI::App& app, const char* name, const Values& values,
             std::ranges::find(values, word, [](auto value) { return name_of(value); });
         return found == values.end() ? std::nullopt : std::optional(*found);
     };
-    add_fact_option(app, name, fact, read, "WORD", "is none of " + names_of(values),
-                    help + ": auto, " + names_of(values));
+    add_fact_option(app, name, fact, read, "WORD", "is none of " + listed(names_of(values)),
+                    help + ": auto, " + listed(names_of(values)));
 }
 
 std::string range_of(double lowest, double highest) {
@@ -176,7 +181,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
     app.add_option_function<std::string>(
            "--material",
            [&request](const std::string& name) { request.given.material = material_named(name); },
-           "What the surface is made of: " + list_of_materials() +
+           "What the surface is made of: " + listed(names_of_materials()) +
                ", or a .toml file; a number that has its own option wins over the material")
         ->type_name("NAME");
     app.add_option("--bump", request.given.bump,
@@ -196,8 +201,7 @@ void add_surface_options(CLI::App& app, TouchRequest& request) {
            [&request](const std::string& name) {
                request.preset = named<CleaningPreset>(name);
                if (!request.preset || request.preset == CleaningPreset::own)
-                   throw CLI::ValidationError(
-                       "--cleaning", "'" + name + "' is none of auto, raw, gentle, sensor");
+                   refuse_word("--cleaning", name, {"auto", "raw", "gentle", "sensor"});
                if (request.preset == CleaningPreset::automatic)
                    request.depth.cleaning.emplace();  // overrides a sidecar
            },
@@ -353,7 +357,8 @@ void add_algorithms_option(CLI::App& app, std::vector<Algorithm>& algorithms) {
                for (const std::string& name : names)
                    algorithms.push_back(parse_value(name, all_algorithms(), "--algorithm"));
            },
-           "How the proxy follows the goal, once or several times: " + names_of(all_algorithms()))
+           "How the proxy follows the goal, once or several times: " +
+               listed(names_of(all_algorithms())))
         ->type_name("NAME")
         ->allow_extra_args(false);
 }
@@ -368,8 +373,8 @@ CLI::Option* add_plot_format_option(CLI::App& app, std::vector<PlotFormat>& form
                     formats.push_back(parse_value(name, kPlotFormats, "--plot-format"));
                 }
             },
-            "How the pictures are written, one or several with commas: " + names_of(kPlotFormats) +
-                "; SVG and PDF are for papers")
+            "How the pictures are written, one or several with commas: " +
+                listed(names_of(kPlotFormats)) + "; SVG and PDF are for papers")
         ->type_name("FORMAT")
         ->delimiter(',')
         ->allow_extra_args(false)
@@ -395,8 +400,7 @@ CLI::Option* add_choice_option(CLI::App& app, const std::string& name,
                                const std::vector<std::string>& names, const std::string& help,
                                const std::function<void(const std::string&)>& take) {
     const auto check = [name, names, take](const std::string& word) {
-        if (std::ranges::find(names, word) == names.end())
-            throw CLI::ValidationError(name, "'" + word + "' is none of " + listed(names));
+        if (std::ranges::find(names, word) == names.end()) refuse_word(name, word, names);
         take(word);
     };
     return app.add_option_function<std::string>(name, check, help)

@@ -21,6 +21,7 @@
 #include "core/files/names.hpp"
 #include "core/files/output_file.hpp"
 #include "core/files/plain_text.hpp"
+#include "core/files/spelling.hpp"
 #include "core/files/text_file.hpp"
 #include "core/video/sources/picture_files.hpp"
 
@@ -274,8 +275,9 @@ Material material_named(const std::string& name) {
     for (const fs::path& folder : {own_materials_folder(), shipped_materials_folder()}) {
         if (contains(toml_names_in(folder), name)) return read_material(folder / (name + kEnding));
     }
-    throw InputError("no material is called " + in_quotes(name) + ": there are " +
-                     list_of_materials() + ", and files that end in .toml");
+    const std::vector<std::string> names = names_of_materials();
+    throw InputError("no material is called " + in_quotes(name) + ": there are " + listed(names) +
+                     ", and files that end in .toml" + did_you_mean(name, names));
 }
 
 MaterialNames material_names() {
@@ -287,12 +289,12 @@ MaterialNames material_names() {
     return names;
 }
 
-std::string list_of_materials() {
+std::vector<std::string> names_of_materials() {
     const MaterialNames names = material_names();
-    std::string list(kAsRecorded);
+    std::vector<std::string> all{std::string(kAsRecorded)};
     for (const auto* group : {&names.shipped, &names.own})
-        for (const std::string& name : *group) list += ", " + name;
-    return list;
+        all.insert(all.end(), group->begin(), group->end());
+    return all;
 }
 
 fs::path own_materials_folder() {

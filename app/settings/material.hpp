@@ -65,8 +65,8 @@ struct MaterialNames {
     std::vector<std::string> own{};
 };
 [[nodiscard]] MaterialNames material_names();
-/// "as-recorded, bark, ice": all that material_named() knows.
-[[nodiscard]] std::string list_of_materials();
+/// as-recorded, bark, ice: all that material_named() knows.
+[[nodiscard]] std::vector<std::string> names_of_materials();
 
 /// The folder of the user's own materials: materials/ beside the settings file.
 [[nodiscard]] std::filesystem::path own_materials_folder();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "core/files/plain_text.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -39,6 +41,10 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
         nearest = name;
     }
     return nearest.empty() ? nearest : "; did you mean " + nearest + "?";
+}
+
+std::string none_of(const std::string& word, const std::vector<std::string>& names) {
+    return "is none of " + listed(names) + did_you_mean(word, names);
 }
 
 }  // namespace dibhr

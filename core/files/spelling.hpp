@@ -11,4 +11,7 @@ namespace dibhr {
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& names);
 
+/// "is none of dibhr, pga; did you mean dibhr?", of a word that is none of the names.
+[[nodiscard]] std::string none_of(const std::string& word, const std::vector<std::string>& names);
+
 }  // namespace dibhr

@@ -262,6 +262,7 @@ TEST_CASE("a mistyped command or option is told what it may have meant", "[usage
         return {};
     };
     CHECK(contains(said({"tuoch"}), "; did you mean touch?"));
+    CHECK(contains(said(touch_with({"--algorithm", "dibr"})), "god-object; did you mean dibhr?"));
     CHECK(contains(said({"help", "replya"}), "; did you mean replay?"));
     CHECK(contains(said(touch_with({"--frictoin", "0.2"})), "; did you mean --friction?"));
     CHECK(contains(said({"touch", "--frictoin", "0.2"}), "there is no option --frictoin"));
