@@ -1,10 +1,11 @@
-// `dibhr view`: combines the settings file with the command line, and opens everything before the
-// window, so that a failure is reported in one line.
+// `dibhr view`: combines the settings file with the command line, and opens the files beside the
+// window, which is shown once they are open or take long: a failure is reported in one line.
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -234,59 +235,60 @@ void apply_touch_options(const TouchRequest& touch, ViewerParts& parts, Settings
     touch.given.apply(settings.touch);
 }
 
-/// A live source may open slowly: a background task opens it, so that the program can end. Null: a
-/// request to end came.
-std::unique_ptr<Media> opened(const OpenRequest& open, TaskGroup& tasks,
-                              const ShutdownWatchdog& shutdown) {
-    if (!is_live(open.colour) && !is_live(open.depth)) return open_request(open);
-    constexpr std::chrono::milliseconds kPause{20};
-    BackgroundTask<std::unique_ptr<Media>> opening(tasks);
-    opening.start([open] { return open_request(open); });
-    while (!shutdown.requested()) {
-        opening.wait_until(std::chrono::steady_clock::now() + kPause);
-        if (auto media = opening.take()) return std::move(*media);
+/// Opens what the command line names. May wait for disk and network: not for the window's thread.
+void open_named(const ViewOptions& options, OpenedFiles& files) {
+    if (is_session_file(options.open.colour)) {
+        files.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media,
+                                                        options.surfaces);
+        files.warnings = {files.session->session.warning(), files.session->frames.warning};
+        return;
     }
+    files.media = open_request(options.open);
+    const MediaDescription& media = files.media->description();
+    if (options.must_be_sure || options.asks_nobody())
+        files.doubt = report_doubt(media, options.must_be_sure);
+    files.memory = memory_of(*files.media);
+    files.maps = find_maps(media);
+    files.guide = find_guide(media);
+    if (gives_relief(options.touch)) files.memory.relief_px.reset();
+    if (options.start_given || options.end_s || !options.clip.empty()) files.memory.at_s = 0.0;
+    files.warnings = {media.notice};
+}
+
+/// Throws InputError, unless the window opens without the files, too, and can open others.
+OpenedFiles open_files(const ViewOptions& options) {
+    OpenedFiles files;
+    try {
+        open_named(options, files);
+    } catch (const InputError& error) {
+        if (!options.stays && !options.open.colour.empty()) throw;
+        files = {};
+        files.lacks_depth = dynamic_cast<const DepthMissing*>(&error) != nullptr;
+        files.trouble = error.what();
+    }
+    return files;
+}
+
+/// Opens the window while `opening` opens the files. Null: there is no display or no OpenGL, and
+/// `trouble` is the error.
+std::unique_ptr<OpeningWindow> open_window(const ViewOptions& options, OpeningWindow::Time begin,
+                                           std::exception_ptr& trouble) try {
+    return std::make_unique<OpeningWindow>(options, begin);
+} catch (const DeviceError&) {
+    trouble = std::current_exception();
     return nullptr;
 }
 
-/// False: it was asked to end meanwhile.
-bool open_files(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks,
-                const ShutdownWatchdog& shutdown, MessageLog& log) {
-    if (is_session_file(options.open.colour)) {
-        parts.session = std::make_unique<OpenedSession>(options.open.colour, options.any_media,
-                                                        options.surfaces);
-        warn(parts.session->session.warning(), log);
-        warn(parts.session->frames.warning, log);
-    } else {
-        auto media = opened(options.open, tasks, shutdown);
-        if (!media) return false;
-        if (options.must_be_sure || options.asks_nobody())
-            log.append("warning", report_doubt(media->description(), options.must_be_sure));
-        parts.media = std::move(media);
-        parts.memory = memory_of(*parts.media);
-        parts.maps = find_maps(parts.media->description());
-        parts.guide = find_guide(parts.media->description());
-        if (gives_relief(options.touch)) parts.memory.relief_px.reset();
-        if (options.start_given || options.end_s || !options.clip.empty()) parts.memory.at_s = 0.0;
-        warn(parts.media->description().notice, log);
+/// The files, once they are open. Nothing: a person or a signal ended the program before.
+std::optional<OpenedFiles> wait_for_files(BackgroundTask<OpenedFiles>& opening,
+                                          OpeningWindow* window, const ShutdownWatchdog& shutdown) {
+    constexpr std::chrono::milliseconds kPause{20};
+    std::optional<OpenedFiles> files;
+    while (!(files = opening.take())) {
+        if (shutdown.requested() || (window != nullptr && !window->wait())) break;
+        opening.wait_until(std::chrono::steady_clock::now() + kPause);
     }
-    return true;
-}
-
-/// False: it was asked to end meanwhile.
-bool open_parts(const ViewOptions& options, ViewerParts& parts, TaskGroup& tasks,
-                const ShutdownWatchdog& shutdown, MessageLog& log) {
-    try {
-        if (!open_files(options, parts, tasks, shutdown, log)) return false;
-    } catch (const InputError& error) {
-        // Without a file on the command line the window opens, and can open one.
-        if (!options.stays && !options.open.colour.empty()) throw;
-        parts.lacks_depth = dynamic_cast<const DepthMissing*>(&error) != nullptr;
-        parts.trouble = error.what();
-        print_error_line(parts.trouble);
-    }
-    parts.hand = make_hand_device(options.device, {options.settings.devices, options.firmware});
-    return true;
+    return files;
 }
 
 /// Waits for background tasks. False: one still waits for a disk or opens a large file. After a
@@ -442,25 +444,39 @@ void combine_settings(ViewCommand& command, ViewerParts& parts, MessageLog& log)
     apply_kiosk(options, settings);
 }
 
-/// Opens the named files, and runs the window until it is closed.
-void run_window(ViewCommand& command, ShutdownWatchdog& shutdown, TaskGroup& tasks,
-                MessageLog& log) {
+/// Opens the named files beside the window, and runs the window until it is closed. An error of the
+/// files or the device comes before one of the display.
+void run_window(ViewCommand& command, OpeningWindow::Time begin, ShutdownWatchdog& shutdown,
+                TaskGroup& tasks, MessageLog& log) {
     ViewOptions& options = command.options;
     ViewerParts parts;
     combine_settings(command, parts, log);
     options.open.request = options.touch.depth_request();
     require_writable_outputs(options);
-    shutdown.crash_note().set_activity("opening the files");
     if (!is_session_file(options.open.colour)) use_sample_without_file(options.open);
-    if (!open_parts(options, parts, tasks, shutdown, log)) return;
+    BackgroundTask<OpenedFiles> opening(tasks);
+    opening.start([options] { return open_files(options); });
     shutdown.crash_note().set_activity("opening the window");
-    Viewer viewer(options, std::move(parts), shutdown, tasks, log);
+    std::exception_ptr no_window;
+    const auto window = open_window(options, begin, no_window);
+    shutdown.crash_note().set_activity("opening the files");
+    auto files = wait_for_files(opening, window.get(), shutdown);
+    if (!files) return;
+    if (!files->doubt.empty()) log.append("warning", files->doubt);
+    for (const std::string& warning : files->warnings) warn(warning, log);
+    if (!files->trouble.empty()) print_error_line(files->trouble);
+    parts.files = std::move(*files);
+    parts.hand = make_hand_device(options.device, {options.settings.devices, options.firmware});
+    if (no_window) std::rethrow_exception(no_window);
+    shutdown.crash_note().set_activity("opening the window");
+    Viewer viewer(options, *window, std::move(parts), shutdown, tasks, log);
     viewer.run();
 }
 
 }  // namespace
 
 int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after_picture) {
+    const auto begin = std::chrono::steady_clock::now();
     ViewCommand command;
     ViewOptions& options = command.options;
     options.after_picture = after_picture;
@@ -476,7 +492,7 @@ int run_view(CLI::App& app, const Arguments& arguments, const PictureHook& after
     MessageLog log(command.log_file.empty() ? fs::path() : whole_path(command.log_file), tasks);
     log.append("begin", std::string("dibhr ") + DIBHR_VERSION);
     try {
-        run_window(command, shutdown, tasks, log);
+        run_window(command, begin, shutdown, tasks, log);
     } catch (const Error& error) {
         log.append("error", error.what());
         log.finish(kLogTimeout);

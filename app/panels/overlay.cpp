@@ -103,7 +103,7 @@ std::string touch_text(const ViewerState& state) {
     if (!state.touch.replay && !state.touch.force_enabled) return "Force off";
     if (state.touch.depth_in_question) return "Force off: which depth is right?";
     if (waits_for_front(state.settings, state.touch)) return "Force off: not in front";
-    if (!haptic.touchable) return state.touch.replay ? "No surface" : "No surface yet";
+    if (!haptic.touchable) return state.touch.replay ? "Nothing to touch" : "Nothing to touch yet";
     if (clutched(state.settings, state.touch)) return "Held by the clutch";
     if (state.media.playback.live && state.media.playback.live->force_off && !state.touch.replay)
         return "No force: no signal";

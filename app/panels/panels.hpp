@@ -106,6 +106,9 @@ void draw_hint(const ViewerState& state, Hint hint, float alpha);
 void draw_explanation(ViewerState& state, const DepthSurface& surface,
                       const glm::dmat4& clip_from_grid);
 
+/// What is being opened, in the middle of a place that is so wide [px].
+void draw_opening(const OpeningShown& opening, const Fonts& fonts, float width_px);
+
 /// A hint how to open a file, while none is open.
 void draw_nothing_open(ViewerState& state);
 

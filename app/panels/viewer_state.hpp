@@ -60,6 +60,12 @@ struct Completion {
     std::string typed{}, whole{};
 };
 
+/// A file that is being opened, for longer than a person takes for at once.
+struct OpeningShown {
+    std::string name{};
+    std::string step{};  ///< what is done now
+};
+
 /// The window's own dialog for opening files.
 struct OpenDialog {
     static constexpr int kPicturesToFocus = 30;  ///< at most; usually it takes two

@@ -13,6 +13,7 @@
 #include "app/settings/assets_path.hpp"
 #include "core/error.hpp"
 #include "core/files/names.hpp"
+#include "core/video/live/live_name.hpp"
 #include "core/video/sources/media.hpp"
 #include "core/video/sources/media_names.hpp"
 #include "core/video/sources/picture_files.hpp"
@@ -163,6 +164,11 @@ bool is_sample(const fs::path& file) try {
     return file == sample_files().colour;
 } catch (const InputError&) {  // it is not installed
     return false;
+}
+
+std::string shown_name(const fs::path& file) {
+    if (is_sample(file)) return "The sample: a woman waves";
+    return is_live(file) ? public_name(file) : file.filename().string();
 }
 
 fs::path remembered_file(const MediaDescription& media) {

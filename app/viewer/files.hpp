@@ -98,6 +98,8 @@ struct OpenResult {
 
 /// Whether that is the colour file of the built-in sample.
 [[nodiscard]] bool is_sample(const std::filesystem::path& file);
+/// A file's name for people, or a live place's without its password.
+[[nodiscard]] std::string shown_name(const std::filesystem::path& file);
 /// The file for which view and relief are saved: colour, where there is a pair; empty for the
 /// built-in sample, which always opens unchanged.
 [[nodiscard]] std::filesystem::path remembered_file(const MediaDescription& media);

@@ -105,7 +105,7 @@ ClipPainter::ClipPainter(const ClipLook& look, int columns, int rows, double rel
     : size_px_(look.size_px),
       surface_(look.surface),
       settings_{.theme = look.theme},
-      window_({kSmallestWindow, kSmallestWindow}, false, "dibhr", Window::Shown::never) {
+      window_({kSmallestWindow, kSmallestWindow}, false, "dibhr", Window::Shown::later) {
     camera_.set_projection(look.straight ? Camera::Projection::straight
                                          : Camera::Projection::perspective);
     camera_.frame_relief(columns, rows, relief_px);

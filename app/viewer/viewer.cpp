@@ -36,35 +36,20 @@ void apply_play_options(const ViewOptions& options, double begin_s, Transport& p
     if (options.looping) player.set_looping(*options.looping);
 }
 
-float text_scale(const ViewOptions& options, float scale) {
-    return options.kiosk ? KioskOptions::kTextTimes * scale : scale;
-}
-
 std::optional<KioskShown> kiosk_shown(const ViewOptions& options) {
     if (!options.kiosk) return std::nullopt;
     return KioskShown{!options.kiosk->next.empty(), options.settings.speak};
 }
 
-/// The saved or requested size; else the default, which grows with the text.
-WindowSize requested_size(const ViewOptions& options) {
-    const Settings& settings = options.settings;
-    const Settings standard;
-    const bool chosen = options.size_given || settings.width != standard.width ||
-                        settings.height != standard.height;
-    return {settings.width, settings.height,
-            chosen ? std::nullopt : std::optional(settings.ui_scale)};
-}
-
 }  // namespace
 
-Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& shutdown,
-               TaskGroup& tasks, MessageLog& log)
+Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts parts,
+               ShutdownWatchdog& shutdown, TaskGroup& tasks, MessageLog& log)
     : options_(options),
       shutdown_(shutdown),
       log_(log),
-      window_(requested_size(options), options.sync, "dibhr"),
-      gui_(window_,
-           {text_scale(options, window_.scale(options.settings.ui_scale)), options.settings.theme}),
+      window_(opening.window()),
+      gui_(opening.gui()),
       software_(read_limits().software),
       pace_(least_picture_time(options.sync, software_)),
       state_{.settings = options.settings,
@@ -72,6 +57,8 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
              .ui = {.unsafe_settings = options.unsafe_settings, .kiosk = kiosk_shown(options)}},
       service_settings_(tasks),
       opening_(tasks),
+      opening_name_(shown_name(options.open.colour)),
+      opening_since_(opening.begin()),
       clip_(tasks, shutdown.crash_note()),
       estimating_(tasks),
       preparing_(tasks),
@@ -85,6 +72,7 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
       touch_(std::move(parts.hand),
              {heart_, shutdown.without_force(), shutdown.crash_note(), [this] { window_.wake(); }},
              {state_.settings, state_.touch, state_.media}) {
+    opening.show();
     if (software_) lower_drawing_priority();
     window_.on_display_loss([this] { close_without_display(); });
     shutdown_.watch_display(display_connection());
@@ -95,35 +83,35 @@ Viewer::Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& 
     state_.ui.materials = material_names();
     state_.ui.message = capitalised(parts.damage);
     apply_style();
-    if (options.full_screen) window_.toggle_full_screen();
     if (!options.clip.empty())
         clip_.start(options.clip, ClipNameConflict::replaces, options.pictures_of);
-    if (parts.session) {
-        replay_session(std::move(parts.session));
+    OpenedFiles& files = parts.files;
+    if (files.session) {
+        replay_session(std::move(files.session));
         SessionPlayer& replay = *replay_.player();
         apply_play_options(options, replay.playback().begin_s, replay);
         if (options.open.at_s > 0.0) replay.seek(replay.playback().begin_s + options.open.at_s);
         if (options.open.paused) replay.pause();
         return;
     }
-    if (!parts.media) {
+    if (!files.media) {
         if (options.kiosk) {
             pass_over_in_kiosk();
             return;
         }
-        const bool offered = parts.lacks_depth && estimating_.offer(options.open.colour, state_);
+        const bool offered = files.lacks_depth && estimating_.offer(options.open.colour, state_);
         if (!offered)
-            state_.ui.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(parts.trouble);
+            state_.ui.message += (parts.damage.empty() ? "" : "\n\n") + capitalised(files.trouble);
         return;
     }
-    state_.media.describe(parts.media->description());
+    state_.media.describe(files.media->description());
     const bool live = state_.media.live;
     if (!options.record.empty() && !live) {
         fit_to_media();  // before start(): a session's facts contain it
         touch_.recording().start(options.record);
     }
-    show_media(std::move(parts.media), options.open, parts.memory, std::move(parts.maps),
-               parts.guide);
+    show_media(std::move(files.media), options.open, files.memory, std::move(files.maps),
+               files.guide);
     if (!options.record.empty() && live) touch_.recording().start_live(options.record);
     apply_play_options(options, 0.0, touch_.player());
 }
@@ -136,7 +124,11 @@ Viewer::~Viewer() {
 void Viewer::run() {
     start_ = steady_clock::now();
     shutdown_.crash_note().set_activity("drawing");
-    while (!over()) wait_for_turn(take_turn());
+    while (!over()) {
+        shutdown_.begin_turn();
+        wait_for_turn(take_turn());
+    }
+    shutdown_.end_loop();
     finish();
 }
 
@@ -155,6 +147,7 @@ void Viewer::beat() {
 
 /// The display is lost: saves all without the window.
 void Viewer::close_without_display() {
+    shutdown_.end_loop();
     shutdown_.crash_note().set_activity("closing without a display");
     desktop_.cancel();
     state_.ui.message.clear();
@@ -214,7 +207,7 @@ void Viewer::save_all(const std::atomic<bool>& at_once, const Try& try_to) {
 /// Once a turn: the window may have moved to a display of another scale.
 void Viewer::apply_style() {
     const Settings& settings = state_.settings;
-    gui_.apply({text_scale(options_, window_.scale(settings.ui_scale)), settings.theme});
+    gui_.apply(gui_style(options_, settings, window_));
     state_.ui.fonts = gui_.fonts();
     state_.ui.scale = gui_.scale();
 }

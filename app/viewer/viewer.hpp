@@ -31,6 +31,7 @@
 #include "app/viewer/guide/speaking.hpp"
 #include "app/viewer/input.hpp"
 #include "app/viewer/message_log.hpp"
+#include "app/viewer/opening_window.hpp"
 #include "app/viewer/painting/painting.hpp"
 #include "app/viewer/panes.hpp"
 #include "app/viewer/picture_change.hpp"
@@ -99,8 +100,8 @@ struct ViewOptions {
     }
 };
 
-/// What is opened before the window.
-struct ViewerParts {
+/// The files of the command line.
+struct OpenedFiles {
     std::unique_ptr<Media> media{};
     FileMemory memory{};                       ///< of the media
     FoundMaps maps{};                          ///< likewise
@@ -108,7 +109,14 @@ struct ViewerParts {
     std::unique_ptr<OpenedSession> session{};  ///< to be replayed, in place of media
     std::string trouble{};                     ///< why there is neither media nor session
     bool lacks_depth{false};                   ///< the trouble is that the file has colour only
-    std::string damage{};                      ///< message about a damaged settings file
+    std::string doubt{};                       ///< on what the depth means; printed already
+    std::vector<std::string> warnings{};
+};
+
+/// What a viewer begins with.
+struct ViewerParts {
+    OpenedFiles files{};
+    std::string damage{};  ///< message about a damaged settings file
     HandDevice hand{};
     Material material{};  ///< of the settings or the command line
     std::shared_ptr<const BumpMap> bump{};
@@ -131,9 +139,9 @@ struct TurnedDepth {
 
 class Viewer {
   public:
-    /// Opens the window and starts the loop. All references must outlive the viewer. Throws Error.
-    Viewer(const ViewOptions& options, ViewerParts parts, ShutdownWatchdog& shutdown,
-           TaskGroup& tasks, MessageLog& log);
+    /// Shows the window and starts the loop. All references must outlive the viewer. Throws Error.
+    Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts parts,
+           ShutdownWatchdog& shutdown, TaskGroup& tasks, MessageLog& log);
     /// Removes the handler for a lost display.
     ~Viewer();
     Viewer(const Viewer&) = delete;
@@ -157,6 +165,7 @@ class Viewer {
     void poll_touch();
     void show_recording_trouble();
     void take_opened();
+    [[nodiscard]] std::optional<OpeningShown> opening_shown() const;
     void follow_live();
     void take_keys(const WindowInput& input);
     void take_kiosk_keys(const WindowInput& input);
@@ -254,8 +263,8 @@ class Viewer {
     ShutdownWatchdog& shutdown_;
     MessageLog& log_;
     Heartbeat heart_{};  // of the window's thread and the display
-    Window window_;
-    Gui gui_;
+    Window& window_;
+    Gui& gui_;
     SceneView scene_{};
     bool software_;  // the processor draws
     PicturePace pace_;
@@ -265,6 +274,8 @@ class Viewer {
     ViewerState state_{};
     ServiceSettings service_settings_;
     BackgroundTask<OpenResult> opening_;
+    std::string opening_name_{};  // of the file that is opened, or was last
+    std::chrono::steady_clock::time_point opening_since_;
     Screenshots screenshots_{};
     ViewerClip clip_;
     ViewerEstimating estimating_;

@@ -21,6 +21,8 @@
 
 namespace dibhr {
 
+using std::chrono::steady_clock;
+
 namespace {
 
 constexpr const char* kDesktopAsks = "Choose in the desktop's dialog";
@@ -77,6 +79,17 @@ void Viewer::take_opened() {
         if (state_.ui.depth_question) state_.ui.depth_question->answered = false;  // by a failure
     }
     state_.media.opening = opening_.running();
+}
+
+/// What is being opened, from the request until its first frame is there, if that takes long.
+std::optional<OpeningShown> Viewer::opening_shown() const {
+    if (steady_clock::now() - opening_since_ < kUnnoticedOpening) return std::nullopt;
+    if (opening_.running()) return OpeningShown{opening_name_, kReadingFiles};
+    const bool waits = !state_.touch.replay && !state_.media.live &&
+                       !state_.media.depth_path.empty() && !shown_.makes_surface() &&
+                       state_.ui.message.empty();
+    if (!waits) return std::nullopt;
+    return OpeningShown{opening_name_, kReadingFirstFrame};
 }
 
 void Viewer::take_dropped(const std::vector<std::filesystem::path>& files) {
@@ -271,10 +284,7 @@ void Viewer::keep_recent(const RecentFile& opened) {
 }
 
 void Viewer::show_title(const std::filesystem::path& file) {
-    const std::string name = is_sample(file) ? "The sample: a woman waves"
-                             : is_live(file) ? public_name(file)
-                                             : file.filename().string();
-    window_.set_title(name + " - dibhr");
+    window_.set_title(shown_name(file) + " - dibhr");
 }
 
 /// Saves the panel's depth choices for the file that they made the depth.
@@ -390,7 +400,9 @@ void Viewer::open(const OpenRequest& request) {
         if (remembered.valid()) remembered.wait();
         return try_open(request);
     });
-    if (!begun) show_notice("Still opening the last files");
+    if (!begun) return show_notice("Still opening the last files");
+    opening_name_ = shown_name(request.colour.empty() ? request.depth : request.colour);
+    opening_since_ = steady_clock::now();
 }
 
 std::string Viewer::save_sidecar() {

@@ -147,6 +147,9 @@ void Viewer::lay_out_panels(std::span<const KeyPress> pressed, const std::functi
     }
     draw_overlay(state_, now_s());
     draw_nothing_open(state_);
+    if (const auto opening = opening_shown())
+        draw_opening(*opening, state_.ui.fonts,
+                     state_.ui.window_width - panel_column_width(state_));
     draw_explained();
     draw_unsafe_settings(state_);
     draw_depth_offer(state_);

@@ -1,8 +1,10 @@
 // The display, the window's thread or a disk stands still while a hand presses: the force goes off,
 // and a signal still ends the program.
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
 #include <glm/geometric.hpp>
 #include <string>
@@ -13,6 +15,7 @@
 #include "tests/app/program/falcon_scene.hpp"
 #include "tests/app/program/stall.hpp"
 #include "tests/support/catch.hpp"
+#include "tests/support/eventually.hpp"
 #include "tests/support/text.hpp"
 
 using namespace dibhr;
@@ -37,6 +40,12 @@ void check_end_by_signal(WindowProgram& viewer, const TemporaryFolder& folder,
     CHECK(run_dibhr(folder, {"info", "hand.dibhr"}).exit_code == 0);
     CHECK(glm::length(read_session(folder / "hand.dibhr").back().sent_newton) < 1e-12);
     require_same_bits(folder, folder / "hand.dibhr");
+}
+
+/// Whether a command line succeeds on that display.
+bool run_on(const Desk& desk, const std::string& command) {
+    const std::string line = "DISPLAY=" + desk.display() + " " + command + " > /dev/null 2>&1";
+    return std::system(line.c_str()) == 0;  // NOLINT: of this test
 }
 
 bool is_firm(const Row& row) {
@@ -105,6 +114,28 @@ TEST_CASE(
     at.falcon.wait_for_zeros(kLasting);
     check_end_by_signal(at.viewer, at.folder, "drawing");
     CHECK(standstills(at.rows()) >= 2);
+}
+
+TEST_CASE(
+    "while a disk keeps the files from being opened, a window with their name is there, and a key "
+    "or a signal ends it",
+    "[ways out]") {
+    const bool by_key = GENERATE(true, false);
+    const Stall stall("sample/depth.mp4");
+    stall.begin();
+    const Desk desk;
+    const TemporaryFolder folder;
+    WindowProgram viewer = desk.start_viewer(folder, {"--device", "mouse"}, stall.host());
+    const auto is_there = [&desk] {
+        return run_on(desk, "xdotool search --onlyvisible --name '^The sample.* - dibhr$'");
+    };
+    REQUIRE(eventually(is_there, std::chrono::minutes(1)));
+    if (by_key)
+        desk.press("key q");
+    else
+        viewer.send(SIGTERM);
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
 }
 
 TEST_CASE("a disk under the video that stops takes the force off, and a signal ends the program",
