@@ -45,8 +45,16 @@ void ShutdownWatchdog::watch_display(int connection) {
 
 void ShutdownWatchdog::begin_turn() noexcept {
     const auto now = ShutdownRequests::Time::clock::now();
-    if (turn_began_) turn_ = std::max(now - *turn_began_, turn_.load() - turn_.load() / 8);
-    turn_began_ = now;
+    const auto began = turn_began_.exchange(now);
+    if (began != ShutdownRequests::Time())
+        turn_ = std::max(now - began, turn_.load() - turn_.load() / 8);
+}
+
+/// The turn that runs may be the longest one: the first relief takes a second to be drawn.
+void ShutdownWatchdog::take_running_turn() noexcept {
+    const auto lasts = ShutdownRequests::Time::clock::now() - turn_began_.load();
+    if (turn_.load() > ShutdownRequests::Time::duration::zero())
+        turn_ = std::max(lasts, turn_.load());
 }
 
 void ShutdownWatchdog::run() {
@@ -70,7 +78,10 @@ void ShutdownWatchdog::run() {
         if (ready[2].revents != 0 && display_.compare_exchange_strong(display, -1))
             without_force_ = true;
         if (!signals_.arrived()) continue;
-        if (!requests.any()) heart_.beat();
+        if (!requests.any()) {
+            heart_.beat();
+            take_running_turn();
+        }
         again = requests.is_repeated(Clock::now());
         without_force_ = true;
         requested_ = true;

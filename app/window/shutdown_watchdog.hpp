@@ -66,6 +66,7 @@ class ShutdownWatchdog {
 
   private:
     void run();
+    void take_running_turn() noexcept;
 
     CrashNote& crash_note_;
     ShutdownSignals signals_{};
@@ -76,7 +77,7 @@ class ShutdownWatchdog {
     std::atomic<int> display_{-1};
     /// How long turns of the window's loop take, the last ones more than others; 0: outside it.
     std::atomic<ShutdownRequests::Time::duration> turn_{};
-    std::optional<ShutdownRequests::Time> turn_began_{};
+    std::atomic<ShutdownRequests::Time> turn_began_{};
     Wake wake_{};  // when one of the two above has changed
     std::thread thread_{};
 };
