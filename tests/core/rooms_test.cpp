@@ -140,6 +140,7 @@ const std::vector<Room> kRooms{
 /// Any other folder of device/ is that of a device, and may include itself and these.
 const std::vector<std::string> kOfDevice{"device/hand/",
                                          "device/arm_buffers.hpp",
+                                         "device/arm_check.hpp",
                                          "device/arm_device.hpp",
                                          "device/arm_exchanges.hpp",
                                          "device/call_record.hpp",
