@@ -29,7 +29,7 @@ class CheckedArm {
   public:
     virtual ~CheckedArm() = default;
 
-    [[nodiscard]] virtual const char* kind() const = 0;  ///< "forcedimension"
+    [[nodiscard]] virtual const char* kind() const = 0;  ///< ForceDeviceKind::name
     [[nodiscard]] virtual std::string name() const = 0;  ///< "the omega.3 1234"
     [[nodiscard]] virtual std::string serial() const = 0;
     /// As it was found, for the head of the record.
