@@ -282,8 +282,7 @@ TEST_CASE("with no library, and with those that cannot be used, the mouse touche
     const Desk desk;
     const TemporaryFolder folder;
     std::filesystem::create_directories(folder / "config/dibhr");
-    std::ofstream(folder / "config/dibhr/settings.toml")
-        << "[window]\npanels-visible = false\n";
+    std::ofstream(folder / "config/dibhr/settings.toml") << "[window]\npanels-visible = false\n";
     for (const char* const kind : {"forcedimension", "openhaptics"}) {
         const std::string library = (folder / kind).string() + ".so";
         if (installed) write_text(library, "no library");
@@ -308,6 +307,21 @@ TEST_CASE("a library that is too old is named with its version", "[makers_librar
     arm->age_library();
     check_refused(run_dibhr(folder, {"view", "--device", "forcedimension"}), STAND_IN_DRD,
                   "is version 3.2.6, which is too old");
+}
+
+TEST_CASE("without a person the check of an arm measures what needs none, and pushes nobody",
+          "[makers_library][devices][long]") {
+    const TemporaryFolder folder;
+    const auto arm = make_stand_in(any_kind(), folder);
+    CAPTURE(arm->kind());
+    const ProgramResult checked = run_dibhr(folder, {"devices", "--check", "--out", "check.json"});
+    CAPTURE(checked.output, checked.errors);
+    CHECK(checked.exit_code == 0);
+    CHECK(says(checked.output, " a second (half within"));
+    CHECK(says(read_text(folder / "check.json"), std::string("dibhr ") + arm->kind() + " check"));
+    CHECK(arm->strongest_newton() == 0.0);
+    CHECK(arm->wrong_calls() == 0);
+    CHECK_FALSE(arm->is_open());
 }
 
 TEST_CASE("what a record has is played as a device", "[makers_library][devices][long]") {
