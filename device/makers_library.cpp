@@ -8,14 +8,15 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <optional>
 #include <system_error>
 #include <utility>
 
+#include "core/files/machine.hpp"
 #include "core/files/module.hpp"
+#include "device/hand/shell_word.hpp"
 
 namespace dibhr {
 
@@ -100,15 +101,10 @@ void add_libraries(const MakersLibrarySearch& search, const fs::path& folder,
     }
 }
 
-const char* variable(const char* name) {
-    const char* const value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
-
 std::vector<fs::path> usual_folders(const MakersLibrarySearch& search) {
     std::vector<fs::path> all;
     for (std::string folder : search.folders) {
-        if (folder.starts_with("~/")) folder.replace(0, 1, variable("HOME"));
+        if (folder.starts_with("~/")) folder.replace(0, 1, home_folder().string());
         if (!folder.ends_with('*')) {
             all.emplace_back(folder);
             continue;
@@ -163,7 +159,8 @@ std::vector<fs::path> chosen_files(const MakersLibrarySearch& search) {
 std::vector<fs::path> all_files(const MakersLibrarySearch& search) {
     std::vector<fs::path> files;
     for (const char* const name : search.variables) {
-        if (*variable(name) != '\0') add_libraries(search, variable(name), files);
+        const std::string_view folder = environment_variable(name);
+        if (!folder.empty()) add_libraries(search, folder, files);
     }
     for (const std::string& name : search.names) files.emplace_back(name);
     for (const fs::path& folder : usual_folders(search)) add_libraries(search, folder, files);
@@ -176,8 +173,9 @@ std::string why_no_library(const fs::path& file) {
     const std::string name = file.string();
     std::ifstream stream(file, std::ios::binary);
     if (!stream) {
-        return errno == ENOENT ? name + " does not exist: choose the maker's library"
-                               : name + " cannot be read: allow it, with sudo chmod a+rx " + name;
+        return errno == ENOENT
+                   ? name + " does not exist: choose the maker's library"
+                   : name + " cannot be read: allow it, with sudo chmod a+rx " + shell_word(name);
     }
     std::error_code ignored;
     const std::uintmax_t size = fs::file_size(file, ignored);

@@ -153,8 +153,8 @@ int run_devices(CLI::App& app, const Arguments& arguments) {
     add_firmware(app, firmware_file);
     auto* const check_given = app.add_flag(
         "--check", checks,
-        "Guides you through all measurements of a Falcon, or of an Inverse3 or a "
-        "Force Dimension arm if no Falcon is attached; a step with force says so before it begins");
+        "Guides you through all measurements of the attached device: a Falcon, or the first of an "
+        "Inverse3, a Force Dimension arm and a Touch; a step with force says so before it begins");
     add_file(app, "--out", record, "With --check: the record of what was measured")
         ->default_str("DEVICE-check-SERIAL-DATE.json")
         ->needs(check_given);

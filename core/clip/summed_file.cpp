@@ -38,7 +38,10 @@ SummedFile::SummedFile(std::filesystem::path file)
         return write(to, bytes, count);
     };
     bytes_.reset(avio_alloc_context(buffer, kPieceBytes, 1, this, nullptr, write_some, seek));
-    if (!bytes_) throw std::bad_alloc();
+    if (!bytes_) {
+        av_free(buffer);
+        throw std::bad_alloc();
+    }
 }
 
 SummedFile::~SummedFile() {

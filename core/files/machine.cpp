@@ -40,8 +40,8 @@ std::string_view environment_variable(const char* name) {
 }
 
 std::filesystem::path home_folder() {
-    const char* const folder = std::getenv("HOME");
-    return folder != nullptr ? folder : "/";
+    const std::string_view folder = environment_variable("HOME");
+    return folder.starts_with('/') ? folder : "/";
 }
 
 std::filesystem::path program_folder(const char* variable, const std::filesystem::path& usual) {

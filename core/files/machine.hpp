@@ -19,7 +19,7 @@ struct Machine {
 /// A variable of the environment; empty where it is not set.
 [[nodiscard]] std::string_view environment_variable(const char* name);
 
-/// The user's home folder; "/" where HOME is not set.
+/// The user's home folder; "/" where HOME is no absolute path.
 [[nodiscard]] std::filesystem::path home_folder();
 
 /// The program's own folder in the folder of an XDG variable, where that is an absolute path, else

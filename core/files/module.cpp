@@ -33,9 +33,9 @@ void* symbol_in_module(const char* name, const char* symbol) {
     void* module = load_library(part_of_program("lib" + std::string(name) + ".so"),
                                 Resolve::when_called, why_not);
     void* found = module != nullptr ? dlsym(module, symbol) : nullptr;
+    if (module != nullptr && found == nullptr) why_not = std::string("it has no ") + symbol;
     if (found == nullptr)
-        throw InputError("a part of dibhr cannot be loaded: " +
-                         (module != nullptr ? dlerror() : why_not) + ": install dibhr again");
+        throw InputError("a part of dibhr cannot be loaded: " + why_not + ": install dibhr again");
     return found;
 }
 

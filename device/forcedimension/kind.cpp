@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "device/force_device.hpp"
-#include "device/forcedimension/check/check.hpp"
+#include "device/forcedimension/check/checked_arm.hpp"
 #include "device/forcedimension/forcedimension_device.hpp"
 #include "device/forcedimension/guided.hpp"
 #include "device/forcedimension/record.hpp"
@@ -69,10 +69,8 @@ bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
 
 CheckResult check(const DeviceSettings& settings, const CheckRecordOptions& record_options,
                   const PrintLine& /*line*/, CheckConsole& console) {
-    return run_check({.connection = connection_in(settings),
-                      .record = record_options.record,
-                      .facts = record_options.facts},
-                     console);
+    ArmUnderCheck arm(connection_in(settings));
+    return check_arm(arm, record_options, console, {});
 }
 
 }  // namespace

@@ -228,7 +228,7 @@ std::string why_not(const MakersLibrary& library, Functions& functions) {
     const std::string file = library.file.string();
     const std::string advice = ": install Force Dimension's SDK 3.16 or newer";
     if (const std::string missing = take_functions(library.handle, functions); !missing.empty())
-        return file + " does not have " + missing + advice;
+        return file + " has no function " + missing + advice;
     std::array<int, 4> version{};
     functions.sdk_version(&version[0], &version[1], &version[2], &version[3]);
     if (std::lexicographical_compare(version.begin(), version.begin() + 2, kOldest.begin(),

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <system_error>
 
+#include "device/hand/shell_word.hpp"
+
 namespace dibhr {
 
 namespace {
@@ -44,7 +46,7 @@ std::string how_to_get_permission(const std::string& rule, const std::string& de
                "$USER, then log in again), and plug " +
                device + " in again";
     }
-    return "run: sudo cp " + rule_that_came_along(rule).string() +
+    return "run: sudo cp " + shell_word(rule_that_came_along(rule).string()) +
            " /etc/udev/rules.d/ && sudo udevadm control --reload; then plug " + device +
            " in again";
 }

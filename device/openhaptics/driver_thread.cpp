@@ -12,7 +12,6 @@
 #include "core/files/plain_text.hpp"
 #include "core/realtime/tick_timer.hpp"
 #include "device/openhaptics/dynamics.hpp"
-#include "device/openhaptics/record.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -62,8 +61,7 @@ void DriverThread::run() {
             broken ? library_.trouble : sentence_for(Stage::no_library, board_.draft()),
             broken || is_on_usb(options_.usb_devices));
     } else {
-        if (options_.recorder != nullptr)
-            library_.functions = recorded(library_.functions, options_.recorder);
+        if (options_.around) library_.functions = options_.around(library_.functions);
         (void)become_realtime("dibhr touch");
         while (!end.requested()) {
             search();

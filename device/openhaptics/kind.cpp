@@ -4,6 +4,7 @@
 
 #include "core/error.hpp"
 #include "device/force_device.hpp"
+#include "device/openhaptics/check/checked_touch.hpp"
 #include "device/openhaptics/openhaptics_device.hpp"
 #include "device/openhaptics/record.hpp"
 #include "device/openhaptics/settings.hpp"
@@ -59,7 +60,7 @@ void record(const DeviceSettings& settings, const std::filesystem::path& file,
         throw DeviceError(library.trouble.empty() ? sentence_for(Stage::no_library, {})
                                                   : library.trouble);
     connection.forces = false;
-    connection.recorder = make_recorder(file, library.file);
+    connection.around = recording_in(file, library.file);
     OpenhapticsDevice device(connection);
     record_device(device, file, print);
 }
@@ -71,6 +72,15 @@ bool play(const std::filesystem::path& file, const PrintLine& print) {
     OpenhapticsDevice device({.library = file.string()});
     play_device(device, file, "openhaptics", print);
     return true;
+}
+
+CheckResult check(const DeviceSettings& settings, const CheckRecordOptions& record_options,
+                  const PrintLine& /*line*/, CheckConsole& console) {
+    using Span = ArmCheckTimes::Span;
+    TouchUnderCheck arm(connection_in(settings));
+    return check_arm(
+        arm, record_options, console,
+        {.silences = {Span(20), Span(50), Span(100), Span(200), Span(400), Span(800)}});
 }
 
 bool print_attached(const DeviceSettings& settings, const PrintLine& print) {
@@ -99,6 +109,7 @@ extern const ForceDeviceKind device_kind{
         },
     .survey = survey,
     .print_attached = print_attached,
+    .check = check,
     .record = record,
     .play = play,
 };

@@ -14,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "device/call_record.hpp"
+
 namespace dibhr::openhaptics {
 
 namespace {
@@ -94,6 +96,55 @@ std::function<void(HdEnum, T*)> noted_reading(const std::function<void(HdEnum, T
                               .of = hex(what),
                               .answered = std::span(numbers).first(size_of(what))});
     };
+}
+
+HdLibrary recorded(const HdLibrary& library, const Recorder& recorder) {
+    HdLibrary noting = library;
+    noting.init_device = [=](const char* name) {
+        const auto asked = Clock::now();
+        const HdHandle handle = library.init_device(name);
+        recorder->add(asked, {.function = "hdInitDevice",
+                              .result = static_cast<int>(handle),
+                              .text = name != nullptr ? name : ""});
+        return handle;
+    };
+    noting.get_error = [=] {
+        const auto asked = Clock::now();
+        const HdErrorInfo error = library.get_error();
+        const std::array<double, 1> internal{static_cast<double>(error.internal_code)};
+        if (error.code != kHdSuccess)
+            recorder->add(asked, {.function = "hdGetError",
+                                  .result = static_cast<int>(error.code),
+                                  .answered = internal});
+        return error;
+    };
+    noting.get_string = [=](HdEnum what) {
+        const auto asked = Clock::now();
+        const char* const text = library.get_string(what);
+        if (text != nullptr)
+            recorder->add(asked, {.function = "hdGetString", .of = hex(what), .text = text});
+        return text;
+    };
+    noting.check_calibration = [=, last = std::make_shared<HdEnum>(0)] {
+        const auto asked = Clock::now();
+        const HdEnum calibration = library.check_calibration();
+        if (std::exchange(*last, calibration) != calibration)
+            recorder->add(
+                asked, {.function = "hdCheckCalibration", .result = static_cast<int>(calibration)});
+        return calibration;
+    };
+    noting.begin_frame = noted(library.begin_frame, "hdBeginFrame", recorder);
+    noting.disable_device = noted(library.disable_device, "hdDisableDevice", recorder);
+    noting.enable = noted(library.enable, "hdEnable", recorder);
+    noting.disable = noted(library.disable, "hdDisable", recorder);
+    noting.update_calibration = noted(library.update_calibration, "hdUpdateCalibration", recorder);
+    noting.start_scheduler = noted(library.start_scheduler, "hdStartScheduler", recorder);
+    noting.stop_scheduler = noted(library.stop_scheduler, "hdStopScheduler", recorder);
+    noting.get_booleans = noted_reading(library.get_booleans, "hdGetBooleanv", recorder);
+    noting.get_integers = noted_reading(library.get_integers, "hdGetIntegerv", recorder);
+    noting.get_doubles = noted_reading(library.get_doubles, "hdGetDoublev", recorder);
+    noting.get_longs = noted_reading(library.get_longs, "hdGetLongv", recorder);
+    return noting;
 }
 
 /// A record as a library.
@@ -190,58 +241,10 @@ class PlayedLibrary {
 
 }  // namespace
 
-std::shared_ptr<CallRecorder> make_recorder(const std::filesystem::path& file,
-                                            const std::string& library) {
-    return std::make_shared<CallRecorder>(file, kKind, library);
-}
-
-HdLibrary recorded(const HdLibrary& library, const std::shared_ptr<CallRecorder>& recorder) {
-    HdLibrary noting = library;
-    noting.init_device = [=](const char* name) {
-        const auto asked = Clock::now();
-        const HdHandle handle = library.init_device(name);
-        recorder->add(asked, {.function = "hdInitDevice",
-                              .result = static_cast<int>(handle),
-                              .text = name != nullptr ? name : ""});
-        return handle;
-    };
-    noting.get_error = [=] {
-        const auto asked = Clock::now();
-        const HdErrorInfo error = library.get_error();
-        const std::array<double, 1> internal{static_cast<double>(error.internal_code)};
-        if (error.code != kHdSuccess)
-            recorder->add(asked, {.function = "hdGetError",
-                                  .result = static_cast<int>(error.code),
-                                  .answered = internal});
-        return error;
-    };
-    noting.get_string = [=](HdEnum what) {
-        const auto asked = Clock::now();
-        const char* const text = library.get_string(what);
-        if (text != nullptr)
-            recorder->add(asked, {.function = "hdGetString", .of = hex(what), .text = text});
-        return text;
-    };
-    noting.check_calibration = [=, last = std::make_shared<HdEnum>(0)] {
-        const auto asked = Clock::now();
-        const HdEnum calibration = library.check_calibration();
-        if (std::exchange(*last, calibration) != calibration)
-            recorder->add(
-                asked, {.function = "hdCheckCalibration", .result = static_cast<int>(calibration)});
-        return calibration;
-    };
-    noting.begin_frame = noted(library.begin_frame, "hdBeginFrame", recorder);
-    noting.disable_device = noted(library.disable_device, "hdDisableDevice", recorder);
-    noting.enable = noted(library.enable, "hdEnable", recorder);
-    noting.disable = noted(library.disable, "hdDisable", recorder);
-    noting.update_calibration = noted(library.update_calibration, "hdUpdateCalibration", recorder);
-    noting.start_scheduler = noted(library.start_scheduler, "hdStartScheduler", recorder);
-    noting.stop_scheduler = noted(library.stop_scheduler, "hdStopScheduler", recorder);
-    noting.get_booleans = noted_reading(library.get_booleans, "hdGetBooleanv", recorder);
-    noting.get_integers = noted_reading(library.get_integers, "hdGetIntegerv", recorder);
-    noting.get_doubles = noted_reading(library.get_doubles, "hdGetDoublev", recorder);
-    noting.get_longs = noted_reading(library.get_longs, "hdGetLongv", recorder);
-    return noting;
+std::function<HdLibrary(const HdLibrary&)> recording_in(const std::filesystem::path& file,
+                                                        const std::string& library) {
+    const auto recorder = std::make_shared<CallRecorder>(file, kKind, library);
+    return [recorder](const HdLibrary& functions) { return recorded(functions, recorder); };
 }
 
 bool is_record(const std::filesystem::path& file) {

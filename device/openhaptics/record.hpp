@@ -2,21 +2,18 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <functional>
+#include <string>
 
-#include "device/call_record.hpp"
 #include "device/openhaptics/library.hpp"
 
 namespace dibhr::openhaptics {
 
-/// Throws InputError when the file cannot be written.
-[[nodiscard]] std::shared_ptr<CallRecorder> make_recorder(const std::filesystem::path& file,
-                                                          const std::string& library);
-
-/// The library, and a line of the record for each of its calls. What the servo thread reads again
-/// and again has a line when it changes.
-[[nodiscard]] HdLibrary recorded(const HdLibrary& library,
-                                 const std::shared_ptr<CallRecorder>& recorder);
+/// For ConnectionOptions::around: the library, and a line of the record for each of its calls. What
+/// the servo thread reads again and again has a line when it changes. The file is whole when that
+/// is destroyed. Throws InputError when it cannot be written.
+[[nodiscard]] std::function<HdLibrary(const HdLibrary&)> recording_in(
+    const std::filesystem::path& file, const std::string& library);
 
 /// The file exists and begins as a record does.
 [[nodiscard]] bool is_record(const std::filesystem::path& file);

@@ -33,13 +33,13 @@ unsigned int Servo::tick() noexcept {
 }
 
 void Servo::one_frame() noexcept {
+    library_.begin_frame(arm_.handle);
     const Time now = Clock::now();
     if (now_.ticks > 0) ticks_.add(last_tick_, now);
     last_tick_ = now;
 
     ArmSample sample;
     std::uint8_t buttons = 0;
-    library_.begin_frame(arm_.handle);
     read_frame(sample, buttons, now_.in_inkwell);
     sample.may_output = may_output_;
     sample.fault = fault_.kind;

@@ -4,16 +4,16 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <functional>
 #include <string>
 #include <tuple>
 
 #include "core/haptics/vec.hpp"
-#include "device/call_record.hpp"
 #include "device/hand/buttons.hpp"
 #include "device/hand/state_board.hpp"
 #include "device/hand/usb_list.hpp"
 #include "device/hand/workspace.hpp"
+#include "device/openhaptics/hd.hpp"
 
 namespace dibhr::openhaptics {
 
@@ -22,7 +22,8 @@ struct ConnectionOptions {
     std::string name{};     ///< of the device's configuration; empty: the default one
     std::string library{};  ///< a file, a folder or a record; empty: where it is installed
     bool forces{true};      ///< false: the motors stay off, as for a survey
-    std::shared_ptr<CallRecorder> recorder{};  ///< of all calls; null: they are not recorded
+    /// Makes the functions that are called in place of the library's; null: its own are.
+    std::function<HdLibrary(const HdLibrary&)> around{};
     std::filesystem::path usb_devices{kUsbDevices};
 };
 

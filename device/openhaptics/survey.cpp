@@ -5,8 +5,6 @@
 #include <memory>
 #include <thread>
 
-#include "device/openhaptics/driver_thread.hpp"
-
 namespace dibhr::openhaptics {
 
 namespace {
@@ -20,10 +18,7 @@ bool is_known(Stage stage) noexcept {
 
 }  // namespace
 
-Status survey_device(const ConnectionOptions& options) {
-    ConnectionOptions without_force = options;
-    without_force.forces = false;
-    const Driver driver(without_force, std::make_shared<ArmBuffers>());
+Status known_status(const Driver& driver) {
     const auto end = std::chrono::steady_clock::now() + kPatience;
     while (!is_known(driver.status().stage) && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(kLookEvery);
@@ -33,6 +28,12 @@ Status survey_device(const ConnectionOptions& options) {
             "3D Systems' library did not answer within 8 s: unplug the Touch, plug it "
             "in again, and try 3D Systems' setup program";
     return status;
+}
+
+Status survey_device(const ConnectionOptions& options) {
+    ConnectionOptions without_force = options;
+    without_force.forces = false;
+    return known_status(Driver(without_force, std::make_shared<ArmBuffers>()));
 }
 
 bool answers(const Status& status) noexcept {

@@ -178,12 +178,15 @@ void print_devices() {
         const dibhr::DeviceLimits stated = kind->make_settings()->limits();
         for (const double asked : {0.5, 1.0}) {
             double swing_mm = 0.0;
+            double buzz_newton = 0.0;
             double lowest = 12.0;
             for (const Grip& grip : kGrips) {
                 for (const double mass : kTimesMass) {
                     for (const double friction : kTimesFriction) {
                         const ClosedLoop loop = on_device(stated, asked, grip, mass, friction);
-                        swing_mm = std::max(swing_mm, run(loop).swing_mm);
+                        const auto result = run(loop);
+                        swing_mm = std::max(swing_mm, result.swing_mm);
+                        buzz_newton = std::max(buzz_newton, result.buzz_newton);
                         lowest = std::min(lowest, swings_from(loop, lowest));
                     }
                 }
@@ -194,9 +197,9 @@ void print_devices() {
                 dibhr::stable_coupling(held, held.stiffness_newton_per_mm, stated.dynamics);
             std::printf(
                 "%-15s asked %.1f held %.2f N/mm, damping %.2f, margin %.2f N s/m; swing at most "
-                "%.3f mm; swings from %.2f N/mm on\n",
+                "%.3f mm, buzz %.3f N; swings from %.2f N/mm on\n",
                 kind->name, asked, stable.stiffness_newton_per_mm, stable.damping_newton_s_per_m,
-                dibhr::stability_margin(stable, stated.dynamics), swing_mm, lowest);
+                dibhr::stability_margin(stable, stated.dynamics), swing_mm, buzz_newton, lowest);
             std::fflush(stdout);
         }
     }

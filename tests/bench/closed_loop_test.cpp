@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "device/force_devices.hpp"
@@ -124,6 +125,33 @@ TEST_CASE("no tapped hand swings on any kind of device as its driver states it",
                     if (stiffness == 0.5)
                         CHECK(result.buzz_newton <= std::max(kMostBuzz_newton, 2.0 * step_newton));
                 }
+            }
+        }
+    }
+}
+
+// Its driver states less than this mass: device/openhaptics/README.md, Numbers.
+TEST_CASE(
+    "a Touch of its data sheet's mass buzzes no more than others, and held, may be a tick late",
+    "[closed-loop]") {
+    constexpr double kDataSheet_kg = 0.045;
+    const auto kind = std::find_if(
+        force_device_kinds().begin(), force_device_kinds().end(),
+        [](const ForceDeviceKind* one) { return one->name == std::string("openhaptics"); });
+    const DeviceLimits stated = (*kind)->make_settings()->limits();
+    const double times_mass = kDataSheet_kg / stated.dynamics.mass_kg;
+    for (const Grip& grip : kGrips) {
+        for (const double press_newton : {0.1, 0.3, 0.44}) {
+            for (const double friction : kTimesFriction) {
+                ClosedLoop loop = on_device(stated, 0.5, grip, times_mass, friction);
+                loop.press_newton = press_newton;
+                const ClosedLoopResult result = run(loop);
+                CAPTURE(grip.name, press_newton, friction, result.buzz_newton);
+                CHECK(result.buzz_newton <= kMostBuzz_newton);
+                CHECK_FALSE(oscillates(result));
+                ++loop.delay_ticks;  // which nobody measures
+                loop.measures_delay = false;
+                if (grip.spring_newton_per_m > 0.0) CHECK_FALSE(oscillates(run(loop)));
             }
         }
     }

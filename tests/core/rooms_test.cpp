@@ -4,11 +4,13 @@
 #include <fstream>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tests/support/catch.hpp"
+#include "tests/support/text.hpp"
 
 namespace {
 
@@ -140,6 +142,7 @@ const std::vector<Room> kRooms{
 /// Any other folder of device/ is that of a device, and may include itself and these.
 const std::vector<std::string> kOfDevice{"device/hand/",
                                          "device/arm_buffers.hpp",
+                                         "device/arm_check.hpp",
                                          "device/arm_device.hpp",
                                          "device/arm_exchanges.hpp",
                                          "device/call_record.hpp",
@@ -297,6 +300,28 @@ TEST_CASE("only render calls OpenGL, device the USB, app the window and its pane
 
 TEST_CASE("the haptic core knows no file, clock, thread or picture library", "[rooms]") {
     CHECK(offences(breaks_numbers_only) == kNone);
+}
+
+TEST_CASE("a device with its maker's library is named by no file outside its folder but the lists",
+          "[rooms]") {
+    const fs::path root = DIBHR_SOURCE_DIR;
+    using Files = std::set<std::string>;
+    for (const auto& [name, listed_in] : std::map<std::string, Files>{
+             {"forcedimension", {"assets/CMakeLists.txt", "device/CMakeLists.txt"}},
+             {"openhaptics", {"device/CMakeLists.txt"}}}) {
+        Files named_in;
+        for (const char* folder : {"core", "device", "render", "assets", "app"}) {
+            for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+                const auto ending = entry.path().extension();
+                const std::string file = entry.path().lexically_relative(root).generic_string();
+                if (ending != ".hpp" && ending != ".cpp" && ending != ".txt") continue;
+                if (file.starts_with("device/" + name + "/")) continue;
+                if (dibhr::test::read_text(entry.path()).find(name) != std::string::npos)
+                    named_in.insert(file);
+            }
+        }
+        CHECK(named_in == listed_in);
+    }
 }
 
 TEST_CASE("no folder holds more files than one can take in", "[rooms]") {

@@ -180,6 +180,14 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     const AVInputFormat* const format =
         name.format.empty() ? nullptr : av_find_input_format(name.format.c_str());
     if (!name.format.empty() && format == nullptr) return AVERROR_DEMUXER_NOT_FOUND;
+    if (pipe_) {
+        auto* const buffer = static_cast<unsigned char*>(av_malloc(kPipeBytes));
+        bytes_.reset(avio_alloc_context(buffer, kPipeBytes, 0, this, read_pipe, nullptr, nullptr));
+        if (!bytes_) {
+            av_free(buffer);
+            throw std::bad_alloc();
+        }
+    }
     AVFormatContext* context = avformat_alloc_context();
     if (context == nullptr) throw std::bad_alloc();
     context->interrupt_callback = {must_stop, this};
@@ -188,12 +196,7 @@ int LiveInput::open(const LiveName& name, bool as_depth) {
     context->probesize = kProbe_bytes;
     context->max_analyze_duration = kProbe_us;
     context->max_delay = kReordered_us;
-    if (pipe_) {
-        auto* const buffer = static_cast<unsigned char*>(av_malloc(kPipeBytes));
-        bytes_.reset(avio_alloc_context(buffer, kPipeBytes, 0, this, read_pipe, nullptr, nullptr));
-        if (!bytes_) throw std::bad_alloc();
-        context->pb = bytes_.get();
-    }
+    if (pipe_) context->pb = bytes_.get();
     AvOptions options;
     for (const auto& [key, value] : name.options) options.set(key, value);
     if (!name.allowed.empty()) options.set("protocol_whitelist", name.allowed);

@@ -246,12 +246,18 @@ TEST_CASE("a library that cannot be used is one sentence, and the mouse touches"
     const auto [kind, file, title] = GENERATE(table<const char*, const char*, const char*>(
         {{"forcedimension", "libdrd.so.3", "Force Dimension: none usable, "},
          {"openhaptics", "libHD.so.3.4", "3D Systems Touch: none usable, "}}));
-    const std::string fault = GENERATE(as<std::string>{}, "32-bit", "not a library");
+    const auto [fault, told_as] =
+        GENERATE(table<std::string, std::string>({{"32-bit", "is a 32-bit library"},
+                                                  {"a text", "is not a library"},
+                                                  {"cut off", "is damaged"},
+                                                  {"another maker's", "has no function"}}));
     const TemporaryFolder folder;
     const std::string library = (folder / file).string();
     const auto arm = make_stand_in(kind, folder, library);
-    std::filesystem::copy_file(STAND_IN_DRD, library);
-    if (fault == "not a library") write_text(library, "no library");
+    const bool of_omega = kind == std::string("forcedimension");
+    std::filesystem::copy_file(of_omega ? STAND_IN_HD : STAND_IN_DRD, library);
+    if (fault == "a text") write_text(library, "no library");
+    if (fault == "cut off") std::filesystem::resize_file(library, 4000);
     if (fault == "32-bit") {
         std::fstream stream(library, std::ios::in | std::ios::out | std::ios::binary);
         stream.seekp(4);
@@ -265,8 +271,34 @@ TEST_CASE("a library that cannot be used is one sentence, and the mouse touches"
     const std::vector<std::string> told = lines_with(listed.output, library);
     REQUIRE(told.size() == 1);
     CHECK(told.front().starts_with(title));
-    CHECK(says(told.front(), fault));
-    check_refused(run_dibhr(folder, {"view", "--device", kind}), library, fault);
+    CHECK(says(told.front(), told_as));
+    CHECK(says(told.front(), "install "));
+    check_refused(run_dibhr(folder, {"view", "--device", kind}), library, told_as);
+}
+
+TEST_CASE("with no library, and with those that cannot be used, the mouse touches without a word",
+          "[makers_library][window]") {
+    const bool installed = GENERATE(false, true);
+    const Desk desk;
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder / "config/dibhr");
+    std::ofstream(folder / "config/dibhr/settings.toml") << "[window]\npanels-visible = false\n";
+    for (const char* const kind : {"forcedimension", "openhaptics"}) {
+        const std::string library = (folder / kind).string() + ".so";
+        if (installed) write_text(library, "no library");
+        if (installed) (void)make_stand_in(kind, folder, library);
+    }
+    const ProgramResult listed = run_dibhr(folder, {"devices"});
+    CHECK(listed.exit_code == 0);
+    CHECK(says(listed.output, "Force Dimension") == installed);
+    CHECK(says(listed.output, "Touch") == installed);
+    WindowProgram viewer = desk.start_viewer(folder, {"--pause", "--size", "320x240"});
+    viewer.wait_for_surface();
+    viewer.act("mousemove 160 120 mousedown 1");
+    viewer.wait_until([](const Seen& now) { return now.sent_newton > 0.1 && now.mouse_fallback; });
+    desk.press("key q");
+    CHECK(viewer.wait() == 0);
+    CHECK(read_text(folder / "errors.txt").empty());
 }
 
 TEST_CASE("a library that is too old is named with its version", "[makers_library][devices]") {
@@ -275,6 +307,21 @@ TEST_CASE("a library that is too old is named with its version", "[makers_librar
     arm->age_library();
     check_refused(run_dibhr(folder, {"view", "--device", "forcedimension"}), STAND_IN_DRD,
                   "is version 3.2.6, which is too old");
+}
+
+TEST_CASE("without a person the check of an arm measures what needs none, and pushes nobody",
+          "[makers_library][devices][long]") {
+    const TemporaryFolder folder;
+    const auto arm = make_stand_in(any_kind(), folder);
+    CAPTURE(arm->kind());
+    const ProgramResult checked = run_dibhr(folder, {"devices", "--check", "--out", "check.json"});
+    CAPTURE(checked.output, checked.errors);
+    CHECK(checked.exit_code == 0);
+    CHECK(says(checked.output, " a second (half within"));
+    CHECK(says(read_text(folder / "check.json"), std::string("dibhr ") + arm->kind() + " check"));
+    CHECK(arm->strongest_newton() == 0.0);
+    CHECK(arm->wrong_calls() == 0);
+    CHECK_FALSE(arm->is_open());
 }
 
 TEST_CASE("what a record has is played as a device", "[makers_library][devices][long]") {

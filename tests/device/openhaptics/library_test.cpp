@@ -139,7 +139,7 @@ TEST_CASE("a record of a Touch's calls plays as that Touch", "[openhaptics]") {
         found.bench.move_to({4.0, 0.0, 0.0});
         ConnectionOptions options = options_for();
         options.forces = false;
-        options.recorder = make_recorder(file, "libHD.so.3.4");
+        options.around = recording_in(file, "libHD.so.3.4");
         test::TickingDevice<OpenhapticsDevice> loop(options);
         REQUIRE(loop.tick_until([&] { return loop.device.status().stage == Stage::ready; }));
         loop.tick_for(std::chrono::milliseconds(500));

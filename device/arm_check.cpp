@@ -1,34 +1,32 @@
-// Runs the steps of the check of a Force Dimension arm, and keeps the record.
-#include "device/forcedimension/check/check.hpp"
+// Runs the steps of the check of an arm, and keeps the record.
+#include "device/arm_check.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <glm/common.hpp>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 
-#include "core/error.hpp"
 #include "core/files/json.hpp"
 #include "core/files/plain_text.hpp"
-#include "device/forcedimension/check/checked_arm.hpp"
 #include "device/hand/check/numbers.hpp"
 #include "device/hand/check/push.hpp"
 #include "device/hand/check/run.hpp"
 
-namespace dibhr::forcedimension {
+namespace dibhr {
 
 namespace {
 
-using Clock = CheckedArm::Clock;
+using Clock = std::chrono::steady_clock;
 using Milliseconds = std::chrono::duration<double, std::milli>;
 
 constexpr double kMetre_mm = 1000.0;
 constexpr double kHeaviest_g = 2000.0;
-constexpr Vec3 kDown{0.0, 0.0, -1.0};
-constexpr double kWeak_newton = 0.5;
-constexpr std::array kOnTheScale_newton{1.0, 2.0, 3.0, 4.0};  // the last is the viewer's own limit
+constexpr double kMost_newton = 4.0;                     // of any arm: the viewer's own limit
+constexpr std::array kOnTheScale{0.25, 0.5, 0.75, 1.0};  // parts of the greatest force
 constexpr std::array kAxes{"x", "y", "z"};
 constexpr std::chrono::milliseconds kBetweenCalls{1};
 
@@ -43,12 +41,14 @@ constexpr std::array<CheckQuestion, 6> kQuestions{{
 }};
 
 struct CheckContext final : CheckQuestions {
-    CheckContext(CheckConsole& person, CheckedArm& checked, const CheckOptions& chosen)
-        : CheckQuestions(person), arm(checked), options(chosen) {}
+    CheckContext(CheckConsole& person, CheckedArm& checked, const ArmCheckTimes& chosen)
+        : CheckQuestions(person), arm(checked), times(chosen) {}
 
     CheckedArm& arm;
-    const CheckOptions& options;
-    CheckFindings findings{kQuestions, "forcedimension"};
+    const ArmCheckTimes& times;
+    CheckFindings findings{kQuestions, arm.kind()};
+
+    [[nodiscard]] double most_newton() const { return std::min(kMost_newton, arm.most_newton()); }
 
   private:
     void keep_alive() override {
@@ -61,32 +61,29 @@ Json along_axes(Vec3 values) {
     return {{"x", values.x}, {"y", values.y}, {"z", values.z}};
 }
 
-/// Calls again and again for `span`; the times go into `measured`.
-std::string time_calls(CheckContext& context, const char* name, Json& measured,
-                       const std::function<void()>& call) {
+/// Calls again and again; the times go into `measured`.
+std::string time_calls(CheckContext& context, const TimedCall& timed, Json& measured) {
     Sample took_ms;
     const auto begin = Clock::now();
-    while (Clock::now() < begin + context.options.times.calls) {
+    while (Clock::now() < begin + context.times.calls) {
         context.quit_if_interrupted();
         const auto asked = Clock::now();
-        call();
+        timed.call();
         took_ms.add(Milliseconds(Clock::now() - asked).count());
     }
     const double per_s = static_cast<double>(took_ms.count()) /
                          std::chrono::duration<double>(Clock::now() - begin).count();
-    measured[name] = {{"per_s", per_s},
-                      {"ms_p50", took_ms.quantile(0.5)},
-                      {"ms_p99", took_ms.quantile(0.99)},
-                      {"ms_max", took_ms.most()}};
-    return std::string(name) + " " + rate_in_words(per_s, took_ms);
+    measured[timed.name] = {{"per_s", per_s},
+                            {"ms_p50", took_ms.quantile(0.5)},
+                            {"ms_p99", took_ms.quantile(0.99)},
+                            {"ms_max", took_ms.most()}};
+    return std::string(timed.name) + " " + rate_in_words(per_s, took_ms);
 }
 
 void check_calls(CheckContext& context, Json& measured) {
-    CheckedArm& arm = context.arm;
-    const std::string words =
-        time_calls(context, "position", measured, [&arm] { (void)arm.position_m(); }) + "; " +
-        time_calls(context, "status", measured, [&arm] { (void)arm.status(); }) + "; " +
-        time_calls(context, "buttons", measured, [&arm] { (void)arm.library().buttons(arm.id()); });
+    std::string words;
+    for (const TimedCall& timed : context.arm.calls())
+        words += (words.empty() ? "" : "; ") + time_calls(context, timed, measured);
     context.console.print(words);
     context.findings.record_answer(OpenQuestion::calls, words);
 }
@@ -98,7 +95,7 @@ void check_moving(CheckContext& context, Json& measured) {
     Vec3 highest_mm{-1e9};
     Sample steps_mm;
     std::optional<Vec3> last_mm;
-    const auto limit = Clock::now() + context.options.times.moving;
+    const auto limit = Clock::now() + context.times.moving;
     while (!context.answered() && Clock::now() < limit) {
         const Vec3 now_mm = context.arm.position_m() * kMetre_mm;
         lowest_mm = glm::min(lowest_mm, now_mm);
@@ -137,19 +134,22 @@ std::string axis_of(Vec3 way) {
 }
 
 void check_axes(CheckContext& context, Json& measured) {
-    constexpr std::array kWays{std::pair{"right", "+y"}, std::pair{"up", "+z"},
-                               std::pair{"towards you", "+x"}};
+    constexpr std::array kWays{"right", "up", "towards you"};
+    const std::array<const char*, 3> expected = context.arm.axes();
     std::string words;
     bool as_expected = true;
-    for (const auto& [way, expected] : kWays) {
+    for (std::size_t k = 0; k < kWays.size(); ++k) {
+        const char* const way = kWays.at(k);
         const Vec3 from_m = context.arm.position_m();
         context.begin(std::string("Move the grip some centimetres ") + way + ", then Enter.");
         const Vec3 way_m = context.arm.position_m() - from_m;
         measured[way] = along_axes(way_m * kMetre_mm);
         words += (words.empty() ? "" : ", ") + std::string(way) + " is " + axis_of(way_m);
-        as_expected = as_expected && axis_of(way_m) == expected;
+        as_expected = as_expected && axis_of(way_m) == expected.at(k);
     }
-    words += as_expected ? ": as dibhr takes them" : ": NOT as dibhr takes them (+y, +z, +x)";
+    words += as_expected ? ": as dibhr takes them"
+                         : std::string(": NOT as dibhr takes them (") + expected[0] + ", " +
+                               expected[1] + ", " + expected[2] + ")";
     context.console.print(words);
     context.findings.record_answer(OpenQuestion::axes, words);
 }
@@ -164,13 +164,13 @@ class Push : public CheckPush {
     }
 
     /// Rises to the force and holds it for `hold`. Throws ForceReleased, PersonQuits, DeviceError.
-    void hold(double newton, CheckTimes::Span hold) {
-        const Milliseconds ramp = context_.options.times.ramp;
+    void hold(double newton, ArmCheckTimes::Span hold) {
+        const Milliseconds ramp = context_.times.ramp;
         const auto begin = Clock::now();
-        while (Clock::now() < begin + context_.options.times.ramp + hold) {
+        while (Clock::now() < begin + context_.times.ramp + hold) {
             if (!may_continue()) throw ForceReleased{};
             const double part = std::min(1.0, Milliseconds(Clock::now() - begin) / ramp);
-            context_.arm.set_force(part * newton * kDown);
+            context_.arm.set_force(part * newton * context_.arm.down());
             std::this_thread::sleep_for(kBetweenCalls);
         }
     }
@@ -179,25 +179,30 @@ class Push : public CheckPush {
     CheckContext& context_;
 };
 
-/// Whether the arm still has its force on after so long without a call.
-ArmStatus status_after_silence(CheckContext& context, CheckTimes::Span silence) {
+/// Whether the force is still on after so long without a call; nothing: the arm does not tell.
+std::optional<bool> force_after_silence(CheckContext& context, ArmCheckTimes::Span silence,
+                                        Json& line) {
     Push push(context);
-    push.hold(kWeak_newton, context.options.times.short_hold);
+    push.hold(0.5 * std::min(1.0, context.most_newton()), context.times.short_hold);
+    context.arm.fall_silent();
     if (!push.pause_sending(silence,
                             [](CheckPush::Time until) { std::this_thread::sleep_until(until); }))
         throw ForceReleased{};
-    return context.arm.status();
+    return context.arm.force_after(line);
 }
 
 void check_silence(CheckContext& context, Json& measured) {
     std::string words;
-    for (const CheckTimes::Span silence : context.options.times.silences) {
-        const ArmStatus status = status_after_silence(context, silence);
+    for (const ArmCheckTimes::Span silence : context.times.silences) {
         const std::string time = std::to_string(silence.count());
-        measured[time + "_ms"] = {{"force_on", status.force},
-                                  {"cause", static_cast<int>(status.cause)}};
-        words += (words.empty() ? "" : ", ") + std::string(status.force ? "on" : "off") +
-                 " after " + time + " ms";
+        Json& line = measured[time + "_ms"] = Json::object();
+        std::optional<bool> is_on = force_after_silence(context, silence, line);
+        if (!is_on)
+            is_on = context.yes_or_no("Did the grip push to the end, for " + time +
+                                      " ms after its rise?");
+        line["force_on"] = *is_on;
+        words += (words.empty() ? "" : ", ") + std::string(*is_on ? "on" : "off") + " after " +
+                 time + " ms";
     }
     context.console.print("The force is " + words);
     context.findings.record_answer(OpenQuestion::silence, words);
@@ -205,18 +210,19 @@ void check_silence(CheckContext& context, Json& measured) {
 
 void check_force(CheckContext& context, Json& measured) {
     std::string words;
-    for (const double newton : kOnTheScale_newton) {
-        context.agree_to_force(number_text(newton, 0) + " N downwards: F and Enter");
+    for (const double part : kOnTheScale) {
+        const double newton = part * context.most_newton();
+        const std::string asked = number_text(newton, 2);
+        context.agree_to_force(asked + " N downwards: F and Enter");
         {
             Push push(context);
-            push.hold(newton, context.options.times.hold);
+            push.hold(newton, context.times.hold);
         }
         const auto grams = context.number("Grams on the scale", -kHeaviest_g, kHeaviest_g);
         if (!grams) continue;
         const double measured_newton = *grams / 1000.0 * kStandardGravity;
-        measured[number_text(newton, 0) + "_newton"] = {{"grams", *grams},
-                                                        {"newton", measured_newton}};
-        words += (words.empty() ? "" : ", ") + number_text(newton, 0) + " N gave " +
+        measured[asked + "_newton"] = {{"grams", *grams}, {"newton", measured_newton}};
+        words += (words.empty() ? "" : ", ") + asked + " N gave " +
                  number_text(measured_newton, 2) + " N";
     }
     if (!words.empty()) context.findings.record_answer(OpenQuestion::force, words);
@@ -225,11 +231,10 @@ void check_force(CheckContext& context, Json& measured) {
 using Step = DeviceStep<CheckContext>;
 
 constexpr std::array kSteps{
-    Step{
-        {"calls", "How long a call takes",
-         "Asks for position, status and buttons as fast as they come. Some seconds; nothing moves.",
-         StepNeeds::nobody},
-        check_calls},
+    Step{{"calls", "How long a call takes",
+          "Asks for the position and more as fast as it comes. Some seconds; nothing moves.",
+          StepNeeds::nobody},
+         check_calls},
     Step{{"moving", "Steps and workspace",
           "You move the grip about, slowly at first, then to every end that it has. No force.",
           StepNeeds::person},
@@ -238,39 +243,32 @@ constexpr std::array kSteps{
           StepNeeds::person},
          check_axes},
     Step{{"silence", "The force without a call",
-          "FORCE, 0.5 N downwards, while the program is silent for up to 0.2 s each time. Hold the "
-          "grip loosely in the middle of its reach; any key ends the force.",
+          "FORCE, 0.5 N downwards at most, while the program is silent for less than a second each "
+          "time. Hold the grip loosely in the middle of its reach; any key ends the force.",
           StepNeeds::person_for_force},
          check_silence},
     Step{{"force", "Force on a kitchen scale",
-          "FORCE, 1, 2, 3 and 4 N downwards for at most 3 s each: the grip presses on a kitchen "
-          "scale, and you type the grams. Put the scale under the grip, on something that does not "
-          "give way, and set it to zero; hands and hair away. Any key ends the force.",
+          "FORCE, downwards in four steps up to the arm's greatest, never above 4 N, for at most 3 "
+          "s "
+          "each: the grip presses on a kitchen scale, and you type the grams. Put the scale under "
+          "the grip, on something that does not give way, and set it to zero; hands and hair away. "
+          "Any key ends the force.",
           StepNeeds::person_for_force},
          check_force},
 };
 
-Json about(const Status& found) {
-    return {{"type", found.type},
-            {"library", found.library},
-            {"controller", found.controller_version ? Json(*found.controller_version) : Json()},
-            {"watchdog_ms", found.watchdog_ms},
-            {"library_limits_force", found.clamped}};
-}
-
 }  // namespace
 
-CheckResult run_check(const CheckOptions& options, CheckConsole& console) {
-    CheckedArm arm(options.connection);
-    CheckContext context(console, arm, options);
-    CheckRecord record(options.record, {"forcedimension", "serial", arm.found().serial},
-                       options.facts);
-    console.print("Checks " + name_of(arm.found()) + "; the record is " + record.file().string() +
+CheckResult check_arm(CheckedArm& arm, const CheckRecordOptions& options, CheckConsole& console,
+                      const ArmCheckTimes& times) {
+    CheckContext context(console, arm, times);
+    CheckRecord record(options.record, {arm.kind(), "serial", arm.serial()}, options.facts);
+    console.print("Checks " + arm.name() + "; the record is " + record.file().string() +
                   ", written again after every step.");
-    record.add_to_head(about(arm.found()));
-    if (!arm.found().unguarded.empty()) console.print(arm.found().unguarded);
+    record.add_to_head(arm.about());
+    if (!arm.unguarded().empty()) console.print(arm.unguarded());
     return run_steps(
         kSteps, context, record, [&arm] { arm.release_force(); }, [] { return std::string{}; });
 }
 
-}  // namespace dibhr::forcedimension
+}  // namespace dibhr
