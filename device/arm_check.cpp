@@ -248,8 +248,7 @@ constexpr std::array kSteps{
           StepNeeds::person_for_force},
          check_silence},
     Step{{"force", "Force on a kitchen scale",
-          "FORCE, downwards in four steps up to the arm's greatest, never above 4 N, for at most 3 "
-          "s "
+          "FORCE, downwards in four steps up to the arm's greatest, never above 4 N, at most 3 s "
           "each: the grip presses on a kitchen scale, and you type the grams. Put the scale under "
           "the grip, on something that does not give way, and set it to zero; hands and hair away. "
           "Any key ends the force.",
