@@ -106,7 +106,7 @@ void StudyWindow::lead() {
     shutdown_.crash_note().set_activity("leading a study");
     while (!over()) {
         show_one_picture();
-        pace_.wait([] {});
+        pace_.wait({}, [] {});
     }
     surface_.stop();
     if (run_.step() == StudyStep::finished) file_.finish();
