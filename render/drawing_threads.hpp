@@ -14,4 +14,7 @@ inline constexpr int kDrawingNiceness = 5;
 /// where a graphics card draws.
 void lower_drawing_priority();
 
+/// Processor time that those threads and the calling one have taken [s].
+[[nodiscard]] double drawing_s();
+
 }  // namespace dibhr

@@ -107,7 +107,7 @@ void StudyWindow::lead() {
     while (!over()) {
         shutdown_.begin_turn();
         show_one_picture();
-        pace_.wait([] {});
+        pace_.wait({}, [] {});
     }
     shutdown_.end_loop();
     surface_.stop();

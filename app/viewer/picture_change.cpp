@@ -30,6 +30,12 @@ SceneMark PictureChange::with_drawn_hand(SceneMark scene, Time now) const {
     return scene;
 }
 
+bool PictureChange::waits(double most_per_s, const PanelChanges& panels, Time now) const {
+    const bool used = panels.input || panels.in_use || now < input_until_;
+    if (!drawn_ || used || !(most_per_s > 0.0)) return false;
+    return std::chrono::duration<double>(now - drawn_at_).count() * most_per_s < 1.0;
+}
+
 bool PictureChange::may_differ(const SceneMark& scene, const PanelChanges& panels, Time now) {
     if (panels.input) input_until_ = settling_until_ = now + kPanelsSettle;
     const bool settling = now < input_until_ || (!panels.video_runs && now < settling_until_);

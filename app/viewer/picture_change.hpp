@@ -35,6 +35,10 @@ class PictureChange {
     /// changes in them alone waits for the next frame, but not for one that comes much later.
     [[nodiscard]] SceneMark with_drawn_hand(SceneMark scene, Time now) const;
 
+    /// Whether the next picture is due only later, where at most so many are drawn a second; 0: as
+    /// many as differ. What a person does in the window does not wait.
+    [[nodiscard]] bool waits(double most_per_s, const PanelChanges& panels, Time now) const;
+
     /// Whether the panels are to be laid out for take().
     [[nodiscard]] bool may_differ(const SceneMark& scene, const PanelChanges& panels, Time now);
 

@@ -25,6 +25,8 @@ using std::chrono::steady_clock;
 constexpr double kNoticeTime_s = 4.0;
 /// After input that changed nothing visible: the pointer may move a thousand times a second.
 constexpr std::chrono::milliseconds kAfterInput{8};
+/// From picture to picture where drawing gives way to frames, while a person moves something.
+constexpr std::chrono::milliseconds kInUse{50};
 /// Timeout for the hashes of large files at an end by a signal or a lost display.
 constexpr auto kPatienceAtAnEnd = std::chrono::milliseconds(200);
 
@@ -51,7 +53,7 @@ Viewer::Viewer(const ViewOptions& options, OpeningWindow& opening, ViewerParts p
       window_(opening.window()),
       gui_(opening.gui()),
       software_(read_limits().software),
-      pace_(least_picture_time(options.sync, software_)),
+      pace_(least_picture_time(options.sync, software_), drawing_s),
       state_{.settings = options.settings,
              .keys = KeyTable(options.settings.keys),
              .ui = {.unsafe_settings = options.unsafe_settings, .kiosk = kiosk_shown(options)}},
@@ -134,7 +136,8 @@ void Viewer::run() {
 
 /// After a picture: as long as until the next one. Else: for input, frames, or the next turn.
 void Viewer::wait_for_turn(Turn last) {
-    if (last.drawn) return pace_.wait([this] { follow_pointer(); });
+    const auto least = most_pictures_per_s() > 0.0 ? kInUse : std::chrono::milliseconds(0);
+    if (last.drawn) return pace_.wait(least, [this] { follow_pointer(); });
     if (last.input) std::this_thread::sleep_for(kAfterInput);
     window_.wait_for_input(change_.pause(may_touch(state_.touch), steady_clock::now()));
 }
@@ -270,9 +273,15 @@ bool Viewer::video_runs() const {
     return !state_.touch.replay && !state_.media.still && state_.media.playback.playing;
 }
 
+/// Where drawing gives way to frames of the video; 0: nowhere.
+double Viewer::most_pictures_per_s() const {
+    return video_runs() ? state_.media.playback.most_pictures_per_s : 0.0;
+}
+
 void Viewer::poll() {
     poll_touch();
     state_.ui.cost = pace_.cost();
+    touch_.player().set_drawing_cost(state_.ui.cost.drawing);
     take_opened();
     take_desktop_answer();
     follow_live();

@@ -225,6 +225,7 @@ class Viewer {
     void start_or_stop_clip(PictureOf of);
     [[nodiscard]] bool wants_picture(PictureOf of) const;
     [[nodiscard]] bool video_runs() const;
+    [[nodiscard]] double most_pictures_per_s() const;
     void deliver_picture(PictureOf of, ColourImage picture);
     void beat();
     void finish();

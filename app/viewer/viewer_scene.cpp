@@ -99,9 +99,13 @@ bool Viewer::draw_if_changed(const WindowInput& input) {
     const auto now = steady_clock::now();
     const glm::ivec2 viewport = relief_viewport();
     const Camera camera = camera_;  // the panels may move it for the next picture
-    const SceneContent content = prepare_scene();
+    SceneContent content = prepare_scene();
+    // A clip keeps its detail.
+    const bool gives_way = most_pictures_per_s() > 0.0 && !clip_.active();
+    content.relief_style.coarse = content.relief_style.coarse || gives_way;
     const SceneMark scene = mark_scene(content, viewport);
     const PanelChanges panels{input.any, gui_.in_use(), video_runs()};
+    if (change_.waits(most_pictures_per_s(), panels, now) && !wanted) return false;
     if (!change_.may_differ(scene, panels, now) && !wanted) return false;
     ColourImage picture;
     // What is drawn after `read` is on the screen, but not in saved pictures.

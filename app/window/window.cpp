@@ -313,10 +313,10 @@ void Window::show_picture() {
     glfwSwapBuffers(window_);
 }
 
-void PicturePace::wait(const std::function<void()>& meanwhile) {
+void PicturePace::wait(std::chrono::nanoseconds least, const std::function<void()>& meanwhile) {
     constexpr std::chrono::milliseconds kBetween{4};
     if (next_ == Clock::time_point{}) next_ = Clock::now();
-    next_ = std::max(next_ + shortest_, Clock::now());
+    next_ = std::max(next_ + std::max(shortest_, least), Clock::now());
     for (auto now = Clock::now(); now < next_; now = Clock::now()) {
         meanwhile();
         std::this_thread::sleep_until(std::min(next_, now + kBetween));
@@ -329,8 +329,14 @@ void PicturePace::count(bool drawn) {
     const double age_s = std::chrono::duration<double>(now - second_begin_).count();
     if (age_s < 1.0) return;
     const double used_s = static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-    cost_ = {pictures_ / age_s, (used_s - used_before_s_) / age_s};
+    const double drawn_s = drawing_s_ ? drawing_s_() : 0.0;
+    const double drawing_share = (drawn_s - drawn_before_s_) / age_s;
+    cost_ = {pictures_ / age_s,
+             (used_s - used_before_s_) / age_s,
+             {pictures_ > 0 ? (drawn_s - drawn_before_s_) / pictures_ : 0.0,
+              drawing_share / std::max(std::thread::hardware_concurrency(), 1U)}};
     used_before_s_ = used_s;
+    drawn_before_s_ = drawn_s;
     pictures_ = 0;
     second_begin_ = now;
 }

@@ -12,6 +12,7 @@
 
 #include "app/window/event_times.hpp"
 #include "core/realtime/wake.hpp"
+#include "core/video/playing/drawing_rate.hpp"
 
 struct GLFWwindow;
 
@@ -156,18 +157,21 @@ class Window {
 struct WindowCost {
     double pictures_per_s{0.0};
     double core_share{0.0};  ///< processor time of all threads; 1: one core's, all the time
+    DrawingCost drawing{};
 };
 
 /// Waits between pictures, so that the haptic thread and the decoder keep their share of the
 /// processor, and measures the window's cost.
 class PicturePace {
   public:
-    /// `shortest`: least time from picture to picture; zero: do not wait.
-    explicit PicturePace(std::chrono::nanoseconds shortest) : shortest_(shortest) {}
+    /// `shortest`: least time from picture to picture; zero: do not wait. `drawing_s`: processor
+    /// time that drawing has taken so far [s], asked once a second; empty: not known.
+    explicit PicturePace(std::chrono::nanoseconds shortest, std::function<double()> drawing_s = {})
+        : shortest_(shortest), drawing_s_(std::move(drawing_s)) {}
 
-    /// After a picture was shown: waits until the next one may be drawn. Meanwhile calls
-    /// `meanwhile` every few milliseconds.
-    void wait(const std::function<void()>& meanwhile);
+    /// After a picture was shown: waits until the next one may be drawn, at least so long.
+    /// Meanwhile calls `meanwhile` every few milliseconds.
+    void wait(std::chrono::nanoseconds least, const std::function<void()>& meanwhile);
 
     /// Once a turn of the window. `drawn`: it showed a picture.
     void count(bool drawn);
@@ -177,9 +181,11 @@ class PicturePace {
     using Clock = std::chrono::steady_clock;
 
     std::chrono::nanoseconds shortest_;
+    std::function<double()> drawing_s_;
     Clock::time_point next_{};
     Clock::time_point second_begin_{};
-    double used_before_s_{0.0};  // processor time until this second
+    double used_before_s_{0.0};   // processor time until this second
+    double drawn_before_s_{0.0};  // of it, what drawing took
     int pictures_{0};
     WindowCost cost_{};
 };

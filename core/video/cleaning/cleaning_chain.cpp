@@ -234,7 +234,7 @@ SettledDepth CleaningChain::settle(std::span<const SingleFrameDepth* const> fram
     const SingleFrameDepth& here = *frames[now];
     const bool steady = plan.steps.steady && frames.size() > 1;
     const std::shared_ptr<DepthImage> made =
-        here.depth.levels.size() > kLarge ? std::make_shared<DepthImage>() : made_.take();
+        here.depth.levels.size() > kLarge ? std::make_shared<DepthImage>() : images_.take();
     if (steady)
         *made = filtered_in_time(frames, now, plan.noise);
     else
@@ -243,7 +243,10 @@ SettledDepth CleaningChain::settle(std::span<const SingleFrameDepth* const> fram
 }
 
 SettledDepth CleaningChain::settle(SingleFrameDepth&& alone, const CleaningPlan& plan) {
-    return smoothed(std::make_shared<DepthImage>(std::move(alone.depth)), alone, false, plan);
+    const std::shared_ptr<DepthImage> made =
+        alone.depth.levels.size() > kLarge ? std::make_shared<DepthImage>(std::move(alone.depth))
+                                           : images_.share(std::move(alone.depth));
+    return smoothed(made, alone, false, plan);
 }
 
 /// The steps after the filter in time, of the depth in `made`.
@@ -272,7 +275,7 @@ Frame CleaningChain::felt(const SettledDepth& settled, Frame frame) {
     frame.unseen = settled.unseen;
     if (is_touchable(*frame.depth) && plan.finger.radius_px > 0.0) {
         frame.undilated = settled.depth;
-        const std::shared_ptr<DepthImage> made = made_.take();
+        const std::shared_ptr<DepthImage> made = images_.take();
         *made = finger_.dilated(*settled.depth, plan.finger, std::move(*made));
         frame.depth = made;
     }

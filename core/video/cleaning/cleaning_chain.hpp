@@ -127,6 +127,9 @@ class CleaningChain {
     [[nodiscard]] Frame clean_and_finish(DepthImage image, const CleaningPlan& plan,
                                          std::span<const HeldLevel> held = {});
 
+    /// Where the memory of finished frames comes back to, unless they are larger than 4K video.
+    [[nodiscard]] const ObjectPool<DepthImage>& images() const noexcept { return images_; }
+
   private:
     [[nodiscard]] DepthImage filtered_in_time(std::span<const SingleFrameDepth* const> frames,
                                               std::size_t now, const DepthNoise& noise);
@@ -154,7 +157,7 @@ class CleaningChain {
     NoiseSmoother noise_{};
     OutlineSmoother outlines_{};
     FingertipDilation finger_{};
-    ObjectPool<DepthImage> made_{};  ///< of finished frames
+    ObjectPool<DepthImage> images_{};  ///< of finished frames
 };
 
 }  // namespace dibhr

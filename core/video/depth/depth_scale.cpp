@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "core/video/depth/picture_levels.hpp"
 #include "core/video/frames/vector_clones.hpp"
@@ -103,9 +104,9 @@ float DepthScale::operator()(double level) const {
                               (as_recorded_ ? nearness : std::clamp(nearness, 0.0, 1.0)));
 }
 
-DepthImage DepthScale::image_of(const cv::Mat& picture) const {
+DepthImage DepthScale::image_of(const cv::Mat& picture, DepthImage used) const {
     const cv::Mat grey = grey_of(picture);
-    DepthImage depth{grey.cols, grey.rows, highest_, {}};
+    DepthImage depth{grey.cols, grey.rows, highest_, std::move(used.levels)};
     depth.levels.resize(grey.total());
     if (grey.depth() == CV_8U && !of_level_.empty()) {
         map_levels<std::uint8_t>(grey, of_level_, depth.levels);

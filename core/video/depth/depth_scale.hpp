@@ -43,8 +43,9 @@ class DepthScale {
         return as_recorded_ ? std::nullopt : std::optional(meaning_);
     }
 
-    /// The depth image of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers.
-    [[nodiscard]] DepthImage image_of(const cv::Mat& picture) const;
+    /// The depth image of a picture of 1 to 4 channels of 8 or 16 bits, or real numbers. `used`: an
+    /// image whose memory it takes.
+    [[nodiscard]] DepthImage image_of(const cv::Mat& picture, DepthImage used = {}) const;
     /// The picture's distances from the camera [mm], CV_32FC1, also beyond the range; NaN for no
     /// data. The meaning must be metric.
     [[nodiscard]] cv::Mat distances_mm(const cv::Mat& picture) const;

@@ -25,6 +25,10 @@ inline constexpr std::size_t kDegradationLevels = 4;
 class CleaningDegradation {
   public:
     [[nodiscard]] std::size_t level() const noexcept { return level_; }
+    /// Whether no step is left that could be left out.
+    [[nodiscard]] bool leaves_out_all(const CleaningSteps& steps) const noexcept {
+        return next_above(steps) == level_;
+    }
     /// After each frame that was read while playing. `steps`: of the cleaning with nothing left
     /// out; `interval_s` from frame to frame of the video, 0: not known; `speed` as requested. True
     /// when the level has changed: the costs begin anew.

@@ -66,6 +66,8 @@ class FrameAssembly {
     }
     void forget_motion_pauses() { throttle_.forget(); }
     [[nodiscard]] const MotionThrottle& throttle() const { return throttle_; }
+    /// Memory of frames that are not needed any more.
+    [[nodiscard]] const ObjectPool<DepthImage>& images() const noexcept { return chain_.images(); }
 
   private:
     [[nodiscard]] SettledDepth settle(std::span<const SingleFrameDepth* const> frames,

@@ -34,8 +34,10 @@ double interval_s(const MediaDescription& description) {
     return description.frames_per_s > 0.0 ? 1.0 / description.frames_per_s : kUnknownInterval_s;
 }
 
-std::unique_ptr<Media> with_shared_video(std::unique_ptr<Media> media) {
+std::unique_ptr<Media> with_shared_memory(std::unique_ptr<Media> media,
+                                          const ObjectPool<DepthImage>& images) {
     media->share_video();
+    media->take_memory_from(images);
     return media;
 }
 
@@ -45,8 +47,9 @@ FrameReader::FrameReader(std::unique_ptr<Media> media, std::uint32_t number,
                          ReaderHeartbeats heartbeats, Now now)
     : now_(std::move(now)),
       assembly_(now_, kLongestPause),
-      media_(std::make_unique<HeldLevelsMedia>(with_shared_video(std::move(media))), heartbeats,
-             now_),
+      media_(std::make_unique<HeldLevelsMedia>(
+                 with_shared_memory(std::move(media), assembly_.images())),
+             heartbeats, now_),
       jump_s_(kJump_s_a_pixel * description().depth_columns * description().depth_rows) {
     assembly_.set_number(number);
     assembly_.set_interval(interval_s(description()));

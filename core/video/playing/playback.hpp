@@ -11,6 +11,7 @@
 
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/playing/cleaning_degradation.hpp"
+#include "core/video/playing/drawing_rate.hpp"
 #include "core/video/playing/frame_plan.hpp"
 #include "core/video/playing/frame_reader.hpp"
 
@@ -43,6 +44,8 @@ class Playback {
     void set_cleaning(const CleaningOptions& options);
     /// What is computed between frames read from now on; in-betweens also between present frames.
     void set_motion(const MotionRequest& wanted);
+    /// What the window takes for drawing.
+    void set_drawing_cost(const DrawingCost& drawing) { drawing_cost_ = drawing; }
     /// Puts them on all frames at once; null: none.
     void set_maps(const std::shared_ptr<const TouchMaps>& maps);
 
@@ -78,6 +81,10 @@ class Playback {
     /// Even with skipped frames this machine is too slow: the clock is slower than requested, or
     /// waited for frames lately.
     [[nodiscard]] bool falls_behind() const { return falls_behind_ || clock_is_slowed(); }
+    /// That the window draws while frames are late; 0: as many as it likes.
+    [[nodiscard]] double most_pictures_per_s() const {
+        return playing_ ? drawing_rate_.most_per_s() : 0.0;
+    }
     /// What is dropped on a machine that is too slow, and why, as sentences; empty: nothing.
     [[nodiscard]] std::string dropped_in_words() const;
     [[nodiscard]] bool is_open() const { return reader_ != nullptr; }
@@ -114,6 +121,7 @@ class Playback {
     [[nodiscard]] bool clock_is_slowed() const { return plan_.speed < speed_; }
     [[nodiscard]] double interval_s() const;
     void clean_again();
+    void degrade();
     void apply_degradation();
     void drop_frames_ahead();
     void forget_costs();
@@ -132,6 +140,8 @@ class Playback {
     PlaybackClock clock_{};
     CleaningOptions cleaning_{};
     CleaningDegradation degradation_{};  ///< while playing; at rest nothing is left out
+    DrawingRate drawing_rate_{};         ///< likewise
+    DrawingCost drawing_cost_{};
     MotionRequest motion_request_{};
     std::uint64_t discontinuity_{0};
     double first_media_s_{0.0};

@@ -88,6 +88,7 @@ struct Player::Implementation {
     PlaybackStatus status{};
     FrameWindow shown{};  ///< published last, for the time line
     std::optional<double> seek_target_s{};
+    DrawingCost drawing{};
     bool live_update{false};  ///< the live source has news
     bool stopping{false};
 
@@ -119,6 +120,7 @@ bool Player::Implementation::wait_for_work(std::vector<Command>& taken) {
     else if (!busy)
         wake.wait_until(lock, due, called);
     taken.swap(commands);
+    playback.set_drawing_cost(drawing);
     live_update = false;
     heart.beat();
     return !stopping;
@@ -217,6 +219,7 @@ void Player::Implementation::publish_status(const FrameWindow& window, Time publ
     status.frames_per_s = playback.description().frames_per_s;
     status.shown_per_s = playback.shown_per_s();
     status.dropped = playback.dropped_in_words();
+    status.most_pictures_per_s = playback.most_pictures_per_s();
     status.cleaning = playback.cleaning_in_words();
     status.steps = playback.steps();
     status.decoders = playback.description().decoders;
@@ -244,6 +247,7 @@ void Player::Implementation::publish_live() {
         status.live->arrives_per_s > 0.0 ? status.live->arrives_per_s : media.frames_per_s;
     status.shown_per_s = status.frames_per_s;
     status.dropped.clear();
+    status.most_pictures_per_s = 0.0;
     status.cleaning = live.cleaning_in_words();
     status.steps = live.steps();
     status.decoders.clear();
@@ -359,6 +363,11 @@ void Player::set_motion(const MotionRequest& wanted) {
         player->live.set_motion(wanted);
         playback.set_motion(wanted);
     }});
+}
+
+void Player::set_drawing_cost(const DrawingCost& drawing) {
+    const std::lock_guard lock(implementation_->mutex);
+    implementation_->drawing = drawing;
 }
 
 void Player::set_maps(std::shared_ptr<const TouchMaps> maps) {

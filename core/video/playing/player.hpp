@@ -13,6 +13,7 @@
 #include "core/video/frames/frame_window.hpp"
 #include "core/video/live/live_record.hpp"
 #include "core/video/motion/motion_request.hpp"
+#include "core/video/playing/drawing_rate.hpp"
 #include "core/video/playing/live_status.hpp"
 #include "core/video/playing/transport.hpp"
 #include "core/video/sources/media.hpp"
@@ -35,7 +36,8 @@ struct PlaybackStatus {
     double frames_per_s{0.0};  ///< of the video
     double shown_per_s{0.0};   ///< frames shown; fewer: this machine is too slow
     std::string dropped{};     ///< what this machine is too slow for, and why; empty: nothing
-    double decode_ms{0.0};     ///< decoding and cleaning of the last frame
+    double most_pictures_per_s{0.0};  ///< that the window draws, so that frames have time; 0: any
+    double decode_ms{0.0};            ///< decoding and cleaning of the last frame
     double clean_ms{0.0};
     double handover_us{0.0};           ///< from the end of cleaning the last frame to publishing it
     bool prepared{false};              ///< its surface was cleaned before, and is read
@@ -77,6 +79,8 @@ class Player final : public Transport {
     void set_cleaning(const CleaningOptions& options);
     /// What is computed between frames; likewise.
     void set_motion(const MotionRequest& wanted);
+    /// What the window takes for drawing, which may have to give way to frames; any time.
+    void set_drawing_cost(const DrawingCost& drawing);
     /// Puts them on the media given last; null: none.
     void set_maps(std::shared_ptr<const TouchMaps> maps);
 

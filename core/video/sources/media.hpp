@@ -17,6 +17,7 @@
 #include "core/video/cleaning/single_frame_depth.hpp"
 #include "core/video/depth/findings.hpp"
 #include "core/video/frames/frame_window.hpp"
+#include "core/video/frames/object_pool.hpp"
 
 namespace dibhr {
 
@@ -176,6 +177,8 @@ class Media {
     virtual void seek_depth(double media_s) { seek(media_s); }
     /// From the next frame on the colour of a video may come as its decoder made it.
     virtual void share_video() {}
+    /// From the next frame on the depth takes its memory from there.
+    virtual void take_memory_from(const ObjectPool<DepthImage>& /*images*/) {}
     /// The reader has the depth of all frames, which have these times: from the next seek on frames
     /// come without it, and it is not decoded, unless the colour depends on it. Null: frames come
     /// with depth.

@@ -192,7 +192,7 @@ std::optional<RawFrame> PairedMedia::frame_of(std::optional<TimedPicture> taken)
     if (!taken) return std::nullopt;
     keep_size(taken->picture);
     RawFrame frame;
-    frame.depth = scale_.image_of(taken->picture);
+    frame.depth = scale_.image_of(taken->picture, images_.take_out());
     frame.media_s = taken->time_s;
     frame.index = taken->index;
     frame.colour_of_view = colour_of_view_;

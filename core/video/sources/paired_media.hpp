@@ -66,6 +66,7 @@ class PairedMedia : public Media {
     void seek_near(double media_s) override;
     void seek_depth(double media_s) override;
     void share_video() override;
+    void take_memory_from(const ObjectPool<DepthImage>& images) override { images_ = images; }
     void leave_out_depth(const FrameTimes& times) override;
     [[nodiscard]] std::shared_ptr<LiveFeed> live() const override { return live_; }
 
@@ -106,6 +107,7 @@ class PairedMedia : public Media {
     std::unique_ptr<PictureSource> depth_;
     std::optional<ColourTrack> colour_{};
     DepthScale scale_;
+    ObjectPool<DepthImage> images_{};
     cv::Size size_{};                              ///< of the depth's pictures
     DepthRange range_mm_{};                        ///< of distances; zeros: not metric
     std::optional<ColourRegistration> cameras_{};  ///< where the two cameras are calibrated

@@ -54,3 +54,19 @@ TEST_CASE("after input the panels are laid out in each turn, also while a video 
         CHECK_FALSE(change.may_differ(scene, {.video_runs = runs}, begin + 1500ms));
     }
 }
+
+TEST_CASE("where pictures give way to frames they are as far apart as asked, but for a person",
+          "[rest]") {
+    const PictureChange::Time begin{1h};
+    PictureChange change;
+    CHECK_FALSE(change.waits(10.0, {}, begin));  // none is drawn yet
+    REQUIRE(change.take({}, begin));
+    CHECK(change.waits(10.0, {}, begin + 90ms));
+    CHECK_FALSE(change.waits(10.0, {}, begin + 110ms));
+    CHECK_FALSE(change.waits(0.0, {}, begin + 1ms));
+    CHECK_FALSE(change.waits(10.0, {.in_use = true}, begin + 1ms));
+    const PanelChanges typed{.input = true};
+    CHECK_FALSE(change.waits(10.0, typed, begin + 1ms));
+    REQUIRE(change.may_differ({}, typed, begin + 1ms));
+    CHECK_FALSE(change.waits(10.0, {}, begin + 2ms));  // a panel may answer
+}

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <random>
+#include <thread>
 #include <utility>
 
 #include "tests/support/catch.hpp"
@@ -108,6 +109,19 @@ TEST_CASE("a frame finished in its own memory has the bits of one that is copied
     CHECK(own.depth->levels == copied.depth->levels);
     CHECK((own.unseen == nullptr) == (copied.unseen == nullptr));
     CHECK((own.unseen == nullptr || *own.unseen == *copied.unseen));
+}
+
+TEST_CASE("the memory of a frame that nothing holds is that of a later one, on any thread",
+          "[cleaning]") {
+    CleaningChain chain;
+    ObjectPool<DepthImage> images = chain.images();
+    CHECK(images.take_out().levels.empty());
+    Frame frame = chain.clean_and_finish(hostile(3), {kRawSteps});
+    const float* const memory = frame.depth->levels.data();
+    CHECK(images.take_out().levels.data() != memory);
+    std::thread([&frame] { frame = {}; }).join();
+    CHECK(images.take_out().levels.data() == memory);
+    CHECK(images.take_out().levels.empty());
 }
 
 TEST_CASE("smoothing keeps every pixel within half a level, in range, and the farthest farthest",

@@ -3,10 +3,13 @@
 
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <opencv2/core.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "core/video/depth/picture_levels.hpp"
 #include "tests/support/catch.hpp"
@@ -45,6 +48,21 @@ std::uint32_t bits_of(float number) {
 }
 
 }  // namespace
+
+TEST_CASE("an image in the memory of another one has the same levels", "[scale]") {
+    const DepthScale scale(meaning_of(DepthUnit::levels, {255.0, 0.0}), 8);
+    const cv::Mat picture = all_levels<std::uint8_t>();
+    const DepthImage image = scale.image_of(picture);
+    for (const std::size_t used_levels : {0U, 7U, 256U, 1000U}) {
+        DepthImage used{7, 1, 3.0, std::vector<float>(used_levels, 5.0F)};
+        const float* const memory = used.levels.data();
+        const DepthImage again = scale.image_of(picture, std::move(used));
+        CHECK(again.levels == image.levels);
+        CHECK(again.columns == image.columns);
+        CHECK(again.highest_level == image.highest_level);
+        CHECK((again.levels.data() == memory || used_levels < image.levels.size()));
+    }
+}
 
 TEST_CASE("only integer levels that all mean something can have no holes", "[scale]") {
     const DepthRange bright{255.0, 0.0};

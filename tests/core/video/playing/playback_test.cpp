@@ -589,6 +589,23 @@ TEST_CASE("frames shown per second never fall while the speed rises, and none co
     }
 }
 
+TEST_CASE("while frames are late the window draws less often and the panel says so; not at rest",
+          "[playback]") {
+    WorkingScene scene({.decoding_s = 0.020, .waiting_s = 0.020, .cleaning_s = 0.001});
+    scene.playback.set_drawing_cost({.picture_s = 0.02, .share = 0.3});
+    CHECK(scene.playback.most_pictures_per_s() == 0.0);
+    scene.go_on_until(2.0);
+    CHECK(scene.playback.most_pictures_per_s() >= 10.0);
+    CHECK_THAT(scene.playback.dropped_in_words(), Contains("The window draws 10 coarse pictures"));
+    scene.playback.pause(scene.now);
+    CHECK(scene.playback.most_pictures_per_s() == 0.0);
+    scene.playback.play(scene.now);
+    scene.playback.set_speed(0.2, scene.now);
+    scene.go_on_until(6.0);
+    CHECK(scene.playback.most_pictures_per_s() == 0.0);
+    CHECK(scene.playback.dropped_in_words().empty());
+}
+
 TEST_CASE("a standstill costs no frames after it, and the time is met again", "[playback]") {
     WorkingScene scene({.decoding_s = 0.0003, .conversion_s = 0.004, .cleaning_s = 0.030});
     scene.go_on_until(1.0);
