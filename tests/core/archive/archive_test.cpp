@@ -289,6 +289,27 @@ TEST_CASE("media are copied only with the bytes that were touched", "[archive]")
     CHECK(faults_of(recordings.archive) == kNone);
 }
 
+TEST_CASE("of a damaged session is archived what can be read, and what is missing is said",
+          "[archive]") {
+    const Recordings recordings;
+    const fs::path whole =
+        recordings.session("whole.dibhr", "P1", 3000, recordings.video("hill.png", "hill"));
+    const fs::path cut = recordings.home / "cut.dibhr";
+    fs::copy_file(whole, cut);
+    fs::resize_file(cut, fs::file_size(whole) * 3 / 4);
+    const ArchiveSummary summary = write_archive(recordings.request({cut}));
+    REQUIRE(summary.warnings.size() == 1);
+    CHECK(summary.warnings[0].starts_with(cut.string() + ": is cut short ("));
+    CHECK(contains(summary.warnings[0], " of 3000 ticks cannot be read (from "));
+    CHECK(faults_of(recordings.archive) == kNone);
+    const fs::path kept = recordings.archive / "sourcedata/sub-P1/sub-P1_task-touch_run-001.dibhr";
+    CHECK(contains(Session(kept).warning(), "is of a recording that was damaged: "));
+    const std::vector<TickRecord> all = ticks_of(whole), read = ticks_of(kept);
+    REQUIRE(read.size() > 1000);
+    REQUIRE(read.size() < all.size());
+    for (std::size_t k = 0; k < read.size(); ++k) REQUIRE(same_record(read[k], all[k]));
+}
+
 TEST_CASE("sessions of every schema are archived", "[archive]") {
     const Recordings recordings;
     const std::string name =
