@@ -289,6 +289,21 @@ TEST_CASE("media are copied only with the bytes that were touched", "[archive]")
     CHECK(faults_of(recordings.archive) == kNone);
 }
 
+TEST_CASE("a folder of pictures that cannot be read is said, and the rest is archived",
+          "[archive]") {
+    const Recordings recordings;
+    const fs::path picture = recordings.video("hills/1.png", "hill");
+    ArchiveRequest request =
+        recordings.request({recordings.session("1.dibhr", "P1", 5, picture.parent_path())});
+    request.copy_media = true;
+    fs::create_symlink("2.png", picture.parent_path() / "2.png");  // leads to itself
+    const ArchiveSummary summary = write_archive(request);
+    REQUIRE(summary.warnings.size() == 1);
+    CHECK(summary.warnings[0] == picture.parent_path().string() +
+                                     ": is not in the archive: cannot be read; make it readable");
+    CHECK(faults_of(recordings.archive) == kNone);
+}
+
 TEST_CASE("of a damaged session is archived what can be read, and what is missing is said",
           "[archive]") {
     const Recordings recordings;
