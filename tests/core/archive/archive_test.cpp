@@ -327,8 +327,8 @@ TEST_CASE("of a damaged session is archived what can be read, and what is missin
 
 TEST_CASE("sessions of every schema are archived", "[archive]") {
     const Recordings recordings;
-    const std::string name =
-        GENERATE(as<std::string>(), "schema_1", "schema_2_first", "schema_2_first_view");
+    const std::string name = GENERATE(as<std::string>(), "schema_1", "schema_2_first",
+                                      "schema_2_first_view", "schema_3");
     CAPTURE(name);
     const fs::path file = recordings.home / "old.dibhr";
     REQUIRE(change(
